@@ -23,6 +23,6 @@ RUN python -c "from hess_explorer.server.warm import compile_all; compile_all()"
 EXPOSE 5006
 HEALTHCHECK --start-period=30s --timeout=5s \
     CMD ["python", "-c", "from urllib.request import urlopen; urlopen('http://127.0.0.1:5006/liveness', timeout=4)"]
-# Served under another name or port: --allow-origin HOST:PORT as it stands in the browser's address bar.
+# Served under another name or address: --allow-origin HOST:PORT as the browser's address bar shows it.
 CMD ["hess-explorer", "serve", "--address", "0.0.0.0", "--port", "5006", "--no-browser", \
      "--allow-origin", "localhost:5006"]

@@ -108,6 +108,8 @@ interface PictureDescription {
   name: string
   kind: "plot" | "sphere" | "torus" | "cloud"
   hands: string
+  /** Whether a click chooses where the motion starts. */
+  starts: boolean
   folded: string | null
   [option: string]: any
 }
@@ -468,9 +470,13 @@ interface PageModel {
 interface Host {
   /** The part of the address that holds the state. */
   mark: "?" | "#"
-  /** Connect, and return the function that sends messages; `lost` hears that there will be no more answers. */
+  /**
+   * Connect, and return the function that sends messages.  `lost` hears that there will be no more answers, with a reason if the
+   * host gave one; `silent` hears that the host does not respond, or does again.
+   */
   connect(
     receive: (head: Answer, block: ArrayBuffer, cells: ArrayBuffer) => void, lost: (why: string) => void,
+    silent: (on: boolean) => void,
   ): (message: StateRequest | { chart: ChartRequest }) => void
   /** Wait until a lost host answers again. */
   answering(): Promise<void>

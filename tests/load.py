@@ -215,7 +215,7 @@ async def counters(base):
     """Return the counters from `/metrics`."""
     answer = await AsyncHTTPClient().fetch(f"{base}/metrics")
     pairs = (line.split() for line in answer.body.decode().splitlines())
-    return {name.removeprefix("hess_explorer_"): int(value) for name, value in pairs}
+    return {name.partition("{")[0].removeprefix("hess_explorer_"): int(value) for name, value in pairs}
 
 
 async def _expired(base):

@@ -55,7 +55,6 @@ from .suslov_hess.certificate import certificate
 from .suslov_hess.circle_map import CircleMap, FixedPoint, circle_map
 from .suslov_hess.edge import EdgeProof
 from .suslov_hess.equations import HessBody
-from .suslov_hess.lock_zone import LockZone, lock_zone
 from .suslov_hess.mode_locking import (
     critical_a,
     lock_boundary,
@@ -167,8 +166,6 @@ __all__ = [  # noqa: RUF022 (by subject)
     "Proof",
     "EdgeProof",
     "certificate",
-    "lock_zone",
-    "LockZone",
     # Chaplygin ball with Suslov's constraint
     "Strip",
     "ball_scattering",

@@ -38,6 +38,10 @@ export function chartPanel(palettes) {
   // Charts that were zoomed into.
   /** @type {Chart[]} */
   let before = []
+  const isStateGiven = new URLSearchParams(location.search).has("scene")
+  let isServed = false
+  // Whether the form offers what can be charted in this scene: when the values of its controls are there.
+  let isFilled = false
   /** @type {HTMLElement | null} */
   let opener = null
   /** @type {ReturnType<typeof setTimeout>} */
@@ -210,13 +214,12 @@ export function chartPanel(palettes) {
   // The form describes the chart on show, if the chart belongs to this scene.
   function fillForm() {
     if (chart.scene !== scene.name) return
-    if (quantity.value !== chart.quantity) {
-      quantity.value = chart.quantity
-      offer(null)
-    }
+    quantity.value = chart.quantity
+    offer(null)
     part.value = String(chart.part)
-    x.choose(chart.x.name, chart.x.low, chart.x.high)
-    y.choose(chart.y.name, chart.y.low, chart.y.high)
+    for (const [side, { name, low, high, count }] of /** @type {[typeof x, ChartAxis][]} */ ([[x, chart.x], [y, chart.y]])) {
+      side.choose(name, low, high, count)
+    }
   }
 
   /** Show the reading of a cell; the server explains a cell without a number. @param {Cell | null} cell */
@@ -288,7 +291,7 @@ export function chartPanel(palettes) {
     turnTo(found)
   }
 
-  /** Open the chart that the server was started with, if there is one. */
+  /** Open the chart that the server was started with, if there is one, and its state, unless the address names another one. */
   async function openServed() {
     const address = document.querySelector('meta[name="chart"]')?.getAttribute("content")
     if (address === undefined || address === null || window.top !== window) return
@@ -296,6 +299,7 @@ export function chartPanel(palettes) {
     turnToText(await served.text())
     panel.showPopover()
     stepAside()
+    if (chart !== null && !isStateGiven) tell("restore", chart.state)
   }
 
   function hide() {
@@ -324,6 +328,14 @@ export function chartPanel(palettes) {
       Object.assign(values, changed)
       mark()
     },
+    painted() {
+      if (isFilled) return
+      isFilled = true
+      if (!isServed) openServed()
+      isServed = true
+      if (scene.charts.length > 0) offer(null)
+      if (chart !== null) fillForm()
+    },
   })
   follow()
 
@@ -332,9 +344,9 @@ export function chartPanel(palettes) {
     /** @param {SceneDescription} description */
     show(description) {
       if (scene?.name === description.name) return
-      if (scene === null) openServed()
       scene = description
       values = {}
+      isFilled = false
       const { charts } = scene
       quantity.replaceChildren(...optionsOf(charts.map((one) => [one.quantity, `${one.symbol}  ${one.title}`])))
       form.hidden = charts.length === 0

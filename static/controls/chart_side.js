@@ -38,9 +38,10 @@ export function sideForm(label, ends, chosen) {
     /** @param {{name: string, symbol?: string}[]} controls */
     offer(controls) { name.replaceChildren(...optionsOf(controls.map((one) => [one.name, one.symbol]))) },
     get name() { return name.value },
-    /** @param {string} wanted @param {number} from @param {number} to */
-    choose(wanted, from, to) {
+    /** @param {string} wanted @param {number} from @param {number} to @param {number} [cells] */
+    choose(wanted, from, to, cells = count.valueAsNumber) {
       name.value = wanted
+      count.valueAsNumber = cells
       put(from, to)
     },
     /** @returns {ChartAxis} */

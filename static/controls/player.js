@@ -7,6 +7,7 @@ import { listen, tell } from "../page/bus.js"
 import { arrowOf, isTaken } from "../page/keys.js"
 import { gallery } from "../pictures/gallery.js"
 import { stateAt } from "../pictures/moment.js"
+import { CALM } from "../page/windows.js"
 import { isFolded } from "../pictures/picture.js"
 import { opening } from "./opening.js"
 
@@ -51,12 +52,14 @@ export function render({ el }) {
   const bar = element("div.player", { role: "group", ariaLabel: "Motion in time" }, ...items, folds)
   el.append(bar)
 
-  /** @type {Pick<SceneDescription, "dots" | "angles">} */
-  let scene = { dots: {}, angles: [] }
+  /** @type {Pick<SceneDescription, "dots" | "angles" | "pictures">} */
+  let scene = { dots: {}, angles: [], pictures: [] }
   /** @type {Source | null} */
   let source = null
   let t = 0
   let playing = false
+  // Whether a click has chosen where the motion starts: it begins with the next state.
+  let isStarting = false
   /** @type {number | null} */
   let last = null
   // A run of a lesson.
@@ -161,6 +164,13 @@ export function render({ el }) {
     follow(time) {
       if (playing) play(false)
       move(Number(time))
+    },
+    pick({ pick: [picture], drag }) { isStarting ||= !drag && scene.pictures.some(({ name, starts }) => name === picture && starts) },
+    painted() {
+      if (!isStarting) return
+      isStarting = false
+      move(0)
+      play(!CALM.matches)
     },
     // The next scene starts from this time.
     scene() { if (playing) play(false) },

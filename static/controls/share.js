@@ -10,7 +10,15 @@ import { isFolded, labelOf, nameOf } from "../pictures/picture.js"
 import { choices, dialogOf, section, snippet } from "./dialog.js"
 
 const SAID_FOR = 2000
-const HEIGHT = 600
+// The frame of what is embedded: its width, the pictures and sliders side by side in it, and the heights of a row of each and of
+// the player with the link.
+const WIDTH = 960
+const [PICTURES, SLIDERS] = [3, 4]
+const [PICTURE, SLIDER, FOOT] = [372, 78, 84]
+
+/** Return the height at which all parts are seen. @param {Record<"pictures" | "controls", string[]>} parts names */
+const heightOf = ({ pictures, controls }) => (
+  Math.ceil(pictures.length / PICTURES) * PICTURE + Math.ceil(controls.length / SLIDERS) * SLIDER + FOOT)
 
 /** @param {string} text */
 const escaped = (text) => text.replaceAll("&", "&amp;").replaceAll('"', "&quot;").replaceAll("<", "&lt;")
@@ -50,9 +58,10 @@ export function shareDialog() {
   const why = element("p.why", { role: "status" })
   const html = snippet("HTML to embed", 4)
   const write = () => {
-    const src = escaped(linkTo({ pictures: pictures.chosen(), controls: controls.chosen() }))
-    html.value = `<iframe src="${src}" title="Hess Explorer: ${escaped(scene.title)}" width="100%" height="${HEIGHT}"` +
-      ` style="border: 0" allow="fullscreen"></iframe>`
+    const parts = { pictures: pictures.chosen(), controls: controls.chosen() }
+    const src = escaped(linkTo(parts))
+    html.value = `<iframe src="${src}" title="Hess Explorer: ${escaped(scene.title)}" width="${WIDTH}" height="${heightOf(parts)}"` +
+      ` style="border: 0; max-width: 100%" allow="fullscreen"></iframe>`
   }
   const pictures = choices("embed-pictures", "Pictures", write)
   const controls = choices("embed-controls", "Controls", write)

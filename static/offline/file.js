@@ -4,7 +4,7 @@
 
 import { render as renderBar } from "../controls/bar.js"
 import { element } from "../page/elements.js"
-import { createMount } from "../page/mount.js"
+import { createMount, FRAME, stylesOf } from "../page/mount.js"
 import { buildPage, opener } from "../page/shell.js"
 import { createRecorded } from "./recorded.js"
 import { createShelf } from "./strip.js"
@@ -45,7 +45,7 @@ function start() {
   const stripAt = createShelf(async (number) => (await fetch(`data:;base64,${read(`strip-${number}`)}`)).body, MOST)
   const root = document.getElementById("page").attachShadow({ mode: "open" })
   const el = element("div")
-  root.append(...["page/base.css", "page/shell.css"].map((path) => element("style", sheets[path])), el)
+  root.append(el)
   const mount = createMount(sheets)
   const first = [
     ...(contents === "" ? [] : [element("a.tool.contents", { href: contents }, "Contents")]),
@@ -54,7 +54,7 @@ function start() {
   buildPage(model, { mark: "#", connect: connectTo(createRecorded(recording, stripAt, query)), answering: () => new Promise(() => {}) }, {
     mount, bar: [mount("bar", renderBar, { first, dialogs: {} })],
     lessons: { index: Object.values(recording.lessons).map(({ name, title, minutes }) => ({ name, title, minutes })) },
-    introduction: element("div"),
+    introduction: element("div"), styles: stylesOf(sheets, FRAME),
   }, el)
 }
 

@@ -1,40 +1,73 @@
 // @ts-check
-// Announces changed verdicts to screen readers: once, after the hand rests and all parts of the state are there.
+// Says what a change did, above the pictures and to screen readers: once, after the hand rests and all parts of the state are there.
 
 import { gallery } from "../pictures/gallery.js"
 import { captionOf, nameOf } from "../pictures/picture.js"
-import { listen } from "./bus.js"
 import { element } from "./elements.js"
+import { listen } from "./bus.js"
 
 // Milliseconds without a new state until the hand rests.
 const REST = 700
+// Numbers of a larger change, such as an example, are not listed.
+const MOST = 2
 
-/** Return the element, unseen, whose text screen readers announce. */
-export function announcer() {
+/** @param {number} value */
+const shown = (value) => String(Number(value.toPrecision(4))).replace("-", "−")
+
+/**
+ * Return the element, unseen, whose text screen readers announce.
+ * @param {HTMLElement} sentence says what the controls of a scene do, then what the last change did
+ */
+export function announcer(sentence) {
   const item = element("p.unseen.announced", { role: "status" })
   // Picture → the verdict that was announced last, or found when the picture came into sight.
   /** @type {Map<string, string>} */
   const known = new Map()
+  // Control → its number now, and when the hand rested last.
+  /** @type {Map<string, number>} */
+  const now = new Map()
+  let before = new Map(now)
+  /** @type {Map<string, string>} */
+  let symbols = new Map()
   /** @type {ReturnType<typeof setTimeout>} */
   let resting = null
 
+  /** Return the numbers that the hand has changed, in words. */
+  function changes() {
+    const found = [...now].filter(([name, value]) => before.has(name) && before.get(name) !== value)
+      .map(([name, value]) => `${symbols.get(name)} ${shown(before.get(name))} → ${shown(value)}`)
+    before = new Map(now)
+    return found.length > MOST ? [] : found
+  }
+
   function say() {
+    /** @type {string[][]} */
     const news = []
-    for (const cell of gallery.cellsInSight()) {
+    // A step of a lesson may hide captions, which are news when they come back.
+    for (const cell of gallery.cellsInSight().filter(({ classList }) => !classList.contains("veiled"))) {
       const [title, verdict, numbers] = captionOf(cell)
-      const before = known.get(nameOf(cell))
+      const last = known.get(nameOf(cell))
       known.set(nameOf(cell), verdict)
-      if (before !== undefined && before !== verdict) news.push([`${title}:`, verdict, numbers].join(" "))
+      if (last !== undefined && last !== verdict) news.push([`${title}:`, verdict, numbers])
     }
-    if (news.length > 0) item.textContent = news.join(" ")
+    if (news.length > 0) item.textContent = news.map((one) => one.join(" ")).join(" ")
+    const changed = changes().join(", ")
+    if (changed === "" && news.length === 0) return
+    const verdicts = news.map(([title, verdict]) => `${title} ${verdict}`).join(" ") || "The verdicts above the pictures stay."
+    sentence.textContent = sentence.title = [changed, verdicts].filter(Boolean).join(". ")
   }
 
   listen({
     // The captions of another scene are its own: no change, and the old announcement no longer holds.
-    enter() {
+    enter({ moves, controls }) {
       known.clear()
+      now.clear()
+      before.clear()
+      symbols = new Map(controls.map(({ name, symbol, label }) => [name, symbol ?? label]))
       item.textContent = ""
+      sentence.textContent = sentence.title = moves
     },
+    controls(changed) { for (const [name, [value]] of Object.entries(changed)) if (typeof value === "number") now.set(name, value) },
     progress(progress) {
       clearTimeout(resting)
       // More parts of this state will come.

@@ -16,6 +16,7 @@ import { joinOther } from "./side_by_side.js"
 import { fill, paint, setAxes, shareAxes } from "./painting.js"
 import { present } from "./presenting.js"
 import { createRequests } from "./requests.js"
+import { tabStore } from "./stores.js"
 import { createTheme } from "./theme.js"
 import { createVisibility } from "./visibility.js"
 import { handleCommands } from "./commands.js"
@@ -57,6 +58,19 @@ export function startClient(model, host) {
   const isPart = own.embed === "1"
   if (isPart) embed()
 
+  // The tab keeps the undo history and the changes without an answer until the same link is opened again; those of each part
+  // by themselves, without a history.
+  const key = isPart ? `page${location.search}` : "page"
+  const kept = JSON.parse(tabStore.get(key) ?? "{}")
+  const { steps, unanswered = null } = kept.href === location.href ? kept : {}
+  window.addEventListener("pagehide", () => {
+    const isBehind = requests.isBehind(state?.answers ?? 0)
+    const left = {
+      href: location.href, steps: isPart ? undefined : history.steps, unanswered: isBehind ? requests.unanswered : undefined,
+    }
+    tabStore.set(key, isPart && !isBehind ? null : JSON.stringify(left))
+  })
+
   /** @type {ReturnType<Host["connect"]>} */
   let send = null
   const theme = createTheme()
@@ -71,7 +85,7 @@ export function startClient(model, host) {
 
   const history = createHistory({
     query: () => state.query, isSettled: () => state !== null && !requests.isBehind(state.answers), address,
-  })
+  }, steps)
 
   const compare = createCompare(() => ({
     query: state.query, scene: latest.scene, derived: latest.texts.derived ?? "",
@@ -217,7 +231,7 @@ export function startClient(model, host) {
     requests.lose()
     tell("texts", { busy: why || LOST })
     await host.answering()
-    // The link restores the state.  A page that has never shown a state would only fail again.
+    // The link and the tab restore the state.  A page that has never shown a state would only fail again.
     if (state === null) return
     address.writeNow()
     location.reload()
@@ -242,8 +256,8 @@ export function startClient(model, host) {
     tell("client", own)
     // The lesson of a link begins when the page is ready.
     if (model.lesson !== "") tell("lesson-read", { lesson: JSON.parse(model.lesson), step: Number(own.step) - 1 })
-    send = host.connect(onAnswer, onLost)
-    requests.begin()
+    send = host.connect(onAnswer, onLost, requests.silence)
+    requests.begin(unanswered)
   }
   start()
   return { query: () => state?.query ?? null }

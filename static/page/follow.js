@@ -76,7 +76,6 @@ function start() {
   function ask(key, { step, number, revealed }) {
     if (key !== asked) {
       asked = key
-      tell("audience", "")
       if (key !== "" && !revealed) {
         guess = createGuess(step.prediction, (text) => tell("audience", text), (points) => send({ guess: points, step: number }))
         guess.begin()
@@ -95,6 +94,7 @@ function start() {
       guess?.end()
       guess = null
       asked = ""
+      tell("audience", "")
     }
     if (isNew) {
       const description = descriptions.get(state.scene)

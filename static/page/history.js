@@ -16,25 +16,27 @@ const CHANGES = ["change", "expression", "preset", "reset", "clear", "pick", "sc
 const sceneOf = (query) => new URLSearchParams(query).get("scene")
 
 /**
- * Return the function that is called when a state was painted.
+ * @typedef {object} Steps
+ * @property {string[]} past
+ * @property {string[]} future
+ * @property {string | null} current the step on show
+ * @property {string | null} goal the requested step
+ * @property {boolean} isChanged whether there are changes that are not a step yet
+ */
+
+/**
+ * Return the function that is called when a state was painted, and the steps, which another history can go on with.
  * @param {{query: () => string, isSettled: () => boolean, address: {push: (before: string) => void, read: () => string}}} page
  *   query() returns the query of the state on show, isSettled() whether that state answers the last request
+ * @param {Steps} [steps]
  */
-export function createHistory({ query, isSettled, address }) {
-  /** @type {string[]} */
-  let past = []
-  /** @type {string[]} */
-  let future = []
-  // The step on show, the requested step, and the step of the browser's entry.
-  /** @type {string | null} */
-  let current = null
-  /** @type {string | null} */
-  let goal = null
+export function createHistory({ query, isSettled, address }, steps) {
+  let { past, future, current, goal, isChanged } = steps ?? { past: [], future: [], current: null, goal: null, isChanged: false }
+  // The step of the browser's entry.
   /** @type {string | null} */
   let entered = null
   let isHeld = false
   let isAnimated = false
-  let isChanged = false
   let isExample = false
   let isPopped = false
 
@@ -119,5 +121,9 @@ export function createHistory({ query, isSettled, address }) {
     isPopped = true
     tell("restore", address.read())
   })
-  return { settle }
+  return {
+    settle,
+    /** @returns {Steps} */
+    get steps() { return { past, future, current, goal, isChanged } },
+  }
 }

@@ -3,7 +3,10 @@
 
 import { element } from "./elements.js"
 import { wear } from "./presenting.js"
+import { sized } from "./windows.js"
 
+// Style sheets of the frame around the parts.
+export const FRAME = ["page/base.css", "page/shell.css"]
 // Style sheets of each part, after "page/base.css".
 /** @type {Record<string, string[]>} */
 const SHEETS = {
@@ -14,6 +17,9 @@ const SHEETS = {
   introduction: ["controls/controls.css", "page/introduction.css"],
   lessons: ["controls/controls.css", "page/page.css", "page/lessons.css"],
 }
+
+/** Return style sheets as elements. @param {Record<string, string>} sheets path → style sheet @param {string[]} paths */
+export const stylesOf = (sheets, paths) => paths.map((path) => element("style", sized(sheets[path])))
 
 /**
  * Return a function that mounts parts of the page, each in a shadow root with its own style sheets.
@@ -31,7 +37,7 @@ export const createMount = (sheets) => (
     const el = element(`div.${name}`)
     wear(el)
     host.attachShadow({ mode: "open" }).append(
-      ...["page/base.css", ...(SHEETS[name] ?? ["page/page.css"])].map((path) => element("style", sheets[path])), el)
+      ...stylesOf(sheets, ["page/base.css", ...(SHEETS[name] ?? ["page/page.css"])]), el)
     render({ ...properties, el })
     return host
   })

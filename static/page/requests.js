@@ -9,7 +9,23 @@ const PATIENCE = 400
 const LONG = 5000
 
 const LATE = "Computing…"
-const COMPILING = "Computing… This part is compiled on first use."
+const LONGER = "Computing… The first use of a part takes longer, because it is compiled."
+const SILENT = "The server does not respond. This page continues as soon as it does."
+
+/**
+ * Return two requests as one.
+ * @param {Partial<StateRequest>} first
+ * @param {Partial<StateRequest>} second its values and expressions win
+ * @returns {Partial<StateRequest>}
+ */
+function merged(first, second) {
+  const values = { ...first.values, ...second.values }
+  const expressions = Object.entries(first.expressions ?? {}).filter(([name]) => !(name in (second.values ?? {})))
+  return {
+    ...first, ...second, scene: second.scene ?? first.scene ?? null, values,
+    expressions: { ...Object.fromEntries(expressions), ...second.expressions },
+  }
+}
 
 /**
  * Return the queue of requests.
@@ -23,23 +39,24 @@ export function createRequests({ send, changed, hidden, known }) {
   let asked = null
   let asking = false
   let lost = false
+  let silent = false
   // Whether a pointer holds a slider, an animation moves one, and the last pointer was a finger.
   let grasped = false
   let animated = false
   let touched = false
-  // Fields of the next request.
+  // Fields of the next request, and of the last one until its answer is painted.
   /** @type {Partial<StateRequest>} */
   let pending = {}
-  // The scene on show, the scene to request next, and the scene that was chosen last.
+  /** @type {Partial<StateRequest>} */
+  let flying = {}
+  let isResumed = false
+  // The scene on show, and the scene that was chosen last.
   /** @type {string | null} */
   let shown = null
-  /** @type {string | null} */
-  let chosen = null
   /** @type {string | null} */
   let target = null
   /** @type {ReturnType<typeof setTimeout>} */
   let late = null
-  // When the last request was sent, and the time until its answer was painted.
   // When it was asked last, and how long the answer took to be painted.
   let sent = 0
   let took = 0
@@ -48,9 +65,10 @@ export function createRequests({ send, changed, hidden, known }) {
 
   const wait = () => {
     clearTimeout(late)
+    if (silent) return
     late = setTimeout(() => {
       tell("texts", { busy: LATE })
-      late = setTimeout(() => tell("texts", { busy: COMPILING }), LONG)
+      late = setTimeout(() => tell("texts", { busy: LONGER }), LONG)
     }, PATIENCE)
   }
   const ask = () => {
@@ -61,13 +79,16 @@ export function createRequests({ send, changed, hidden, known }) {
       asking = false
       asked = requested
       sent = performance.now()
-      const entering = chosen !== null && chosen !== shown
+      const { scene = null } = pending
+      const entering = scene !== null && scene !== shown
       send({
-        requested, held: grasped || animated, values: {}, ...pending, scene: entering ? chosen : null,
+        requested, held: grasped || animated, values: {}, ...pending, scene: entering ? scene : null,
         hidden: entering ? null : hidden(),
       })
+      // Changes of the page before are sent once: should they end the server, they would end it again and again.
+      flying = isResumed ? {} : pending
+      isResumed = false
       pending = {}
-      chosen = null
       wait()
     })
   }
@@ -78,20 +99,21 @@ export function createRequests({ send, changed, hidden, known }) {
   }
   /** @param {Partial<StateRequest>} what */
   const want = (what) => {
-    Object.assign(pending, what)
+    pending = merged(pending, what)
     request()
   }
   // For fields that do not change the state.
   /** @param {Partial<StateRequest>} what */
   const add = (what) => {
-    Object.assign(pending, what)
+    pending = merged(pending, what)
     ask()
   }
   // A preset or reset discards pending changes.
   /** @param {Partial<StateRequest>} what */
   const restart = (what) => {
     moved.set("preset", requested + 1)
-    pending = {}
+    pending = { scene: pending.scene }
+    flying = { scene: flying.scene }
     want(what)
   }
 
@@ -112,28 +134,25 @@ export function createRequests({ send, changed, hidden, known }) {
       animated = on
       request()
     },
-    change(changes) {
-      for (const name of Object.keys(changes)) {
-        moved.set(name, requested + 1)
-        delete pending.expressions?.[name]
-      }
-      want({ values: { ...pending.values, ...changes } })
+    change(values) {
+      for (const name of Object.keys(values)) moved.set(name, requested + 1)
+      want({ values })
     },
-    expression(texts) {
-      for (const name of Object.keys(texts)) moved.set(name, requested + 1)
-      want({ expressions: { ...pending.expressions, ...texts } })
+    expression(expressions) {
+      for (const name of Object.keys(expressions)) moved.set(name, requested + 1)
+      want({ expressions })
     },
     preset: (preset) => restart({ preset }),
     reset: () => restart({ reset: true }),
     clear: () => restart({ clear: true }),
     // The state may belong to another scene.
     restore(restore) {
-      chosen = target = new URLSearchParams(restore).get("scene") ?? shown
-      restart({ restore })
+      target = new URLSearchParams(restore).get("scene") ?? shown
+      restart({ restore, scene: target })
     },
     step(step) {
-      chosen = target = null
-      restart({ step })
+      target = null
+      restart({ step, scene: shown })
     },
     lesson: (lesson) => add({ lesson }),
     stop: () => want({ stop: true }),
@@ -148,9 +167,9 @@ export function createRequests({ send, changed, hidden, known }) {
     scene(scene) {
       // Compare with the scene chosen last, which may not be on show yet.
       if (scene === (target ?? shown)) return
-      chosen = target = scene
+      target = scene
       delete pending.restore
-      request()
+      want({ scene })
     },
   })
 
@@ -158,8 +177,22 @@ export function createRequests({ send, changed, hidden, known }) {
     ask,
     request,
     get lost() { return lost },
-    // The first state comes without a request.
-    begin: wait,
+    /**
+     * Wait for the first state, which comes without a request.
+     * @param {Partial<StateRequest> | null} unanswered changes of the page before, which are requested then
+     */
+    begin(unanswered) {
+      wait()
+      if (unanswered === null) return
+      pending = unanswered
+      target = unanswered.scene
+      isResumed = true
+      request()
+    },
+    /** The changes without an answer. @returns {Partial<StateRequest>} */
+    get unanswered() {
+      return { ...merged(flying, pending), hover: undefined, near: undefined }
+    },
     /**
      * Note the scene on show; requests begin with the first scene.
      * @param {string} scene
@@ -170,6 +203,7 @@ export function createRequests({ send, changed, hidden, known }) {
       clearTimeout(late)
       if (asked !== null) took = performance.now() - sent
       asked = null
+      flying = {}
     },
     /** Milliseconds from the last request until its answer was painted. */
     get took() { return took },
@@ -177,6 +211,14 @@ export function createRequests({ send, changed, hidden, known }) {
     isBehind: (answers) => answers < requested,
     /** Whether a control was moved since a request. @param {string} control @param {number} answers */
     hasMoved: (control, answers) => moved.get(control) > answers,
+    /** Say that the server does not respond, or no longer so. @param {boolean} on */
+    silence(on) {
+      if (lost) return
+      silent = on
+      clearTimeout(late)
+      tell("texts", { busy: on ? SILENT : "" })
+      if (asked !== null) wait()
+    },
     /** Stop sending requests: the connection is lost. */
     lose() {
       lost = true

@@ -2,7 +2,7 @@
 // The websocket of a room, see "rooms/messages.py", and what a tab keeps of its room.
 
 import { tabStore } from "./stores.js"
-import { answering } from "./websocket.js"
+import { answering, watch } from "./websocket.js"
 
 // Close codes of "server/room_socket.py": the room is over, or not for this page.
 export const TAKEN = 4003
@@ -58,7 +58,8 @@ export function openRoom(code, { first, receive, connected = () => {}, ended }) 
       own.send(JSON.stringify(first()))
       connected(true)
     })
-    own.addEventListener("message", ({ data }) => { if (own === socket) receive(data) })
+    own.addEventListener("message", ({ data }) => { if (own === socket && data !== "") receive(data) })
+    watch(own, (on) => connected(!on), () => { if (own === socket) reconnect() })
     own.addEventListener("close", async ({ code: why, reason }) => {
       if (isOver || own !== socket) return
       connected(false)
@@ -72,12 +73,15 @@ export function openRoom(code, { first, receive, connected = () => {}, ended }) 
     })
   }
 
+  function reconnect() {
+    if (isOver) return
+    socket.close()
+    connect()
+  }
+
   document.addEventListener("visibilitychange", () => {
     if (document.hidden) hiddenAt = performance.now()
-    else if (!isOver && performance.now() - hiddenAt > SLEEP) {
-      socket.close()
-      connect()
-    }
+    else if (performance.now() - hiddenAt > SLEEP) reconnect()
   })
   setTimeout(connect)
   return {

@@ -9,7 +9,7 @@ import { sceneMenu } from "../controls/scenes.js"
 import { shareDialog } from "../controls/share.js"
 import { button, element, icon } from "./elements.js"
 import { render as renderIntroduction } from "./introduction.js"
-import { createMount } from "./mount.js"
+import { createMount, FRAME, stylesOf } from "./mount.js"
 import { recording } from "./recording.js"
 import { createRoom } from "./room.js"
 import { followed } from "./room_socket.js"
@@ -42,7 +42,7 @@ export function render({ model, el }) {
     element("span", "Scenes"))]
   const { query } = buildPage(model, { mark: "?", connect: openWebsocket, answering }, {
     mount, bar: [mount("bar", renderBar, { first, dialogs }), ...rejoin(client)],
-    lessons: { index, record: recording() }, introduction: mount("introduction", renderIntroduction),
+    lessons: { index, record: recording() }, introduction: mount("introduction", renderIntroduction), styles: stylesOf(sheets, FRAME),
   }, el)
   if (client.embed !== "1") createRoom({ query })
 }

@@ -74,30 +74,30 @@ export function opener(name, label) {
 }
 
 /**
- * Show the sentence about the motion above the stage; on a phone in the text.
+ * Return the sentence about the motion, above the stage; on a phone in the text.
  * @param {HTMLElement} stage
  * @param {HTMLElement} reading
  */
-function sayWhatMoves(stage, reading) {
+function sentenceAbove(stage, reading) {
   const sentence = element("p.text.moves")
   const place = () => {
     if (PHONE.matches) reading.prepend(sentence)
     else stage.before(sentence)
   }
-  listen({ enter({ moves }) { sentence.textContent = moves } })
   PHONE.addEventListener("change", place)
   place()
+  return sentence
 }
 
 /**
  * Build the page and start its client, which is returned.
  * @param {Pick<PageModel, "client" | "lesson">} model
  * @param {Host} host answers the requests of the page
- * @param {{mount: ReturnType<typeof import("./mount.js").createMount>, bar: HTMLElement[], lessons: object, introduction: HTMLElement}} parts the content
- *   of the bar, the properties of the lessons, and the place of the introduction
+ * @param {{mount: ReturnType<typeof import("./mount.js").createMount>, bar: HTMLElement[], lessons: object, introduction: HTMLElement, styles: HTMLElement[]}} parts the content
+ *   of the bar, the properties of the lessons, the place of the introduction, and the style sheets of the frame
  * @param {HTMLElement} el
  */
-export function buildPage(model, host, { mount, bar, lessons, introduction }, el) {
+export function buildPage(model, host, { mount, bar, lessons, introduction, styles }, el) {
   /** @param {string} key @param {string} [tag] */
   const text = (key, tag) => mount("text", renderText, { key, tag })
   const controls = element("section.controls.column", { id: "controls" },
@@ -115,11 +115,11 @@ export function buildPage(model, host, { mount, bar, lessons, introduction }, el
     element("div.below", mount("player", renderPlayer), mount("progress", renderProgress)))
   el.classList.add("frame")
   el.append(
-    element("header.bar", ...bar, element("div.news", text("busy"))),
+    ...styles, element("header.bar", ...bar, element("div.news", text("busy"))),
     tabsOf({ Controls: controls, Text: reader }), controls, stage, reader,
-    element("div.foot", text("notes"), mount("status", renderStatus, {}, element("div.status-line"))), opener("a.opener", "Open in Hess Explorer"), drawer(el), spot(), announcer(),
+    element("div.foot", text("notes"), mount("status", renderStatus, {}, element("div.status-line"))), opener("a.opener", "Open in Hess Explorer"), drawer(el), spot(),
     introduction)
-  sayWhatMoves(stage, reading)
+  introduction.before(announcer(sentenceAbove(stage, reading)))
   wear(el)
   listen({
     reading: (on) => el.classList.toggle("in-lesson", on),

@@ -62,17 +62,15 @@ export function createAudience(prediction, cloud, say) {
     const { x_scale: xScale, y_scale: yScale, below: [below], left: [left] } = plot.model
     const many = `${cloud.length} guess${cloud.length === 1 ? "" : "es"} from the audience`
     // How far each guess was off, on the average of its points.
-    const off = cloud.map((guess) => guess.map((point) => [point, truthOf(point)]).reduce((sum, [point, truth]) => {
-      const { distance, place } = /** @type {ReturnType<typeof nearest>} */ (truth)
+    const off = cloud.map((guess) => guess.reduce((sum, point) => {
+      const { place } = truthOf(point)
       if (place === null) return sum
-      const [x, y] = toData(place)
-      const [px, py] = /** @type {number[]} */ (point)
-      return [distance, apart(xScale, px, x), apart(yScale, py, y)].map((one, i) => sum[i] + one / guess.length)
-    }, [0, 0, 0]))
+      const truth = toData(place)
+      return [xScale, yScale].map((scale, i) => sum[i] + apart(scale, point[i], truth[i]) / guess.length)
+    }, [0, 0]))
     if (lines.every((line) => line.length === 0)) return `${many}; there is none here.`
-    const [pixels, x, y] = [0, 1, 2].map((i) => median(off.map((one) => one[i])))
-    return `${many}. Median distance: ${Math.round(pixels)} pixels, ` +
-      `${along(xScale, below, x)}, ${along(yScale, left, y)}.`
+    const [x, y] = [0, 1].map((i) => median(off.map((one) => one[i])))
+    return `${many}. Median distance: ${along(xScale, below, x)} and ${along(yScale, left, y)}.`
   }
 
   sheet.style.cssText = "position: absolute; inset: 0; width: 100%; height: 100%; pointer-events: none"

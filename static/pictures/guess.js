@@ -84,8 +84,6 @@ export function createGuess(prediction, say, guessed = null) {
   const isCurve = prediction.what === "curve"
   /** @type {PlotView | null} */
   let plot = null
-  /** @type {HTMLElement | null} */
-  let cell = null
   /** @type {HTMLCanvasElement | null} */
   let sheet = null
   // In data coordinates.
@@ -114,8 +112,7 @@ export function createGuess(prediction, say, guessed = null) {
     truth = found.map(({ place }) => toData(place))
     const { x_scale: xScale, y_scale: yScale, below: [x], left: [y] } = plot.model
     const [across, up] = [xScale, yScale].map((scale, i) => mean(clicks.map((click, j) => apart(scale, click[i], truth[j][i]))))
-    say(`${isCurve ? "On average" : "You were"} ${Math.round(mean(found.map(({ distance }) => distance)))} pixels away: ` +
-      `${along(xScale, x, across)}, ${along(yScale, y, up)}.`)
+    say(`${isCurve ? "On average" : "You were"} ${along(xScale, x, across)} and ${along(yScale, y, up)} away.`)
   }
 
   function draw() {
@@ -163,8 +160,6 @@ export function createGuess(prediction, say, guessed = null) {
     /** Ask for a guess; the state of the step is on show. */
     begin() {
       plot = gallery.plot(prediction.picture)
-      cell = gallery.cell(prediction.picture)
-      cell.classList.add("guessed")
       sheet = element("canvas.guess", {
         tabIndex: 0, role: "application", ariaLabel: "Your guess: click or use the arrow keys",
         title: isCurve ? "Click along the expected curve" : "Click where you expect it", onkeydown,
@@ -192,7 +187,6 @@ export function createGuess(prediction, say, guessed = null) {
       sheet.blur()
       sheet.tabIndex = -1
       sheet.style.pointerEvents = "none"
-      cell.classList.remove("guessed")
       isOver = true
       draw()
     },
@@ -201,7 +195,6 @@ export function createGuess(prediction, say, guessed = null) {
       if (plot === null) return
       plot.repainted.disconnect(draw)
       sheet.remove()
-      cell.classList.remove("guessed")
     },
   }
 }

@@ -120,8 +120,8 @@ def test_without_the_sources_the_command_says_what_to_do(monkeypatch, tmp_path, 
     monkeypatch.setattr(bench_of_the_wheel, "_TESTS", tmp_path)
     assert main(["bench"]) == 2
     assert capsys.readouterr().err == (
-        "hess-explorer: The benchmark is not part of the package: run pip install -e '.[bench]' in a source checkout "
-        "and try again.\n"
+        "hess-explorer: The benchmark measures with scripts of the source tree, which an installed package does not "
+        "contain: in a source checkout, run pip install -e '.[bench]', then hess-explorer bench.\n"
     )
 
 

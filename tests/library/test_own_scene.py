@@ -4,6 +4,7 @@ import re
 
 import numpy as np
 from pytest import approx, mark, raises
+from scipy.integrate import solve_ivp
 
 import hess_explorer as hess
 from hess_explorer.__main__ import main
@@ -63,6 +64,13 @@ def test_a_section_at_a_level_has_periodic_orbits_and_their_branch():
     assert {"i_E", "p_lam", "place", "over"} <= (names := {spec.name for spec in scene.specs})
     assert "y_x" not in names
     assert scene.defaults()["place"] == "0.1,0.2"
+    # A motion that does not begin on the section has the place of its first crossing, here found by SciPy.
+    other = hess.scene(HENON, ["section x px at y = 0 on E"]).defaults()["place"]
+    found = solve_ivp(
+        lambda t, y: HENON.field(y, [1.0]), (0, 20), HENON.example[0], events=lambda t, y: y[1], rtol=1e-9, atol=1e-11
+    )
+    first = next(y for y in found.y_events[0] if y[3] > 0.0)
+    assert [*map(float, other.split(","))] == approx(first[[0, 2]], abs=1e-6)
     chosen = {"i_E": 0.08, "place": "0,0.21", "over": "E", "upwards": "py"}
     state = hess.state(scene, **chosen, periodic="period 1", low=0.075, high=0.085)
     assert np.asarray(state.data("branch").layer("shown")["y"]) == approx(np.sqrt(0.04), abs=1e-9)

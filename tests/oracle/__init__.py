@@ -18,7 +18,7 @@ from oracle.circle_maps import (
     stable_cycle,
     turning_roots,
 )
-from oracle.closed_forms import pendulum, steady_rotation
+from oracle.closed_forms import cos_chi, pendulum, steady_rotation
 from oracle.kept import FUNCTIONS, KEPT, found_anew
 from oracle.orbits import (
     Along,
@@ -38,6 +38,7 @@ __all__ = [
     "MoebiusMap",
     "as_decimals",
     "coefficients",
+    "cos_chi",
     "distances",
     "found_anew",
     "map_by_three_orbits",

@@ -57,3 +57,16 @@ def steady_rotation(omega, gamma, times, digits=40):
     with mpmath.workdps(digits):
         w, g = mpmath.matrix([*omega, 0]), mpmath.matrix(gamma)
         return np.array([[*omega, *turned(g, w, mpmath.mpf(t))] for t in times], dtype=float)
+
+
+def cos_chi(I11, I22, I13, I23, digits=40):
+    """cos χ of the free Suslov problem for any inertia tensor, from a monodromy (`proofs.md`)."""
+    with mpmath.workdps(digits):
+        I11, I22, I13, I23 = map(mpmath.mpf, (I11, I22, I13, I23))
+        J = mpmath.hypot(I13, I23)
+        w = (I22 * I13**2 + I11 * I23**2) / J**2
+        K, kappa = I11 * I22 / (w * J), mpmath.sqrt(I11 * I22) / J
+        c = kappa * I13 * I23 * (I22 - I11) / (J**2 * w)
+        C = mpmath.cos(mpmath.pi / 2 * mpmath.sqrt(kappa**2 - mpmath.mpc(K, c) ** 2))
+        half = mpmath.pi / 2 * K
+        return float(2 * ((C.real / mpmath.cosh(half)) ** 2 + (C.imag / mpmath.sinh(half)) ** 2) - 1)

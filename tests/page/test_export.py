@@ -1,5 +1,6 @@
 """Exports: the file of a picture from the dialog and from the server, and the matching command."""
 
+import re
 import time
 from pathlib import Path
 from urllib.error import HTTPError
@@ -66,12 +67,22 @@ def test_the_dialog_saves_what_is_on_the_screen_and_names_the_command(explorer):
     # With sliders that move it is made in a process of its own, with progress.
     dialog.get_by_label("Energy h").check()
     dialog.locator(".param-values").fill("3")
-    expect(dialog.locator(".states")).to_contain_text("About 3 states")
+    expect(dialog.locator(".states")).to_have_text(re.compile(r"About 3 states, [\d.]+ MB\."), timeout=60_000)
+    said = float(re.search(r"([\d.]+) MB", dialog.locator(".states").inner_text())[1])
+    for box in (further := dialog.get_by_label("Area integral f"), grid := dialog.locator(".param-grid")):
+        box.check()
+    dialog.locator(".param-values").fill("40")
+    expect(dialog.locator(".states")).to_contain_text("too large for most mail")
+    for box in (further, grid):
+        box.uncheck()
+    dialog.locator(".param-values").fill("3")
     assert "--vary h=-0.99:4:3" in " ".join(command_of(dialog))
     with page.expect_download() as download:
         dialog.get_by_role("button", name="Save file").click()
     assert download.value.suggested_filename == "suslov-hess.html"
-    assert '"points": [[1.5], [-0.99], [1.505], [4.0]]' in Path(download.value.path()).read_text(encoding="utf-8")
+    content = Path(download.value.path()).read_text(encoding="utf-8")
+    assert '"points": [[1.5], [-0.99], [1.505], [4.0]]' in content
+    assert 0.7 * said < len(content.encode()) / 1e6 < 1.3 * said
     dialog.locator(".param-format").select_option("csv")
     # The dialog reports formats that cannot be made, and nothing is saved.
     page.route("**/export?*", lambda route: route.continue_(url=route.request.url.replace("picture=body", "picture=x")))

@@ -200,6 +200,8 @@ def assert_given(page, lesson):
     for number, step in enumerate(lesson.steps):
         expect(page.locator(".lesson .count")).to_have_text(f"{number + 1} / {len(lesson.steps)}")
         expect(page.locator("html")).to_have_attribute("data-scene", step.at.scene)
+        for turn in page.locator("canvas[data-turn]").evaluate_all("all => all.map(({ dataset }) => dataset.turn)"):
+            assert turn == "0.6000 0.3500"
         if step.prediction is not None:
             plot = page.locator(f".gallery:not(.away) .picture-{step.prediction.picture} > .host").bounding_box()
             for share in (0.45, 0.6):

@@ -6,7 +6,7 @@ from pytest import approx
 
 from hess_explorer.scenes import scenes
 from support.page import HESS, VISITOR, WIDE, Explorer
-from support.pointer import at
+from support.pointer import at, click_on
 
 SIGN = ".drag-me:visible"
 # The cursor over a place in the window, whatever is on top there; what is said of the place on hover.
@@ -88,6 +88,12 @@ def test_a_scene_begins_in_gentle_motion_until_the_first_touch_and_asks_for_noth
     # No animation starts a second time, and a link with a time opens at that time; a speed not offered is put right.
     explorer.change(lambda: page.evaluate("name => hess.tell('scene', name)", HESS))
     assert not explorer.playing
+    # A click among parameters leaves the time as it is; one that chooses a start starts the motion.
+    explorer.set_time(5.0)
+    click_on(explorer, "bifurcation", 2.0, 0.5)
+    assert (explorer.playing, explorer.time) == (False, 5.0)
+    click_on(explorer, "circle", -2.5, 1.0)
+    assert moves(explorer) and explorer.time < 5.0
     explorer.open(f"scene={HESS}&t=3.5&speed=3")
     assert (explorer.playing, explorer.time) == (False, approx(3.5))
     assert float(explorer.wait_url(v="1").get("speed", "1")) == float(page.locator(".param-speed").input_value()) != 3.0

@@ -4,6 +4,7 @@
 """
 
 import re
+import signal
 from math import pi
 from urllib.parse import quote, urlencode, urlsplit
 
@@ -11,6 +12,7 @@ import pytest
 from pytest import approx
 
 from hess_explorer.headless.browser import wait_ready
+from hess_explorer.headless.screenshot import server_process
 from support.modules import SERVED
 from support.page import (
     DEFAULTS,
@@ -20,6 +22,7 @@ from support.page import (
     Explorer,
     wait_frames,
 )
+from support.processes import UNWARMED
 from support.suslov_hess import assert_defaults, assert_orbit
 
 # --- The ready flag ----------------------------------------------------------------------------------
@@ -90,7 +93,7 @@ def test_an_answer_that_takes_long_is_said_to_be_under_way(with_websocket):
     assert_orbit(explorer, {**DEFAULTS, "h": 0.9})
 
 
-def test_a_page_that_has_lost_its_server_says_so_and_goes_on_in_the_same_state_when_it_is_back(with_websocket):
+def test_a_page_that_has_lost_its_server_says_so_and_goes_on_with_all_changes_when_it_is_back(with_websocket):
     explorer, websocket = with_websocket
     page = explorer.page
     sign = page.locator(".text.busy")
@@ -118,11 +121,36 @@ def test_a_page_that_has_lost_its_server_says_so_and_goes_on_in_the_same_state_w
         page.wait_for_timeout(50)
     with page.expect_navigation(timeout=60_000):
         asked[0].continue_()
+    page.unroute("**/liveness")
     wait_ready(page)
-    assert explorer.here() == (1.5, 0.5)
+    # With the change, and with all steps before it.
+    assert explorer.here() == (0.9, 0.5)
     assert sign.inner_text() == ""
     assert len(asked) == 1
-    page.unroute("**/liveness")
+    for here in ((1.5, 0.5), (1.5, 0.6)):
+        explorer.change(page.locator(".param-undo").click)
+        assert explorer.here() == here
+    explorer.change(page.locator(".param-redo").click)
+    assert explorer.here() == (1.5, 0.5)
+
+
+def test_a_frozen_server_is_named_within_ten_seconds_and_the_page_goes_on_with_it(browser, tmp_path):
+    context = browser.new_context(viewport={"width": 1600, "height": 950}, reduced_motion="reduce")
+    with server_process(tmp_path / "log", UNWARMED) as (process, base):
+        explorer = Explorer(context.new_page(), base).open()
+        sign = explorer.page.locator(".text.busy", has_text="The server does not respond.")
+        process.send_signal(signal.SIGSTOP)
+        try:
+            before = explorer.state
+            explorer.slide(h=0.9)
+            sign.wait_for(timeout=10_000)
+        finally:
+            process.send_signal(signal.SIGCONT)
+        wait_ready(explorer.page, after=before)
+        assert sign.count() == 0
+        assert explorer.here() == (0.9, 0.6)
+        explorer.assert_quiet()
+        context.close()
 
 
 # --- The link ----------------------------------------------------------------------------------------

@@ -5,6 +5,7 @@ from urllib.parse import parse_qs, urlsplit
 
 import numpy as np
 import pytest
+from playwright.sync_api import expect
 
 from hess_explorer.assets import modules_path
 from hess_explorer.headless.browser import wait_ready
@@ -114,7 +115,7 @@ def test_a_guess_of_the_audience_from_the_invitation_to_how_far_it_was_off(lectu
     page.locator("canvas.audience").wait_for(state="attached")
     said = page.locator(".lesson .audience").inner_text()
     page.screenshot(path=artefacts / "room-revealed.png")
-    small.get_by_text(re.compile(r"pixels away")).wait_for()
+    small.get_by_text(re.compile(r"You were .* away\.")).wait_for()
     small.screenshot(path=artefacts / "room-revealed-phone.png")
     # The phone draws what the projector draws, and nothing of the state before; no player moves a point there.
     drawn = small.evaluate(COLUMNS, [f"{tab.base}/{modules_path()}/page/follow.js", ASKED.picture])
@@ -123,7 +124,7 @@ def test_a_guess_of_the_audience_from_the_invitation_to_how_far_it_was_off(lectu
         if name not in POINTS:
             assert columns == [lengths(column) for column in tab.data(name).values()], name
     # The three distances again, from the points that are drawn.
-    [own] = re.findall(r"(\d+) pixels away: (\S+) in \S+ (\S+) in", small.locator(".said").inner_text())
+    [own] = re.findall(r"You were (\S+) in \S+ and (\S+) in \S+ away", small.locator(".said").inner_text())
     columns = tab.data(ASKED.source)
     truth = np.column_stack([columns[name] for name in ASKED.columns])
     scales = page.evaluate(
@@ -136,18 +137,17 @@ def test_a_guess_of_the_audience_from_the_invitation_to_how_far_it_was_off(lectu
     for place in places:
         away = (truth - place) * per_unit
         nearest = np.hypot(*away.T).argmin()
-        off.append([np.hypot(*away[nearest]), *np.abs(truth[nearest] - place)])
-    # The phone's own guess in units of the axes, which are those of the projector.
-    off.append([np.hypot(float(own[1]) * per_unit[0], float(own[2]) * per_unit[1]), float(own[1]), float(own[2])])
-    found = re.fullmatch(
-        r"3 guesses from the audience\. Median distance: (\d+) pixels, (\S+) in .*, (\S+) in .*\.", said
-    )
+        off.append([*np.abs(truth[nearest] - place)])
+    off.append([*map(float, own)])
+    found = re.fullmatch(r"3 guesses from the audience\. Median distance: (\S+) in .* and (\S+) in .*\.", said)
     assert [*map(float, found.groups())] == pytest.approx(np.median(off, axis=0), rel=0.1)
     # The next step takes the guesses away.
     while page.locator(".lesson .count").inner_text().startswith(f"{STEP} "):
         page.keyboard.press("PageDown")
     page.locator("canvas.audience").wait_for(state="detached")
     small.get_by_role("heading", name=LESSON.steps[STEP].title).wait_for()
+    expect(small.locator(".said")).to_be_hidden()
+    assert small.locator("canvas.guess").count() == 0
 
 
 @pytest.mark.thorough

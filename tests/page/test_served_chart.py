@@ -4,7 +4,9 @@ import json
 
 import numpy as np
 import pytest
+from playwright.sync_api import expect
 
+from hess_explorer.server.served_chart import ServedChart
 from hess_explorer.sweep import explain, read, sweep
 from hess_explorer.sweep.shown import chart_file
 from hess_mechanics.errors import InvalidParameter
@@ -22,6 +24,8 @@ def test_a_sweep_is_the_chart_that_the_page_would_save(tmp_path):
     assert again.rotation_number.dims == ("h", "f")
     # A cell is computed again as a state of the scene.
     assert explain(again, h=-0.5, f=1.0) == explain(found, h=-0.5, f=1.0)
+    # `serve --chart` shows the file that the page has saved, too.
+    assert chart_file(again) == chart_file(found)
 
 
 def test_a_long_side_has_every_second_cell():
@@ -65,3 +69,18 @@ def test_a_function_belongs_to_no_scene():
 
     with pytest.raises(InvalidParameter, match="No scene shows own over x and y"):
         chart_file(sweep(own, {"x": [0.0, 1.0], "y": [0.0, 1.0]}))
+
+
+def test_the_page_opens_the_chart_with_its_state(browser, server):
+    page = browser.new_page()
+    insert = f"() => document.head.insertAdjacentHTML('beforeend', {json.dumps(ServedChart.HEAD)})"
+    page.add_init_script(f"addEventListener('DOMContentLoaded', {insert})")
+    chart = chart_file(sweep("rotation-number", OVER, a=0.25))
+    page.route("**/chart.json", lambda route: route.fulfill(json=chart))
+    page.goto(f"{server}/")
+    expect(page.locator(".param-a input.exact")).to_have_value("0.25", timeout=60_000)
+    for side, (name, (low, high, count)) in zip("xy", OVER.items(), strict=True):
+        expect(page.locator(f".param-{side}")).to_have_value(name)
+        found = [page.locator(f".param-{side}-{what}").input_value() for what in ("from", "to", "cells")]
+        assert [*map(float, found)] == [low, high, count]
+    page.close()

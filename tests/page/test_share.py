@@ -12,7 +12,7 @@ from hess_explorer.server.qr_code import MOST
 from support.accessible import assert_accessible
 from support.barcode import read
 from support.modules import look_inside
-from support.page import HESS, Explorer, wait_frames
+from support.page import ALL, HESS, Explorer, wait_frames
 from support.thorough import sample
 
 # Names of the pictures and of the controls that are to be seen, and their notes.
@@ -30,6 +30,13 @@ SHOWN = """() => {
     notes: named(".text.notes").map((item) => item.textContent).join(),
   }
 }"""
+
+# Boxes of the squares of the pictures and of the controls that are to be seen.
+BOXES = f"""() => {{
+  {ALL}
+  return all(document).filter((item) => item.matches(".picture > .host, .number, .menu") && item.checkVisibility())
+    .map((item) => item.getBoundingClientRect()).map(({{ x, y, width, height }}) => [x, y, width, height])
+}}"""
 
 
 def test_the_dialog_gives_link_and_code_and_what_embeds_opens_the_same_state(explorer, browser, server):
@@ -73,6 +80,11 @@ def test_the_dialog_gives_link_and_code_and_what_embeds_opens_the_same_state(exp
     framed.page = inner
     assert framed.data("data-orbit") == tab.data("data-orbit")
     # It is as alive as the page.
+    # All that was chosen is in its frame.
+    wide, high = inner.evaluate("[innerWidth, innerHeight]")
+    boxes = inner.evaluate(BOXES)
+    assert len(boxes) == 5 and all(x >= 0 and x + w <= wide and y >= 0 and y + h <= high for x, y, w, h in boxes)
+    assert min(w for _, _, w, h in boxes if w == h) >= 250
     before = int(inner.evaluate(there))
     framed.slide(h=0.7)
     wait_ready(inner, after=before)
@@ -105,7 +117,7 @@ def test_an_embedded_page_has_what_its_address_names_and_nonsense_is_harmless(
     open_page, server, keys, pictures, controls, is_noted
 ):
     scene = scenes()[HESS]
-    tab = Explorer(open_page(f"embed=1&{keys}", size=(1000, 700)), server)
+    tab = Explorer(open_page(f"embed=1&{keys}", size=(960, 480)), server)
     wait_frames(tab, 4)
     found = tab.page.evaluate(SHOWN)
     assert found.pop("pictures") == sorted(scene.open_pictures if pictures is None else pictures)

@@ -79,7 +79,10 @@ def test_a_density_fills_a_window_and_a_click_starts_an_orbit_over_it(suslov):
     assert 0 < crossings(suslov) < 12_288
     assert closer.shape == whole.shape and not np.array_equal(closer, whole)
     (x, y), _ = at(suslov, "section", 0.7, 1.7)
+    suslov.set_time(5.0)
     suslov.change(lambda: suslov.page.mouse.click(x, y))
+    # The motion starts there.
+    assert suslov.time == 0.0
     assert len(suslov.data("section-own")["x"]) == 2 * FEW["count"]
     assert np.array_equal(np.array(suslov.data("section-density-0")["image"][0]), closer)
     assert_painted(suslov, SUSLOV)

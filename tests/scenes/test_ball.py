@@ -212,8 +212,9 @@ def test_the_numbers_in_the_caption_of_the_section_are_those_of_its_points(name)
     # Proved properties of the motion are stated for these bodies only.
     plain = kept and view.values["b3"] == 0.0
     symmetric = kept and view.values["I11"] == view.values["I22"] and view.values["b1"] == view.values["b2"] == 0.0
-    assert ("One point: every orbit closes. Proved by the symmetry γ₃ → −γ₃, t → −t" in view.text["returns"]) == plain
-    assert ("A curve: there is another integral. ω₁γ₁ + ω₂γ₂ is constant." in view.text["returns"]) == symmetric
+    said = view.text["returns"]
+    assert ("One point: every orbit that returns closes. Proved by the symmetry γ₃ → −γ₃, t → −t" in said) == plain
+    assert ("A curve: there is another integral. ω₁γ₁ + ω₂γ₂ is constant." in said) == symmetric
     if plain:
         assert np.ptp(own, axis=0) == approx([0.0, 0.0], abs=1e-4)
     if symmetric:

@@ -10,6 +10,7 @@ from math import copysign, cosh, log, log10, pi, sqrt
 import numpy as np
 import pytest
 from pytest import approx
+from scipy.optimize import brentq
 
 from hess_mechanics.errors import InvalidParameter, ModelError, NoField, Separatrix
 from support.board import Browser
@@ -72,7 +73,7 @@ def test_the_leak_grows_at_the_rate_in_the_caption_which_is_the_exact_one(name):
 @pytest.mark.parametrize("name", STABLE)
 def test_without_cycles_nothing_grows_and_the_caption_says_so(name):
     view = leak(name)
-    (largest,) = view.numbers("leak", "Stable: no cycles, no growth. After 60 periods |r·M| ≤ #.")
+    (largest,) = view.numbers("leak", "No cycles: no growth to first order. In 60 periods |r·M| ≤ #.")
     assert largest < 3e-14
     assert np.max(view.curve("leak-own")[1]) == approx(log10(largest), abs=0.05)
     assert "leak-slope" not in view.data
@@ -82,6 +83,18 @@ def test_without_cycles_nothing_grows_and_the_caption_says_so(name):
     # It only goes to and fro.
     assert np.max(np.abs(exponent)) < 6.0
     assert np.ptp(exponent[200:]) == approx(np.ptp(exponent[:200]), rel=0.3)
+
+
+def test_where_the_two_cycles_have_merged_r_M_grows_like_the_square_of_the_time():
+    values = LEAK.defaults() | {"h": 8.0, "returns": 40.0}
+    f = brentq(lambda f: View(LEAK, values | {"f": f}, seen=()).result.map.trace - 2.0, 0.5, 1.0, xtol=1e-15)
+    view = View(LEAK, values | {"f": f}, seen=("leak",))
+    (largest,) = view.numbers("leak", "Lock boundary: |r·M| grows like t². In 40 periods |r·M| ≤ #.")
+    assert largest < 1e-10
+    a, h, f, _ = torus(view.values)
+    period = period_of(h, f)[0]
+    first, second = motion_of_torus(a, h, f, 0.5, [100.0 * period, 200.0 * period])[:, 5]
+    assert second - first == approx(log(4.0), abs=0.1)
 
 
 def test_the_exact_motion_beside_is_that_of_the_reduced_system():
@@ -138,7 +151,7 @@ def test_both_sides_of_an_example_agree_to_1e_11_over_t_50(preset):
     t, lg = view.curve("difference-held")
     assert (t[0], t[-1], end) == (0.0, 50.0, 50.0)
     assert np.max(lg) == approx(log10(held), abs=0.05)
-    cycles = "Two limit cycles" in view.text["circle"]
+    cycles = "two limit cycles" in view.text["circle"]
     assert cycles == (free > 1e-10) == ("data-stable" in view.data) == ("data-unstable" in view.data)
 
 
@@ -151,7 +164,7 @@ def test_figure_gess1_in_both_systems_of_units():
     # I11 = I2, I22 = I11/(1 + a²), I23 = a I22, b3 = −b I22 √(1 + a²).
     assert view.derived("I₁₁ = #, I₂₂ = #, I₂₃ = #") == [0.625, 0.5, -0.25]
     assert view.derived("b₃ = #") == [approx(-15.96 * 0.5 * sqrt(1.25), rel=6e-4)]
-    (said,) = view.numbers("circle", "|trace| = #.")
+    (said,) = view.numbers("circle", "|trace| = #,")
     trace, growth = view.result.map.trace, 3.09107
     assert said == approx(trace, rel=6e-4)
     assert trace == approx(2.0 * cosh(growth / 2.0), abs=6e-5)

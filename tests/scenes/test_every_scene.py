@@ -15,9 +15,11 @@ from pytest import approx
 
 from hess_explorer.compute.background import Background
 from hess_explorer.compute.cache import CACHE
+from hess_explorer.export.sphere_canvas import LOOKS
 from hess_explorer.page import session
 from hess_explorer.protocol.parameters import Choice, Formula, Number, Places, written
 from hess_explorer.scenes.parts import precision
+from hess_explorer.views import theme
 from hess_explorer.views.layers import Axes
 from hess_explorer.views.text import with_formulas
 from hess_mechanics import f_max
@@ -712,6 +714,16 @@ def test_the_legend_has_only_what_is_drawn(scene):
             (drawn if len(columns.get(layer.columns[0], ())) else absent).update(signs)
     assert drawn & shown
     assert not (absent - drawn) & shown
+    assert len({sign[1:] for sign in shown}) == len(shown), "two things with one sign"
+    # Spheres draw by looks, not by layers: each line of their legend has the colour and the dashes of one of them.
+    for picture in (one for one in scene.views if one.kind == "sphere" and one.name in scene.open_pictures):
+        own = view.data[picture.name]
+        words = {*re.findall(r"\w+", repr(own)), *picture.describe()["tracks"].values()}
+        strokes = {(colour, dash != "-") for name, (colour, dash, _) in LOOKS.items() if name in words}
+        strokes |= {(theme.INK, True)} if len(own.get("section", ())) else set()
+        for sign in (one for one in picture.legend if one.kind == "line"):
+            colour = re.search(r"#\w{6}", sign.style)
+            assert colour and (colour[0], "dashed" in sign.style) in strokes, (picture.name, sign)
 
 
 # --- Sessions: whatever is raised ---------------------------------------------------------------------

@@ -10,14 +10,14 @@ from pytest import approx
 
 from hess_explorer.scenes import scenes
 from hess_explorer.views.text import digits
-from hess_mechanics import ReturnMap, check_body, level, lyapunov_spectrum
+from hess_mechanics import check_body, lyapunov_spectrum
 from hess_mechanics.dynamics.point_sets import set_distance
 from hess_mechanics.suslov.section import SuslovSection
 from support.deviations import deviations
-from support.diagrams import complete, crossings, distance_of_most, measured, multipliers, settled
+from support.diagrams import complete, crossings, distance_of_most, multipliers, settled
 from support.suslov import field
 from support.thorough import sample
-from support.view import View, values_of
+from support.view import View
 
 SCENE = scenes()["orbit-diagram"]
 SEEN = ("diagram", "section")
@@ -59,9 +59,6 @@ def test_where_periods_double_another_integrator_finds_the_multiplier_minus_one(
     assert re.search(
         r"4 period doublings located. [\d,]+ points. The first of period 1 at I₂₃ = −0.04983", captions["diagram"]
     )
-    # The numbers of the words beside the pictures.
-    assert found.values == approx([-0.0498281, 0.0873376, 0.1281912, 0.1376316], abs=6e-8)
-    assert found.ratios == approx([3.357, 4.328], abs=6e-4)
     # At the second one, by SciPy.
     exact = exact_multipliers(replace(state.body, I23=float(found.values[1])), state.poincare.E, found.places[1])
     assert exact.real.min() == approx(-1.0, abs=1e-5)
@@ -70,10 +67,6 @@ def test_where_periods_double_another_integrator_finds_the_multiplier_minus_one(
     for low, high, count in ((-0.12, -0.07, 1), (0.0, 0.06, 2), (0.1, 0.12, 4)):
         for x in np.unique(drawn[0][(drawn[0] > low) & (drawn[0] < high)]):
             assert len(np.unique(np.round(drawn[1][drawn[0] == x], 4))) == count
-
-
-IN_WORDS = {"Touching": "*Touching*", "Apart: a strange": "*Apart*: beyond"}
-"""How the paragraphs about examples begin."""
 
 
 @pytest.mark.chaotic
@@ -98,36 +91,16 @@ def test_attractors_and_repellers_are_what_their_examples_say(name, verdict):
     third = np.mean(rates) - div
     assert abs(deviations(dimensions, 3.0 + div / third, error / third)) < 5.0
     assert div + 3.0 * error < 0.0
-    if name != "A chaotic sea":
-        # The numbers beside the pictures, which have five standard errors.
-        for values, (value, bound) in zip((rates, dimensions), measured("orbit_diagram", IN_WORDS[name]), strict=True):
-            assert abs(deviations(values, value, bound / 5.0)) < 5.0
     both = [settled(state.poincare, 32, 1500, 500, forward) for forward in (True, False)]
     shared = np.array([set_distance(state.poincare.turns, *pair).shared for pair in zip(*both, strict=True)])
     if name == "Touching":
         assert deviations(np.log(shared), log(0.005)) > 5.0
-        # "About 7 %".
-        assert deviations(shared, 0.01) > 5.0 > -5.0 > deviations(shared, 0.16)
     elif verdict == "dissipative":
         assert not shared.any()
     else:
         assert deviations(shared, 0.8) > 5.0
     distances = [distance_of_most(*(one[::3] for one in pair)) for pair in zip(both[0][:8], both[1][:8], strict=True)]
     assert abs(deviations(distances, known.distance, known.distance_error)) < 5.0
-
-
-@pytest.mark.chaotic
-def test_where_the_torus_has_broken_up_exponent_and_dimension_are_those_of_the_words():
-    values = SCENE.defaults() | values_of(SCENE, "A torus") | {"I13": -0.2605}
-    state = SCENE.of(values)
-    map_ = ReturnMap(state.poincare, level("standard"))
-    # This attractor is not the only one: all starts are close to one that comes to it.
-    places = [map_.orbit(np.array(state.diagram.place) + 1e-6 * k, 1500)[-1] for k in range(16)]
-    found = [lyapunov_spectrum(state.body, state.poincare.state_at(*place), 8000.0) for place in places]
-    known = measured("orbit_diagram", "At $-0.2605$ there is a strange attractor")
-    for i, (value, bound) in enumerate(known):
-        assert abs(deviations([(one.values[0], one.dimension[0])[i] for one in found], value, bound / 5.0)) < 5.0
-    assert len(known) == 2
 
 
 LIGHT = {

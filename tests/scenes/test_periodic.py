@@ -17,6 +17,7 @@ from hess_mechanics.dynamics.periodic import apart
 from hess_mechanics.euler_poisson.andoyer import hess_curve
 from hess_mechanics.euler_poisson.hess_isomorphism import Bridge
 from support.ball import rates
+from support.ball import returned as ball_returned
 from support.mechanics import scipy_crossings
 from support.suslov import field, start_on
 from support.view import View, values_of
@@ -196,6 +197,18 @@ def test_where_every_orbit_of_the_ball_closes_the_chosen_one_is_parabolic():
     # It is followed by itself.
     returns = view.data["returns-own"]
     assert (np.asarray(returns["x"]), np.asarray(returns["y"])) == (approx([0.5]), approx([0.5]))
+
+
+def test_an_orbit_of_period_five_has_five_points_in_its_first_return():
+    values = values_of(scenes()["ball-section"], "Mixed") | LIGHT["ball-section"] | {"psi": -1.0, "delta": 2.0}
+    view = shown("ball-section", "period 5", *values.items())
+    assert view.text["returns"].endswith("Each ψ against the next. Period 5.")
+    places = view.points("repels")
+    for i, place in enumerate(places):
+        assert ball_returned(view.values, place) == approx(places[(i + 1) % 5], abs=1e-5)
+    returns = view.columns("returns-own", "x", "y")
+    assert returns == approx(np.column_stack([places[:, 0], np.roll(places[:, 0], -1)]), abs=1e-6)
+    assert len(np.unique(np.round(returns, 3), axis=0)) == 5
 
 
 @pytest.mark.parametrize("name", NAMES)

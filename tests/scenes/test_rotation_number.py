@@ -39,7 +39,7 @@ def test_the_circle_map_of_an_example_is_as_its_caption_says(name):
     (rho,) = view.numbers("circle", "ρ = #.")
     assert rho == approx(iterated(*torus), abs=2e-4)
     hyperbolic = circle_map(*torus, REFERENCE).trace > 2.0
-    assert ("two cycles" if hyperbolic else "no cycle") in view.text["circle"]
+    assert ("two limit cycles" if hyperbolic else "no cycle") in view.text["circle"]
     assert (rho == 0.0) == hyperbolic
     assert view.notes == []
     view.assert_finite()
@@ -65,7 +65,7 @@ def test_the_rational_number_of_an_example_is_where_its_caption_says(name):
     with np.errstate(invalid="ignore"):
         changes = np.flatnonzero((values[1:] * values[:-1] <= 0.0) & (np.abs(np.diff(values)) < 0.3))
     if not changes.size:
-        assert f"No torus here has ρ = {view.values['rational']}." in view.text["line"]
+        assert f"No torus with ρ = {view.values['rational']} is seen here." in view.text["line"]
         assert name == "Euler–Poisson, figure 11"
         return
     (place,) = view.numbers("line", f"ρ = {view.values['rational']} at {line} = #: |Θ")
@@ -136,6 +136,21 @@ def test_the_map_of_an_example_shows_the_number_where_it_belongs(name):
         assert not covered(view.data["map-forbidden"], here[across], here[up])
         seen.add(exact.kind)
     assert len(seen) >= (1 if view.values["part_hf"] else 2)
+    assert view.text["map"].endswith("\nρ locks at 0 only.")
+
+
+def test_tori_lock_at_0_only_and_no_multiplier_exceeds_that_of_the_pendulum():
+    """The corollary of section 2 of `proofs.md`."""
+    rng = np.random.default_rng(3)
+    kinds = set()
+    for _ in range(200):
+        a, h = rng.uniform(-2.0, 2.0), rng.uniform(-0.9, 4.0)
+        found = circle_map(a, h, rng.uniform(-1.0, 1.0) * f_max(h), REFERENCE)
+        kinds.add(found.kind)
+        assert (found.rotation_number == 0.0) == (found.kind == "hyperbolic")
+        assert all(abs(one.log_multiplier) < 2.0 * math.pi * abs(a) for one in found.fixed_points)
+    assert kinds == {"elliptic", "hyperbolic"}
+    assert circle_map(0.5, 1.5, 0.0, REFERENCE).fixed_points[1].log_multiplier == approx(math.pi)
 
 
 def test_the_map_is_coarse_first_and_stays_coarse_under_a_drag():

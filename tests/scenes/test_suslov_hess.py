@@ -8,11 +8,8 @@ from math import copysign, hypot, pi
 import numpy as np
 import pytest
 from pytest import approx
-from scipy.integrate import quad
 
-from hess_explorer.compute.cache import CACHE
 from hess_explorer.scenes import scenes
-from hess_explorer.scenes.framework import proved_zone
 from hess_explorer.scenes.framework.hess_case import proved
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.circle_map import EVENLY, about
@@ -71,7 +68,8 @@ def test_the_shade_of_the_torus_is_where_a_long_motion_is():
     "values, words",
     [
         ({"I23": 0.5, "h": 1.5, "f": 0.6}, "|trace| > 2: all motions but one tend to the stable limit cycle."),
-        ({"I23": 0.5, "h": 0.5, "f": 1.01563456028796105}, "|trace| = 2: the two limit cycles merge."),
+        ({"I23": 0.5, "h": 0.5, "f": 1.01563456028796105}, "|trace| = 2: the two cycles have merged."),
+        ({"I23": 0.0, "h": 1.5, "f": 0.0}, "|trace| = 2: every orbit closes."),
         ({"I23": 0.5, "h": 1.0, "f": 0.0}, "On the separatrix no motion returns."),
         ({"I23": 0.5, "h": 0.3, "f": 0.0}, "At f = 0 the angle φ jumps"),
         (
@@ -161,41 +159,6 @@ def test_without_the_library_one_quiet_sentence_says_so(monkeypatch):
         "Proofs need python-flint: pip install 'hess-explorer[prove]'"
     ]
     assert "roved" not in view.text["circle"]
-
-
-def cells_drawn(view):
-    """The outlines of proved cells, as a set."""
-    columns = view.data["bifurcation-proved"]
-    return {(tuple(h), tuple(f)) for h, f in zip(columns["xs"], columns["ys"], strict=True)}
-
-
-def test_proved_cells_grow_and_cover_as_much_as_the_caption_says(monkeypatch):
-    monkeypatch.setattr(proved_zone, "ROUNDS", (30, 60))
-    values = {"I22": 2.0, "I23": 0.9, "h": 1.5, "f": 0.6, "cells": "shown"}
-    shares, drawn, said_then = [], [], []
-    for _ in range(2):
-        view = View(SCENE, values, seen={"bifurcation"}, whole=False)
-        assert ("growing" in view.text["bifurcation"]) == (len(shares) == 1)
-        assert ("No cell is proved yet." in view.text["bifurcation"]) == (not shares)
-        (task,) = (task for task in view.report.todo if task.function is proved_zone.outlined)
-        CACHE.get(task.function, *task.arguments)
-        shares.append(task.arguments[2])
-        then = View(SCENE, values, seen={"bifurcation"}, whole=False)
-        drawn.append(cells_drawn(then))
-        said_then += then.numbers("bifurcation", "Proved cells: # % of the area")
-    # More of the area each time, and what was proved stays as it was.
-    assert 0.0 < said_then[0] < said_then[1]
-    assert drawn[0] < drawn[1]
-    view = View(SCENE, values, seen={"bifurcation"}, whole=False)
-    assert shares == [30, 60]
-    assert not any(task.function is proved_zone.outlined for task in view.report.todo)
-    (said,) = view.numbers("bifurcation", "Proved cells: # % of the area.")
-    outlines = [*zip(*view.data["bifurcation-proved"].values(), strict=True)]
-    area = (
-        sum(0.5 * abs(np.sum(np.asarray(h)[:-1] * np.diff(f) - np.asarray(f)[:-1] * np.diff(h))) for h, f in outlines)
-        / 2
-    )
-    assert 100 * area / quad(f_max, -1 + 1e-9, 4)[0] == approx(said, abs=0.5)
 
 
 def test_on_the_edge_the_caption_says_that_there_is_no_torus_and_names_no_cycle():

@@ -115,7 +115,7 @@ def test_examples_with_a_closed_form_or_at_a_limit_show_it():
     [
         ("Two limit cycles on the torus.", {}),
         ("No limit cycle on the torus.", {"h": 0.2, "f": 0.5}),
-        ("The limit cycles have merged.", PRESETS["At the lock boundary (a = 0.5)"]),
+        ("The two cycles have merged.", PRESETS["At the lock boundary (a = 0.5)"]),
         ("Bifurcation curve: the torus is a circle.", PRESETS["On the bifurcation curve"]),
         ("f = 0: the centre is a circle.", {"h": 0.3, "f": 0.0}),
         ("Separatrix: the centre is the upper equilibrium.", {"h": 1.0, "f": 0.0}),

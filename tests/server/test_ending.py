@@ -1,12 +1,15 @@
 """Shutdown of a server: it notifies its pages, and its processes exit."""
 
 import os
+import re
 import signal
 import subprocess
 import sys
 import time
 
 import pytest
+from tornado.httpclient import AsyncHTTPClient, HTTPClientError, HTTPRequest
+from tornado.websocket import websocket_connect
 
 from hess_explorer.headless.screenshot import server_process
 from support.asynchronous import finished
@@ -44,11 +47,25 @@ async def told(base, end, count):
     return heard
 
 
+async def answering(base):
+    """The workers that respond to a request for counters, of which each names itself."""
+    found = set()
+    for _ in range(40):
+        answer = await AsyncHTTPClient().fetch(f"{base}/metrics")
+        found |= set(re.findall(r'^hess_explorer_sessions\{worker="(\d)"\} \d+$', answer.body.decode(), re.MULTILINE))
+    # For the log.
+    foreign = HTTPRequest(f"ws{base.removeprefix('http')}/states", headers={"Origin": "http://example.org"})
+    with pytest.raises(HTTPClientError, match="403"):
+        await websocket_connect(foreign)
+    return found
+
+
 def test_of_several_workers_all_tell_their_pages_and_end_with_the_process_that_began(tmp_path):
     log = tmp_path / "log"
     with server_process(log, UNWARMED, WORKERS) as (process, base):
         workers = below(process.pid)[1:]
         assert len(workers) == 2
+        assert finished(answering(base)) == {"0", "1"}
         finished(meet(base))
         # One that was killed is replaced.
         os.kill(workers[0], signal.SIGKILL)
@@ -59,6 +76,9 @@ def test_of_several_workers_all_tell_their_pages_and_end_with_the_process_that_b
     said = log.read_text()
     assert "Traceback" not in said
     assert "ERROR" not in said
+    logged = [line for line in said.splitlines() if not re.match("Starting|Compiling|Hess Explorer is running", line)]
+    assert any("example.org" in line for line in logged)
+    assert all(re.match(r"\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d[+-]\d{4} ", line) for line in logged), said
 
 
 @pytest.mark.thorough

@@ -9,6 +9,7 @@ from tornado.httpclient import HTTPClientError
 from tornado.websocket import WebSocketClosedError
 
 from hess_explorer.lessons import shipped
+from hess_explorer.protocol.messages import ALIVE
 from hess_explorer.protocol.parameters import encode
 from hess_explorer.rooms import room
 from hess_explorer.scenes import scenes
@@ -63,6 +64,19 @@ def test_followers_see_the_last_state_of_the_lecturer_whenever_they_come(base):
         await lecturer.until(lambda one: one.followers == 1)
         await early.leave()
         await lecturer.leave()
+
+    finished(visit())
+
+
+def test_all_members_hear_that_the_server_is_alive(base):
+    async def visit():
+        lecturer = await Lecturer.open(base)
+        follower = await Follower.follow(base, lecturer.code)
+        await lecturer.until(lambda one: one.followers == 1)
+        for one in (lecturer, follower):
+            await one.say(ALIVE)
+            assert await one.read() == ""
+            await one.leave()
 
     finished(visit())
 

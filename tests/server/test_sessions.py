@@ -2,6 +2,7 @@
 
 import asyncio
 import gc
+import threading
 import time
 import weakref
 
@@ -11,6 +12,7 @@ from tornado.httpclient import AsyncHTTPClient
 from tornado.websocket import websocket_connect
 
 from hess_explorer.page import connection
+from hess_explorer.protocol.messages import ALIVE
 from support.asynchronous import finished
 from support.serving import served
 from support.visitor import Closed, Visitor
@@ -47,6 +49,32 @@ def test_a_session_that_is_left_is_freed_and_nothing_watches_for_it(monkeypatch)
             gc.collect()
     assert len(opened) == 3
     assert len(watchers.get("busy", {}).get("value", ())) == before
+
+
+def test_a_page_hears_that_the_server_is_alive_while_its_state_is_computed(monkeypatch):
+    computed = threading.Event()
+
+    class Slow(connection.Session):
+        def answer(self, request):
+            if request.requested == 1:
+                assert computed.wait(60.0)
+            return super().answer(request)
+
+    monkeypatch.setattr(connection, "Session", Slow)
+
+    async def visit(base):
+        visitor = await Visitor.open(base)
+        await visitor.say({"requested": 1, "values": {"h": 1.25}})
+        for _ in range(2):
+            await visitor.say(ALIVE)
+            assert await visitor._read(visitor._states, 10.0) == ""
+        computed.set()
+        await visitor.hear()
+        await visitor.leave()
+        return visitor.state["query"]
+
+    with served() as base:
+        assert "h=1.25" in finished(visit(base))
 
 
 def test_who_finds_no_room_reads_why_and_finds_it_when_another_has_left():

@@ -71,3 +71,22 @@ test("only a scene or an example gets an entry of the browser, with the state be
   assert.equal(query, before)
   assert.equal(entries.length, 2)
 })
+
+test("another history goes on with the steps of this one, and with a change that has no answer yet", () => {
+  const before = { ...steps }
+  const kept = JSON.parse(JSON.stringify(history.steps))
+  assert.equal(kept.current, query)
+  let shown = kept.current
+  let isSettled = false
+  let counts = null
+  const restored = []
+  const again = createHistory({ query: () => shown, isSettled: () => isSettled, address }, kept)
+  // The state of the link is on show, the change is not.
+  again.settle()
+  shown = "scene=a&h=77"
+  isSettled = true
+  listen({ steps(told) { counts = told }, restore(step) { restored.push(step) } })
+  again.settle()
+  assert.deepEqual(counts, { undo: before.undo + 1, redo: 0 })
+  assert.deepEqual(again.steps.past, [...kept.past, kept.current])
+})

@@ -3,7 +3,7 @@ import "./browser.mjs"
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import { tell } from "../../static/page/bus.js"
+import { listen, tell } from "../../static/page/bus.js"
 import { createRequests } from "../../static/page/requests.js"
 import { Element, point } from "./browser.mjs"
 
@@ -28,7 +28,13 @@ async function told(...events) {
   return sent
 }
 
-test.after(() => requests.lose())
+/** A queue of its own, which hears the same events. */
+function queue() {
+  const messages = []
+  const one = createRequests({ send: (message) => messages.push(message), changed() {}, hidden: () => [], known: () => true })
+  return { one, messages }
+}
+const plain = (value) => JSON.parse(JSON.stringify(value))
 
 test("nothing is asked before a scene is on show", async () => {
   assert.deepEqual(await told(["change", { h: 1 }]), [])
@@ -86,4 +92,67 @@ test("a place that is no number chooses nothing, and a finger does not hover", a
   assert.deepEqual(await told(["hover", ["omega", 0, 1]]), [])
   assert.deepEqual((await told(["pick", { pick: ["omega", 0, 1], drag: false }]))[0].picked, ["omega", 0, 1])
   requests.settled()
+})
+
+test("changes without an answer are those of the last request and those since", async () => {
+  const { one, messages } = queue()
+  one.begin(null)
+  one.entered("a")
+  assert.deepEqual(plain(one.unanswered), { values: {}, expressions: {}, scene: null })
+  await told(["change", { h: 1, f: 2 }], ["expression", { k: "pi" }], ["hover", ["omega", 0, 1]])
+  assert.equal(messages.length, 1)
+  await told(["change", { h: 3, k: 4 }], ["scene", "b"])
+  assert.deepEqual(plain(one.unanswered), { values: { h: 3, f: 2, k: 4 }, expressions: {}, scene: "b" })
+  await told(["expression", { h: "1/2" }])
+  assert.deepEqual(plain(one.unanswered).expressions, { h: "1/2" })
+  // An example replaces what was set before, but not the scene.
+  await told(["preset", "No cycle"], ["change", { f: 5 }])
+  assert.deepEqual(plain(one.unanswered), { values: { f: 5 }, expressions: {}, preset: "No cycle", scene: "b" })
+  // Also when the connection is lost, and then for changes that nobody is asked for.
+  one.lose()
+  await told(["change", { f: 6 }])
+  assert.deepEqual(plain(one.unanswered).values, { f: 6 })
+  requests.settled()
+  requests.entered("b")
+})
+
+test("a page that is loaded again asks for them once, after its first state", async () => {
+  const { one, messages } = queue()
+  one.begin({ values: { h: 3 }, expressions: {}, scene: "c" })
+  await microtasks()
+  assert.deepEqual(messages, [])
+  assert.ok(one.isBehind(0))
+  assert.deepEqual(plain(one.unanswered), { values: { h: 3 }, expressions: {}, scene: "c" })
+  one.entered("b")
+  one.settled()
+  one.ask()
+  await microtasks()
+  const [{ requested, values, scene }] = messages
+  assert.deepEqual([requested, values, scene], [1, { h: 3 }, "c"])
+  assert.deepEqual(plain(one.unanswered), { values: {}, expressions: {}, scene: null })
+  await told(["change", { h: 4 }])
+  assert.deepEqual(plain(one.unanswered).values, { h: 4 })
+  one.lose()
+  requests.settled()
+})
+
+test("a server that does not respond is not said to compute", async (context) => {
+  context.mock.timers.enable({ apis: ["setTimeout"] })
+  // It would say that it computes.
+  requests.lose()
+  const { one } = queue()
+  const said = []
+  listen({ texts: ({ busy }) => said.push(busy) })
+  one.entered("b")
+  one.silence(true)
+  assert.match(said.at(-1), /^The server does not respond\./)
+  tell("change", { h: 5 })
+  await Promise.resolve()
+  context.mock.timers.tick(10_000)
+  assert.equal(said.length, 1)
+  one.silence(false)
+  assert.equal(said.at(-1), "")
+  context.mock.timers.tick(400)
+  assert.equal(said.at(-1), "Computing…")
+  one.lose()
 })

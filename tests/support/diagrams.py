@@ -1,8 +1,5 @@
 """Orbit diagrams without a browser, their return map on γ3 = 0 by SciPy, and the sets that many orbits come to."""
 
-import re
-from importlib.resources import files
-
 import numpy as np
 from scipy.spatial import KDTree
 
@@ -10,13 +7,6 @@ from hess_explorer.compute.cache import CACHE
 from hess_mechanics import ReturnMap, level
 from support.captions import as_text
 from support.mechanics import scipy_crossings
-
-
-def measured(scene, beginning):
-    """Return the pairs (value, bound of the error) in the paragraph of a scene's words that begins like this."""
-    words = files("hess_explorer.scenes").joinpath(f"{scene}.md").read_text(encoding="utf-8")
-    (paragraph,) = [one for one in words.split("\n\n") if one.startswith(beginning)]
-    return [tuple(map(float, one)) for one in re.findall(r"(-?[\d.]*\d)\\pm([\d.]*\d)", paragraph)]
 
 
 def complete(scene, beginning, seen, **changes):

@@ -25,7 +25,6 @@ COMMANDS: Mapping[str, str] = {
     "basins": "compute basins of attraction in a section of the Suslov problem",
     "cloud": "compute the volume and density of a cloud of phase points without a field",
     "prove": "prove that a Suslov–Hess torus has two limit cycles, or none",
-    "prove-zone": "prove where over (h, f) tori have two limit cycles, and where none",
     "tube": "compute proved intervals that contain one motion",
     "export": "export a picture as CSV, JSON, PNG, SVG, PDF or a film, or a state or lesson as a page",
     "site": "build a folder of pages that needs no server",
@@ -34,7 +33,7 @@ COMMANDS: Mapping[str, str] = {
     "docs": "build the documentation",
     "sweep": "compute a quantity over one to three parameters",
     "shot": "take a screenshot of the page as PNG",
-    "bench": "compare the speed with other integrators at equal measured error",
+    "bench": "compare the speed with other integrators at equal measured error (in a source checkout)",
 }
 """Name and purpose of each command."""
 

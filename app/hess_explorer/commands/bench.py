@@ -22,8 +22,8 @@ class _SourceCommand(Command):
         """Declare its options in a parser.  Raises `CommandError` without the sources."""
         if not (_TESTS / "benchmarks" / "bench.py").is_file():
             raise CommandError(
-                "The benchmark is not part of the package: run pip install -e '.[bench]' in a source checkout and try "
-                "again."
+                "The benchmark measures with scripts of the source tree, which an installed package does not contain: "
+                "in a source checkout, run pip install -e '.[bench]', then hess-explorer bench."
             )
         if str(_TESTS) not in sys.path:
             sys.path.append(str(_TESTS))

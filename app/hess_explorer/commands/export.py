@@ -16,6 +16,8 @@ from .output import computing, show
 __all__ = ["COMMAND"]
 
 _TEXTS = ("csv", "json", "svg", "html")
+_LARGE = 20e6
+"""Size of a page in bytes beyond which a warning is printed, as on the page."""
 
 
 def _progress_printer(lines: bool, what: str) -> Callable[[int, int], None]:
@@ -36,8 +38,9 @@ def _states_printer(lines: bool) -> Callable[[int, int, int], None]:
     report = _progress_printer(lines, "state")
 
     def tell(done: int, of: int, size: int) -> None:
-        if done == 1 and of > 1 and sys.stderr.isatty():
-            print(f"{of} states, at most {max(0.1, size / 1e6):.1f} MB.", file=sys.stderr, flush=True)
+        if done == 1 and of > 1 and not lines:
+            warning = ": too large for most mail, slow on phones" if size > _LARGE else ""
+            print(f"{of} states, at most {max(0.1, size / 1e6):.1f} MB{warning}.", file=sys.stderr, flush=True)
         report(done, of)
 
     return tell

@@ -204,7 +204,7 @@ COMMAND = Command(
         option("--no-browser", "do not open a browser", dest="browser", action="store_false"),
         option(
             "--allow-origin",
-            "further hosts, with ports, by which browsers reach the page, for example behind a proxy",
+            "further hosts by which browsers reach the page, as in the address bar, for example of a proxy",
             dest="origins",
             type=_origin,
             default=[],

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, make_dataclass, replace
 from typing import Any
 
@@ -27,14 +28,14 @@ from hess_explorer.scenes.parts.exponent import exponent_picture
 from hess_explorer.scenes.parts.indicator import colouring, indicator_layer
 from hess_explorer.scenes.parts.orbit import orbit_picture
 from hess_explorer.scenes.parts.periodic_orbit import layers
-from hess_explorer.scenes.parts.section import section_picture
+from hess_explorer.scenes.parts.section import first_place, section_picture
 from hess_explorer.views.layers import Columns
 from hess_explorer.views.picture import Picture
 from hess_explorer.views.poisson_sphere import Sphere, gamma_columns
 from hess_mechanics.dynamics.cells import evenly
 from hess_mechanics.dynamics.system import System
 from hess_mechanics.dynamics.variable_section import VariableSection, variable_section
-from hess_mechanics.errors import InvalidParameter
+from hess_mechanics.errors import InvalidParameter, ModelError
 from hess_mechanics.numerics.arguments import typed
 from hess_mechanics.parameters import Group
 
@@ -241,13 +242,16 @@ def _of_branch(symbols: tuple[str, ...], section: VariableSection) -> list[tuple
 
 
 def _place(section: VariableSection) -> str:
-    """Return a place of a section where motions cross it, that of the example if it is one."""
-    low, high = np.array(section.window).T
-    tried = np.concatenate(
-        [section.places_of(np.array([section.system.example[0]])), low + evenly(_TRIED).T * (high - low)]
-    )
-    _, there = section.states_at(*tried.T)
-    return written([tuple(tried[int(np.argmax(there))])])
+    """Return the place where the motion of the example first crosses a section, or any place where motions do."""
+    place = None
+    with suppress(ModelError):
+        place = first_place(section, section.system.example[0])
+    if place is None:
+        low, high = np.array(section.window).T
+        tried = low + evenly(_TRIED).T * (high - low)
+        _, there = section.states_at(*tried.T)
+        place = tuple(tried[int(np.argmax(there))])
+    return written([place])
 
 
 def _fields(system: System, integrals: Sequence[str] | None) -> dict[str, tuple[str, float]]:

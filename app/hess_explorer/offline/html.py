@@ -17,6 +17,7 @@ from hess_explorer.assets import STATIC
 from hess_explorer.bundle import bundle
 from hess_explorer.offline.recording import Recording
 from hess_explorer.page.component import styles
+from hess_explorer.protocol.parameters import CLIENT
 
 __all__ = ["HOME", "document"]
 
@@ -30,8 +31,8 @@ _POLICY = (
     "connect-src data:"
 )
 """Content-Security-Policy that blocks all requests to other hosts."""
-_EMPTY = ("az", "el", "large", "present", "theme", "lesson", "step")
-_CLIENT = {"t": "0", "speed": "1", **dict.fromkeys(_EMPTY, "")}
+_EMPTY = ("large", "present", "theme", "lesson", "step")
+_CLIENT = {**{spec.name: repr(spec.default) for spec in CLIENT}, **dict.fromkeys(_EMPTY, "")}
 
 _PAGE = """<!DOCTYPE html>
 <html lang="en" data-home="{home}">

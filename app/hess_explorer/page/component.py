@@ -6,6 +6,8 @@ the events of "page/bus.js".
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 import param
 from panel.custom import JSComponent
 
@@ -48,4 +50,5 @@ export function render(detail) {
   document.dispatchEvent(new CustomEvent("component", { detail }))
 }
 """
-    _stylesheets = [(STATIC / name).read_text(encoding="utf-8") for name in ("page/base.css", "page/shell.css")]
+    # The page brings its own.
+    _stylesheets: ClassVar[list[str]] = []

@@ -15,8 +15,10 @@ A request is a text frame of JSON.  The key "requested": n asks for the state af
 A chart request has the single key "chart".  Its value is one of {"start": argument of `Chart.read`, "id": number},
 {"more": number of known cells, "id": number}, {"stop": true}, {"why": argument of `Chart.read`, "at": [x, y]}.
 
-A response is one binary frame: the lengths of head and block (32 bits each, little endian), the head, the block, the
-cells.  The head is the JSON of an `Answer`.  "page/websocket.js" decodes the frame.
+The request `ALIVE` is answered with an empty text frame, even while a state is being computed.
+
+Any other response is one binary frame: the lengths of head and block (32 bits each, little endian), the head, the
+block, the cells.  The head is the JSON of an `Answer`.  "page/websocket.js" decodes the frame.
 """
 
 from __future__ import annotations
@@ -31,6 +33,7 @@ from typing import Any
 from hess_explorer.protocol.parameters import Value
 
 __all__ = [
+    "ALIVE",
     "Answer",
     "CellExplained",
     "ChartCells",
@@ -47,6 +50,9 @@ __all__ = [
     "StopChart",
     "parse",
 ]
+
+ALIVE = {"alive": True}
+"""The request of a page that has heard nothing for seconds."""
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,7 @@ The first message of a websocket is one of
 - {"follow": name}: follow; the name is random, and counts the guesses of a page that reconnects once.
 
 Then the lecturer sends {"show": {"query", "lesson", "step", "revealed", "picture"}} and {"end": true}, a follower
-{"guess": [[x, y], …], "step": number}.
+{"guess": [[x, y], …], "step": number}.  Anyone may send `ALIVE` of `hess_explorer.protocol.messages`.
 
 A room sends the lecturer {"followers": n, "guesses": n} and, when a guess is revealed, {"cloud": [[[x, y], …], …]}.
 Followers get frames as in `hess_explorer.protocol.messages`: the description of the picture, and its states.

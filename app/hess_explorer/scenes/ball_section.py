@@ -336,10 +336,12 @@ class BallSection(State):
         if self.section.own is None:
             return Caption("Left out: too many steps.")
         if is_reversible(self.body):
-            return Caption("One point: every orbit closes.", "Proved by the symmetry γ₃ → −γ₃, t → −t.")
+            return Caption("One point: every orbit that returns closes.", "Proved by the symmetry γ₃ → −γ₃, t → −t.")
+        if self.closed is not None:
+            return Caption("Each ψ against the next.", f"Period {self.closed.orbit.period}.")
         if has_area_integral(self.body):
             return Caption("A curve: there is another integral.", "ω₁γ₁ + ω₂γ₂ is constant.")
-        return Caption("Each ψ against the next.", "Closed orbit: a point; regular: a curve; chaotic: a cloud.")
+        return Caption("Each ψ against the next.")
 
     def derived(self) -> Iterator[str]:
         """Yield the energies and the start of the orbit."""
@@ -379,6 +381,7 @@ SCENE = Scene(
             y_ticks=square.POLAR_TICKS,
             message=lambda s: s.section.reason,
             on_click=BallSection.start_at,
+            starts=True,
             layers=(
                 indicator_layer(lambda s: s.megno),
                 *density_layers(lambda s: s.density),

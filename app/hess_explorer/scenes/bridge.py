@@ -369,7 +369,7 @@ SCENE = Scene(
             circle.picture(
                 map=lambda s: s.map,
                 iterates=lambda s: s.iterates,
-                caption=lambda s: circle.about_cycles(s.map),
+                caption=lambda s: circle.about(s.map),
                 title="Circle map of both",
                 dot=("phi_start", "phi"),
                 on_click=lambda s, x, y: {"phi0": x},

@@ -343,6 +343,7 @@ def pictures(state: type[S], ball: bool = False) -> tuple[Picture[S], ...]:
             x=(-math.pi, math.pi),
             y=(0.0, math.pi),
             on_click=lambda s, x, y: s.start_here(x, y),
+            starts=True,
             layers=(
                 *layered_section.layers(
                     lambda s: s.regime.attractor,

@@ -91,7 +91,7 @@ _THERE, _LOW = "2.8,0.3", "-1.54,-0.86"
 _BELOW, _AT, _ABOVE = "a curve in a regular leaf", "the separatrix", "two layers part"
 _LS = np.array([-2.9, -2.7, -2.5, -2.2, 2.2, 2.5, 2.7, 2.9])
 _ON_HESS = written([*zip(_LS, hess_curve(HeavyBody.hess((1.0, 1.5, 2.0), -math.sqrt(0.5)), _LS), strict=True)])
-_NONE, _STABLE, _UNSTABLE = "no Hess motion yet", "the Hess motion is stable", "it is unstable, two layers part"
+_NONE, _STABLE, _UNSTABLE = "no Hess motion yet", "no limit cycles", "two limit cycles, two layers part"
 PRESETS = (
     *map(
         plain,

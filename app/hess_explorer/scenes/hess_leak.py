@@ -35,7 +35,7 @@ _RANGE = (LG_OF_0, 0.5)
 
 PRESETS = (
     Preset("Figure 11: h = 50, f = 5"),
-    Preset("No cycles: the manifold is stable", h=5.0, f=0.8, returns=60.0),
+    Preset("No cycles: stable to first order", h=5.0, f=0.8, returns=60.0),
     Preset("f = 0: loxodromic pendulum, e^(2πa)", h=20.0, f=0.0),
     Preset("From the unstable cycle", phi0=-1.7044856772778523, returns=30.0),
     Preset("Body of figure 14, f = 1, h = 2", **RIS, h=2.0, f=1.0, returns=30.0),
@@ -177,8 +177,11 @@ class HessLeak(State):
     def _about_leak(self) -> Caption:
         exact, growth = digits(mechanics.exact_growth(self.map)), self.leaks["own"].growth
         if self.map.kind != "hyperbolic":
-            largest = digits(float(np.max(np.abs(self.run.off))), 2)
-            return Caption("Stable: no cycles, no growth.", f"After {self._periods} periods |r·M| ≤ {largest}.")
+            merged, largest = self.map.fixed_points, digits(float(np.max(np.abs(self.run.off))), 2)
+            return Caption(
+                "Lock boundary: |r·M| grows like t²." if merged else "No cycles: no growth to first order.",
+                f"In {self._periods} periods |r·M| ≤ {largest}.",
+            )
         if growth is None:
             return Caption("Too short a growth to measure.", f"Exact growth {exact} per period.")
         measured = digits(growth.per_period)

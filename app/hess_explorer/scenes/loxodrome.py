@@ -13,6 +13,7 @@ from hess_explorer.scenes.framework.charted import of_torus
 from hess_explorer.scenes.framework.inertia import limits_of_moments
 from hess_explorer.scenes.framework.parameters import Slider, accuracy_level, parameter, time_span
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
+from hess_explorer.scenes.framework.solid_body import CIRCULAR_SECTION
 from hess_explorer.scenes.framework.work import orbit_status
 from hess_explorer.views import theme
 from hess_explorer.views.body import BodyInSpace, Curve, Rod, Shape, Trail
@@ -200,10 +201,7 @@ SCENE = Scene(
             curves=lambda s: [Curve(s.found.centre, "stable", 2.0)],
             trail=lambda s: Trail((0.0, 1.0, 0.0), "orbit"),
             mass=lambda s: np.array(s.pendulum.body.r),
-            signs=(
-                Sign("gyration ellipsoid", "line", "border-top: 2px solid #808080"),
-                Sign("circular section", "line", "border-top: 2px solid #BF6699"),
-            ),
+            signs=(CIRCULAR_SECTION,),
         ),
         BodyInSpace(
             name="space",
@@ -219,8 +217,8 @@ SCENE = Scene(
             circles=(Circle((1.0, 0.0, 0.0), 0.0, "limit"),),
             marks=(Mark((1.0, 0.0, 0.0), "muted", "e"), Mark((-1.0, 0.0, 0.0), "muted", "−e")),
             signs=(
-                Sign("loxodrome", "line", "border-top: 2px solid #808080"),
-                Sign("middle axis, its track", "line", "border-top: 2px solid #0072B2"),
+                Sign("loxodrome", "line", f"border-top: 2px solid {theme.MUTED}"),
+                Sign("middle axis, its track", "line", f"border-top: 4px solid {theme.ORBIT}"),
                 CENTRE_OF_MASS,
             ),
         ),

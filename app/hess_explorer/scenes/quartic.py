@@ -337,6 +337,7 @@ SCENE = Scene(
             caption=Quartic._about_section,
             axes=_NAMES,
             on_click=Quartic.start_at,
+            starts=True,
             title=lambda s: "Section {} = 0 (upward crossings)".format("q₂" if s.body.across else "q₁"),
             x=lambda s: s.section_axes().x,
             y=_P_AXIS,

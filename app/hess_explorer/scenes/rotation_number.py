@@ -270,14 +270,13 @@ class RotationNumber(State):
                 "All orbits of this torus are periodic.",
                 f"ρ = {rho} at {self.line} = {place}: {difference} ≤ {defect}.",
             )
-        return Caption("The only plateau is ρ = 0." if self.perturbed is None else f"No torus here has ρ = {rho}.")
+        return Caption("ρ locks at 0 only." if self.perturbed is None else f"No torus with ρ = {rho} is seen here.")
 
     def _about_circle(self) -> Caption:
         if self.map is None:
             return Caption("Separatrix: no return.")
-        kind = {"elliptic": "no cycle", "parabolic": "one cycle", "hyperbolic": "two cycles"}[self.map.kind]
         return Caption(
-            f"{self.map.kind.capitalize()}: {kind}.",
+            f"{self.map.kind.capitalize()}: {circle.cycles(self.map)}.",
             f"a = {digits(self.a)}, h = {digits(self.h)}, f = {digits(self.f)}; "
             f"ρ = {digits(self.map.rotation_number)}.",
         )
@@ -397,13 +396,13 @@ SCENE = Scene(
     group="Heavy body",
     essential=("a", "h", "f"),
     title="Rotation number",
-    summary="Is ρ of the Suslov–Hess torus a ladder, as the paper asks? One plateau, and a family that has many.",
+    summary="Is ρ of the Suslov–Hess torus a ladder, as the paper asks? It has one plateau; another family has many.",
     views=(
         Plot(
             name="map",
             title=lambda s: f"Rotation number ρ over ({s.over})",
             axes=lambda s: s.sides,
-            caption=lambda s: Caption("The only plateau is ρ = 0.", "Elsewhere ρ is nowhere constant."),
+            caption=lambda s: Caption("ρ locks at 0 only."),
             x=lambda s: s.window[0],
             y=lambda s: s.window[1],
             on_click=lambda s, x, y: {s.sides[0]: x, s.sides[1]: y},

@@ -258,6 +258,7 @@ SCENE = Scene(
             density="density-now",
             half_width=lambda s: cloud.room(s.clouds),
             on_click=lambda s, x, y: {"start": "small patch", "angle": math.atan2(y, x)},
+            starts=True,
         ),
         Sphere(
             caption=SingularMeasures._about_sphere, looks={}, clouds="omega", axis=lambda s: Direction(s.strip.xi, "ξ")

@@ -13,8 +13,7 @@ from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework import hess_case
 from hess_explorer.scenes.framework.charted import of_torus
 from hess_explorer.scenes.framework.hess_case import Proved, limit_cycles, map_or_none, possible_f, possible_I23, proved
-from hess_explorer.scenes.framework.parameters import Slider, accuracy_level, choice, number, parameter, slider_within
-from hess_explorer.scenes.framework.proved_zone import HIDDEN, SHOWN, ProvedZone, known_zone
+from hess_explorer.scenes.framework.parameters import Slider, accuracy_level, number, parameter, slider_within
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
 from hess_explorer.scenes.framework.solid_body import Solid, hess_solid, solid_body
 from hess_explorer.scenes.framework.torus_trials import boundary
@@ -25,7 +24,6 @@ from hess_explorer.scenes.parts.proof import Proof, proved_error_shown
 from hess_explorer.views import bifurcation_diagram as diagram
 from hess_explorer.views import circle_map as circle
 from hess_explorer.views import torus_density, torus_plane
-from hess_explorer.views.caption import Caption
 from hess_explorer.views.comparison import Cells
 from hess_explorer.views.layers import CellGrid, Columns
 from hess_explorer.views.plot import Plot
@@ -80,13 +78,6 @@ class SuslovHess(State):
         group="Computation",
         label="Time span",
         doc="Duration of the orbit, in the time of the body (at most 100 returns).",
-    )
-    cells: str = choice(
-        "Proved cells",
-        (HIDDEN, SHOWN),
-        HIDDEN,
-        doc="Cells of the bifurcation diagram of which it is proved that all their tori have two limit "
-        "cycles, or that none has: their number grows while you look.",
     )
     certain: str = proved_error_shown()
     shade: str = shaded_by()
@@ -203,17 +194,7 @@ class SuslovHess(State):
             return Proved("", "Proofs need python-flint: pip install 'hess-explorer[prove]'")
         return self.work.later(proved, self.I22, self.I23, self.h, self.f)
 
-    @cached_property
-    def zone(self) -> ProvedZone | None:
-        """The cells of the diagram proved so far; None if they are not shown."""
-        return known_zone(self.work, self.I22, self.I23, diagram.window(self.h).x[1]) if self.cells == SHOWN else None
-
     # ---- what the pictures show --------------------------------------------------------------------------------
-
-    def about_diagram(self) -> Caption:
-        """Return the caption of the bifurcation diagram."""
-        found = diagram.about(self.h, self.f, self.map)
-        return found if self.zone is None else replace(found, numbers=f"{found.numbers} {self.zone.sentence}")
 
     def orbit_columns(self) -> Columns:
         """Return the columns of the orbit and of the moving points in the other pictures."""
@@ -350,7 +331,7 @@ SCENE = Scene(
             name="bifurcation",
             title="Bifurcation diagram",
             axes=("h", "f"),
-            caption=SuslovHess.about_diagram,
+            caption=lambda s: diagram.about(s.h, s.f, s.map),
             dot=("h", "reach"),
             point=diagram.REACH,
             x=lambda s: diagram.window(s.h).x,
@@ -364,7 +345,6 @@ SCENE = Scene(
                 curve=lambda s: s.edge,
                 here=lambda s: [(s.h, s.f)],
                 axes=lambda s: diagram.window(s.h),
-                proved=lambda s: () if s.zone is None else s.zone.outlines,
             ),
         ),
         circle.picture(

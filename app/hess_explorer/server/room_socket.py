@@ -9,12 +9,13 @@ from zlib import crc32
 
 from tornado.websocket import WebSocketClosedError, WebSocketHandler
 
+from hess_explorer.protocol.messages import ALIVE
 from hess_explorer.rooms.messages import End, Follow, Guess, Lead, Open, Show, parse
 from hess_explorer.rooms.registry import Rooms
 from hess_explorer.rooms.room import Room
+from hess_explorer.server.hosts import is_allowed_origin
 from hess_explorer.server.limits import OPEN_SOCKETS, RateLimit
 from hess_explorer.server.relay import Relay
-from hess_explorer.server.websockets import is_allowed_origin
 
 __all__ = ["Outbox", "RoomSocket"]
 
@@ -70,7 +71,7 @@ class RoomSocket(WebSocketHandler):
         self._outbox = Outbox(self)
 
     def check_origin(self, origin: str) -> bool:
-        """Return True for the origins that Panel's websocket accepts."""
+        """Return True for the allowed origins."""
         # Another worker has checked a relayed request.
         return self._relay is None or is_allowed_origin(self, origin)
 
@@ -101,10 +102,13 @@ class RoomSocket(WebSocketHandler):
         if not self._limit.takes(self, message):
             return
         try:
-            told = parse(json.loads(message))
+            told = json.loads(message)
         except (ValueError, RecursionError):
             told = None
-        match told, self._room:
+        if told == ALIVE:
+            self.put("alive", "")
+            return
+        match parse(told), self._room:
             case (Open() | Lead() | Follow()) as wish, None:
                 self._enter(wish)
             case Show() as show, Room() as room:

@@ -11,6 +11,8 @@ from typing import Any, NoReturn
 
 import panel as pn
 from bokeh.document import Document
+from bokeh.server.server import Server
+from bokeh.util.logconfig import basicConfig
 from panel.io.resources import LOCAL_DIST, patch_model_css
 from panel.io.server import get_server
 from tornado.process import task_id
@@ -29,6 +31,7 @@ from hess_explorer.server.export import Export
 from hess_explorer.server.garbage import GARBAGE
 from hess_explorer.server.handlers import replace_handlers
 from hess_explorer.server.headers import GuardedDocument
+from hess_explorer.server.hosts import Hosts
 from hess_explorer.server.limits import MESSAGE_LIMIT, OPEN_SOCKETS
 from hess_explorer.server.liveness import is_alive
 from hess_explorer.server.modules import module_routes
@@ -43,7 +46,7 @@ from hess_explorer.server.warm import warm
 from hess_explorer.server.web_app import web_app_routes
 from hess_explorer.server.websockets import StateSocket
 
-__all__ = ["options", "serve"]
+__all__ = ["create_server", "serve"]
 
 BODY_LIMIT = 64 * 1024
 """Maximum size of a request body in bytes; no handler uses one."""
@@ -55,7 +58,7 @@ logger = logging.getLogger("hess_explorer")
 
 
 class Metrics(RequestHandler):
-    """GET /metrics: the counters of this process in the Prometheus text format."""
+    """GET /metrics: the counters of the worker that responds, which a label names, in the Prometheus text format."""
 
     def initialize(self, capacity: Capacity, rooms: Rooms) -> None:
         """Store the counters of sessions and rooms."""
@@ -71,7 +74,8 @@ class Metrics(RequestHandler):
             "websockets": len(OPEN_SOCKETS),
             "threads": threading.active_count(),
         }
-        self.finish("".join(f"hess_explorer_{name} {value}\n" for name, value in counters.items()))
+        label = f'{{worker="{task_id() or 0}"}}'
+        self.finish("".join(f"hess_explorer_{name}{label} {value}\n" for name, value in counters.items()))
 
 
 def _is_news(record: logging.LogRecord) -> bool:
@@ -113,7 +117,7 @@ def _lessons(own: Sequence[Lesson]) -> Mapping[str, Lesson]:
     return {**{lesson.name: lesson for lesson in own}, **shipped()}
 
 
-def options(
+def create_server(
     port: int,
     address: str,
     origins: Sequence[str],
@@ -121,33 +125,33 @@ def options(
     *,
     sessions: int,
     follow: Callable[[str], None] | None = None,
-    rooms: Rooms | None = None,
     relay: Relay | None = None,
     chart: str | None = None,
-) -> dict[str, Any]:
-    """Return the options of `panel.serve`; the parameters are those of `serve`.
+    **changed: Any,
+) -> Server:
+    """Return a server that listens but is not started; the parameters are those of `serve`.
 
-    rooms : the rooms of this process; relay : the way to those of other workers.
+    relay : the way to the rooms of other workers; changed : options of `panel.io.server.get_server`.
     """
-    capacity, rooms, relay = Capacity(sessions), rooms or Rooms(_lessons(lessons)), relay or Relay(1)
-    return {
-        "panels": {"/": lambda: _page(lessons, capacity)},
+    capacity, rooms, relay = Capacity(sessions), Rooms(_lessons(lessons)), relay or Relay(1)
+    patterns = [
+        ("/states", StateSocket, {"capacity": capacity, "lessons": lessons, "follow": follow}),
+        ("/metrics", Metrics, {"capacity": capacity, "rooms": rooms}),
+        (f"/r/({CODE})", RoomPage),
+        (f"/rooms/({CODE})", RoomSocket, {"rooms": rooms, "relay": relay}),
+        ("/qr.svg", QrCode),
+        ("/export", Export),
+        ("/preview", Preview),
+        *module_routes(),
+        *web_app_routes(),
+        *([] if chart is None else [("/chart.json", ServedChart, {"content": chart})]),
+    ]
+    options = {
         "title": "Hess Explorer",
         "port": port,
         "address": address,
         "websocket_origin": [f"localhost:{port}", f"127.0.0.1:{port}", *origins],
-        "extra_patterns": [
-            ("/states", StateSocket, {"capacity": capacity, "lessons": lessons, "follow": follow}),
-            ("/metrics", Metrics, {"capacity": capacity, "rooms": rooms}),
-            (f"/r/({CODE})", RoomPage),
-            (f"/rooms/({CODE})", RoomSocket, {"rooms": rooms, "relay": relay}),
-            ("/qr.svg", QrCode),
-            ("/export", Export),
-            ("/preview", Preview),
-            *module_routes(),
-            *web_app_routes(),
-            *([] if chart is None else [("/chart.json", ServedChart, {"content": chart})]),
-        ],
+        "extra_patterns": patterns,
         "liveness": True,
         "verbose": False,
         # Above the limit of `RateLimit`, which gives a better reason than Tornado.
@@ -158,6 +162,12 @@ def options(
         "check_unused_sessions_milliseconds": UNUSED_SESSION_MS // 4,
         "session_token_expiration": 3600,
     }
+    # With several workers, `get_server` forks and returns in each worker; the parent process supervises them.
+    server = get_server({"/": lambda: _page(lessons, capacity)}, start=False, **{**options, **changed})
+    Hosts(address, origins).guard(server)
+    rooms_only = [(f"/rooms/({CODE})", RoomSocket, {"rooms": rooms})]
+    relay.listen(Application(rooms_only, websocket_max_message_size=MESSAGE_LIMIT))
+    return server
 
 
 def serve(
@@ -185,7 +195,7 @@ def serve(
     show : bool
         True to open the page in a browser.
     origins : sequence of str
-        HOST:PORT of further pages that may open a websocket; this machine is always allowed.
+        HOST:PORT of further hosts by which browsers reach the server; those of this machine are always allowed.
     ready : callable
         Called from another thread when the page can be shown without compiling first.
     lessons : sequence of Lesson
@@ -201,7 +211,9 @@ def serve(
     chart : str or None
         Text of a chart, as the page saves it, which every page opens.
     """
-    logging.basicConfig(format="%(asctime)s %(name)s %(message)s")
+    # Bokeh's, because its logger has a handler without times.
+    basicConfig(format="%(asctime)s %(name)s %(message)s", datefmt="%Y-%m-%dT%H:%M:%S%z")
+    logging.captureWarnings(True)
     logger.setLevel(logging.INFO)
     logging.getLogger("asyncio").addFilter(_is_news)
     # Maximum wait of the event loop for the interpreter lock behind a computing thread; the default is 5 ms.
@@ -211,15 +223,19 @@ def serve(
     if chart is not None:
         GuardedDocument.head_elements += ServedChart.HEAD
     together = Workers() if workers > 1 else None
-    # With several workers, `get_server` forks and returns in each worker; the parent process supervises them.
-    rooms, relay = Rooms(_lessons(lessons)), Relay(workers)
-    told = options(
-        port, address, origins, lessons, sessions=sessions, follow=follow, rooms=rooms, relay=relay, chart=chart
+    server = create_server(
+        port,
+        address,
+        origins,
+        lessons,
+        sessions=sessions,
+        follow=follow,
+        relay=Relay(workers),
+        chart=chart,
+        show=show and workers == 1,
+        num_procs=workers,
     )
-    server = get_server(told.pop("panels"), start=False, show=show and workers == 1, num_procs=workers, **told)
     end_on_signals(server.io_loop)
-    rooms_only = [(f"/rooms/({CODE})", RoomSocket, {"rooms": rooms})]
-    relay.listen(Application(rooms_only, websocket_max_message_size=MESSAGE_LIMIT))
     if together is not None:
         # Only one worker reports that the explorer is ready, and all end with the parent process.
         ready = ready if task_id() == 0 else lambda: None

@@ -11,6 +11,7 @@ from asyncio import Future
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 
+from bokeh.protocol.exceptions import ProtocolError
 from panel.io.server import WSHandler
 from tornado.ioloop import IOLoop
 from tornado.websocket import WebSocketClosedError, WebSocketHandler
@@ -18,10 +19,12 @@ from tornado.websocket import WebSocketClosedError, WebSocketHandler
 from hess_explorer.lessons.lesson import Lesson
 from hess_explorer.page.connection import Connection
 from hess_explorer.page.opening import query_of
+from hess_explorer.protocol.messages import ALIVE
 from hess_explorer.server.capacity import Capacity
+from hess_explorer.server.hosts import is_allowed_origin
 from hess_explorer.server.limits import OPEN_SOCKETS, RateLimit
 
-__all__ = ["PanelSocket", "StateSocket", "is_allowed_origin"]
+__all__ = ["PanelSocket", "StateSocket"]
 
 FULL = "The explorer is full: try again in a minute."
 NO_JSON = "A message must be a text frame of JSON."
@@ -30,12 +33,18 @@ NO_JSON = "A message must be a text frame of JSON."
 class PanelSocket(WSHandler):
     """Panel's websocket with a rate limit; it is closed when the server shuts down."""
 
+    def check_origin(self, origin: str) -> bool:
+        """Return True for the allowed origins."""
+        return is_allowed_origin(self, origin)
+
     def open(self) -> None:
         """Register this websocket as open."""
         # A message consists of three frames: header, metadata and content.
         self._limit = RateLimit(frames=3)
-        super().open()  # type: ignore[no-untyped-call]  # Panel declares no types
-        OPEN_SOCKETS.add(self)
+        # Raised for a client without the token of a page, after its websocket was closed.
+        with suppress(ProtocolError):
+            super().open()  # type: ignore[no-untyped-call]  # Panel declares no types
+            OPEN_SOCKETS.add(self)
 
     def on_close(self) -> None:
         """Unregister this websocket."""
@@ -46,12 +55,6 @@ class PanelSocket(WSHandler):
         """Process a frame within the limits."""
         if self._limit.takes(self, fragment):
             await super().on_message(fragment)
-
-
-def is_allowed_origin(socket: WebSocketHandler, origin: str) -> bool:
-    """Return True for the origins that Panel's websocket accepts."""
-    # The method uses only the application, which all handlers share.
-    return PanelSocket.check_origin(socket, origin)  # type: ignore[arg-type]
 
 
 class StateSocket(WebSocketHandler):
@@ -72,7 +75,7 @@ class StateSocket(WebSocketHandler):
         self._sent: Future[None] | None = None
 
     def check_origin(self, origin: str) -> bool:
-        """Return True for the origins that Panel's websocket accepts."""
+        """Return True for the allowed origins."""
         return is_allowed_origin(self, origin)
 
     def open(self) -> None:
@@ -103,7 +106,10 @@ class StateSocket(WebSocketHandler):
         except (ValueError, RecursionError):
             self.close(1007, NO_JSON)
         else:
-            self._connection.receive(request)
+            if request == ALIVE:
+                self._send("")
+            else:
+                self._connection.receive(request)
 
     def on_close(self) -> None:
         """End the session, because the page has closed."""
@@ -112,6 +118,6 @@ class StateSocket(WebSocketHandler):
             self._connection.end()
             self._connection = None
 
-    def _send(self, frame: bytes) -> None:
+    def _send(self, frame: bytes | str) -> None:
         with suppress(WebSocketClosedError):
-            self._sent = self.write_message(frame, binary=True)
+            self._sent = self.write_message(frame, binary=isinstance(frame, bytes))

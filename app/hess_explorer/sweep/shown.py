@@ -14,7 +14,7 @@ from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.charted import Charted
 from hess_explorer.scenes.framework.scene import Scene
 from hess_explorer.sweep.chart import MOST_SIDE, Chart, Side, swept
-from hess_explorer.sweep.chart_file import PROGRAM
+from hess_explorer.sweep.chart_file import PROGRAM, chart_of
 from hess_explorer.sweep.quantities import QUANTITIES
 from hess_mechanics.errors import InvalidParameter, ModelError
 
@@ -25,7 +25,7 @@ __all__ = ["chart_file"]
 
 
 def chart_file(found: xr.Dataset, at: Mapping[str, float] | None = None) -> dict[str, Any]:
-    """Return the contents of the file in which the page would save this chart.
+    """Return the contents of the file in which the page would save this sweep, or has saved this chart.
 
     at : values of the other parameters of a sweep over more than two.
     A side with more cells than the page shows has every second or every third cell, and so on.  Raises
@@ -52,6 +52,8 @@ def chart_file(found: xr.Dataset, at: Mapping[str, float] | None = None) -> dict
         raise InvalidParameter(
             "The sides of a chart are evenly spaced: sweep over ranges LO:HI:N, or open the sweep in Python."
         )
+    if "state" in found.attrs:
+        return _written(chart_of(found), found)
     fixed = json.loads(found.attrs["parameters"])
     for scene in scenes().values():
         for charted in scene.charts:
@@ -104,7 +106,7 @@ def _in_scene(
 
 def _written(chart: Chart, found: xr.Dataset) -> dict[str, Any]:
     what = QUANTITIES[found.attrs["quantity"]]
-    part = what.parts[0] if what.parts else ""
+    part = what.parts[chart.part] if what.parts else ""
     values = found[what.variable].values
     values = (values[..., 0] if what.parts else values).T.ravel()
     errors = found.error.values if "error" in found else np.array([])
@@ -118,12 +120,12 @@ def _written(chart: Chart, found: xr.Dataset) -> dict[str, Any]:
         "scene": chart.scene.name,
         "state": state,
         "quantity": what.name,
-        "part": 0,
+        "part": chart.part,
         "symbol": f"{what.symbol} {part}".strip(),
         "units": what.units,
         "turn": what.turn,
         "level": found.attrs["level"],
-        "error": float(known.max()) if known.size else None,
+        "error": float(known.max()) if known.size else found.attrs.get("largest_error"),
         "version": found.attrs["version"],
         "names": [list(one) for one in what.named.get(part, {}).items()],
         **{

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import Any, TypeVar
 
 import numpy as np
@@ -78,12 +78,10 @@ def layers(
     curve: Callable[[S], Array],
     here: Callable[[S], Positions],
     axes: Callable[[S], Axes],
-    proved: Callable[[S], Sequence[Array]],
 ) -> Layers[S]:
     """Return the layers: rotation number ρ, lock zone in one tone, no motion in grey, a ring at the torus on show.
 
-    rotation : over the window; boundary : |t| = 2, (n, 2) with f ≥ 0; curve : upper branch of the edge, (n, 2);
-    proved : outlines of the proved cells with f > 0, (n, 2).
+    rotation : over the window; boundary : |t| = 2, (n, 2) with f ≥ 0; curve : upper branch of the edge, (n, 2).
     """
     corners = ("h", "f")
 
@@ -94,15 +92,6 @@ def layers(
     return (
         image("rotation", rotation, palette=theme.TURN_MAP, low=-0.5, high=0.5, cyclic=True, legend=(TURNS,)),
         region("locked", lambda s: _locked(boundary(s), axes(s)), color=theme.LOCKED, label="locked", tag="locked"),
-        curves(
-            "proved",
-            lambda s: [one for outline in proved(s) for one in _mirrored(outline)],
-            moving=False,
-            color=theme.INK,
-            width=0.75,
-            alpha=0.5,
-            label="proved cell",
-        ),
         curves("boundary", lock, moving=False, color=theme.INK),
         region("forbidden", lambda s: impossible(curve(s), axes(s)), label="impossible", tag="impossible"),
         curves("curve", lambda s: _mirrored(curve(s)), moving=False, color=theme.INK),

@@ -126,14 +126,12 @@ def seen_in_space(points: Array) -> Array:
     return np.stack([points[..., 1], -points[..., 2], -points[..., 0]], axis=-1)
 
 
-_WHEELS = (
-    Sign(
-        "wheels of the constraint: (ω, e) = 0, e in their plane",
-        "dot",
-        f"background: {theme.FORBIDDEN}; border: 2.5px solid",
-    ),
-    Sign("trace of a wheel; a dot for each of its turns", "line", "border-top: 3px dotted"),
+_WHEEL = Sign(
+    "wheels of the constraint: (ω, e) = 0, e in their plane",
+    "dot",
+    f"background: {theme.FORBIDDEN}; border: 2.5px solid",
 )
+_TRACE = "trace of a wheel; a dot for each of its turns"
 _WEIGHTS = Sign("weights with the body's moments of inertia", "dot", "background: #7C8794")
 
 
@@ -143,7 +141,7 @@ class BodyInSpace(Picture[S]):
 
     shape(state) : the ellipsoid of the body, or None.
     motion(state) : its attitude and the times (n,) in the player's units, or None.
-    wheels(state), trail(state) : the wheels of its constraint, the trail of one of its points or None.
+    wheels : the wheels of its constraint; trail(state) : the trail of one of its points or None.
     mass(state) : direction of the centre of mass of its weights, or None.
     hollow : draw a glass ball rolling on an inner ball instead of the ellipsoid; heavy(state) : whether γ is gravity.
     attitude : the picture whose attitude it follows, if it has none of its own.
@@ -153,7 +151,7 @@ class BodyInSpace(Picture[S]):
 
     shape: Callable[[S], Shape | None] = lambda state: None
     motion: Callable[[S], tuple[Attitude | Lying, Array] | None] | None = None
-    wheels: Callable[[S], Wheels] | None = None
+    wheels: Wheels | None = None
     trail: Callable[[S], Trail | None] = lambda state: None
     mass: Callable[[S], Array | None] = lambda state: None
     hollow: bool = False
@@ -180,7 +178,9 @@ class BodyInSpace(Picture[S]):
     @property
     def legend(self) -> tuple[Sign, ...]:
         """Entries that the picture adds to the legend of its scene."""
-        return (*self.signs, *(_WHEELS if self.wheels else ()), *((_WEIGHTS,) if self.motion else ()))
+        colour = "" if self.wheels is None else theme.SHADES[self.wheels.look][0]
+        wheels = (_WHEEL, Sign(_TRACE, "line", f"border-top: 3px dotted {colour}")) if colour else ()
+        return (*self.signs, *wheels, *((_WEIGHTS,) if self.motion else ()))
 
     def describe(self) -> dict[str, Any]:
         """Return the description of the picture for the browser."""
@@ -216,7 +216,7 @@ class BodyInSpace(Picture[S]):
                 "section": [] if shape.section is None else [*map(float, shape.section), radius],
             }
         if self.wheels is not None and motion is not None:
-            wheels = self.wheels(state)
+            wheels = self.wheels
             columns["wheels"] = [*map(float, wheels.at), *map(float, wheels.e), wheels.look]
             columns["arc"] = column(travelled(attitude.axes, wheels.at, wheels.e))
         trail = self.trail(state)

@@ -20,7 +20,7 @@ from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov_hess.circle_map import CircleMap
 from hess_mechanics.suslov_hess.invariant_measure import invariant_measure
 
-__all__ = ["EVENLY", "about", "cobweb", "look", "picture", "riccati_matrix"]
+__all__ = ["EVENLY", "about", "cobweb", "cycles", "look", "picture", "riccati_matrix"]
 
 S = TypeVar("S")
 Click = Callable[[S, float, float], Values]
@@ -78,6 +78,7 @@ def picture(
         dot=dot,
         message=lambda s: "" if map(s) is not None else "Separatrix: no return",
         on_click=on_click,
+        starts=on_click is not None,
         layers=_layers(map, iterates),
     )
 
@@ -137,6 +138,13 @@ def _layers(map: Callable[[S], CircleMap | None], iterates: Callable[[S], Array 
     )
 
 
+def cycles(theta: CircleMap) -> str:
+    """Return the cycles of a torus in words; a parabolic map without a fixed point of its own is the identity."""
+    if theta.kind == "parabolic":
+        return "the two cycles have merged" if theta.fixed_points else "every orbit closes"
+    return "two limit cycles" if theta.kind == "hyperbolic" else "no cycle"
+
+
 def about(theta: CircleMap | None, proof: str = "") -> Caption:
     """Return the kind of a map, its trace and rotation number, and its multipliers; None on the separatrix.
 
@@ -147,8 +155,7 @@ def about(theta: CircleMap | None, proof: str = "") -> Caption:
         return Caption("Separatrix: no return.")
     if "no torus" in proof:
         return Caption(numbers=proof)
-    cycles = {"hyperbolic": "two limit cycles", "parabolic": "the two cycles have merged"}.get(theta.kind, "no cycle")
-    kind = f"{theta.kind.capitalize()}: {cycles}."
+    kind = f"{theta.kind.capitalize()}: {cycles(theta)}."
     trace, rho = f"|trace| = {digits(theta.trace)}", f"ρ = {digits(theta.rotation_number)}"
     if "cycle" in proof:
         statement, bounds = proof.split(", ", 1)
@@ -168,14 +175,3 @@ def riccati_matrix(theta: CircleMap) -> str:
         f"Riccati matrix α = {digits(alpha.real)} {'−' if alpha.imag < 0.0 else '+'} {digits(abs(alpha.imag))} i, "
         f"β = {digits(beta.imag)} i"
     )
-
-
-def about_cycles(theta: CircleMap) -> Caption:
-    """Return the cycles of a map, and its trace."""
-    trace = f"|trace| = {digits(theta.trace)}"
-    if theta.kind == "hyperbolic":
-        stable, unstable = (digits(point.multiplier) for point in theta.fixed_points)
-        return Caption("Two limit cycles.", f"Multipliers {stable}, {unstable}; {trace}.")
-    if theta.kind == "parabolic":
-        return Caption("The two cycles have merged.", f"Multiplier 1; {trace}.")
-    return Caption("No cycle.", f"ρ = {digits(theta.rotation_number)}; {trace}.")

@@ -28,6 +28,7 @@ class Picture(ABC, Generic[S]):
     name : identifier; title : heading, or a function of the state.
     caption(state) : verdict and numbers; `full_caption` adds the title.
     on_click(state, x, y) : parameter values set by a click; on_drag : name of the layer whose point a drag moves.
+    starts : whether a click chooses where the motion starts.
     on_box(state, corners) : parameter values set by a box selection.
     on_hover(state, x, y) : tooltip for the place under the mouse.  Raises `ModelError`.
     signs : legend entries in addition to those of its layers.
@@ -40,6 +41,7 @@ class Picture(ABC, Generic[S]):
     caption: Callable[[S], Caption]
     on_click: Callable[[S, float, float], Values] | None = None
     on_drag: str = ""
+    starts: bool = False
     on_box: Callable[[S, Corners], Values] | None = None
     on_hover: Callable[[S, float, float], str] | None = None
     signs: tuple[Sign, ...] = ()
@@ -91,7 +93,7 @@ class Picture(ABC, Generic[S]):
 
     def describe(self) -> dict[str, Any]:
         """Return the description of the picture, sent to the browser before the first data."""
-        return {"name": self.name, "kind": self.kind, "hands": self.hands}
+        return {"name": self.name, "kind": self.kind, "hands": self.hands, "starts": self.starts}
 
     def ranges(self, state: S, held: Axes | None) -> Axes | None:
         """Return the axes that fit a state; those `held` where it has none."""

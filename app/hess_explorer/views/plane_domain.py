@@ -55,6 +55,7 @@ def picture(
         signs=signs,
         layers=layers,
         on_click=lambda s, x, y: dict(zip(names, (x, y), strict=True)),
+        starts=True,
     )
 
 

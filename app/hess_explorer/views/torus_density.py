@@ -9,6 +9,7 @@ import numpy as np
 
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
+from hess_explorer.views.circle_map import cycles
 from hess_explorer.views.graph import ANGLE, ANGLE_TICKS
 from hess_explorer.views.layers import CellGrid, Layers, Sign, dots, image
 from hess_explorer.views.plot import Plot
@@ -42,7 +43,7 @@ def reason_for_no_density(theta: CircleMap | None, turning: TurningPoints | None
     if theta.kind == "hyperbolic":
         return "|trace| > 2: all motions but one tend to the stable limit cycle."
     if theta.kind == "parabolic":
-        return "|trace| = 2: the two limit cycles merge."
+        return f"|trace| = 2: {cycles(theta)}."
     return "At f = 0 the angle φ jumps where w = 0: choose another f." if theta.f == 0.0 else ""
 
 

@@ -8,6 +8,7 @@ from typing import Any, ClassVar, TypeVar
 
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
+from hess_explorer.views.circle_map import cycles
 from hess_explorer.views.layers import MOVING_POINT, Axes, Columns, Sign, Sources, column
 from hess_explorer.views.picture import Picture
 from hess_mechanics.numerics.results import Array, Complex
@@ -104,4 +105,4 @@ def _kind(theta: CircleMap | None, turning: TurningPoints | None) -> str:
         return "f = 0: the centre is a circle."
     if theta.kind == "hyperbolic":
         return "Two limit cycles on the torus."
-    return "The limit cycles have merged." if theta.kind == "parabolic" else "No limit cycle on the torus."
+    return f"{cycles(theta).capitalize()}." if theta.kind == "parabolic" else "No limit cycle on the torus."

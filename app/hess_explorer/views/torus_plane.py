@@ -9,6 +9,7 @@ import numpy as np
 
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
+from hess_explorer.views.circle_map import cycles
 from hess_explorer.views.layers import Columns, Layers, Regions, line, region
 from hess_explorer.views.text import digits, ranging
 from hess_explorer.views.velocity_plane import band, ring_outside, velocity_columns
@@ -86,7 +87,7 @@ def about(theta: CircleMap | None, turning: TurningPoints | None) -> Caption:
     n1, n2 = turning.roots[1:]
     orbit = {
         "hyperbolic": "The orbit tends to the stable limit cycle.",
-        "parabolic": "The two limit cycles have merged.",
+        "parabolic": f"{cycles(theta).capitalize()}.",
     }.get(theta.kind, "No limit cycle: the orbit winds for ever.")
     if n2 - n1 < 1e-6:
         orbit = "Bifurcation curve: the torus is a circle."

@@ -101,6 +101,7 @@ def picture(
         y=about_origin(half_width),
         dot=("omega1", "omega2"),
         on_click=on_click,
+        starts=on_click is not None,
         layers=layers,
     )
 

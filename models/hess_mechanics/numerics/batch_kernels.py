@@ -117,7 +117,7 @@ def smallest(c, out):
     for i in range({n}):
         {_for_lanes(lambda lane: f"v{lane} = max(v{lane}, abs(c[1, i, {lane}]))")}
         {_for_lanes(lambda lane: f"s{lane} = max(abs(c[0, i, {lane}]), abs(c[1, i, {lane}]))")}
-        {_for_lanes(lambda lane: f"a{lane} = min(a{lane}, s{lane} if s{lane} > 0.0 else 1.0)")}
+        {_for_lanes(lambda lane: f"a{lane} = min(a{lane}, s{lane})")}
     {_for_lanes(lambda lane: f"out[{lane}] = min(a{lane}, v{lane})")}
 
 def values(c, i, s):
@@ -183,6 +183,7 @@ def add(y, low, s, compensated):
             for lane in range(LANES):
                 if is_small(size[lane]):
                     last[lane], previous[lane] = last_terms(c[:, :, lane], n)
+            for lane in range(LANES):
                 h[lane] = step_size(last[lane], previous[lane], order, tolerance)
             for lane in range(LANES):
                 step[lane] = 0.0

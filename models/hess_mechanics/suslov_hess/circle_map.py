@@ -140,7 +140,7 @@ class CircleMap(Result):
     rotation_number : float
         Rotation number ρ of the lifted map, in turns per return.
     fixed_points : tuple of FixedPoint
-        The stable fixed point, then the unstable one; one for a parabolic map, none for an elliptic map.
+        The stable fixed point, then the unstable one; one for a parabolic map, none for elliptic ones and the identity.
     period : float
         Period of n3, that is, the time between two returns.
     status : Status

@@ -1,6 +1,6 @@
 """Mode locking of the circle map: the rotation number over (h, f), and the boundary |t| = 2 of the lock zone.
 
-A Möbius map locks at integers only; in this family only the plateau ρ = 0 was found.  The lock zone ends on the
+A Möbius map locks at integers only, and here at 0 only (section 2 of proofs.md).  The lock zone ends on the
 bifurcation curve (`Geq3`) at h* = (1−2a²)/(2a√(1+a²)) and at the point (1, 0).
 """
 

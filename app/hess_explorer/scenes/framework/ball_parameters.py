@@ -36,7 +36,7 @@ B3 = replace(
     default=0.8,
     softbounds=_NEAR_0,
     bounds=_FIELD,
-    doc="b = −mg r; with I₁₃ = I₂₃ = 0 and b₃ = 0 every orbit closes.",
+    doc="b = −mg r; with I₁₃ = I₂₃ = 0 and b₃ = 0 every orbit that returns closes.",
 )
 
 PARAMETERS = {

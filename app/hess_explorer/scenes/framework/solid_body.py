@@ -12,6 +12,7 @@ import numpy as np
 
 from hess_explorer.scenes.framework.scene import State
 from hess_explorer.scenes.framework.work import Work
+from hess_explorer.views import theme
 from hess_explorer.views.body import BodyInSpace, Rod, Shape, Trail, Wheels
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import CENTRE_OF_MASS, Sign
@@ -26,15 +27,25 @@ from hess_mechanics.suslov.free import FreeMotion
 from hess_mechanics.suslov_hess.equations import HessBody
 from hess_mechanics.suslov_hess.torus import Track
 
-__all__ = ["Solid", "constrained_solid", "ellipsoid_of_inertia", "free_I33", "heavy_solid", "hess_solid", "solid_body"]
+__all__ = [
+    "CIRCULAR_SECTION",
+    "Solid",
+    "constrained_solid",
+    "ellipsoid_of_inertia",
+    "free_I33",
+    "heavy_solid",
+    "hess_solid",
+    "solid_body",
+]
 
 _LOST = 0.02
 """Largest `Lying.defect` of a motion that is drawn, in radians."""
 _TOO_LONG = Caption("Not drawn: the motion is too long.", "Its samples are too far apart to follow the rotation.")
 _WHEEL = (math.sqrt(0.5), math.sqrt(0.5), 0.0)
 """Direction of a wheel's contact, normal to e; off the axes of ω1 and ω2, about which it would pivot, not roll."""
-_TRAIL = Sign("trail of the centre of mass", "line", "border-top: 3px solid #0072B2")
-_SECTION = Sign("circular section of the gyration ellipsoid", "line", "border-top: 2.5px dashed #101010")
+_TRAIL = Sign("trail of the centre of mass", "line", f"border-top: 3px solid {theme.ORBIT}")
+CIRCULAR_SECTION = Sign("circular section of the gyration ellipsoid", "line", f"border-top: 2.5px dashed {theme.INK}")
+"""Legend entry of the section that `Shape.section` draws."""
 
 
 @dataclass(frozen=True)
@@ -196,11 +207,11 @@ def solid_body(
         rods=rods,
         heavy=lambda s: of(s).mass is not None,
         # Blue belongs to the orbit: to the centre of mass where its trail is drawn.
-        wheels=(lambda s: Wheels(_WHEEL, (0.0, 0.0, 1.0), "muted" if section else "orbit")) if wheels else None,
+        wheels=Wheels(_WHEEL, (0.0, 0.0, 1.0), "muted" if section else "orbit") if wheels else None,
         trail=trail,
         mass=mass,
         signs=(
-            *((_TRAIL, _SECTION) if section else ()),
+            *((_TRAIL, CIRCULAR_SECTION) if section else ()),
             *((CENTRE_OF_MASS,) if field else ()),
         ),
     )

@@ -131,8 +131,8 @@ class Exponent(Part[_Host]):
         if isinstance(found, NotFound):
             return Caption("No exponent: the motion ends early.")
         end = float(found.times[-1])
-        grows = f"Not chaotic: {found.no_chaos}." if found.no_chaos else "Chaotic."
-        kind = "Regular so far: falls as ln(t)/t." if found.is_regular else grows
+        grows = f"Not chaotic: {found.no_chaos}." if found.no_chaos else "Looks chaotic."
+        kind = "Looks regular." if found.is_regular else grows
         return Caption(kind, f"λ = {with_error(found.value, found.spread)} after t = {digits(end)}.")
 
     def notes(self) -> Iterator[str]:

@@ -461,6 +461,7 @@ def filled_picture(
         y=lambda s: (of(s).frame[0][1], of(s).frame[1][1]),
         first=Axes((x0, x1), (y0, y1)),
         on_click=lambda s, x, y: of(s).start_here(x, y),
+        starts=True,
         on_box=lambda s, corners: of(s).look_closer(corners),
         layers=(
             *under,

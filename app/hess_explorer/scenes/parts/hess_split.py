@@ -86,6 +86,8 @@ class HessSplit(Part[Host]):
             return Caption("No separatrices are found here.")
         value, error = self.split.value, self.split.error
         place = f"at l = {digits(self.split.l)}; as ε → 0: {digits(self.slope[0], 4)} ε."
+        if self.away and abs(value) <= error:
+            return Caption("No split is seen.", f"Less than {digits(error, 1)} {place}")
         if abs(value) <= error:
             return Caption("The separatrices are not split.", f"Less than {digits(error, 1)} {place}")
         return Caption("The separatrices are split.", f"By {digits(value)} ± {digits(error, 1)} {place}")

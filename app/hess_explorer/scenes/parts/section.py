@@ -31,10 +31,10 @@ from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.dynamics.section import SectionPoints, section_points
 from hess_mechanics.dynamics.shadowing import right_crossings, typical
 from hess_mechanics.errors import OutsideRegion, WorkLimit
-from hess_mechanics.numerics.accuracy import Computation, Level, Plan
+from hess_mechanics.numerics.accuracy import STANDARD, Computation, Level, Plan
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["Section", "crossings_of_each", "section_picture", "section_trial", "start_on"]
+__all__ = ["Section", "crossings_of_each", "first_place", "section_picture", "section_trial", "start_on"]
 
 _FEW = 30
 """Crossings of each orbit while a slider is dragged, and until all are known."""
@@ -183,14 +183,7 @@ class Section(Part[_Host]):
     @cached_property
     def aim(self) -> tuple[float, ...] | None:
         """The place where the chosen orbit starts, or else first crosses the section."""
-        given, points = np.array([self.given]), self.crossed.own
-        place = self.poincare.places_of(given)
-        states, there = self.poincare.states_at(*place.T)
-        if not (there[0] and np.abs(states - given).max() < _ON * max(1.0, float(np.abs(given).max()))):
-            if points is None or not len(points.states[0]):
-                return None
-            place = self.poincare.places_of(points.states[0])
-        return tuple(map(float, place[0]))
+        return _first_place(self.poincare, self.given, lambda: self.crossed.own)
 
     @cached_property
     def others(self) -> Array | None:
@@ -270,6 +263,26 @@ class Section(Part[_Host]):
             yield from filter(None, (self.reason, *(self.crossed.own.reasons if self.crossed.own else ())))
 
 
+def _first_place(
+    poincare: PoincareSection, state: Start, crossed: Callable[[], SectionPoints | None]
+) -> tuple[float, ...] | None:
+    """Return the place of a state on the section, or else of the first crossing; None without one."""
+    given = np.array([state])
+    place = poincare.places_of(given)
+    states, there = poincare.states_at(*place.T)
+    if not (there[0] and np.abs(states - given).max() < _ON * max(1.0, float(np.abs(given).max()))):
+        points = crossed()
+        if points is None or not len(points.states[0]):
+            return None
+        place = poincare.places_of(points.states[0])
+    return tuple(map(float, place[0]))
+
+
+def first_place(poincare: PoincareSection, state: Start) -> tuple[float, ...] | None:
+    """Return the place where the motion of a state starts, or else first crosses the section; None if it does not."""
+    return _first_place(poincare, state, lambda: _crossings(poincare, (state,), 1, STANDARD))
+
+
 def _crossings(
     poincare: PoincareSection, starts: tuple[tuple[float, ...], ...], crossings: int, level: Level
 ) -> SectionPoints:
@@ -311,6 +324,7 @@ def section_picture(of: Callable[[S], Section], start: str, title: str = "Poinca
         y=range_of(1),
         message=lambda s: s.reason,
         on_click=lambda s, x, y: {start: written([(x, y)])},
+        starts=True,
         layers=section_plane.layers(lambda s: s.points, others=lambda s: s.others, ended=lambda s: s.ended),
     ).of_part(of)
 
