@@ -185,7 +185,7 @@ def test_images_tables_and_links_of_own_lessons(browser, tmp_path):
     for name in ("a", "b"):
         (tmp_path / f"{name}.md").write_text(OWN.format(f"Lesson {name}"), encoding="utf-8")
     context = browser.new_context(reduced_motion="reduce")
-    with served(lessons=read_paths([tmp_path / "b.md", tmp_path / "a.md"])) as base:
+    with served(lessons=read_paths([tmp_path / "b.md", tmp_path / "a.md"])[0]) as base:
         tab = Explorer(context.new_page(), base)
         page = tab.page
         tab.goto("/")

@@ -98,9 +98,9 @@ def scene(
         One text for each picture: two names of variables for an orbit in their plane, "t" and a name for a graph over
         time, three names for the direction of a vector on a sphere, "exponent" for the largest Lyapunov exponent, and
         "section", "section x px" or "section x px at y = 0" for a Poincaré section, in which a click chooses the
-        motion.  "section x px at y = 0 on E, L" lies at levels of these integrals.  "branch" continues a periodic
-        orbit of that section over a parameter or a level.  By default the plane of the first two variables, or the
-        graph of a single one.
+        motion and a box a window; cells of MEGNO can lie under the points.  "section x px at y = 0 on E, L" lies at
+        levels of these integrals.  "branch" continues a periodic orbit of that section over a parameter or a level.
+        By default the plane of the first two variables, or the graph of a single one.
     sliders : mapping of str to (float, float), optional
         Ends of the sliders, by the names of parameters, variables and integrals.  Those of a coordinate are also the
         range of the section.

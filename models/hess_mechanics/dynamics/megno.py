@@ -195,7 +195,7 @@ def megno(
     first = samples // 5
     direction = np.cos(1.0 + np.arange(size) ** 2)
     frame = (direction / np.linalg.norm(direction))[:, None]
-    found, steps, excuses = np.empty((6, count)), np.zeros(count, int), [""] * count
+    found, steps, no_chaos_because = np.empty((6, count)), np.zeros(count, int), [""] * count
     ends, reasons = np.full(count, abs(span)), [""] * count
 
     def one(i: int) -> None:
@@ -240,7 +240,7 @@ def megno(
         found[:, i] = y.mean(), *windows, max(scatter, float(np.abs(windows[1:] - windows[0]).max())) + floor
         require_finite_rates(found[:, i])
         grows = count <= _FEW and bool(y.mean() > CHAOTIC)
-        excuses[i] = no_chaos(body, problem, problem.states[i], along, float(t[-1]), level, grows)
+        no_chaos_because[i] = no_chaos(body, problem, problem.states[i], along, float(t[-1]), level, grows)
 
     share(one, count, threads, _SHARE)
     return Megno(
@@ -249,7 +249,7 @@ def megno(
         frozen(found[1].copy()),
         frozen(found[5].copy()),
         frozen(found[1:5].T.copy()),
-        tuple(excuses),
+        tuple(no_chaos_because),
         frozen(ends),
         tuple(reasons),
         level.name,

@@ -6,8 +6,9 @@ import numpy as np
 from pytest import approx, mark, raises
 
 from hess_mechanics import System, lyapunov_exponent, lyapunov_spectrum, megno, systems, transition_matrix
+from hess_mechanics.dynamics.ensemble import complete
 from hess_mechanics.dynamics.spectrum import kaplan_yorke
-from hess_mechanics.errors import InvalidParameter, MotionEnds, WorkLimit
+from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.euler_poisson.andoyer import AndoyerSection
 from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.numerics.accuracy import DRAFT, REFERENCE
@@ -200,13 +201,13 @@ EXTREME = {
     [
         lyapunov_exponent,
         lambda *given: lyapunov_spectrum(*given, DRAFT),
-        lambda body, y, t: megno(body, [y], t, DRAFT, 1),
+        lambda body, y, t: complete(megno(body, [y], t, DRAFT, 1)),
         lambda *given: transition_matrix(*given, DRAFT),
     ],
 )
 def test_of_a_motion_beyond_double_range_there_is_a_sentence_and_no_number(find, name):
     parameters, state = EXTREME[name]
-    with raises(MotionEnds, match=r"exceeds the range of double precision.* less extreme parameters"):
+    with raises(WorkLimit, match=r"exceeds the range of double precision.* less extreme parameters"):
         find(systems()[name].at(parameters), state, 50.0)
 
 
