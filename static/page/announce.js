@@ -53,7 +53,7 @@ export function announcer(sentence) {
     if (news.length > 0) item.textContent = news.map((one) => one.join(" ")).join(" ")
     const changed = changes().join(", ")
     if (changed === "" && news.length === 0) return
-    const verdicts = news.map(([title, verdict]) => `${title} ${verdict}`).join(" ") || "The verdicts above the pictures stay."
+    const verdicts = news.map(([title, verdict]) => `${title} ${verdict}`).join(" ") || "No verdict changed."
     sentence.textContent = sentence.title = [changed, verdicts].filter(Boolean).join(". ")
   }
 

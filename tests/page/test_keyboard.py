@@ -78,4 +78,4 @@ def test_a_changed_verdict_is_announced_once_and_the_clock_never(explorer):
     explorer.change(lambda: explorer.slide(phi0=1.0))
     page.wait_for_timeout(1200)
     assert len(page.evaluate("heard")) == 1
-    expect(page.locator(".moves")).to_contain_text("→ 1. The verdicts above the pictures stay.")
+    expect(page.locator(".moves")).to_contain_text("→ 1. No verdict changed.")
