@@ -503,7 +503,6 @@ interface PageEvents {
   theme: void
   fullscreen: void
   present: void
-  print: void
   share: void
   invite: void
   "open-room": void

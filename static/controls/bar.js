@@ -41,8 +41,6 @@ const TOOLS = [
       icon: "M8 4a3.5 3.5 0 1 0 0 7 3.5 3.5 0 0 0 0-7zm8.5 2a3 3 0 1 0 0 6 3 3 0 0 0 0-6zM8 13c-3.6 0-6 1.8-6 4.4V20h12v-2.6c0-2.6-2.4-4.4-6-4.4zm8.5 1c-.7 0-1.3.1-1.8.2.8.9 1.3 2 1.3 3.2V20h6v-1.9c0-2.4-2.2-4.1-5.5-4.1z" },
     { name: "export", asks: true, title: "Data and figures of a picture",
       icon: "M11 3h2v8l3-3 1.4 1.4L12 14.8 6.6 9.4 8 8l3 3zM4 15h2v4h12v-4h2v6H4z" },
-    { name: "print", title: "Handout: pictures, numbers, text, link (Ctrl+P)",
-      icon: "M7 3h10v5H7zm-3 6h16a1 1 0 0 1 1 1v7h-4v4H7v-4H3v-7a1 1 0 0 1 1-1zm5 6v4h6v-4z" },
     { name: "present", title: "Present mode: large type, few controls (P)",
       icon: "M3 4h18v2h-1v10h-7v1.6l3.4 3-1.3 1.4L12 19.6 8.9 22l-1.3-1.4 3.4-3V16H4V6H3zm3 2v8h12V6z" },
     { name: "fullscreen", label: "Full screen", title: "Full screen (F)",

@@ -10,11 +10,11 @@ import { createAddress } from "./address.js"
 import { listen, tell } from "./bus.js"
 import { createCompare } from "./compare.js"
 import { embed, embedded } from "./embedding.js"
-import { createHandout } from "./handout.js"
 import { createHistory } from "./history.js"
 import { joinOther } from "./side_by_side.js"
 import { fill, paint, setAxes, shareAxes } from "./painting.js"
 import { present } from "./presenting.js"
+import { handlePrinting } from "./printing.js"
 import { createRequests } from "./requests.js"
 import { tabStore } from "./stores.js"
 import { createTheme } from "./theme.js"
@@ -92,8 +92,8 @@ export function startClient(model, host) {
   }))
 
   handleCommands({ address, theme })
-  createHandout(() => latest)
   joinOther()
+  handlePrinting(theme)
   shareAxes(() => scene)
 
   listen({

@@ -10,7 +10,7 @@ import { element, update } from "./elements.js"
  * @param {HTMLElement} box
  * @param {string} signs numbers separated by commas
  */
-export function showSigns(box, signs) {
+function showSigns(box, signs) {
   const there = new Set(signs.split(","))
   /** @type {NodeListOf<HTMLElement>} */
   const entries = box.querySelectorAll(".legend li")

@@ -6,8 +6,8 @@ import { sayDragMe } from "../page/handle.js"
 import { element } from "../page/elements.js"
 import { cloudPlane } from "./cloud_plane.js"
 import { planeGhost } from "./ghost.js"
-import { onDark, setDark, setShades, watchTheme } from "./looks.js"
-import { captionOf, createCell, fillCaption, fillHover, isFolded, isInSight, nameOf } from "./picture.js"
+import { setDark, setShades, watchTheme } from "./looks.js"
+import { createCell, fillCaption, fillHover, isFolded, isInSight, nameOf } from "./picture.js"
 import { buildPlot } from "./plot.js"
 import { colourPlot } from "./plot_looks.js"
 import { shootPlot } from "./shots.js"
@@ -146,16 +146,17 @@ function showGhost(taken) {
 }
 
 /**
- * Return [title, verdict, numbers, canvas] of the pictures in sight, for print.
+ * Lay a copy for print over each picture in sight, and return the copies.  The page is light.
  * @param {number} side width in pixels
- * @returns {[string, string, string, HTMLCanvasElement][]}
  */
 function shoot(side) {
-  const wasDark = onDark()
   setDark(false)
-  /** @type {[string, string, string, HTMLCanvasElement][]} */
-  const shots = gallery.cellsInSight().map((cell) => [...captionOf(cell), shown.shots.get(nameOf(cell))(side)])
-  setDark(wasDark)
+  const shots = gallery.cellsInSight().map((cell) => {
+    const sheet = shown.shots.get(nameOf(cell))(side)
+    sheet.className = "printed"
+    cell.querySelector(".host").append(sheet)
+    return sheet
+  })
   colour(shown)
   return shots
 }

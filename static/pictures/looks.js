@@ -25,7 +25,7 @@ export function setShades(given) {
 }
 
 function showShades() {
-  for (const [name, colour] of shadesOf(dark)) document.documentElement.style.setProperty(`--${name}`, colour)
+  for (const [name, pair] of Object.entries(shades)) document.documentElement.style.setProperty(`--${name}`, pair[dark ? 1 : 0])
 }
 
 /**
@@ -46,12 +46,6 @@ export function setDark(value) {
   dark = value
   showShades()
 }
-
-/**
- * Return [name, colour] of all shades.
- * @param {boolean} isDarkPage
- */
-export const shadesOf = (isDarkPage) => Object.entries(shades).map(([name, pair]) => [name, pair[isDarkPage ? 1 : 0]])
 
 /**
  * Return a colour of "theme.py" as it is on this page.

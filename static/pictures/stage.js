@@ -182,6 +182,10 @@ export function createStage(shelf, gallery) {
   function place(scene) {
     if (shelf.clientWidth === 0) return
     const type = typeNow()
+    // Printing scales the pictures as they stand to the width of the paper ("base.css").
+    for (const [key, value] of Object.entries({ across: shelf.clientWidth, down: shelf.clientHeight, type })) {
+      scene.grid.style.setProperty(`--${key}`, `${value}px`)
+    }
     const cells = scene.cells.filter((cell) => !isFolded(cell) && (introduced?.includes(nameOf(cell)) ?? true))
     for (const cell of scene.cells) if (!cells.includes(cell)) cell.classList.add("off")
     const own = scene === gallery.shown ? large.map((name) => cells.findIndex((cell) => nameOf(cell) === name)) : []

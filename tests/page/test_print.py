@@ -1,87 +1,79 @@
-"""Printing replaces the page by a handout."""
+"""The browser's print shows the title, the pictures in sight and the text, on white, and no controls."""
 
 import io
-import re
-from urllib.parse import parse_qs, urlsplit
 
 import pytest
 from PIL import Image, ImageChops
 
-from hess_explorer.protocol.parameters import Number
 from hess_explorer.scenes import scenes
-from hess_explorer.server.qr_code import drawing
 from support.page import HESS, wait_frames
 from support.thorough import sample
 
-# A print dialog cannot be answered by a test.
-NO_DIALOG = "() => { window.printed = 0; window.print = () => { window.printed += 1 } }"
-# {text of the head of each row: value}; of each picture its width, the share of its pixels that are white or light
-# grey, and how many have the blue of an orbit on a light page.
-HANDOUT = """() => {
-  const sheet = document.querySelector(".handout")
+# Everything visible, in all shadow roots: the tags of controls, and how far the rest reaches to the right.
+SEEN = """() => {
+  const within = (root) => [...root.querySelectorAll("*")].flatMap((item) => (
+    [item, ...(item.shadowRoot ? within(item.shadowRoot) : [])]))
+  const seen = within(document).filter((item) => item.checkVisibility({ visibilityProperty: true }))
   return {
-    rows: Object.fromEntries([...sheet.querySelectorAll(".numbers tr")].map(({ cells: [name, value] }) => (
-      [name.textContent, value.textContent]))),
-    captions: [...sheet.querySelectorAll("figcaption")].map((item) => item.textContent),
-    link: sheet.querySelector("header a").href, text: sheet.querySelector(".words").textContent,
-    code: sheet.querySelector(".code").innerHTML,
-    pictures: [...sheet.querySelectorAll("canvas")].map((canvas) => {
-      const { width, height } = canvas
-      const { data } = canvas.getContext("2d").getImageData(0, 0, width, height)
+    controls: seen.filter((item) => item.matches("button:not(.term), input, select, iframe, dialog, .tool")).length,
+    right: Math.max(...seen.map((item) => item.getBoundingClientRect().right)) / innerWidth,
+    clipped: seen.filter((item) => item.matches("section, div:not(.gallery, .host)")
+      && getComputedStyle(item).overflowY !== "visible" && item.scrollHeight > item.clientHeight + 1).length,
+    pictures: seen.filter((item) => item.matches(".printed")).map((canvas) => {
+      const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height)
       let [light, blue] = [0, 0]
       for (let i = 0; i < data.length; i += 4) {
         if (data[i + 3] < 10 || Math.min(data[i], data[i + 1], data[i + 2]) > 225) light += 1
-        const off = data[i] + Math.abs(data[i + 1] - 0x72) + Math.abs(data[i + 2] - 0xB2)
-        if (data[i + 3] > 200 && off < 12) blue += 1
+        if (data[i + 3] > 200 && data[i] + Math.abs(data[i + 1] - 0x72) + Math.abs(data[i + 2] - 0xB2) < 12) blue += 1
       }
-      return { width, light: light / (width * height), blue }
+      return { width: canvas.width, light: 4 * light / data.length, blue }
     }),
   }
 }"""
+# Width of A4 without margins of 1 cm, and its height, in CSS pixels.
+PAPER = {"width": 718, "height": 1047}
+
+
+def shot(page):
+    return Image.open(io.BytesIO(page.screenshot())).convert("RGB")
 
 
 @pytest.mark.parametrize("theme", sample(["light", "dark"], 1))
-def test_a_handout_has_the_pictures_the_numbers_the_text_and_the_link_dark_on_white(explorer, theme):
+def test_print_has_the_pictures_and_the_text_on_white_and_no_controls(explorer, theme):
     page = explorer.page
-    page.evaluate(NO_DIALOG)
     # With all groups unfolded the controls can be scrolled, which printing forgets.
     explorer.fold_controls()
     explorer.turn_theme(is_dark=theme == "dark")
-    explorer.change(lambda: explorer.slide(h=1.25))
-    explorer.set_time(2.0)
-    explorer.wait_url(h="1.25")
     # Painted once more, as it is after a print: lines over lines differ by a shade.
     page.evaluate("hess.tell('turn', ['body', 0.6, 0.35])")
     wait_frames(explorer, 4)
-    before = Image.open(io.BytesIO(page.screenshot())).convert("RGB")
-    page.keyboard.press("Control+p")
-    page.wait_for_function("window.printed === 1")
-    found = page.evaluate(HANDOUT)
-    values = {name: one for name, [one] in parse_qs(urlsplit(page.url).query).items()}
-    for spec in (spec for spec in scenes()[HESS].specs if isinstance(spec, Number)):
-        assert float(found["rows"][spec.label].replace("−", "-")) == pytest.approx(float(values[spec.name]), abs=1e-9)
-    assert found["rows"]["Time t"] == "2.000"
-    assert found["link"] == page.url
-    # The very code of that link.
-    assert re.findall(r' d="([^"]+)"', found["code"]) == re.findall(r' d="([^"]+)"', drawing(page.url))
-    assert "a wheel-like constraint forbids spin about" in found["text"]
+    before = shot(page)
+    page.evaluate("dispatchEvent(new Event('beforeprint'))")
+    page.emulate_media(media="print")
+    found = page.evaluate(SEEN)
+    assert found["controls"] == 0
+    assert found["clipped"] == 0
+    assert page.locator("h1:visible").all_inner_texts() == ["The Suslov–Hess case"]
+    assert page.get_by_text("a wheel-like constraint forbids spin about").is_visible()
     names = scenes()[HESS].open_pictures
-    assert found["captions"] == [re.sub(r"\s+", " ", explorer.caption(name)) for name in names]
-    # The body is shaded, a diagram is coloured; what is around them is white, the orbit has the colour of a light page.
-    assert len(found["pictures"]) == len(names)
-    light = dict(zip(names, (picture["light"] for picture in found["pictures"]), strict=True))
-    assert light["body"] > 0.5
-    assert light["omega"] > 0.9
-    assert light["circle"] > 0.9
-    assert light["bifurcation"] > 0.3
-    assert found["pictures"][names.index("omega")]["blue"] > 500
-    # 300 dots to an inch on 88 mm.
-    assert min(picture["width"] for picture in found["pictures"]) >= 88 / 25.4 * 300
-    # Printing ends, and the page is restored completely.
-    printed = page.pdf(format="A4", prefer_css_page_size=True)
-    assert len(re.findall(rb"/Width (?:1[01]\d\d|[2-9]\d\d\d)\b", printed)) >= len(names)
-    page.wait_for_function("document.querySelector('.handout') === null")
+    assert [page.locator(f".picture-{name} .title").is_visible() for name in names] == [True] * len(names)
+    # The body is shaded, a diagram is coloured; around them it is white, the orbit has the colour of a light page.
+    pictures = dict(zip(names, found["pictures"], strict=True))
+    least = {"body": 0.5, "omega": 0.9, "circle": 0.9, "bifurcation": 0.3}
+    assert all(pictures[name]["light"] > share for name, share in least.items()), pictures
+    assert pictures["omega"]["blue"] > 500
+    assert min(picture["width"] for picture in pictures.values()) >= 1180
+    # The paper itself is white.
+    assert shot(page).getpixel((1590, 5)) == (255, 255, 255)
+    page.set_viewport_size(PAPER)
+    assert page.evaluate(SEEN)["right"] <= 1
+    page.evaluate("dispatchEvent(new Event('afterprint'))")
+    page.emulate_media(media="screen")
+    explorer.resize(before.width, before.height)
+    # A real print ends, and the page is restored completely.
+    assert len(page.pdf(format="A4")) > 100_000
+    page.wait_for_function("document.documentElement.style.colorScheme === theme".replace("theme", repr(theme)))
+    assert page.locator(".printed").count() == 0
     wait_frames(explorer, 4)
-    after = Image.open(io.BytesIO(page.screenshot())).convert("RGB")
     # The browser paints everything anew: rounded corners differ by a level of grey now and then.
-    assert all(most <= 2 for _, most in ImageChops.difference(before, after).getextrema())
+    assert all(most <= 2 for _, most in ImageChops.difference(before, shot(page)).getextrema())

@@ -24,10 +24,8 @@ __all__ = ["HOME", "document"]
 HOME = "http://localhost:5006/"
 """Default address of the explorer."""
 
-# How "page/handout.js" names its style sheet, which a file contains.
-_SHEET = 'new URL("handout.css", import.meta.url).href'
 _POLICY = (
-    "default-src 'none'; script-src 'unsafe-inline' data:; style-src 'unsafe-inline' data:; img-src data: blob:; "
+    "default-src 'none'; script-src 'unsafe-inline' data:; style-src 'unsafe-inline'; img-src data: blob:; "
     "connect-src data:"
 )
 """Content-Security-Policy that blocks all requests to other hosts."""
@@ -131,14 +129,9 @@ def document(
 def _code() -> str:
     """Return Bokeh and the modules of the page, compressed, in base 64."""
     bokeh = "\n".join(Resources(mode="inline", components=["bokeh"]).js_raw)
-    sheet = _data_url("text/css", (STATIC / "page/handout.css").read_bytes())
-    page = bundle("offline/file.js").replace(_SHEET, json.dumps(sheet))
-    code = json.dumps({"bokeh": bokeh, "page": _data_url("text/javascript", page.encode())})
+    page = base64.b64encode(bundle("offline/file.js").encode()).decode()
+    code = json.dumps({"bokeh": bokeh, "page": f"data:text/javascript;base64,{page}"})
     return base64.b64encode(zlib.compress(code.encode(), 9)).decode()
-
-
-def _data_url(kind: str, content: bytes) -> str:
-    return f"data:{kind};base64,{base64.b64encode(content).decode()}"
 
 
 def _json(value: Any) -> str:

@@ -17,11 +17,11 @@ __all__ = ["Explorer", "styles"]
 
 
 def styles() -> dict[str, str]:
-    """Return the style sheets of the parts by path, without those for printing, offline files and followers."""
+    """Return the style sheets of the parts by path, without those for offline files and followers."""
     return {
         f"{path.parent.name}/{path.name}": path.read_text(encoding="utf-8")
         for path in sorted(STATIC.glob("*/*.css"))
-        if path.stem not in ("follow", "handout", "offline")
+        if path.stem not in ("follow", "offline")
     }
 
 

@@ -1,4 +1,4 @@
-"""Serve the JavaScript modules, the style sheet for printing and the gallery, under a URL that changes with them."""
+"""Serve the JavaScript modules and the gallery, under a URL that changes with them."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from hess_explorer.bundle import bundle
 
 __all__ = ["module_routes"]
 
-_FILES = r"page/(?:start|web_app)\.js|page/handout\.css|thumbnails/[a-z-]+\.jpg"
+_FILES = r"page/(?:start|web_app)\.js|thumbnails/[a-z-]+\.jpg"
 _BUNDLES = r"page/(?:served|follow)\.js"
 _YEAR = 365 * 24 * 3600
 

@@ -1,4 +1,4 @@
-"""QR codes of links to the page, for the *Share* dialog and for printing."""
+"""QR codes of links to the page, for the dialogs *Share* and *Invite*."""
 
 from __future__ import annotations
 
