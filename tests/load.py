@@ -429,9 +429,9 @@ def main():
             serve(dragged, lambda *server: drags(*server, options.counts, options.drag, options.seconds), workers)
         elif options.counts:
             serve(f"A class, {served}:", lambda *server: measure(*server, options.counts, options.seconds), workers)
-        if options.followers:
-            lectured = f"A lecture, {served} (median, p95; cores of the server):"
-            serve(lectured, lambda *server: lecture(*server, options.followers, options.seconds), workers)
+    if options.followers:
+        lectured = "A lecture, served by 1 process (median, p95; cores of the server):"
+        serve(lectured, lambda *server: lecture(*server, options.followers, options.seconds))
     if options.leave:
         left = f"{options.leave} sessions opened and left, after each quarter has expired:"
         serve(left, lambda *server: leave(*server, options.leave))

@@ -53,8 +53,6 @@ def _replica(stack, folder, origin):
                 "--port",
                 str(port),
                 "--no-browser",
-                "--workers",
-                "2",
                 "--allow-origin",
                 origin,
             ],
@@ -92,7 +90,7 @@ async def _main(base, trusted, replicas):
     state = await visitor.ask(values={"b1": 0.7})
     link = state["query"]
     print(f"websocket through the proxy: {json.dumps(link)[:90]}…")
-    # Rooms of both replicas and of all workers; nobody in them has a cookie.
+    # Rooms of both replicas; nobody in them has a cookie.
     for _ in range(8):
         lecturer = await Lecturer.open(base, ssl_options=trusted)
         followers = [await Follower.follow(base, lecturer.code, ssl_options=trusted) for _ in range(4)]

@@ -9,13 +9,14 @@ import { dialogOf } from "./dialog.js"
 /** Return the dialog and the function that opens it, and with it the room. */
 export function inviteDialog() {
   const code = element("div.code", { role: "img", ariaLabel: "QR code of the address" })
+  const scan = element("p", { hidden: true }, "Scan the code, or open")
   const address = element("p.room-address")
   const count = element("p.room-count", { role: "status" })
   const unreachable = element("p.unreachable", { hidden: true }, "Phones cannot reach this address. Start the explorer with " +
     "--address 0.0.0.0, and open the page by the name of this computer in its network.")
   const end = button("button.param-end-room", () => tell("end-room"), "End the lecture")
   const dialog = dialogOf("Invite", "menu-of-scenes.invite", [], element("div.invitation",
-    code, element("div", element("p", "Scan the code, or open"), address, unreachable, count,
+    code, element("div", scan, address, unreachable, count,
       element("p.small", "Phones show your scene, state, picture and lesson step, and take guesses. Nobody's name is asked, and " +
         "nothing is kept when the lecture ends."), end)))
   let drawn = ""
@@ -36,7 +37,7 @@ export function inviteDialog() {
 
   listen({
     room({ code: name, address: link, followers, said }) {
-      end.hidden = name === null
+      scan.hidden = end.hidden = name === null
       count.textContent = name === null ? said : `${followers} follower${followers === 1 ? "" : "s"}`
       draw(link)
     },

@@ -52,7 +52,7 @@ def test_the_index_leads_to_every_page_and_nowhere_else(site):
     targets = re.findall(r'href="([^"#]+)', index)
     assert {*targets} - {"data:,"} == {*wanted.values()}
     files = {path.relative_to(folder).as_posix(): path.stat().st_size for path in folder.rglob("*") if path.is_file()}
-    assert files.keys() == {*wanted.values(), "index.html", "service_worker.js"}
+    assert files.keys() == {*wanted.values(), "index.html"}
     # The command lists the bytes of each page.
     for path, size in files.items():
         assert re.search(rf"{size:,} bytes +{re.escape(path)}", said)
@@ -63,8 +63,7 @@ def test_the_index_leads_to_every_page_and_nowhere_else(site):
 
 def test_every_page_opens_and_its_sliders_move(site, browser):
     folder, wanted, _ = site
-    with opened(browser, (folder / "index.html").as_uri(), ready="#keep") as page:
-        assert page.locator("#keep").is_hidden()
+    with opened(browser, (folder / "index.html").as_uri(), ready="a.page") as page:
         titles = page.locator("a.page strong").all_inner_texts()
     for name, path in wanted.items():
         with opened(browser, (folder / path).as_uri(), (1280, 720)) as page:
@@ -93,7 +92,7 @@ def test_a_picture_of_the_gallery_opens_its_example(site, browser):
 
 
 @pytest.mark.thorough
-def test_any_web_server_shows_it_in_a_frame_and_it_is_read_without_one(site, browser):
+def test_any_web_server_shows_it_also_in_a_frame(site, browser):
     folder, _, _ = site
     frame = '<!DOCTYPE html><iframe src="pages/scenes/suslov-hess.html" width="800" height="500"></iframe>'
     (folder.parent / "course.html").write_text(frame, encoding="utf-8")
@@ -104,14 +103,10 @@ def test_any_web_server_shows_it_in_a_frame_and_it_is_read_without_one(site, bro
         page = context.new_page()
         page.goto(f"{base}/course.html")
         page.frame_locator("iframe").locator(READY).wait_for(state="attached")
-        page.goto(f"{base}/pages/index.html")
-        page.get_by_role("button", name="Keep all pages").click()
-        page.get_by_role("button", name="All pages can be read offline").wait_for()
-    # The server has ended.
-    page.goto(f"{base}/pages/scenes/suslov-hess.html")
-    page.locator(READY).wait_for(state="attached")
-    page.locator("a.contents").click()
-    page.get_by_role("heading", name="Lessons").wait_for()
+        page.goto(f"{base}/pages/scenes/suslov-hess.html")
+        page.locator(READY).wait_for(state="attached")
+        page.locator("a.contents").click()
+        page.get_by_role("heading", name="Lessons").wait_for()
     context.close()
     assert errors == []
 

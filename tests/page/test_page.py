@@ -215,7 +215,8 @@ def test_a_script_in_any_key_of_a_link_is_neither_run_nor_shown(explorer):
     )
     assert len(seen) > 500
     assert not [text for text in seen if "pwned" in text or "onerror" in text]
-    assert len(explorer.text("notes").splitlines()) == len(keys)
+    assert len(explorer.text("notes").splitlines()) == len(keys) + 1
+    assert "no parameter '…'" in explorer.text("notes")
     # The page's own link is clean again; the first change of the user takes the notes of the link away.
     assert "pwned" not in urlencode(explorer.wait_url(v="1"))
     explorer.change(lambda: explorer.slide(h=0.3))

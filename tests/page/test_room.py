@@ -10,6 +10,7 @@ from playwright.sync_api import expect
 from hess_explorer.assets import modules_path
 from hess_explorer.headless.browser import wait_ready
 from hess_explorer.lessons import shipped
+from hess_explorer.server.room_socket import SEVERAL
 from support.accessible import assert_accessible
 from support.asynchronous import finished
 from support.barcode import read
@@ -200,6 +201,18 @@ def test_a_follower_plays_alone_and_comes_back_and_the_room_outlives_a_reload(le
     small.get_by_role("link", name="Open Hess Explorer").tap()
     wait_ready(small)
     assert small.get_by_role("link", name="Back to the lecture").count() == 0
+
+
+def test_where_several_processes_serve_the_dialog_says_that_rooms_need_one(browser, server):
+    page = browser.new_page()
+    page.route_web_socket(re.compile("/rooms/"), lambda socket: socket.close(code=SEVERAL[0], reason=SEVERAL[1]))
+    page.goto(f"{server}/")
+    wait_ready(page)
+    page.get_by_role("button", name="Invite").click()
+    expect(page.locator(".room-count")).to_have_text(SEVERAL[1])
+    for absent in (page.get_by_text("Scan the code"), page.get_by_role("button", name="End the lecture")):
+        expect(absent).to_be_hidden()
+    page.close()
 
 
 def test_a_code_that_is_none_says_so(browser, server):

@@ -6,10 +6,12 @@ import numpy as np
 import pytest
 from playwright.sync_api import expect
 
+from hess_explorer.headless.screenshot import server_process
 from hess_explorer.server.served_chart import ServedChart
 from hess_explorer.sweep import explain, read, sweep
 from hess_explorer.sweep.shown import chart_file
 from hess_mechanics.errors import InvalidParameter
+from support.processes import UNWARMED
 
 OVER = {"h": (-0.5, 2.0, 6), "f": (-1.0, 1.0, 5)}
 
@@ -84,3 +86,14 @@ def test_the_page_opens_the_chart_with_its_state(browser, server):
         found = [page.locator(f".param-{side}-{what}").input_value() for what in ("from", "to", "cells")]
         assert [*map(float, found)] == [low, high, count]
     page.close()
+
+
+@pytest.mark.thorough
+def test_a_page_opens_the_chart_of_its_server(browser, tmp_path):
+    sweep("rotation-number", OVER, a=0.25, store=tmp_path / "rho.zarr")
+    with server_process(tmp_path / "log", UNWARMED, ["--chart", str(tmp_path / "rho.zarr")]) as (_, url):
+        page = browser.new_page()
+        page.goto(f"{url}/?scene=suslov-hess")
+        page.get_by_text("6 × 5, precise accuracy").wait_for(timeout=60_000)
+        assert page.get_by_text("Chart: ρ").is_visible()
+        page.close()

@@ -12,28 +12,21 @@ from tornado.httpclient import AsyncHTTPClient, HTTPClientError, HTTPRequest
 from tornado.websocket import websocket_connect
 
 from hess_explorer.headless.screenshot import server_process
+from hess_explorer.server.room_socket import SEVERAL
 from support.asynchronous import finished
 from support.processes import UNWARMED, assert_gone, below
-from support.room import Follower, Lecturer
+from support.room import Follower, Lecturer, new_code
 from support.visitor import Visitor
 
 WORKERS = ("--workers", "2")
 
 
-async def meet(base):
-    """All members of a room meet, of whichever worker they are; codes of both workers."""
-    for _ in range(3):
-        lecturer = await Lecturer.open(base)
-        followers = [await Follower.follow(base, lecturer.code) for _ in range(4)]
-        await lecturer.until(lambda one: one.followers == 4)
-        await lecturer.show("scene=loxodrome&accuracy=draft")
-        for one in followers:
-            await one.until(lambda one: "scene=loxodrome" in one.state["query"])
-        await followers[0].leave()
-        await lecturer.until(lambda one: one.followers == 3)
-        await lecturer.say({"end": True})
-        assert [await one.end() for one in followers[1:]] == ["4001: The lecture has ended."] * 3
-        await lecturer.leave()
+async def refused(base):
+    """The reasons for which a server of several processes has no rooms, for a lecturer and a follower."""
+    return [
+        await (await kind.connect(base, new_code(), first)).end()
+        for kind, first in ((Lecturer, {"open": True}), (Follower, {"follow": "somebody"}))
+    ]
 
 
 async def told(base, end, count):
@@ -66,7 +59,7 @@ def test_of_several_workers_all_tell_their_pages_and_end_with_the_process_that_b
         workers = below(process.pid)[1:]
         assert len(workers) == 2
         assert finished(answering(base)) == {"0", "1"}
-        finished(meet(base))
+        assert finished(refused(base)) == [f"{SEVERAL[0]}: {SEVERAL[1]}"] * 2
         # One that was killed is replaced.
         os.kill(workers[0], signal.SIGKILL)
         heard = finished(told(base, process.terminate, 4))

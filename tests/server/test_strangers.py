@@ -3,14 +3,17 @@
 import json
 import re
 import socket
+from types import SimpleNamespace
 
 import pytest
 from tornado.httpclient import AsyncHTTPClient, HTTPClientError, HTTPRequest
+from tornado.httputil import HTTPHeaders
 from tornado.websocket import websocket_connect
 
 from hess_explorer.assets import modules_path
 from hess_explorer.server.handlers import replace_handlers
 from hess_explorer.server.headers import GuardedDocument, policy
+from hess_explorer.server.home import home_of
 from hess_explorer.server.hosts import REFUSED
 from support.asynchronous import finished
 from support.serving import served
@@ -45,7 +48,7 @@ async def opened(base, headers, path="states"):
 SOCKETS = ("states", "ws", "rooms/ABCDEF")
 PATHS = (
     *("", "r/ABCDEF", "liveness", "metrics", "static/js/bokeh.min.js", "export?picture=circle", "qr.svg?text=a"),
-    *("preview", "app.webmanifest", "service_worker.js", "autoload.js", "favicon.ico", "nothing"),
+    *("autoload.js", "favicon.ico", "nothing"),
     *(f"{modules_path()}/page/{name}.js" for name in ("start", "served")),
 )
 
@@ -116,6 +119,29 @@ def test_the_page_runs_its_own_scripts_and_only_its_parts_are_shown_elsewhere():
     replace_handlers([])
     assert policy("", GuardedDocument.embedders).endswith("frame-ancestors 'none'")
     assert "X-Frame-Options" not in part.headers
+
+
+@pytest.mark.parametrize(
+    ("query", "schemes"), [("", "light dark"), ("theme=dark", "dark"), ("theme=%22%3E", "light dark")]
+)
+def test_the_first_frame_has_the_theme_of_the_link(query, schemes):
+    with served() as base:
+        (page,) = fetched(base, f"?{query}")
+    assert f'<meta name="color-scheme" content="{schemes}">' in page.body.decode()
+
+
+@pytest.mark.parametrize(
+    ("host", "headers", "address"),
+    [
+        ("here:5006", {}, "http://here:5006/"),
+        ("a b<c", {"Prefix": "/../<x>"}, "http://localhost/"),
+        ("here:5006", {"Host": 'evil"><script>', "Proto": "javascript"}, "http://here:5006/"),
+        ("a", {"Proto": "https, http", "Host": "hess.example.org", "Prefix": "/x"}, "https://hess.example.org/x/"),
+    ],
+)
+def test_the_address_of_the_page_is_that_of_its_proxy_and_never_forged(host, headers, address):
+    told = HTTPHeaders({f"X-Forwarded-{name}": value for name, value in headers.items()})
+    assert home_of(SimpleNamespace(headers=told, host=host, protocol="http", path="/")) == address
 
 
 def test_a_page_whose_websocket_comes_to_another_process_asks_no_other_host():

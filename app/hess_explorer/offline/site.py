@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import base64
-import hashlib
 import multiprocessing
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
@@ -25,12 +24,9 @@ from hess_mechanics.numerics.files import write_whole
 
 __all__ = ["build", "pages"]
 
-_INDEX, _WORKER = "index.html", "service_worker.js"
+_INDEX = "index.html"
 
-_POLICY = (
-    "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:; connect-src 'self'; "
-    "worker-src 'self'"
-)
+_POLICY = "default-src 'none'; style-src 'unsafe-inline'; img-src data:"
 
 _PAGE = """<!DOCTYPE html>
 <html lang="en">
@@ -47,10 +43,8 @@ _PAGE = """<!DOCTYPE html>
 <h1>Hess Explorer</h1>
 <p>The Suslov problem, its Hess case and their relatives, as pages that need no server. Their sliders move through
 computed states; in the explorer everything moves.</p>
-<button id="keep" hidden>Keep all pages for reading offline ({megabytes} MB)</button>
 {parts}
 <p class="program">{program}</p>
-<script>{script}</script>
 </body>
 </html>
 """
@@ -121,12 +115,12 @@ def build(
         If a state cannot be computed.
     """
     wanted = pages(names)
-    own = {_INDEX, _WORKER, *(Path(path).parent.name for path in pages().values())}
+    own = {_INDEX, *(Path(path).parent.name for path in pages().values())}
     if folder.exists() and not {one.name for one in folder.iterdir()} <= own:
         raise InvalidParameter(f"The folder {str(folder)!r} holds other files: choose an empty one.")
     for path in {Path(file).parent for file in wanted.values()}:
         (folder / path).mkdir(parents=True, exist_ok=True)
-    sizes, digests = dict[str, int](), dict[str, str]()
+    sizes = dict[str, int]()
     # New processes, because a fork of one that has compiled kernels and started threads can hang.
     pool = ProcessPoolExecutor(workers, mp_context=multiprocessing.get_context("spawn"))
     with pool:
@@ -134,29 +128,19 @@ def build(
         try:
             for done, one in enumerate(as_completed(running), 1):
                 name = running[one]
-                sizes[wanted[name]], digests[wanted[name]] = one.result()
+                sizes[wanted[name]] = one.result()
                 if report is not None:
                     report(name, done, len(wanted))
         except BaseException:
             pool.shutdown(cancel_futures=True)
             raise
-    index = _index(wanted, sum(sizes.values()))
-    # The name of the cache changes with the contents, so that browsers drop pages of an earlier site.
-    digest = _digest("".join([index, *(digests[path] for path in sorted(digests))]).encode())
-    worker = (STATIC / "offline/site_worker.js").read_text(encoding="utf-8").replace("VERSION", digest)
-    for file, text in ((_WORKER, worker), (_INDEX, index)):
-        content = text.encode()
-        write_whole(folder / file, content)
-        sizes[file] = len(content)
-    return sizes
+    index = _index(wanted).encode()
+    write_whole(folder / _INDEX, index)
+    return {**sizes, _INDEX: len(index)}
 
 
-def _digest(content: bytes) -> str:
-    return hashlib.sha256(content).hexdigest()[:16]
-
-
-def _write(path: Path, name: str, count: int, home: str) -> tuple[int, str]:
-    """Write a page; return its size in bytes and a digest of its contents."""
+def _write(path: Path, name: str, count: int, home: str) -> int:
+    """Write a page; return its size in bytes."""
     contents = f"../{_INDEX}"
     lesson = shipped().get(name)
     if lesson is not None:
@@ -165,17 +149,15 @@ def _write(path: Path, name: str, count: int, home: str) -> tuple[int, str]:
         examples = [one.preset for one in EXHIBITS if one.scene == name]
         content = scene_page(scenes()[name], examples, count, home=home, contents=contents)
     write_whole(path, content)
-    return len(content), _digest(content)
+    return len(content)
 
 
-def _index(wanted: Mapping[str, str], size: int) -> str:
+def _index(wanted: Mapping[str, str]) -> str:
     program = f"hess-explorer {version('hess-explorer')}"
     return _PAGE.format(
         policy=escape(_POLICY),
         program=escape(program),
-        megabytes=round(size / 1e6),
         style=(STATIC / "offline/index.css").read_text(encoding="utf-8"),
-        script=(STATIC / "offline/index.js").read_text(encoding="utf-8"),
         parts="\n".join(_parts(wanted)),
     )
 

@@ -30,8 +30,7 @@ class Opening:
     Attributes
     ----------
     scene, values : the initial state; notes : corrections of the link; lessons : available lessons; reading : the open
-    lesson; pictures : visible pictures; client : URL keys that the browser keeps; theme : that of the link;
-    "system" follows the system.
+    lesson; pictures : visible pictures; client : URL keys that the browser keeps.
     """
 
     scene: Scene[Any]
@@ -41,7 +40,6 @@ class Opening:
     reading: Lesson | None
     pictures: Collection[str]
     client: dict[str, str]
-    theme: str
 
 
 def query_of(arguments: Mapping[str, Iterable[bytes]]) -> str:
@@ -104,7 +102,7 @@ def opening(query: str, own: Sequence[Lesson] = (), *, lenient: bool = True) -> 
     if client[EMBED.name] and reading is None:
         client |= parts
         pictures = tuple(parts["pictures"].split(","))
-    return Opening(scene, state, link.notes, lessons, reading, pictures, client, theme)
+    return Opening(scene, state, link.notes, lessons, reading, pictures, client)
 
 
 def _embedded(scene: Scene[Any]) -> tuple[Names, Names]:

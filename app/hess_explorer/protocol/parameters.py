@@ -307,8 +307,8 @@ def _short(text: str) -> str:
 
 
 def _quoted(names: Iterable[str]) -> str:
-    """Return the first names of a link in quotation marks."""
-    return ", ".join(_short(name) for name in [*names][:_NAMED])
+    """Return the first names of a link in quotation marks; other signs than those of names, and what follows, as "…"."""
+    return ", ".join(_short(re.sub(r"[^\w#.-].*", "…", name, flags=re.DOTALL)) for name in [*names][:_NAMED])
 
 
 def decode(query: str, specs: Sequence[Spec]) -> tuple[dict[str, Value], list[str]]:

@@ -24,7 +24,7 @@ from hess_explorer.server.refusal import refuse
 from hess_explorer.server.slow_file import SlowFile
 from hess_mechanics.errors import InvalidParameter, ModelError
 
-__all__ = ["FILES", "Export"]
+__all__ = ["Export"]
 
 _SPECS = (
     Choice("format", "Format", tuple(FORMATS), "csv"),
@@ -37,7 +37,7 @@ _SPECS = (
 )
 
 # One file and one slow file at a time, so that open pages have priority.
-FILES = ThreadPoolExecutor(max_workers=1, thread_name_prefix="export")
+_files = ThreadPoolExecutor(max_workers=1, thread_name_prefix="export")
 _slow = ThreadPoolExecutor(max_workers=1, thread_name_prefix="slow-file")
 _MOST, _MOST_SLOW = 20, 5
 """Maximum number of waiting requests, for files and for slow files."""
@@ -92,7 +92,7 @@ class Export(RequestHandler):
             else:
                 request = FileRequest(str(read["format"]), float(read["width"]), read["black"] == "1")
                 name, data = await asyncio.get_running_loop().run_in_executor(
-                    FILES, self._file, state, picture, request
+                    _files, self._file, state, picture, request
                 )
                 self._send(name, request.kind, data)
         except (Abandoned, StreamClosedError):
@@ -127,7 +127,7 @@ class Export(RequestHandler):
         loop, kind, lines = asyncio.get_running_loop(), str(read["format"]), read["progress"] == "1"
         # A file that cannot be made is refused at once, and not after those that wait.
         name = await loop.run_in_executor(
-            FILES, self._name_of_slow, urlencode(state), picture, sliders, read["grid"] == "1"
+            _files, self._name_of_slow, urlencode(state), picture, sliders, read["grid"] == "1"
         )
         words = [
             f"--state={urlencode(state)}",

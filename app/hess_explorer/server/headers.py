@@ -13,10 +13,9 @@ from typing import ClassVar
 from panel.io.server import DocHandler
 
 from hess_explorer.assets import modules_path
-from hess_explorer.protocol.parameters import MAX_QUERY
-from hess_explorer.server.preview import tags
+from hess_explorer.page.opening import THEME
+from hess_explorer.protocol.parameters import MAX_QUERY, decode
 from hess_explorer.server.refusal import refuse
-from hess_explorer.server.web_app import HEAD
 
 __all__ = ["GuardedDocument", "policy"]
 
@@ -30,6 +29,13 @@ _BASE = f"""
     <script type="module" src="{modules_path()}/page/start.js"></script>
     """
 _END = "</head>"
+
+
+def _schemes(query: str) -> str:
+    """Return the element that names the theme of a link; the browser paints the first frame in it."""
+    theme = decode(query, (THEME,))[0]["theme"]
+    schemes = "light dark" if theme == THEME.default else theme
+    return f'<meta name="color-scheme" content="{schemes}">\n    '
 
 
 def policy(nonce: str, embedders: tuple[str, ...]) -> str:
@@ -46,7 +52,6 @@ def policy(nonce: str, embedders: tuple[str, ...]) -> str:
             "font-src 'self' data:",
             "media-src 'self' blob:",
             "worker-src 'self' blob:",
-            "manifest-src 'self'",
             # The websocket and that component.  The comparison of two states embeds the page itself twice.
             "connect-src 'self' blob:",
             "frame-src 'self'",
@@ -62,8 +67,8 @@ class GuardedDocument(DocHandler):
 
     embedders: ClassVar[tuple[str, ...]] = ("*",)
     """Sites that may embed a part of the page (`embed=1`)."""
-    head_elements: ClassVar[str] = HEAD
-    """Elements of the head that are the same in every response."""
+    head_elements: ClassVar[str] = ""
+    """Further elements of the head, the same in every response."""
 
     # A default, because Tornado may send an error before `prepare`.
     _nonce = ""
@@ -90,13 +95,13 @@ class GuardedDocument(DocHandler):
         self.set_header("Referrer-Policy", "same-origin")
 
     def write(self, chunk: str | bytes | dict[str, object]) -> None:
-        """Write a part of the page; add the app and the description of the state to its head, and the nonce to scripts.
+        """Write a part of the page; add the program and the theme to its head, and the nonce to scripts.
 
         Tags in the data are escaped.
         """
         if isinstance(chunk, str):
             if _END in chunk:
-                head = _BASE + tags(self.request, self.request.query) + self.head_elements
+                head = _BASE + _schemes(self.request.query) + self.head_elements
                 chunk = chunk.replace(_END, head + _END, 1)
             chunk = chunk.replace("<script", f'<script nonce="{self._nonce}"')
         super().write(chunk)

@@ -12,7 +12,7 @@ from hess_explorer.bundle import bundle
 
 __all__ = ["module_routes"]
 
-_FILES = r"page/(?:start|web_app)\.js|thumbnails/[a-z-]+\.jpg"
+_FILES = r"page/start\.js|thumbnails/[a-z-]+\.jpg"
 _BUNDLES = r"page/(?:served|follow)\.js"
 _YEAR = 365 * 24 * 3600
 

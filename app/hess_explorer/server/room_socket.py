@@ -5,7 +5,6 @@ from __future__ import annotations
 import asyncio
 import json
 from contextlib import suppress
-from zlib import crc32
 
 from tornado.websocket import WebSocketClosedError, WebSocketHandler
 
@@ -15,7 +14,6 @@ from hess_explorer.rooms.registry import Rooms
 from hess_explorer.rooms.room import Room
 from hess_explorer.server.hosts import is_allowed_origin
 from hess_explorer.server.limits import OPEN_SOCKETS, RateLimit
-from hess_explorer.server.relay import Relay
 
 __all__ = ["Outbox", "RoomSocket"]
 
@@ -26,6 +24,7 @@ SIZE, RATE, BURST = 8 * 1024, 10.0, 30.0
 TAKEN = 4003, "There is a room with this code."
 UNKNOWN = 4004, "There is no such room: its lecture has ended, or the code is wrong."
 FORGED = 4005, "This room belongs to another page."
+SEVERAL = 4006, "Rooms need a server of one process: start the explorer without --workers."
 FULL = 1013, "The room is full."
 NO_ROOM_LEFT = 1013, "There are too many rooms at the moment: try again later."
 NO_MESSAGE = 1007, "This is no message of a room."
@@ -63,29 +62,16 @@ class RoomSocket(WebSocketHandler):
     ping_interval = 25.0
     ping_timeout = 20.0
 
-    def initialize(self, rooms: Rooms, relay: Relay | None = None) -> None:
-        """Store the rooms of this process, and the way to the other workers' rooms."""
-        self._rooms, self._relay = rooms, relay
+    def initialize(self, rooms: Rooms, workers: int) -> None:
+        """Store the rooms of this process, and the number of processes of the server."""
+        self._rooms, self._workers = rooms, workers
         self._code = ""
         self._room: Room | None = None
         self._outbox = Outbox(self)
 
     def check_origin(self, origin: str) -> bool:
         """Return True for the allowed origins."""
-        # Another worker has checked a relayed request.
-        return self._relay is None or is_allowed_origin(self, origin)
-
-    async def get(self, code: str) -> None:
-        """Accept the websocket, or relay it to the worker that has the room."""
-        owner = crc32(code.encode()) % self._relay.workers if self._relay is not None else 0
-        if self._relay is None or owner == self._relay.own:
-            await super().get(code)
-            return
-        origin = self.request.headers.get("Origin")
-        if origin is not None and not self.check_origin(origin):
-            self.set_status(403)
-            return
-        await self._relay.connect(self, owner)
+        return is_allowed_origin(self, origin)
 
     def open(self, code: str) -> None:
         """Wait for the first message."""
@@ -123,6 +109,9 @@ class RoomSocket(WebSocketHandler):
     def _enter(self, wish: Open | Lead | Follow) -> None:
         room = self._rooms.find(self._code)
         match wish:
+            case _ if self._workers > 1:
+                # A follower may have come to another process than the lecturer.
+                self.close(*SEVERAL)
             case Open() if room is not None:
                 self.close(*TAKEN)
             case Open() if self._rooms.is_full:

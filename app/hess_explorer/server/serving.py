@@ -16,7 +16,7 @@ from bokeh.util.logconfig import basicConfig
 from panel.io.resources import LOCAL_DIST, patch_model_css
 from panel.io.server import get_server
 from tornado.process import task_id
-from tornado.web import Application, RequestHandler
+from tornado.web import RequestHandler
 from tornado.websocket import WebSocketClosedError
 
 from hess_explorer.compute.cache import CACHE
@@ -35,15 +35,12 @@ from hess_explorer.server.hosts import Hosts
 from hess_explorer.server.limits import MESSAGE_LIMIT, OPEN_SOCKETS
 from hess_explorer.server.liveness import is_alive
 from hess_explorer.server.modules import module_routes
-from hess_explorer.server.preview import Preview
 from hess_explorer.server.qr_code import QrCode
-from hess_explorer.server.relay import Relay
 from hess_explorer.server.room_page import RoomPage
 from hess_explorer.server.room_socket import RoomSocket
 from hess_explorer.server.served_chart import ServedChart
 from hess_explorer.server.shutdown import Workers, end_on_signals, leave
 from hess_explorer.server.warm import warm
-from hess_explorer.server.web_app import web_app_routes
 from hess_explorer.server.websockets import StateSocket
 
 __all__ = ["create_server", "serve"]
@@ -125,25 +122,23 @@ def create_server(
     *,
     sessions: int,
     follow: Callable[[str], None] | None = None,
-    relay: Relay | None = None,
+    workers: int = 1,
     chart: str | None = None,
     **changed: Any,
 ) -> Server:
     """Return a server that listens but is not started; the parameters are those of `serve`.
 
-    relay : the way to the rooms of other workers; changed : options of `panel.io.server.get_server`.
+    changed : further options of `panel.io.server.get_server`.
     """
-    capacity, rooms, relay = Capacity(sessions), Rooms(_lessons(lessons)), relay or Relay(1)
+    capacity, rooms = Capacity(sessions), Rooms(_lessons(lessons))
     patterns = [
         ("/states", StateSocket, {"capacity": capacity, "lessons": lessons, "follow": follow}),
         ("/metrics", Metrics, {"capacity": capacity, "rooms": rooms}),
         (f"/r/({CODE})", RoomPage),
-        (f"/rooms/({CODE})", RoomSocket, {"rooms": rooms, "relay": relay}),
+        (f"/rooms/({CODE})", RoomSocket, {"rooms": rooms, "workers": workers}),
         ("/qr.svg", QrCode),
         ("/export", Export),
-        ("/preview", Preview),
         *module_routes(),
-        *web_app_routes(),
         *([] if chart is None else [("/chart.json", ServedChart, {"content": chart})]),
     ]
     options = {
@@ -153,6 +148,7 @@ def create_server(
         "websocket_origin": [f"localhost:{port}", f"127.0.0.1:{port}", *origins],
         "extra_patterns": patterns,
         "liveness": True,
+        "num_procs": workers,
         "verbose": False,
         # Above the limit of `RateLimit`, which gives a better reason than Tornado.
         "websocket_max_message_size": 4 * MESSAGE_LIMIT,
@@ -165,8 +161,6 @@ def create_server(
     # With several workers, `get_server` forks and returns in each worker; the parent process supervises them.
     server = get_server({"/": lambda: _page(lessons, capacity)}, start=False, **{**options, **changed})
     Hosts(address, origins).guard(server)
-    rooms_only = [(f"/rooms/({CODE})", RoomSocket, {"rooms": rooms})]
-    relay.listen(Application(rooms_only, websocket_max_message_size=MESSAGE_LIMIT))
     return server
 
 
@@ -221,7 +215,7 @@ def serve(
     pn.extension()
     replace_handlers(embedders)
     if chart is not None:
-        GuardedDocument.head_elements += ServedChart.HEAD
+        GuardedDocument.head_elements = ServedChart.HEAD
     together = Workers() if workers > 1 else None
     server = create_server(
         port,
@@ -230,10 +224,9 @@ def serve(
         lessons,
         sessions=sessions,
         follow=follow,
-        relay=Relay(workers),
+        workers=workers,
         chart=chart,
         show=show and workers == 1,
-        num_procs=workers,
     )
     end_on_signals(server.io_loop)
     if together is not None:
