@@ -257,6 +257,7 @@ def section_orbits(
             "level": map_.level,
             **{f"drift of {name}": value for name, value in found.drift.items()},
             "steps": found.cost.steps,
+            **{f"orbit {i}": reason for i, reason in enumerate(found.reasons) if reason},
         },
     )
 

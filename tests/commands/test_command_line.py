@@ -25,7 +25,7 @@ from hess_explorer.commands import CommandError, output
 from hess_explorer.headless.screenshot import server_process
 from hess_mechanics import SuslovBody, basins
 from hess_mechanics.dynamics.orbit import MAX_SAMPLES
-from hess_mechanics.errors import InvalidParameter, MotionEnds
+from hess_mechanics.errors import InvalidParameter, WorkLimit
 from support.andoyer import GESS1, crossings_by_scipy, start_by_hand
 from support.ball import rates, upward_crossings
 from support.command_line import replaced, strict_json, table, typed, without_patience
@@ -170,7 +170,7 @@ def test_out_writes_a_file_and_prints_nothing(answer, capsys, tmp_path):
         (replaced(SUSLOV, "--I", "2,1,0"), "--I: '2,1,0' has length 3; write 4 numbers I11,I22,I13,I23"),
         (replaced(SUSLOV, "--t", "0," * MAX_SAMPLES + "1"), f"at most {MAX_SAMPLES}"),
         (replaced(SUSLOV, "--t", "1e9"), "shorter"),
-        (replaced(SUSLOV, "--omega", "1e200,0"), "--omega: w1 = 1e+200 is not between -1000 and 1000"),
+        (replaced(SUSLOV, "--omega", "1e200,0"), "--omega: w1 = 1e200 is not between -1000 and 1000"),
         (replaced(SUSLOV, "--omega", "x" * 5000), "x…'"),
         # Abbreviated, this was `--help`.
         ([*HESS, "--h", "1"], "unrecognized arguments: --h 1"),
@@ -309,7 +309,7 @@ def test_without_a_browser_the_server_goes_on(served, free_port, monkeypatch, ca
 def test_basins_of_a_body_beyond_double_range_end():
     """No subinterval of a step was ever free of roots, so the search did not end; now it names what is too large."""
     body = SuslovBody(1.5, 1.07, 4.4e90, 0.0, 0.3, -0.5, 1.0)
-    with pytest.raises(MotionEnds, match=r"the field exceeds the range of double precision in .*I13 \* ω1"):
+    with pytest.raises(WorkLimit, match=r"the field exceeds the range of double precision in .*I13 \* ω1"):
         basins(body, 0.68, plane=2, cells=(8, 6), accuracy="draft")
 
 

@@ -7,6 +7,7 @@ change is reported in a note.
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from urllib.parse import parse_qsl, urlencode, urlsplit
@@ -307,7 +308,7 @@ def _short(text: str) -> str:
 
 
 def _quoted(names: Iterable[str]) -> str:
-    """Return the first names of a link in quotation marks; other signs than those of names, and what follows, as "…"."""
+    """Return the first names of a link in quotation marks, each up to the first sign that no name contains."""
     return ", ".join(_short(re.sub(r"[^\w#.-].*", "…", name, flags=re.DOTALL)) for name in [*names][:_NAMED])
 
 

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hess_mechanics.dynamics.cells import Window
+from hess_mechanics.dynamics.ensemble import complete
 from hess_mechanics.dynamics.return_map import PoincareSection
 from hess_mechanics.dynamics.section import section_points
 from hess_mechanics.errors import ModelError, WorkLimit
@@ -58,7 +59,7 @@ def visits(
     """Return the visits of the first `crossings` crossings of each orbit from `starts` (k, d), on one core.
 
     cells : (m, n) cells across and up the window.  Crossings elsewhere, or on another sheet, are not counted.  Raises
-    as `section_points`.
+    as `section_points`, and `WorkLimit` if a motion ends.
     """
     # Counting in NumPy takes a hundredth of the time of the orbits: no kernel or library would be noticed.
     low, high = np.array(window)
@@ -68,7 +69,9 @@ def visits(
     for first in range(0, len(starts), _TOGETHER):
         some = starts[first : first + _TOGETHER]
         end = _limit(section, some, crossings)
-        found = section_points(section, some, section.surface, end if forward else -end, level, crossings, threads=1)
+        found = complete(
+            section_points(section, some, section.surface, end if forward else -end, level, crossings, threads=1)
+        )
         for states in found.states:
             places = section.places_of(states[section.is_on(states)])
             within = places[np.all((places >= low) & (places < high), axis=1)]
@@ -112,8 +115,10 @@ def visits_over(
             if not there[0]:
                 continue
             end = _limit(section, state, skipped + crossings)
-            found = section_points(
-                section, state, section.surface, end if forward else -end, level, skipped + crossings, threads=1
+            found = complete(
+                section_points(
+                    section, state, section.surface, end if forward else -end, level, skipped + crossings, threads=1
+                )
             )
         except WorkLimit:
             raise

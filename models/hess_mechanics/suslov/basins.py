@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hess_mechanics.dynamics.attraction import RecurrentSets, recurrent_sets
+from hess_mechanics.dynamics.ensemble import complete
 from hess_mechanics.dynamics.spectrum import volume_sign
 from hess_mechanics.numerics.accuracy import Accuracy
 from hess_mechanics.numerics.results import Array, Mask
@@ -80,7 +81,9 @@ class SectionOrbits:
         """Return the next crossings (n, 5) of each orbit from `starts` (k, 5).  Raises `WorkLimit`."""
         if not len(starts):
             return []
-        found = self.section.points(starts.tolist(), crossings, True, self.level, threads=1, most_steps=_MOST_STEPS)
+        found = complete(
+            self.section.points(starts.tolist(), crossings, True, self.level, threads=1, most_steps=_MOST_STEPS)
+        )
         return found.states
 
 
