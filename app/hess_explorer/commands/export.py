@@ -35,12 +35,15 @@ def _progress_printer(lines: bool, what: str) -> Callable[[int, int], None]:
 
 def _states_printer(lines: bool) -> Callable[[int, int, int], None]:
     """Return a function that prints the progress of a page, and its number of states and size at first."""
+    from hess_explorer.offline.html import frame_size
+
     report = _progress_printer(lines, "state")
 
     def tell(done: int, of: int, size: int) -> None:
         if done == 1 and of > 1 and not lines:
-            warning = ": too large for most mail, slow on phones" if size > _LARGE else ""
-            print(f"{of} states, at most {max(0.1, size / 1e6):.1f} MB{warning}.", file=sys.stderr, flush=True)
+            whole = frame_size() + size
+            warning = ": too large for most mail, slow on phones" if whole > _LARGE else ""
+            print(f"{of} states, about {whole / 1e6:.1f} MB{warning}.", file=sys.stderr, flush=True)
         report(done, of)
 
     return tell

@@ -19,7 +19,7 @@ from hess_explorer.offline.recording import Recording
 from hess_explorer.page.component import styles
 from hess_explorer.protocol.parameters import CLIENT
 
-__all__ = ["HOME", "document"]
+__all__ = ["HOME", "document", "frame_size"]
 
 HOME = "http://localhost:5006/"
 """Default address of the explorer."""
@@ -132,6 +132,11 @@ def _code() -> str:
     page = base64.b64encode(bundle("offline/file.js").encode()).decode()
     code = json.dumps({"bokeh": bokeh, "page": f"data:text/javascript;base64,{page}"})
     return base64.b64encode(zlib.compress(code.encode(), 9)).decode()
+
+
+def frame_size() -> int:
+    """Return the size in bytes of a page without states, to a fifth."""
+    return len(_code()) + len(_json(styles()))
 
 
 def _json(value: Any) -> str:
