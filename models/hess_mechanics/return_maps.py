@@ -6,6 +6,7 @@ their first argument.  All results have `.to_pandas()`, `.to_xarray()` and `.plo
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
@@ -29,7 +30,7 @@ from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.numerics.accuracy import Accuracy, Computation, plan
 from hess_mechanics.numerics.arguments import as_level, as_number, as_pairs, as_place, as_whole
 from hess_mechanics.numerics.labelled import Labels, Result
-from hess_mechanics.numerics.results import Array, frozen
+from hess_mechanics.numerics.results import Array, angle_facts, frozen
 from hess_mechanics.suslov.equations import SuslovBody
 from hess_mechanics.suslov.quartic import QuarticBody, QuarticSection
 from hess_mechanics.suslov.section import SuslovSection, require_reached
@@ -67,7 +68,8 @@ class PlanePoints(Result):
     orbits : tuple of ndarray, shape (n, 2)
         Crossings of each orbit, in order of time.
     facts : dict
-        Accuracy level, drift of each integral and number of steps.
+        Accuracy level, drift of each integral, number of steps, orbits that end early and why, and of each angle that
+        it stays within one turn.
     """
 
     names: tuple[str, str]
@@ -258,6 +260,10 @@ def section_orbits(
             **{f"drift of {name}": value for name, value in found.drift.items()},
             "steps": found.cost.steps,
             **{f"orbit {i}": reason for i, reason in enumerate(found.reasons) if reason},
+            **angle_facts(
+                (name for name, turn in zip(section.names, section.turns, strict=True) if math.isfinite(turn)),
+                counts=False,
+            ),
         },
     )
 

@@ -42,6 +42,8 @@ def test_points_lie_on_their_sections_at_their_energies():
     P = hm.return_map(HEAVY, h=2.0, f=0.5, accuracy="standard")
     found = hm.section_orbits(P, starts=[(0.3, 0.4)], crossings=40)
     assert found.orbits[0].shape == (40, 2)
+    assert found.to_xarray().attrs["angle l"] == "within one turn"
+    assert np.abs(found.orbits[0][:, 0]).max() <= np.pi
     states, possible = AndoyerSection(HEAVY, 2.0, 0.5).states_at(*found.orbits[0].T)
     # Each of the points is a state of that energy, whose angle and momentum are the point's.
     assert possible.all()

@@ -28,7 +28,7 @@ from hess_mechanics.numerics.labelled import Labels, Result, components
 from hess_mechanics.numerics.measured import measured
 from hess_mechanics.numerics.parallel import THREADS, share
 from hess_mechanics.numerics.patience import go_on
-from hess_mechanics.numerics.results import Array, Cost, SectionCrossings, frozen, unit_of
+from hess_mechanics.numerics.results import Array, Cost, SectionCrossings, angle_facts, frozen, unit_of
 
 __all__ = [
     "MAX_CROSSINGS",
@@ -511,6 +511,8 @@ class SectionPoints(Result):
         Names of the variables.
     reasons : tuple of str
         Why each orbit ends before the time span does, with time and place; empty for the others.
+    angles : tuple of str
+        Names of the variables that are angles; they count on over full turns.
     """
 
     states: list[Array]
@@ -518,6 +520,7 @@ class SectionPoints(Result):
     cost: Cost
     variables: tuple[str, ...] = ()
     reasons: tuple[str, ...] = ()
+    angles: tuple[str, ...] = ()
 
     def labels(self) -> Labels:
         """Return the variables at all crossings, labelled with the number of the orbit.
@@ -532,8 +535,12 @@ class SectionPoints(Result):
         return Labels(
             {"orbit": (("crossing",), orbit)},
             components(self.variables, points, "crossing"),
-            {name: unit_of(name) for name in self.variables},
-            {**{f"drift of {name}": value for name, value in self.drift.items()}, "steps": self.cost.steps},
+            {name: "rad" if name in self.angles else unit_of(name) for name in self.variables},
+            {
+                **{f"drift of {name}": value for name, value in self.drift.items()},
+                "steps": self.cost.steps,
+                **angle_facts(self.angles),
+            },
         )
 
 
@@ -644,6 +651,7 @@ def section_points(
         Cost(sum(steps for _, steps in found.values()), wall_ms),
         body.system.variables,
         tuple(reasons),
+        body.system.angles,
     )
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, ClassVar, TypeVar
 
@@ -21,6 +21,7 @@ __all__ = [
     "Orbit",
     "Sampled",
     "SectionCrossings",
+    "angle_facts",
     "facts_of",
     "frozen",
     "unit_of",
@@ -70,6 +71,11 @@ def facts_of(result: Any) -> dict[str, Any]:
         **{f"drift of {name}": value for name, value in getattr(result, "drift", {}).items()},
         "steps": result.cost.steps,
     }
+
+
+def angle_facts(angles: Iterable[str], counts: bool = True) -> dict[str, str]:
+    """Return the facts of a table about its angles: whether they count on over full turns."""
+    return {f"angle {name}": "counts on over full turns" if counts else "within one turn" for name in angles}
 
 
 @dataclass(frozen=True)
@@ -129,7 +135,7 @@ class Sampled(Result):
             {
                 "system": self.system,
                 **facts_of(self),
-                **dict.fromkeys((f"angle {name}" for name in self.angles), "counts on over full turns"),
+                **angle_facts(self.angles),
             },
         )
 
