@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from hess_explorer.export.picture_data import PictureData
 from hess_explorer.views.layers import Columns, Sources
 from hess_explorer.views.plot import Plot
+from hess_mechanics.numerics.results import turning
 
 __all__ = ["ANGLES", "Block", "angles_of", "as_csv", "as_json", "blocks", "names_of"]
 
@@ -25,7 +26,6 @@ ANGLES = ("phi", "phi_start", "theta", "psi", "delta", "l", "φ", "θ", "θ⁻",
 _FIRST = ("layer", "part", "ring")
 _GRID = ("image", "x", "y", "dw", "dh")
 _WIDEST = 2.001 * math.pi
-_COUNTS, _RETURNS = "counts on over full turns", "within one turn"
 Block = Mapping[str, NDArray[Any]]
 """Columns of equal length by name; the first is "layer"."""
 
@@ -77,19 +77,19 @@ def as_json(data: PictureData) -> str:
 def angles_of(data: PictureData) -> dict[str, dict[str, str]]:
     """Return the fact "angles": whether each column of angles, "layer.name", counts on over full turns."""
     axes = dict(zip("xy", data.picture.names(data.state), strict=True)) if isinstance(data.picture, Plot) else {}
-    turning = {*ANGLES, *getattr(type(data.state), "angles", ())}
+    angles = {*ANGLES, *getattr(type(data.state), "angles", ())}
     found: dict[str, bool] = {}
     for layer, columns in _layers(data).items():
         # A track is a motion, sampled densely: it jumps only where it starts a turn again.
         is_track = f"data-{layer}" in data.columns
         for block in _blocks_of(columns):
             for name, column in block.items():
-                known = column[np.isfinite(column)] if axes.get(name, name) in turning else np.empty(0)
+                known = column[np.isfinite(column)] if axes.get(name, name) in angles else np.empty(0)
                 if known.size:
                     key, jumps = f"{layer}.{name}", np.abs(np.diff(known)).max(initial=0.0) > math.pi
                     wide = np.ptp(known) > _WIDEST
                     found[key] = found.get(key, False) or bool(wide or (is_track and not jumps))
-    return {"angles": {key: _COUNTS if counts else _RETURNS for key, counts in found.items()}} if found else {}
+    return {"angles": {key: turning(counts) for key, counts in found.items()}} if found else {}
 
 
 def _layers(data: PictureData) -> Sources:

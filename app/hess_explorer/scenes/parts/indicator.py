@@ -34,12 +34,12 @@ _TURNS = 300.0
 
 def colouring(has_density: bool = True) -> Any:
     """Declare the colouring under the points of a section."""
-    dense = "Density: a million crossings in place of the points. "
+    dense = "Density: a million crossings in place of the points. " if has_density else ""
     return choice(
         "Under the points",
         (DENSITY, MEGNO, "nothing") if has_density else ("nothing", MEGNO),
         DENSITY if has_density else "nothing",
-        doc=f"{dense * has_density}MEGNO shows after a short time whether the motion from each cell is regular or "
+        doc=f"{dense}MEGNO shows after a short time whether the motion from each cell is regular or "
         "chaotic, and whether volume about it shrinks.",
     )
 
