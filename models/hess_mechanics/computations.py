@@ -20,7 +20,7 @@ from hess_mechanics.errors import InvalidParameter, OutsideRegion
 from hess_mechanics.euler_poisson.andoyer import AndoyerSection
 from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.euler_poisson.rotation import LineEnds, RotationProfile, on_line, rotation_along
-from hess_mechanics.numerics.accuracy import Accuracy, Computation, plan
+from hess_mechanics.numerics.accuracy import Accuracy, Kind, plan
 from hess_mechanics.numerics.arguments import as_cells, as_level, as_pairs, as_whole
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.parallel import share
@@ -134,7 +134,7 @@ def basins(
     require_reached(section)
     m, n = as_cells(cells)
     (x0, y0), (x1, y1) = _window(window)
-    chosen = plan(Computation.BASINS, accuracy).level
+    chosen = plan(Kind.BASINS, accuracy).level
     there = attractors(section, _LONG, chosen)
     x, y = centres(x0, x1, m), centres(y0, y1, n)
     number, crossings = np.empty((n, m)), np.empty((n, m))
@@ -307,7 +307,7 @@ def rotation_along_line(
     started = on_line(section, (first, last), as_whole("count", count, 1, _MOST_ORBITS))
     if not started:
         raise OutsideRegion("No motion crosses the section on this line: choose another line, or a larger h.")
-    chosen = plan(Computation.ROTATION, accuracy)
+    chosen = plan(Kind.ROTATION, accuracy)
     found = section.points([state for _, state in started], as_whole("crossings", crossings, 20, 10_000), chosen.level)
     return rotation_along(
         (first, last),

@@ -27,7 +27,7 @@ from hess_mechanics.dynamics.variable_section import variable_section
 from hess_mechanics.errors import InvalidParameter, OutsideRegion, WorkLimit
 from hess_mechanics.euler_poisson.andoyer import AndoyerSection
 from hess_mechanics.euler_poisson.equations import HeavyBody
-from hess_mechanics.numerics.accuracy import Accuracy, Computation, plan
+from hess_mechanics.numerics.accuracy import Accuracy, Kind, plan
 from hess_mechanics.numerics.arguments import as_level, as_number, as_pairs, as_place, as_whole
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.results import Array, angle_facts, frozen
@@ -248,7 +248,7 @@ def section_orbits(
         states,
         section.surface,
         -end if map_.backward else end,
-        plan(Computation.SECTION, map_.accuracy).level,
+        plan(Kind.SECTION, map_.accuracy).level,
         count,
     )
     x, y = section.names

@@ -25,7 +25,7 @@ from hess_explorer.sweep.grid import SweepGrid
 from hess_explorer.sweep.store import Store
 from hess_mechanics import level, systems
 from hess_mechanics.dynamics.lyapunov import lyapunov_exponent
-from hess_mechanics.numerics.accuracy import PLANS, Computation
+from hess_mechanics.numerics.accuracy import PLANS, Kind
 from hess_mechanics.suslov_hess.rotation_number import values_at
 from support.cluster import local_cluster
 from support.measured import write_measured
@@ -59,7 +59,7 @@ def tori(side):
 def motions(side):
     """λ of side × side motions, and the loop by hand: one by one."""
     over = {"w1": (0.2, 1.4, side), "I22": (1.0, 2.0, side)}
-    suslov, exact = systems()["suslov"], PLANS[Computation.EXPONENT]["draft"].level
+    suslov, exact = systems()["suslov"], PLANS[Kind.EXPONENT]["draft"].level
     state, p = suslov.example
 
     def by_hand():

@@ -15,7 +15,7 @@ from hess_explorer.__main__ import main
 from hess_explorer.sweep import StoreStatus, explain, progress, read, store_status, sweep
 from hess_mechanics import systems
 from hess_mechanics.dynamics.lyapunov import lyapunov_exponent
-from hess_mechanics.numerics.accuracy import PLANS, Computation
+from hess_mechanics.numerics.accuracy import PLANS, Kind
 from support.command_line import replaced, strict_json, table, typed
 from support.mechanics import ROOT
 
@@ -218,7 +218,7 @@ def test_a_sweep_that_is_killed_goes_on_and_is_the_loop_by_hand(tmp_path, answer
     assert 0 < done == begun(store) < 64
     found = answer(*LAMBDA, "--store", str(store), "--format", "json")
     assert found["status_counts"] == {"ok": 64}
-    suslov, exact = systems()["suslov"], PLANS[Computation.EXPONENT]["draft"].level
+    suslov, exact = systems()["suslov"], PLANS[Kind.EXPONENT]["draft"].level
     state, parameters = suslov.example
     for i in (0, 21, 42, 63):
         body = suslov.at((parameters[0], found["I22"][i], *parameters[2:]))

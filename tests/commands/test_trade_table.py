@@ -10,7 +10,7 @@ from hess_explorer.__main__ import main
 from hess_explorer.scenes import scenes
 from hess_mechanics import LEVELS
 from hess_mechanics.dynamics.trade import LevelCost
-from hess_mechanics.numerics.accuracy import Computation
+from hess_mechanics.numerics.accuracy import Kind
 from support.command_line import typed
 from support.mechanics import ROOT
 
@@ -25,7 +25,7 @@ def test_every_computation_of_every_scene_is_shown_by_some_state(name):
 
 def test_a_computation_that_no_state_shows_is_said_and_the_others_stay(monkeypatch, capsys):
     scene = scenes()["kharlamova"]
-    hidden = replace(scene.trials[0], kind=Computation.SECTION, shown=lambda state: False)
+    hidden = replace(scene.trials[0], kind=Kind.SECTION, shown=lambda state: False)
     monkeypatch.setattr(type(scene), "trials", (hidden, *scene.trials))
     assert main(typed("bench --trade --quick --scenes kharlamova")) == 2
     said = capsys.readouterr()
@@ -73,14 +73,14 @@ def measured_by_kind(file):
     text = (ROOT / file).read_text(encoding="utf-8")
     table = text.partition("<!-- measured by tests/benchmarks/benchmark_trade.py -->")[2].partition("<!-- end")[0]
     lines = [[cell.strip() for cell in line.strip("|").split("|")] for line in table.splitlines() if line[:1] == "|"]
-    return {cells[0]: cells[1:] for cells in lines[2:] if cells[0] in set(Computation)}
+    return {cells[0]: cells[1:] for cells in lines[2:] if cells[0] in set(Kind)}
 
 
 def test_the_tables_are_one_and_the_selector_and_the_guide_say_what_is_in_it():
     found = measured_by_kind("app/README.md")
     assert found.keys() == {str(trial.kind) for name in names() for trial in scenes()[name].trials}
     for kind, (computed, *_) in found.items():
-        assert computed == _draft_computes(Computation(kind))
+        assert computed == _draft_computes(Kind(kind))
     for words in ("speed_accuracy.md", "speed_accuracy_of_maps.md"):
         assert measured_by_kind(f"app/hess_explorer/scenes/{words}") == found
     said = next(spec.doc for spec in scenes()["suslov"].specs if spec.name == "accuracy")

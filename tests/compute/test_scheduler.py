@@ -12,7 +12,7 @@ from hess_explorer.compute.budget import Abandoned, OverBudget, check, limited
 from hess_explorer.compute.cache import ResultCache
 from hess_explorer.compute.scheduler import MOST, RequestQueue
 from hess_mechanics.dynamics.trade import measure
-from hess_mechanics.numerics.accuracy import Computation
+from hess_mechanics.numerics.accuracy import Kind
 from hess_mechanics.numerics.parallel import share
 
 PATIENCE = 60.0
@@ -193,7 +193,7 @@ def test_a_long_computation_ends_between_its_parts_when_nobody_waits():
         return 0.0
 
     with limited(left), pytest.raises(Abandoned):
-        measure(Computation.ORBIT, one, lambda found, truth: 0.0)
+        measure(Kind.ORBIT, one, lambda found, truth: 0.0)
     assert len(run) == 1
 
 

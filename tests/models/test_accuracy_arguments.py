@@ -11,7 +11,7 @@ import hess_mechanics as hm
 from hess_mechanics import level
 from hess_mechanics.dynamics.section import Plane
 from hess_mechanics.errors import InvalidParameter
-from hess_mechanics.numerics.accuracy import DRAFT, Computation, Level, plan
+from hess_mechanics.numerics.accuracy import DRAFT, Kind, Level, plan
 from hess_mechanics.numerics.arguments import as_level
 
 SUSLOV = hm.systems()["suslov"]
@@ -89,6 +89,6 @@ def test_every_public_function_says_that_it_takes_either():
 def test_a_level_of_ones_own_is_used_as_it_is():
     own = Level("own", 1e-5, 1e-7, 14)
     assert as_level(own) is own
-    assert plan(Computation.BASINS, own).level is own
-    assert plan(Computation.BASINS, DRAFT) is plan(Computation.BASINS, "draft")
+    assert plan(Kind.BASINS, own).level is own
+    assert plan(Kind.BASINS, DRAFT) is plan(Kind.BASINS, "draft")
     assert hm.solve(SUSLOV.at(PARAMETERS), STATE, [2.0], own).level == "own"

@@ -19,7 +19,7 @@ from hess_mechanics.dynamics.basin_boundary import resolved, unsure
 from hess_mechanics.dynamics.birkhoff import rotation_number
 from hess_mechanics.dynamics.lyapunov import lyapunov_exponent
 from hess_mechanics.dynamics.shadowing import away_from, errors_in_pixels, right_crossings, typical
-from hess_mechanics.numerics.accuracy import PLANS, REFERENCE, STANDARD, Computation
+from hess_mechanics.numerics.accuracy import PLANS, REFERENCE, STANDARD, Kind
 from hess_mechanics.suslov.equations import SYSTEM, SuslovBody
 from hess_mechanics.suslov.section import SuslovSection
 from hess_mechanics.suslov_hess.mode_locking import lock_boundary
@@ -59,7 +59,7 @@ def followed():
         exact = places(body, starts, REFERENCE)
         truth += exact
         for name, runs in rows.items():
-            level = PLANS[Computation.SECTION][name].level
+            level = PLANS[Kind.SECTION][name].level
             for run, one in zip(runs, (level, level.tightened()), strict=True):
                 run.extend(places(body, starts, one))
         near = [tuple(np.array(start) + 1e-10 * np.array([1.0, 0.7, 0.0, 0.0, 0.0])) for start in starts]
@@ -102,7 +102,7 @@ def test_so_many_crossings_are_right_as_the_plan_promises(followed, name):
     chaotic = growth > 0.3
     assert chaotic.sum() > 150
     # 97 of 100, so that 90 of 100 are five standard deviations away.
-    right = counts[chaotic] * growth[chaotic] >= PLANS[Computation.SECTION][name].promise
+    right = counts[chaotic] * growth[chaotic] >= PLANS[Kind.SECTION][name].promise
     assert np.mean(right) >= 0.9
     assert deviations(right, 0.8) > 5.0
 
@@ -131,7 +131,7 @@ def motion(random):
 def exponents():
     """100 random motions, regular and chaotic: over 200/ν, over five times that; in units of ν."""
     random = np.random.default_rng(7)
-    level, rows = PLANS[Computation.EXPONENT]["draft"].level, []
+    level, rows = PLANS[Kind.EXPONENT]["draft"].level, []
     for _ in range(100):
         state, parameters, nu = motion(random)
         short, long = (lyapunov_exponent(SYSTEM.at(parameters), state, time / nu, level) for time in (200.0, 1000.0))
@@ -168,7 +168,7 @@ def test_the_boundary_tells_how_many_cells_a_finer_run_changes(name):
     random = np.random.default_rng(11)
     changed, estimates = [], []
     for _ in range(100):
-        coarse, fine = basins_of_discs(random, PLANS[Computation.BASINS][name].grid((36, 24)))
+        coarse, fine = basins_of_discs(random, PLANS[Kind.BASINS][name].grid((36, 24)))
         changed.append(np.mean(np.kron(coarse, np.ones((2, 2))) != fine))
         estimates.append(unsure(coarse))
     assert within_a_factor_of_ten(changed, estimates)
@@ -202,7 +202,7 @@ def tori():
 @every_level_below_the_floor
 def test_a_rotation_number_of_a_grid_is_as_exact_as_it_says(tori, name):
     *where, exact = tori
-    plan = PLANS[Computation.GRID][name]
+    plan = PLANS[Kind.GRID][name]
     errors = np.abs(values_at(*where, plan.level).rho - exact)
     assert within_a_factor_of_ten(errors, rotation_errors(*where, plan.level))
     assert np.mean(errors <= plan.promise) >= 0.99
@@ -211,7 +211,7 @@ def test_a_rotation_number_of_a_grid_is_as_exact_as_it_says(tori, name):
 def test_the_error_of_a_map_of_rotation_numbers_is_that_of_nearly_all_its_cells():
     window, torus = ((-1.0, 4.0), (-3.0, 3.0)), Torus(0.5, 0.0, 0.0)
     for name in BELOW_THE_FLOOR:
-        level = PLANS[Computation.GRID][name].level
+        level = PLANS[Kind.GRID][name].level
         found, exact = (rows("h, f", torus, window, (60, 40), 0, 40, one).rho for one in (level, REFERENCE))
         away = np.abs(found - exact)[np.isfinite(exact)]
         estimate = rows_error("h, f", torus, window, level)
@@ -238,10 +238,10 @@ def test_a_rotation_number_along_an_orbit_is_as_exact_as_its_halves_agree(tori):
 true_boundary = cache(lambda a: lock_boundary(a, REFERENCE, 1500))
 
 
-@mark.parametrize("name", PLANS[Computation.CURVE])
+@mark.parametrize("name", PLANS[Kind.CURVE])
 @mark.parametrize("a", [0.1, 1.0])
 def test_the_boundary_of_the_lock_zone_lies_within_the_promised_pixels(a, name):
-    plan = PLANS[Computation.CURVE][name]
+    plan = PLANS[Kind.CURVE][name]
     exact = true_boundary(a)
     points = plan.side(48)
     scale = 600.0 / np.array([max(4.0, exact[:, 0].max()) + 1.0, 2.0 * max(3.0, exact[:, 1].max())])
@@ -266,7 +266,7 @@ def clouds():
 
 @every_level_below_the_floor
 def test_a_cloud_is_as_exact_as_the_points_that_are_computed_twice_say(clouds, name):
-    level = PLANS[Computation.CLOUD][name].level
+    level = PLANS[Kind.CLOUD][name].level
     errors, estimates = [], []
     for body, states, times, exact in clouds:
         found = carried(body, states, times, level)
@@ -276,4 +276,4 @@ def test_a_cloud_is_as_exact_as_the_points_that_are_computed_twice_say(clouds, n
         estimates.append(found.error_estimate)
     assert within_a_factor_of_ten(errors, estimates)
     # A few points may exceed the estimate slightly.
-    assert np.mean(np.array(errors) <= 3.0 * PLANS[Computation.CLOUD][name].promise) >= 0.99
+    assert np.mean(np.array(errors) <= 3.0 * PLANS[Kind.CLOUD][name].promise) >= 0.99

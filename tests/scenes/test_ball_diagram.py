@@ -12,7 +12,7 @@ from hess_explorer.scenes import scenes
 from hess_mechanics import ReturnMap, ensemble, level, lyapunov_exponent, lyapunov_spectrum
 from hess_mechanics.chaplygin_ball.section import coordinates, state_at
 from hess_mechanics.dynamics.orbit_diagram import period_of
-from hess_mechanics.numerics.accuracy import PLANS, Computation
+from hess_mechanics.numerics.accuracy import PLANS, Kind
 from support.ball import divergence, energy_of, integrate, rates
 from support.deviations import deviations, mean_of
 from support.diagrams import complete, crossings, multipliers, nearest, settled
@@ -75,7 +75,7 @@ def test_the_strange_attractor_is_what_its_example_says():
     assert deviations(np.abs(values[:, 1:4]).max(axis=1), 0.002) < -5.0
     assert deviations(values[:, 4], -0.1) < -5.0
     # Two orbits side by side, by another algorithm, part as fast.
-    accuracy = PLANS[Computation.EXPONENT]["standard"].level
+    accuracy = PLANS[Kind.EXPONENT]["standard"].level
     twins = [lyapunov_exponent(body, start, 2000.0, accuracy).value for start in starts]
     rate, error = mean_of(values[:, 0])
     # After a time t the growth of a neighbour, which starts in any direction, is known to ln(t)/t.

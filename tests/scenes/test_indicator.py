@@ -8,7 +8,7 @@ from hess_explorer.compute.cache import CACHE
 from hess_explorer.scenes import scenes
 from hess_mechanics import lyapunov_exponent
 from hess_mechanics.dynamics.megno_map import row_of_cells
-from hess_mechanics.numerics.accuracy import PLANS, Computation
+from hess_mechanics.numerics.accuracy import PLANS, Kind
 from support.deviations import deviations
 from support.view import View, values_of
 
@@ -45,7 +45,7 @@ def test_cells_that_are_called_chaotic_have_that_exponent_and_the_regular_ones_n
         cells = np.argwhere((kinds >= 0.0) & (kinds % 2.0 == is_chaotic))
         for i, j in cells[:: 1 + len(cells) // 36]:
             states, _ = section.states_at(*(low + (np.array([j, i]) + 0.5) * (high - low) / (18, 12))[:, None])
-            rate = lyapunov_exponent(section, states[0], t, PLANS[Computation.EXPONENT]["draft"].level).value
+            rate = lyapunov_exponent(section, states[0], t, PLANS[Kind.EXPONENT]["draft"].level).value
             found.append(rate * t / (2.0 * values[i, j]) if is_chaotic else rate * t)
     assert deviations(grown[True], 0.7) > 5.0 > -5.0 > deviations(grown[True], 1.6)
     assert deviations(grown[False], 15.0) < -5.0

@@ -19,7 +19,7 @@ from hess_explorer.scenes.framework.work import AUTO
 from hess_explorer.scenes.parts.costs import Costs
 from hess_mechanics.dynamics.trade import LevelCost, beyond
 from hess_mechanics.errors import InvalidParameter
-from hess_mechanics.numerics.accuracy import LEVELS, PLANS, REFERENCE, Computation
+from hess_mechanics.numerics.accuracy import LEVELS, PLANS, REFERENCE, Kind
 from hess_mechanics.suslov_hess.rotation_number import values_at
 from support.thorough import sample
 
@@ -47,7 +47,7 @@ CHEAP = [
     (name, trial)
     for name, scene in SCENES.items()
     for trial in scene.trials
-    if trial.kind in (Computation.ORBIT, Computation.MAP, Computation.COLOURS)
+    if trial.kind in (Kind.ORBIT, Kind.MAP, Kind.COLOURS)
 ]
 
 
@@ -74,7 +74,7 @@ def test_the_status_line_says_up_to_which_crossing_the_orbit_is_where_it_is_draw
         r"right to ½ pixel: the chosen orbit up to crossing (\d+), others up to crossing (\d+)", report.status
     )
     own, others = map(int, said.groups())
-    plan = PLANS[Computation.SECTION]["reference"]
+    plan = PLANS[Kind.SECTION]["reference"]
     exact = state.poincare.points([state.start], 60, True, plan.level, threads=1)
     both = min(len(state.section.own), 60)
     away = state.section.own[:both] - state.poincare.places_of(exact.states[0])[:both]
@@ -101,22 +101,22 @@ def test_orbits_that_chaos_takes_away_are_left_aside():
 def test_cells_are_measured_on_a_grid_twice_as_fine():
     """At `reference` the error was 0 %: the truth had the same cells."""
     scene = SCENES["quartic"]
-    trial = next(one for one in scene.trials if one.kind == Computation.INDICATOR)
-    state, plan = bare(scene.of(scene.defaults())), PLANS[Computation.INDICATOR]["reference"]
+    trial = next(one for one in scene.trials if one.kind == Kind.INDICATOR)
+    state, plan = bare(scene.of(scene.defaults())), PLANS[Kind.INDICATOR]["reference"]
     cells = trial.run(state, plan)
     twice = trial.run(state, dataclasses.replace(plan, cells=2.0 * plan.cells))
     whole = np.mean(np.kron(cells, np.ones((2, 2))) != twice)
     assert whole > 0.05
     # A quarter of the finer cells, one in each.
     deviation = np.sqrt(whole * (1.0 - whole) / cells.size)
-    measured = trial.error(state, cells, trial.run(state, beyond(Computation.INDICATOR)))
+    measured = trial.error(state, cells, trial.run(state, beyond(Kind.INDICATOR)))
     assert measured == approx(100.0 * whole, abs=500.0 * deviation)
 
 
 def test_no_level_is_compared_with_itself():
     """The truth of the ball's scattering map, and that of its orbits, was a run at `reference`."""
     for name, trial in CHEAP:
-        if trial.kind == Computation.MAP:
+        if trial.kind == Kind.MAP:
             state = bare(SCENES[name].of(SCENES[name].defaults()))
             found = trial.run(state, PLANS[trial.kind]["reference"])
             assert trial.error(state, found, trial.run(state, beyond(trial.kind))) > 0.0, name
@@ -129,7 +129,7 @@ def test_the_status_line_says_how_exact_a_map_of_rotation_numbers_is():
         _, report = completed(scene, {"accuracy": name}, ("map",))
         said = re.search(r"map \d+ × \d+, ρ to (\d\S+) \(99 of 100 cells\)", report.status)
         errors[name] = float(said[1].replace("−", "-"))
-        assert errors[name] <= PLANS[Computation.GRID][name].promise
+        assert errors[name] <= PLANS[Kind.GRID][name].promise
     assert errors["draft"] > errors["standard"] > errors["precise"] > 0.0
 
 
@@ -163,7 +163,7 @@ def test_what_cannot_be_computed_is_measured_as_standard():
     def refuse(state, plan):
         raise InvalidParameter("No.")
 
-    assert needed(Trial(Computation.MAP, (), refuse, lambda *_: 0.0, refuse), None) == "standard"
+    assert needed(Trial(Kind.MAP, (), refuse, lambda *_: 0.0, refuse), None) == "standard"
 
 
 # ---- the cost of all --------------------------------------------------------------------------------------------
@@ -173,7 +173,7 @@ def test_the_cost_of_all_is_measured_when_its_picture_is_unfolded():
     scene = scenes()["scattering-accuracy"]
     assert scene.folded == {"trade": "Measure all that is computed", "difference": "Show what more accuracy changes"}
     state, report = completed(scene, {}, ("trade",))
-    trial = next(one for one in state.trials if one.kind == Computation.MAP)
+    trial = next(one for one in state.trials if one.kind == Kind.MAP)
     samples = state.costs.samples[trial]
     errors, ms = state.costs.curve(trial)
     assert errors == approx([max(2.0 * one.error, 1e-9) for one in samples])
@@ -185,7 +185,7 @@ def test_the_cost_of_all_is_measured_when_its_picture_is_unfolded():
 
 
 def test_a_chaotic_section_has_no_error_and_says_so():
-    trial = next(one for one in SUSLOV.trials if one.kind == Computation.SECTION)
+    trial = next(one for one in SUSLOV.trials if one.kind == Kind.SECTION)
     costs = tuple(LevelCost(name, 1.0, nan, True) for name in LEVELS)
     work = types.SimpleNamespace(dragging=False, later=lambda *_: costs)
     found = Costs(work, bare(SUSLOV.of(SUSLOV.defaults())), (trial,))

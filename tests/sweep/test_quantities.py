@@ -11,7 +11,7 @@ from hess_mechanics import BallBody, HeavyBody, circle_map, level, section, syst
 from hess_mechanics.chaplygin_ball.section import EQUATOR, BallSection
 from hess_mechanics.dynamics.lyapunov import lyapunov_exponent
 from hess_mechanics.euler_poisson.andoyer import AndoyerPlane
-from hess_mechanics.numerics.accuracy import PLANS, Computation
+from hess_mechanics.numerics.accuracy import PLANS, Kind
 from hess_mechanics.suslov.kharlamova import PlaneBody, arc
 from hess_mechanics.suslov_hess.rotation_number import values_at
 from support.andoyer import start_by_hand
@@ -27,7 +27,7 @@ def rotation(h, f):
 def exponent(w1, I22, t=20.0):
     state = (w1, -0.4, 0.6, 0.0, 0.8)
     p = (2.0, I22, 0.3, 0.5, 0.3, -0.5, 1.0)
-    return lyapunov_exponent(SUSLOV.at(p), state, t, PLANS[Computation.EXPONENT]["draft"].level).value
+    return lyapunov_exponent(SUSLOV.at(p), state, t, PLANS[Kind.EXPONENT]["draft"].level).value
 
 
 def plane_period(w1, b1):

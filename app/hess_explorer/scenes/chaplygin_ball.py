@@ -36,7 +36,7 @@ from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody
 from hess_mechanics.chaplygin_ball.strip_orbits import StripOrbit, largest_distance, strip_orbits
 from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.errors import WorkLimit
-from hess_mechanics.numerics.accuracy import DRAFT, REFERENCE, Computation, Level
+from hess_mechanics.numerics.accuracy import DRAFT, REFERENCE, Kind, Level
 from hess_mechanics.numerics.results import Array
 
 _ORBITS, _FEW_ORBITS = 18, 8
@@ -143,7 +143,7 @@ class ChaplyginBall(State):
     @cached_property
     def crowd(self) -> tuple[StripOrbit, ...]:
         """Orbits over the strip."""
-        plan = self.plan(Computation.CURVE)
+        plan = self.plan(Kind.CURVE)
         found: tuple[StripOrbit, ...] = self.work.sooner(
             self.strip_orbits(plan.side(_ORBITS), plan.level), self.strip_orbits(_FEW_ORBITS, DRAFT)
         )
@@ -152,7 +152,7 @@ class ChaplyginBall(State):
     @cached_property
     def map_or_reason(self) -> tuple[model.BallScattering | None, str]:
         """θ⁺ over the phases and an empty reason; or None and the reason, if the map takes too many steps."""
-        plan = self.plan(Computation.MAP)
+        plan = self.plan(Kind.MAP)
         whole = plan.side(_PHASES)
         try:
             return self.work.sooner(self.phases(whole, plan.level), self.phases(min(whole, _FEW_PHASES), DRAFT)), ""
@@ -225,7 +225,7 @@ _EXACT = replace(REFERENCE, promise=1e-2 * REFERENCE.promise)
 # Grids differ between levels, so the reference is computed on the grid of each result.
 _MEASURES: tuple[Trial[ChaplyginBall], ...] = (
     Trial(
-        Computation.MAP,
+        Kind.MAP,
         ("curve",),
         lambda s, plan: s.phases(plan.side(_PHASES), plan.level).now(),
         lambda s, found, truth: curve_error(
@@ -234,7 +234,7 @@ _MEASURES: tuple[Trial[ChaplyginBall], ...] = (
         lambda s, found: Curves(square.FRAME, (found.curve,)),
     ),
     Trial(
-        Computation.CURVE,
+        Kind.CURVE,
         ("omega",),
         lambda s, plan: s.strip_orbits(plan.side(_ORBITS), plan.level).now(),
         lambda s, found, truth: (

@@ -28,7 +28,7 @@ from hess_explorer.views.layers import Axes, CellGrid
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits, superscript
 from hess_mechanics import parameters as known
-from hess_mechanics.numerics.accuracy import REFERENCE, Computation, Level, Plan
+from hess_mechanics.numerics.accuracy import REFERENCE, Kind, Level, Plan
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov_hess import rotation_number as mechanics
 from hess_mechanics.suslov_hess.circle_map import CircleMap
@@ -152,7 +152,7 @@ class RotationNumber(State):
     def grid(self) -> tuple[TorusValues, tuple[int, int]]:
         """The map and its cells (m, n), coarse first."""
         common = (self.over, self.beside, self.window)
-        plan = self.plan(Computation.GRID)
+        plan = self.plan(Kind.GRID)
         fine = plan.grid(_FINE)
         parts = (
             []
@@ -187,7 +187,7 @@ class RotationNumber(State):
     @cached_property
     def boundary(self) -> list[Array]:
         """Return |t| = 2 in the map, once known."""
-        found: Array | None = None if self.dragging else self.work.ask(self.lock(self.plan(Computation.CURVE)))
+        found: Array | None = None if self.dragging else self.work.ask(self.lock(self.plan(Kind.CURVE)))
         if found is None or not len(found):
             return []
         return [found, found * np.array([1.0, -1.0])] if self.sides[1] == "f" else [found]
@@ -202,12 +202,12 @@ class RotationNumber(State):
     @property
     def x(self) -> Array:
         """Values of the line's parameter (n,)."""
-        return self.on_line.places(_ON_LINE // 4 if self.dragging else self.plan(Computation.LINE).side(_ON_LINE))
+        return self.on_line.places(_ON_LINE // 4 if self.dragging else self.plan(Kind.LINE).side(_ON_LINE))
 
     @cached_property
     def along(self) -> TorusValues:
         """ρ and trace at `x`."""
-        return self.work.get(mechanics.along, self.on_line, self.x.size, self.plan(Computation.LINE).level)
+        return self.work.get(mechanics.along, self.on_line, self.x.size, self.plan(Kind.LINE).level)
 
     @cached_property
     def perturbed(self) -> Array | None:
@@ -220,8 +220,8 @@ class RotationNumber(State):
                 self.on_line,
                 self.x.size,
                 self.epsilon,
-                self.plan(Computation.LINE).level,
-                self.plan(Computation.LINE).part(mechanics.TURNS),
+                self.plan(Kind.LINE).level,
+                self.plan(Kind.LINE).part(mechanics.TURNS),
             )
         )
 
@@ -301,7 +301,7 @@ class RotationNumber(State):
                 None
                 if self.dragging
                 else self.work.later(
-                    mechanics.rows_error, self.over, self.beside, self.window, self.plan(Computation.GRID).level
+                    mechanics.rows_error, self.over, self.beside, self.window, self.plan(Kind.GRID).level
                 )
             )
             yield f"map {m} × {n}" + (f", ρ to {error:.1e} (99 of 100 cells)" if error is not None else "")
@@ -369,7 +369,7 @@ def _line_look(s: RotationNumber, found: Array) -> Curves:
 
 _MEASURES: tuple[Trial[RotationNumber], ...] = (
     Trial(
-        Computation.GRID,
+        Kind.GRID,
         ("map",),
         lambda s, plan: (_rows(s, plan.grid(_FINE), plan.level), plan.grid(_FINE)),
         _map_error,
@@ -377,7 +377,7 @@ _MEASURES: tuple[Trial[RotationNumber], ...] = (
         COLOUR_UNIT,
     ),
     Trial(
-        Computation.LINE,
+        Kind.LINE,
         ("line", "trace"),
         lambda s, plan: _line(s, plan.side(_ON_LINE), plan.level, plan.part(mechanics.TURNS)),
         _line_error,

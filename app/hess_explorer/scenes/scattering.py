@@ -27,7 +27,7 @@ from hess_explorer.views.text import vector
 from hess_explorer.views.velocity_plane import pixels_per_unit, velocity_columns
 from hess_mechanics import parameters as known
 from hess_mechanics.dynamics.sampling import PIXELS
-from hess_mechanics.numerics.accuracy import Computation, Plan
+from hess_mechanics.numerics.accuracy import Kind, Plan
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov import scattering as model
 from hess_mechanics.suslov.equations import SYSTEM, SuslovBody
@@ -157,7 +157,7 @@ class Scattering(State):
 
     def grid(self) -> Array:
         """Return θ⁺ over all circles and phases."""
-        cells = _FEW_CELLS if self.dragging else self.plan(Computation.MAP).grid(_CELLS)
+        cells = _FEW_CELLS if self.dragging else self.plan(Kind.MAP).grid(_CELLS)
         return self.work.get(model.theta_plus_grid, self.map, *cells)
 
     # ---- words --------------------------------------------------------------------------------------------------
@@ -210,7 +210,7 @@ def _map(s: Scattering, plan: Plan) -> Array:
 
 
 _MAP: Trial[Scattering] = Trial(
-    Computation.MAP,
+    Kind.MAP,
     ("curve", "map"),
     _map,
     lambda s, found, truth: curve_error(found, truth, math.pi),

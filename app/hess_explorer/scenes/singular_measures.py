@@ -26,7 +26,7 @@ from hess_mechanics import parameters as known
 from hess_mechanics.chaplygin_ball.energy_surface import Strip
 from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.chaplygin_ball.phase_cloud_density import Clouds, clouds
-from hess_mechanics.numerics.accuracy import REFERENCE, Computation, Level
+from hess_mechanics.numerics.accuracy import REFERENCE, Kind, Level
 from hess_mechanics.numerics.results import Array
 
 _FEW = 1000
@@ -153,7 +153,7 @@ class SingularMeasures(State):
     @cached_property
     def clouds(self) -> Clouds:
         """The moving clouds."""
-        plan = self.plan(Computation.CLOUD)
+        plan = self.plan(Kind.CLOUD)
         count = plan.part(int(self.points), _FEW)
         found: Clouds = self.work.sooner(self.task(count, plan.level), self.task(min(count, _FEW), plan.level))
         return found
@@ -228,7 +228,7 @@ def _count(found: Clouds) -> int:
 
 
 _CLOUD: Trial[SingularMeasures] = Trial(
-    Computation.CLOUD,
+    Kind.CLOUD,
     (),
     lambda s, plan: s.task(plan.part(int(s.points), _FEW), plan.level).now(),
     lambda s, found, truth: compared(cloud.look(found), cloud.look(_exact(s, found))).largest,

@@ -16,25 +16,25 @@ from hess_explorer.scenes.parts.comparison import Comparison
 from hess_explorer.scenes.parts.costs import Costs
 from hess_explorer.scenes.parts.precision import Precision
 from hess_explorer.views.picture import Picture
-from hess_mechanics.numerics.accuracy import Computation
+from hess_mechanics.numerics.accuracy import Kind
 
 __all__ = ["SpeedAccuracy", "speed_and_accuracy"]
 
 _COMPARED = "difference"
 """Name of the parameter that selects the compared computation."""
 _COSTLIEST = (
-    Computation.ROTATION,
-    Computation.BASINS,
-    Computation.INDICATOR,
-    Computation.SECTION,
-    Computation.GRID,
-    Computation.CLOUD,
-    Computation.COLOURS,
-    Computation.MAP,
-    Computation.CURVE,
-    Computation.LINE,
-    Computation.EXPONENT,
-    Computation.ORBIT,
+    Kind.ROTATION,
+    Kind.BASINS,
+    Kind.INDICATOR,
+    Kind.SECTION,
+    Kind.GRID,
+    Kind.CLOUD,
+    Kind.COLOURS,
+    Kind.MAP,
+    Kind.CURVE,
+    Kind.LINE,
+    Kind.EXPONENT,
+    Kind.ORBIT,
 )
 """Kinds of computation by decreasing cost, as measured by `hess-explorer bench --trade`."""
 

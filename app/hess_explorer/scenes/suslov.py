@@ -52,7 +52,7 @@ from hess_explorer.views.velocity_plane import nice_above, orbit_alone, orbit_co
 from hess_mechanics.dynamics.sampling import HALF_A_PIXEL
 from hess_mechanics.dynamics.section import occupied_cells
 from hess_mechanics.errors import WorkLimit
-from hess_mechanics.numerics.accuracy import Computation, Level, cheapest
+from hess_mechanics.numerics.accuracy import Kind, Level, cheapest
 from hess_mechanics.numerics.results import Array, frozen
 from hess_mechanics.parameters import B1, B2, B3, H_SUSLOV, I11, I13, I22, I23
 from hess_mechanics.rigid_body.inertia import check_body
@@ -293,9 +293,7 @@ class Suslov(State):
         return (
             None
             if self.exponent.later
-            else self.work.later(
-                mean_divergence, self.body, self.start, self.plan(Computation.EXPONENT).share * self.long
-            )
+            else self.work.later(mean_divergence, self.body, self.start, self.plan(Kind.EXPONENT).share * self.long)
         )
 
     # ---- the other pictures -------------------------------------------------------------------------------------

@@ -32,7 +32,7 @@ from hess_explorer.views.text import digits
 from hess_explorer.views.velocity_plane import nice_above, picture
 from hess_mechanics import parameters as known
 from hess_mechanics.errors import InvalidParameter, Separatrix
-from hess_mechanics.numerics.accuracy import DRAFT, REFERENCE, Computation, Level
+from hess_mechanics.numerics.accuracy import DRAFT, REFERENCE, Kind, Level
 from hess_mechanics.numerics.balls import has_flint
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov_hess.bifurcation import TurningPoints, curve, curve_point, f_max, reach, turning_points
@@ -112,7 +112,7 @@ class SuslovHess(State):
     @cached_property
     def locked(self) -> Array:
         """The boundary of the lock zone, |t| = 2, (n, 2)."""
-        plan = self.plan(Computation.CURVE, steady=True)
+        plan = self.plan(Kind.CURVE, steady=True)
         return self.work.get(lock_boundary, self.body.a, plan.level, plan.side(_ON_BOUNDARY))
 
     @cached_property
@@ -222,7 +222,7 @@ class SuslovHess(State):
     @cached_property
     def rotation(self) -> CellGrid:
         """The rotation number over the diagram."""
-        axes, plan = diagram.window(self.h), self.plan(Computation.COLOURS, steady=True)
+        axes, plan = diagram.window(self.h), self.plan(Kind.COLOURS, steady=True)
         task = self.colours(affordable_cells(self.body.a, plan.grid(CELLS)), plan.level)
         return CellGrid(self.work.get(task.function, *task.arguments), axes.x, axes.y)
 
@@ -271,14 +271,14 @@ class SuslovHess(State):
 
 _MEASURES: tuple[Trial[SuslovHess], ...] = (
     Trial(
-        Computation.MAP,
+        Kind.MAP,
         ("circle",),
         lambda s, plan: circle_map(s.body.a, s.h, s.f, plan.level).theta(_PHASES),
         lambda s, theta, truth: curve_error(theta, truth, 2.0 * math.pi, period=2.0 * math.pi),
         lambda s, theta: circle.look(_PHASES, theta),
     ),
     Trial(
-        Computation.COLOURS,
+        Kind.COLOURS,
         ("bifurcation",),
         lambda s, plan: s.colours(affordable_cells(s.body.a, plan.grid(CELLS)), plan.level).now(),
         # Grids differ between levels, so the reference is computed on the grid of the result.

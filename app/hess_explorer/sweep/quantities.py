@@ -19,7 +19,7 @@ from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.chaplygin_ball.integrable_cases import period
 from hess_mechanics.chaplygin_ball.scattering import ball_scattering
 from hess_mechanics.errors import InvalidParameter
-from hess_mechanics.numerics.accuracy import PLANS, Computation, Level
+from hess_mechanics.numerics.accuracy import PLANS, Kind, Level
 from hess_mechanics.parameters import Parameter
 from hess_mechanics.suslov.basins import attractors
 from hess_mechanics.suslov.equations import SuslovBody, unit_vector
@@ -127,7 +127,7 @@ def _ball_theta_plus(level: Level, theta: float, phi: float, distance: float, **
 
 
 def _attractors(level: Level, t: float, **values: float) -> Cell:
-    plan = PLANS[Computation.BASINS][level.name]
+    plan = PLANS[Kind.BASINS][level.name]
     return Cell(float(attractors(suslov_section(values), t, plan.level).count))
 
 

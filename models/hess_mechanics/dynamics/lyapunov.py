@@ -24,7 +24,7 @@ from hess_mechanics.dynamics.orbit import (
 from hess_mechanics.dynamics.spectrum import no_chaos
 from hess_mechanics.dynamics.system import Body, Problem
 from hess_mechanics.errors import InvalidParameter, WorkLimit
-from hess_mechanics.numerics.accuracy import STANDARD, Accuracy, Computation, plan
+from hess_mechanics.numerics.accuracy import STANDARD, Accuracy, Kind, plan
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.results import Array, frozen
 from hess_mechanics.parameters import plain
@@ -125,7 +125,7 @@ def lyapunov_exponent(body: Body, state: Sequence[float], span: float, level: Ac
     >>> float(lyapunov_exponent(*suslov.example_motion, 50.0).times[-1])
     50.0
     """
-    level = plan(Computation.EXPONENT, level).level
+    level = plan(Kind.EXPONENT, level).level
     span = checked_span(span, "a Lyapunov exponent")
     problem = Problem.of(body, [state])
     returns = abs(span) / _INTERVAL * problem.nu

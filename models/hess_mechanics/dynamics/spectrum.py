@@ -30,7 +30,7 @@ from hess_mechanics.dynamics.orbit import (
 )
 from hess_mechanics.dynamics.system import Body, Problem, System
 from hess_mechanics.dynamics.variation import frame_ahead, neighbours
-from hess_mechanics.numerics.accuracy import PLANS, STANDARD, Accuracy, Computation, Level, Status
+from hess_mechanics.numerics.accuracy import PLANS, STANDARD, Accuracy, Kind, Level, Status
 from hess_mechanics.numerics.arguments import as_level
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.patience import go_on
@@ -419,7 +419,7 @@ def lyapunov_spectrum(body: Body, state: Sequence[float] | Array, span: float, l
     rates = growth[1:, order] / times[1:, None]
     require_finite_rates(mean, error, rates)
     worst = float(error.max()) + floor
-    plans = PLANS[Computation.EXPONENT]
+    plans = PLANS[Kind.EXPONENT]
     promise = plans[level.name].promise * problem.nu if level.name in plans else worst
     number = len(system.integrals(list(state), list(body.parameters)))
     return Spectrum(

@@ -8,14 +8,14 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from typing import TypeVar
 
-from hess_mechanics.numerics.accuracy import LEVELS, PLANS, REFERENCE, STANDARD, Computation, Plan
+from hess_mechanics.numerics.accuracy import LEVELS, PLANS, REFERENCE, STANDARD, Kind, Plan
 from hess_mechanics.numerics.patience import go_on
 
 __all__ = ["LevelCost", "beyond", "enough", "measure", "measure_until"]
 
 R = TypeVar("R")
 
-_TWICE = {Computation.ROTATION: "share", Computation.LINE: "share", Computation.CURVE: "cells"}
+_TWICE = {Kind.ROTATION: "share", Kind.LINE: "share", Kind.CURVE: "cells"}
 """Part of a plan that limits the error of a kind besides the tolerance, so that its own value would hide this error."""
 
 
@@ -38,7 +38,7 @@ class LevelCost:
         return not math.isnan(self.error)
 
 
-def beyond(kind: Computation) -> Plan:
+def beyond(kind: Kind) -> Plan:
     """Return the plan of the truth: finer tolerance than `reference`; twice its returns or points along a curve.
 
     For basins and indicators the level is `aside`: their points lie beside the centres of the cells.
@@ -59,7 +59,7 @@ def _sample(plan: Plan, run: Callable[[Plan], R], error: Callable[[R, R], float]
 
 
 def measure(
-    kind: Computation, run: Callable[[Plan], R], error: Callable[[R, R], float], repeats: int = 1
+    kind: Kind, run: Callable[[Plan], R], error: Callable[[R, R], float], repeats: int = 1
 ) -> tuple[LevelCost, ...]:
     """Measure a computation at each level, cheapest first.
 
@@ -70,7 +70,7 @@ def measure(
     return tuple(_sample(PLANS[kind][name], run, error, truth, repeats) for name in LEVELS)
 
 
-def measure_until(kind: Computation, run: Callable[[Plan], R], error: Callable[[R, R], float], largest: float) -> str:
+def measure_until(kind: Kind, run: Callable[[Plan], R], error: Callable[[R, R], float], largest: float) -> str:
     """Return the level that `enough` would choose, without running the levels above it."""
     truth = run(beyond(kind))
     return enough((_sample(PLANS[kind][name], run, error, truth, 1) for name in LEVELS), largest)

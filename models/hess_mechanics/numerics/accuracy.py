@@ -21,7 +21,7 @@ __all__ = [
     "REFERENCE",
     "STANDARD",
     "Accuracy",
-    "Computation",
+    "Kind",
     "Level",
     "Plan",
     "Status",
@@ -193,7 +193,7 @@ def cheapest(error: float) -> Level:
 # ---- kinds of computation ---------------------------------------------------------------------------------------
 
 
-class Computation(StrEnum):
+class Kind(StrEnum):
     """Kinds of computation; each one has its own meaning of the levels and of the promise of a `Plan`."""
 
     ORBIT = "orbit"
@@ -234,7 +234,7 @@ class Plan:
     level : Level
         Order and tolerance of the Taylor steps, under the name of the level.
     promise : float
-        Promise, see `Computation`.
+        Promise, see `Kind`.
     share : float, default 1
         Fraction of the requested crossings, turns, time or points that is computed.
     cells : float, default 1
@@ -273,45 +273,43 @@ _CELLS = _plans(
 )
 _OF_A_MAP = Plan(STANDARD, 1e-6), Plan(PRECISE, 1e-9), Plan(REFERENCE, 1e-11)
 
-PLANS: Mapping[Computation, Mapping[str, Plan]] = {
-    Computation.ORBIT: _plans(*(Plan(each, each.promise) for each in LEVELS.values())),
+PLANS: Mapping[Kind, Mapping[str, Plan]] = {
+    Kind.ORBIT: _plans(*(Plan(each, each.promise) for each in LEVELS.values())),
     # A tolerance above 1e-6 loses crossings.
-    Computation.SECTION: _plans(
-        Plan(_CROSSED, 5, share=0.25), Plan(STANDARD, 9), Plan(PRECISE, 13), Plan(REFERENCE, 22)
-    ),
-    Computation.ROTATION: _plans(
+    Kind.SECTION: _plans(Plan(_CROSSED, 5, share=0.25), Plan(STANDARD, 9), Plan(PRECISE, 13), Plan(REFERENCE, 22)),
+    Kind.ROTATION: _plans(
         Plan(_CROSSED, 1e-3, 0.3, 0.5), *(Plan(each, 1e-4) for each in (STANDARD, PRECISE, REFERENCE))
     ),
-    Computation.GRID: _plans(Plan(DRAFT, 1e-3, cells=0.5), *_OF_A_MAP),
+    Kind.GRID: _plans(Plan(DRAFT, 1e-3, cells=0.5), *_OF_A_MAP),
     # The turns of a perturbed map dominate the time, whatever the accuracy of the map.
-    Computation.LINE: _plans(Plan(DRAFT, 1e-3, 0.15, 0.2), *_OF_A_MAP),
-    Computation.COLOURS: _plans(
+    Kind.LINE: _plans(Plan(DRAFT, 1e-3, 0.15, 0.2), *_OF_A_MAP),
+    Kind.COLOURS: _plans(
         Plan(DRAFT, 1e-3, cells=0.5),
         Plan(replace(DRAFT, name="standard"), 1e-3),
         Plan(replace(STANDARD, name="precise"), 1e-6),
         Plan(replace(PRECISE, name="reference"), 1e-9, cells=1.5),
     ),
-    Computation.MAP: _plans(Plan(DRAFT, 1e-3, cells=0.4), *_OF_A_MAP),
-    Computation.CURVE: _plans(
+    Kind.MAP: _plans(Plan(DRAFT, 1e-3, cells=0.4), *_OF_A_MAP),
+    Kind.CURVE: _plans(
         Plan(DRAFT, 0.75, cells=0.5), Plan(STANDARD, 0.25), Plan(PRECISE, 0.25), Plan(REFERENCE, 0.1, cells=2.0)
     ),
     # The attractor of an orbit, or its chaos, needs few digits; more cells show more.
-    Computation.BASINS: _CELLS,
-    Computation.INDICATOR: _CELLS,
+    Kind.BASINS: _CELLS,
+    Kind.INDICATOR: _CELLS,
     # The neighbour is 1e-7 away, so steps must be much more accurate; the time limits the accuracy of λ.
-    Computation.EXPONENT: _plans(
+    Kind.EXPONENT: _plans(
         Plan(replace(DRAFT, tolerance=1e-10, order=16), 0.05, share=0.2),
         Plan(replace(STANDARD, tolerance=1e-14, order=24), 0.02),
         Plan(replace(PRECISE, tolerance=1e-15, order=24), 0.02),
         Plan(REFERENCE, 0.02),
     ),
-    Computation.CLOUD: _plans(
+    Kind.CLOUD: _plans(
         Plan(DRAFT, 1e-3, share=0.15), Plan(STANDARD, 1e-6), Plan(PRECISE, 1e-9), Plan(REFERENCE, 1e-12)
     ),
 }
 
 
-def plan(kind: Computation, accuracy: Accuracy) -> Plan:
+def plan(kind: Kind, accuracy: Accuracy) -> Plan:
     """Return the meaning of a level for a kind of computation; a level that is not one of the four is used as it is.
 
     Raises `InvalidParameter`.

@@ -9,22 +9,22 @@ from hess_explorer.scenes.framework.trial import bare
 from hess_explorer.views.text import digits
 from hess_mechanics.dynamics.trade import LevelCost, enough, measure
 from hess_mechanics.errors import InvalidParameter, ModelError
-from hess_mechanics.numerics.accuracy import DRAFT, LEVELS, PLANS, REFERENCE, Computation
+from hess_mechanics.numerics.accuracy import DRAFT, LEVELS, PLANS, REFERENCE, Kind
 from support.measured import line, table
 
 _COUNTED = {
-    Computation.ORBIT: ("", ""),
-    Computation.SECTION: ("crossings", ""),
-    Computation.ROTATION: ("crossings", "orbits"),
-    Computation.GRID: ("", "cells along a side"),
-    Computation.LINE: ("turns", "places"),
-    Computation.COLOURS: ("", "cells along a side"),
-    Computation.MAP: ("", "phases"),
-    Computation.CURVE: ("", "tori"),
-    Computation.BASINS: ("", "cells along a side"),
-    Computation.INDICATOR: ("", "cells along a side"),
-    Computation.EXPONENT: ("time", ""),
-    Computation.CLOUD: ("points", ""),
+    Kind.ORBIT: ("", ""),
+    Kind.SECTION: ("crossings", ""),
+    Kind.ROTATION: ("crossings", "orbits"),
+    Kind.GRID: ("", "cells along a side"),
+    Kind.LINE: ("turns", "places"),
+    Kind.COLOURS: ("", "cells along a side"),
+    Kind.MAP: ("", "phases"),
+    Kind.CURVE: ("", "tori"),
+    Kind.BASINS: ("", "cells along a side"),
+    Kind.INDICATOR: ("", "cells along a side"),
+    Kind.EXPONENT: ("time", ""),
+    Kind.CLOUD: ("points", ""),
 }
 """What `Plan.share` and `Plan.cells` are a part of."""
 
@@ -140,7 +140,7 @@ def by_kind(rows):
     most), and the largest error of each level among them.
     """
     lines = []
-    for kind in Computation:
+    for kind in Kind:
         own = [row for row in rows if row.kind == kind]
         if own:
             ratios = sorted(row.ratio for row in own)

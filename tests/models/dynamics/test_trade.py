@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from hess_mechanics.dynamics.trade import LevelCost, beyond, enough, measure, measure_until
-from hess_mechanics.numerics.accuracy import LEVELS, PLANS, Computation
+from hess_mechanics.numerics.accuracy import LEVELS, PLANS, Kind
 
 
 def rounded(plan):
@@ -18,16 +18,16 @@ def difference(result, truth):
 
 
 def test_the_error_of_each_level_is_that_against_the_truth():
-    samples = measure(Computation.ORBIT, rounded, difference)
+    samples = measure(Kind.ORBIT, rounded, difference)
     assert [one.level for one in samples] == list(LEVELS)
     for one in samples:
         step = LEVELS[one.level].tolerance
-        assert one.error == pytest.approx(abs(rounded(PLANS[Computation.ORBIT][one.level]) - 1.0 / 3.0), abs=1e-16)
+        assert one.error == pytest.approx(abs(rounded(PLANS[Kind.ORBIT][one.level]) - 1.0 / 3.0), abs=1e-16)
         assert one.error <= 0.5 * step + 1e-16
 
 
 def test_what_leaves_something_out_is_not_complete():
-    complete = {one.level: one.complete for one in measure(Computation.SECTION, lambda plan: None, lambda *_: 0.0)}
+    complete = {one.level: one.complete for one in measure(Kind.SECTION, lambda plan: None, lambda *_: 0.0)}
     assert complete == {"draft": False, "standard": True, "precise": True, "reference": True}
 
 
@@ -52,16 +52,16 @@ def test_measuring_until_one_is_enough_runs_no_finer_level():
         seen.append((plan.level.name, plan.level.order))
         return rounded(plan)
 
-    assert measure_until(Computation.ORBIT, run, difference, 1e-7) == "standard"
+    assert measure_until(Kind.ORBIT, run, difference, 1e-7) == "standard"
     assert seen == [("reference", 21), ("draft", 12), ("standard", 16)]
-    assert enough(measure(Computation.ORBIT, run, difference), 1e-7) == "standard"
+    assert enough(measure(Kind.ORBIT, run, difference), 1e-7) == "standard"
 
 
-@pytest.mark.parametrize("kind", Computation)
+@pytest.mark.parametrize("kind", Kind)
 def test_the_truth_is_more_exact_than_every_level_and_has_other_points_where_these_matter(kind):
     truth, finest = beyond(kind), PLANS[kind]["reference"]
     assert truth.level.tolerance < min(plan.level.tolerance for plan in PLANS[kind].values())
     # A mean over returns and a polyline are not compared with as many of them; points of cells lie aside.
-    returns = kind in (Computation.ROTATION, Computation.LINE)
-    assert (truth.share, truth.cells) == (1.0 + returns, finest.cells * (1.0 + (kind == Computation.CURVE)))
+    returns = kind in (Kind.ROTATION, Kind.LINE)
+    assert (truth.share, truth.cells) == (1.0 + returns, finest.cells * (1.0 + (kind == Kind.CURVE)))
     assert truth.level.aside

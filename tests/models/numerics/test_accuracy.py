@@ -2,9 +2,9 @@
 
 import pytest
 
-from hess_mechanics.numerics.accuracy import LEVELS, PLANS, Computation, cheapest, plan
+from hess_mechanics.numerics.accuracy import LEVELS, PLANS, Kind, cheapest, plan
 
-every_kind = pytest.mark.parametrize("kind", Computation)
+every_kind = pytest.mark.parametrize("kind", Kind)
 
 
 @every_kind
@@ -25,7 +25,7 @@ def test_standard_computes_all_that_is_asked_for(kind):
 def test_no_tolerance_of_a_section_loses_crossings():
     assert all(
         PLANS[kind][name].level.tolerance <= 1e-6
-        for kind in (Computation.SECTION, Computation.ROTATION, Computation.BASINS)
+        for kind in (Kind.SECTION, Kind.ROTATION, Kind.BASINS)
         for name in LEVELS
     )
 

@@ -22,7 +22,7 @@ from hess_explorer.views.picture import Picture
 from hess_explorer.views.theme import in_css
 from hess_mechanics.dynamics.system import System
 from hess_mechanics.errors import ModelError
-from hess_mechanics.numerics.accuracy import LEVELS, Computation, Level, Plan
+from hess_mechanics.numerics.accuracy import LEVELS, Kind, Level, Plan
 
 __all__ = ["Motion", "Preset", "Report", "Scene", "State"]
 
@@ -98,7 +98,7 @@ class State:
         """True while a slider is held."""
         return self.work.dragging
 
-    def plan(self, kind: Computation, steady: bool = False) -> Plan:
+    def plan(self, kind: Kind, steady: bool = False) -> Plan:
         """Return the plan of the level for a kind of computation; steady : hardly any slider changes the result."""
         return self.work.plan(kind, steady)
 

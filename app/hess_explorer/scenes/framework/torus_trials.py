@@ -9,7 +9,7 @@ from typing import TypeVar
 from hess_explorer.scenes.framework.scene import State
 from hess_explorer.scenes.framework.trial import Trial
 from hess_explorer.views.comparison import Curves, Frame, compared
-from hess_mechanics.numerics.accuracy import Computation, Plan
+from hess_mechanics.numerics.accuracy import Kind, Plan
 from hess_mechanics.numerics.results import Array
 
 __all__ = ["boundary"]
@@ -27,4 +27,4 @@ def boundary(picture: str, run: Callable[[S, Plan], Array], frame: Callable[[S],
         difference = compared(look(s, found), look(s, truth))
         return difference.largest if len(difference.same) + len(difference.changed) and len(truth) else math.nan
 
-    return Trial(Computation.CURVE, (picture,), run, error, look)
+    return Trial(Kind.CURVE, (picture,), run, error, look)

@@ -21,7 +21,7 @@ from hess_mechanics.dynamics.trade import LevelCost, measure, measure_until
 from hess_mechanics.dynamics.work_precision import longest_span
 from hess_mechanics.dynamics.work_precision import truth as exactly
 from hess_mechanics.errors import ModelError
-from hess_mechanics.numerics.accuracy import LEVELS, PLANS, STANDARD, Computation, Plan
+from hess_mechanics.numerics.accuracy import LEVELS, PLANS, STANDARD, Kind, Plan
 from hess_mechanics.numerics.results import Array
 
 if TYPE_CHECKING:
@@ -70,7 +70,7 @@ class Trial(Generic[H]):
     most : limits of parameters for which it takes about a second.
     """
 
-    kind: Computation
+    kind: Kind
     pictures: tuple[str, ...]
     run: Callable[[H, Plan], Any]
     error: Callable[[H, Any, Any], float]
@@ -195,7 +195,7 @@ def _orbit_look(state: State, states: Array) -> Marks:
 
 def orbit_trial() -> Trial[Any]:
     """Return the trial of the motion on show."""
-    return Trial(Computation.ORBIT, (), _orbit, _orbit_error, _orbit_look)
+    return Trial(Kind.ORBIT, (), _orbit, _orbit_error, _orbit_look)
 
 
 def curve_error(values: Array, exact: Array, height: float, period: float = math.inf) -> float:

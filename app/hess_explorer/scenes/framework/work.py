@@ -10,7 +10,7 @@ from typing import Any, ParamSpec, TypeVar, cast
 
 from hess_explorer.compute.cache import CACHE, Task
 from hess_mechanics.dynamics.sampling import HALF_A_PIXEL
-from hess_mechanics.numerics.accuracy import STANDARD, Computation, Level, Plan, cheapest, level, plan
+from hess_mechanics.numerics.accuracy import STANDARD, Kind, Level, Plan, cheapest, level, plan
 from hess_mechanics.numerics.jit import seconds_compiling
 from hess_mechanics.numerics.results import Orbit
 from hess_mechanics.suslov.free import FreeMotion
@@ -57,7 +57,7 @@ class Work:
         """Set the measured level of "auto"; until then it is `standard`."""
         self._settled, self.chosen, self.level = True, name, level(name)
 
-    def plan(self, kind: Computation, steady: bool = False) -> Plan:
+    def plan(self, kind: Kind, steady: bool = False) -> Plan:
         """Return the plan of the level for a kind of computation; scenes set their own numbers of points for a drag.
 
         steady : hardly any slider changes the result; during a drag it keeps its plan, but no finer than `standard`.

@@ -26,7 +26,7 @@ from hess_mechanics.dynamics.manifolds import Manifold
 from hess_mechanics.dynamics.periodic import PeriodicOrbit
 from hess_mechanics.dynamics.return_map import ReturnMap
 from hess_mechanics.errors import NotConverged
-from hess_mechanics.numerics.accuracy import PRECISE, Accuracy, Computation, Plan
+from hess_mechanics.numerics.accuracy import PRECISE, Accuracy, Kind, Plan
 from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array, Mask
 from hess_mechanics.suslov.basins import Attractors, SectionOrbits, attractors
@@ -128,13 +128,13 @@ class Basins(Part[_Host]):
 
     def sought(self, plan: Plan) -> _Sought:
         """Return the basins to compute at a level."""
-        long = self.work.plan(Computation.EXPONENT).share * self.host.long
+        long = self.work.plan(Kind.EXPONENT).share * self.host.long
         return _Sought(self.host.poincare, self.section.frame, plan.grid(_PIXELS), long, plan.level)
 
     @cached_property
     def _what(self) -> _Sought | None:
         """The basins to compute; None if none are shown, and while a slider is held."""
-        return self.sought(self.work.plan(Computation.BASINS)) if self.wanted and not self.work.dragging else None
+        return self.sought(self.work.plan(Kind.BASINS)) if self.wanted and not self.work.dragging else None
 
     @cached_property
     def stage(self) -> int:
@@ -311,7 +311,7 @@ S = TypeVar("S", bound=State)
 def basins_trial(of: Callable[[S], Basins]) -> Trial[S]:
     """Return the trial of the basins, computed at each level."""
     return Trial[Basins](
-        Computation.BASINS,
+        Kind.BASINS,
         ("section",),
         lambda s, plan: (_sampled if plan.level.aside else _at_once)(s.sought(plan)).number.astype(float),
         _error,

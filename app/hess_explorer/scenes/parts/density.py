@@ -21,7 +21,7 @@ from hess_explorer.views.layers import Layers
 from hess_mechanics.dynamics.cells import evenly
 from hess_mechanics.dynamics.return_map import PoincareSection
 from hess_mechanics.dynamics.section_density import Visits, visits
-from hess_mechanics.numerics.accuracy import Computation, plan
+from hess_mechanics.numerics.accuracy import Kind, plan
 from hess_mechanics.numerics.results import Array
 
 __all__ = ["Density", "density_layers"]
@@ -33,7 +33,7 @@ _FIRST = 32
 """Crossings of each orbit in the first stage; each further stage has twice as many."""
 _STAGES = {"draft": 6, "standard": 8, "precise": 9, "reference": 10}
 """Stages by accuracy level: 1,044,480 crossings at `standard`."""
-_LEVEL = plan(Computation.SECTION, "draft").level
+_LEVEL = plan(Kind.SECTION, "draft").level
 """Level of the orbits: in a million crossings its drift stays below a pixel, and finer ones show the same density."""
 
 

@@ -22,7 +22,7 @@ from hess_explorer.views import theme
 from hess_explorer.views.layers import Layers
 from hess_mechanics.dynamics.orbit_diagram import Diagram
 from hess_mechanics.dynamics.section_density import Visits, visits_over
-from hess_mechanics.numerics.accuracy import Accuracy, Computation, cheapest, plan
+from hess_mechanics.numerics.accuracy import Accuracy, Kind, cheapest, plan
 from hess_mechanics.numerics.results import Array
 
 __all__ = ["DiagramDensity", "diagram_density_layers"]
@@ -100,7 +100,7 @@ class DiagramDensity(Part[_Host]):
         starts = ends[np.rint(shares * (len(ends) - 1)).astype(int)]
         points, stages = stages_of(_FIRST, _STAGES[self.work.chosen], _GROWTH)
         first = max(1, points // (len(self.host.branches) * self._columns))
-        level = plan(Computation.SECTION, cheapest(_ERRORS * (y1 - y0) / _ROWS)).level
+        level = plan(Kind.SECTION, cheapest(_ERRORS * (y1 - y0) / _ROWS)).level
         return [
             [
                 Task(

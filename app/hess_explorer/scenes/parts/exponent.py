@@ -25,7 +25,7 @@ from hess_explorer.views.velocity_plane import nice_above
 from hess_mechanics.dynamics import lyapunov
 from hess_mechanics.dynamics.system import Body
 from hess_mechanics.errors import MotionEnds
-from hess_mechanics.numerics.accuracy import Computation, Level, Plan
+from hess_mechanics.numerics.accuracy import Kind, Level, Plan
 from hess_mechanics.numerics.results import Array
 
 __all__ = ["Exponent", "NotPeriodic", "exponent_picture", "exponent_trial"]
@@ -91,7 +91,7 @@ class Exponent(Part[_Host]):
     def _answer(self) -> lyapunov.Exponent | NotFound | None:
         if self.later:
             return None
-        plan = self.work.plan(Computation.EXPONENT)
+        plan = self.work.plan(Kind.EXPONENT)
         return self.work.later(_exponent, self.host.body, self.host.start, plan.share * self.host.long, plan.level)
 
     @property
@@ -176,7 +176,7 @@ def exponent_trial(of: Callable[[S], Exponent]) -> Trial[S]:
         return Curves(Frame(axes, ("t", "λ")), (np.column_stack(thinned(found.times, found.rates)),))
 
     return Trial[Exponent](
-        Computation.EXPONENT,
+        Kind.EXPONENT,
         ("exponent",),
         Exponent.at,
         lambda s, found, truth: abs(found.value - truth.value) / max(truth.spread, 1e-12),

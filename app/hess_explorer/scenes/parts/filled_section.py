@@ -31,7 +31,7 @@ from hess_mechanics.dynamics.return_map import PoincareSection
 from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.dynamics.shadowing import right_crossings, typical
 from hess_mechanics.errors import InvalidParameter, OutsideRegion
-from hess_mechanics.numerics.accuracy import Computation, Level, Plan
+from hess_mechanics.numerics.accuracy import Kind, Level, Plan
 from hess_mechanics.numerics.results import Array
 
 __all__ = ["FilledSection", "filled_picture", "filled_trial", "orbits_spread", "points_of_each"]
@@ -195,10 +195,10 @@ class FilledSection(Part[_Host]):
         orbits, crossings = int(self.host.orbits), int(self.host.count)
         if self.work.dragging:
             return min(orbits, self.held[0]), min(crossings, self.held[1])
-        return orbits, self.work.plan(Computation.SECTION).part(crossings, _FEWEST)
+        return orbits, self.work.plan(Kind.SECTION).part(crossings, _FEWEST)
 
     def _follow(self, starts: tuple[Start, ...], forward: bool) -> OrbitBatch | None:
-        task = self.host.batch(starts, self.wanted[1], forward, self.work.plan(Computation.SECTION).level)
+        task = self.host.batch(starts, self.wanted[1], forward, self.work.plan(Kind.SECTION).level)
         found: OrbitBatch | None = self.work.soon(task.function, *task.arguments)
         return found
 
@@ -338,7 +338,7 @@ class FilledSection(Part[_Host]):
         if self.work.dragging or self.host.periodic_orbit.looking or self.host.periodic_orbit.closed is not None:
             return None
         own, around = self._followed
-        level = self.work.plan(Computation.SECTION).level.tightened()
+        level = self.work.plan(Kind.SECTION).level.tightened()
         some = [*in_batches(self._spread(self.wanted[0]))][:_COMPARED]
         tasks = [self.host.batch(starts, self.wanted[1], True, level) for starts in ((self.picked.states[-1],), *some)]
         fine: list[OrbitBatch | None] = [self.work.later(task.function, *task.arguments) for task in tasks]
@@ -423,7 +423,7 @@ def filled_trial(of: Callable[[S], FilledSection]) -> Trial[S]:
     """Return the trial of the section, computed at each level."""
 
     return Trial[FilledSection](
-        Computation.SECTION,
+        Kind.SECTION,
         ("section",),
         FilledSection.orbits_at,
         lambda s, orbits, truth: section_error(orbits, truth, s.pixels, _PERIODS),

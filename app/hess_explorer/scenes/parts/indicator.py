@@ -22,7 +22,7 @@ from hess_explorer.views.layers import Layer
 from hess_explorer.views.text import digits
 from hess_mechanics.dynamics.megno import CHAOTIC, REGULAR
 from hess_mechanics.dynamics.megno_map import ENDED, row_of_cells, time_of
-from hess_mechanics.numerics.accuracy import Computation, Plan
+from hess_mechanics.numerics.accuracy import Kind, Plan
 from hess_mechanics.numerics.results import Array
 
 __all__ = ["MEGNO", "Indicator", "colouring", "indicator_layer", "indicator_trial"]
@@ -85,7 +85,7 @@ class Indicator(Part[_Host]):
         """The rows (3, m) of `row_of_cells`, and the number of rows still coarse; None until coarse ones are known."""
         if not self.wanted or self.work.dragging:
             return None
-        plan = self.work.plan(Computation.INDICATOR)
+        plan = self.work.plan(Kind.INDICATOR)
         return found_by_rows(self.work, row_of_cells, self.rows(plan, COARSE), self.rows(plan), self.sooner)
 
     @property
@@ -152,7 +152,7 @@ def indicator_trial(of: Callable[[S], Indicator]) -> Trial[S]:
         return look(host.frame, host.poincare.names, cells)
 
     return Trial[Indicator](
-        Computation.INDICATOR,
+        Kind.INDICATOR,
         ("section",),
         lambda s, plan: np.stack([row_of_cells(*row)[1] for row in s.rows(plan)]),
         lambda s, cells, truth: changed(cells, truth),

@@ -29,7 +29,7 @@ from hess_mechanics.dynamics.orbit_diagram import Cascade, Diagram, doubling_see
 from hess_mechanics.dynamics.parameter_diagram import diagram, doublings, nearest_place
 from hess_mechanics.dynamics.return_map import PoincareSection
 from hess_mechanics.errors import OutsideRegion
-from hess_mechanics.numerics.accuracy import Accuracy, Computation, plan
+from hess_mechanics.numerics.accuracy import Accuracy, Kind, plan
 from hess_mechanics.numerics.results import Array
 
 __all__ = ["ANEW", "BOUNDS", "FARTHEST", "FOLLOWED", "FORWARD", "WAYS", "OrbitDiagram", "diagram_picture", "edges"]
@@ -228,14 +228,14 @@ class OrbitDiagram(Part[_Host]):
     @cached_property
     def along_values(self) -> Array:
         """The values of the parameter (n,), increasing."""
-        share = self.work.plan(Computation.SECTION).share
+        share = self.work.plan(Kind.SECTION).share
         steps = min(int(self.host.steps), _FEW) if self.work.dragging else max(2, round(share * self.host.steps))
         return np.linspace(self.frame[0][0], self.frame[1][0], steps)
 
     @cached_property
     def _courses(self) -> dict[str, _Course]:
         """The course of each requested way."""
-        level = self.work.plan(Computation.SECTION).level
+        level = self.work.plan(Kind.SECTION).level
         left, shown = (40, 20) if self.work.dragging else (int(self.host.transient), int(self.host.count))
         values, follow = tuple(self.along_values.tolist()), self.host.begins == FOLLOWED
         rising = _Course(self.family, self.name, values, self.place, left, shown, follow, False, level)
@@ -394,7 +394,7 @@ def _cropped(
     family: Family, name: str, ends: Range, place: tuple[float, float], side: int, whole: Range
 ) -> tuple[float, float]:
     """Return the range of a coordinate with the attractor over the parameter, and the repeller if it is near."""
-    values, level = tuple(np.linspace(*ends, _GLANCES).tolist()), plan(Computation.SECTION, "draft").level
+    values, level = tuple(np.linspace(*ends, _GLANCES).tolist()), plan(Kind.SECTION, "draft").level
     attractor, repeller = (
         [one[:, side] for one in diagram(family, name, values, place, place, 200, 30, True, backward, level).places]
         for backward in (False, True)

@@ -13,7 +13,7 @@ from hess_explorer.scenes.framework.part import Part, Sectioned
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.text import digits
 from hess_mechanics.dynamics.parameter_diagram import AtState, Sets, at_state, sets_of
-from hess_mechanics.numerics.accuracy import Computation
+from hess_mechanics.numerics.accuracy import Kind
 from hess_mechanics.numerics.results import Array
 
 __all__ = ["Regime"]
@@ -42,9 +42,7 @@ class Regime(Part[_Host]):
     def sets(self) -> Sets | None:
         """Attractor and repeller; None until known."""
         few = (60, 120) if self.work.dragging else (500, 1500)
-        return self.work.soon(
-            sets_of, self.host.poincare, self.host.place, *few, self.work.plan(Computation.SECTION).level
-        )
+        return self.work.soon(sets_of, self.host.poincare, self.host.place, *few, self.work.plan(Kind.SECTION).level)
 
     @property
     def attractor(self) -> Array:
@@ -61,7 +59,7 @@ class Regime(Part[_Host]):
         """The kind of motion and of dynamics; None until known."""
         if self.work.dragging:
             return None
-        t, level = self.work.plan(Computation.EXPONENT).share * self.long, self.work.plan(Computation.SECTION).level
+        t, level = self.work.plan(Kind.EXPONENT).share * self.long, self.work.plan(Kind.SECTION).level
         task = Task(at_state, (self.host.poincare, self.host.place, 500, 1500, t, level))
         # It takes as long as the diagram, whose orbits and doublings come first.
         (found,) = self.work.newest([[task]], last=True)

@@ -25,7 +25,7 @@ from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits
 from hess_mechanics.euler_poisson.andoyer import AndoyerSection
 from hess_mechanics.euler_poisson.rotation import RESOLVED, RotationProfile, on_line, rotation_along
-from hess_mechanics.numerics.accuracy import Computation, Level, Plan
+from hess_mechanics.numerics.accuracy import Kind, Level, Plan
 from hess_mechanics.numerics.results import Array
 
 __all__ = ["RotationAcross", "rotation_picture", "rotation_trial"]
@@ -90,7 +90,7 @@ class RotationAcross(Part[_Host]):
     @cached_property
     def _orbits_on_line(self) -> tuple[list[tuple[float, Array]], bool]:
         """The known orbits with the positions of their starts along the line, and whether they are complete."""
-        plan = self.work.plan(Computation.ROTATION)
+        plan = self.work.plan(Kind.ROTATION)
         count, crossings = _HELD[:2] if self.work.dragging else (plan.side(_ACROSS), self._crossings_on_line(plan))
         starts = self.work.get(on_line, self.host.poincare, self.ends, count)
         found: list[tuple[float, Array]] = []
@@ -102,12 +102,12 @@ class RotationAcross(Part[_Host]):
         return found, len(found) == len(starts)
 
     def _crossings_on_line(self, plan: Plan) -> int:
-        return max(self.work.plan(Computation.SECTION).part(self.host.count), plan.part(_ON_LINE))
+        return max(self.work.plan(Kind.SECTION).part(self.host.count), plan.part(_ON_LINE))
 
     @cached_property
     def found(self) -> RotationProfile:
         """The known rotation numbers along the line; of few, short orbits while a slider is held."""
-        count = _HELD[0] if self.work.dragging else self.work.plan(Computation.ROTATION).side(_ACROSS)
+        count = _HELD[0] if self.work.dragging else self.work.plan(Kind.ROTATION).side(_ACROSS)
         return self._rotation_of(self._orbits_on_line[0], count)
 
     @property
@@ -203,7 +203,7 @@ def rotation_trial(of: Callable[[S], RotationAcross]) -> Trial[S]:
         return Curves(Frame(Axes(s.along, _axis_of(found)), s.names), tuple(_branches(found)))
 
     return Trial[RotationAcross](
-        Computation.ROTATION,
+        Kind.ROTATION,
         ("rotation",),
         RotationAcross.at,
         lambda s, found, truth: found.distance(truth),

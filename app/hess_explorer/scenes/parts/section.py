@@ -31,7 +31,7 @@ from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.dynamics.section import SectionPoints, section_points
 from hess_mechanics.dynamics.shadowing import right_crossings, typical
 from hess_mechanics.errors import OutsideRegion, WorkLimit
-from hess_mechanics.numerics.accuracy import STANDARD, Computation, Level, Plan
+from hess_mechanics.numerics.accuracy import STANDARD, Kind, Level, Plan
 from hess_mechanics.numerics.results import Array
 
 __all__ = ["Section", "crossings_of_each", "first_place", "section_picture", "section_trial", "start_on"]
@@ -142,7 +142,7 @@ class Section(Part[_Host]):
     @property
     def wanted(self) -> int:
         """The number of crossings of each orbit."""
-        return self.work.plan(Computation.SECTION).part(self.host.count, _FEW)
+        return self.work.plan(Kind.SECTION).part(self.host.count, _FEW)
 
     def _tasks(self, crossings: int, level: Level) -> tuple[Task, Task]:
         if self.crossing is not None:
@@ -155,7 +155,7 @@ class Section(Part[_Host]):
     @cached_property
     def crossed(self) -> _Crossed:
         """The known crossings."""
-        level = self.work.plan(Computation.SECTION).level
+        level = self.work.plan(Kind.SECTION).level
         few, whole = (self._tasks(count, level) for count in (min(self.wanted, _FEW), self.wanted))
         mine = few[0] if self.work.dragging else whole[0]
         try:
@@ -222,7 +222,7 @@ class Section(Part[_Host]):
             return None
         tight: list[SectionPoints | None] = [
             self.work.later(task.function, *task.arguments)
-            for task in self._tasks(self.wanted, self.work.plan(Computation.SECTION).level.tightened())
+            for task in self._tasks(self.wanted, self.work.plan(Kind.SECTION).level.tightened())
         ]
         if self.work.todo:
             # So far only a few crossings of the others are known.
@@ -337,7 +337,7 @@ def section_trial(of: Callable[[S], Section]) -> Trial[S]:
         return Marks(frame_of(s.frame, s.poincare.names), tuple(orbits), (first, second), crossings=True)
 
     return Trial[Section](
-        Computation.SECTION,
+        Kind.SECTION,
         ("section",),
         Section.orbits_at,
         lambda s, orbits, truth: section_error(orbits, truth, s.pixels, s.poincare.turns),
