@@ -31,10 +31,11 @@ from typing import Any
 
 import numpy as np
 
-from hess_mechanics.dynamics.orbit import checked_times
+from hess_mechanics.dynamics.orbit import checked_times, solve
 from hess_mechanics.dynamics.polynomials import Along, Slope
 from hess_mechanics.dynamics.system import Body, Problem, System
-from hess_mechanics.errors import InvalidParameter
+from hess_mechanics.errors import InvalidParameter, WorkLimit
+from hess_mechanics.numerics.accuracy import Accuracy
 from hess_mechanics.numerics.arguments import as_number, as_whole
 from hess_mechanics.numerics.balls import BALL_FUNCTIONS, ArbBall, Enclosure, enclosure, rational, working
 from hess_mechanics.numerics.labelled import Labels, Result
@@ -42,7 +43,17 @@ from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.recursions import Recursion
 from hess_mechanics.numerics.results import Array, Orbit, frozen
 
-__all__ = ["MOST_WORK", "WORK_PER_SECOND", "Tube", "error_bounds", "proved_error", "right_until", "tube"]
+__all__ = [
+    "MOST_WORK",
+    "WORK_PER_SECOND",
+    "ProvedOrbit",
+    "Tube",
+    "error_bounds",
+    "proved_error",
+    "proved_orbit",
+    "right_until",
+    "tube",
+]
 
 _FIRST_BITS, _MOST_BITS, _STEP_BITS = 96, 4096, 32
 WORK_PER_SECOND = 5e5
@@ -98,22 +109,74 @@ class Tube(Result):
     seconds: float
     variables: tuple[str, ...] = ()
     spent: bool = False
+    digits: int = 18
 
     def labels(self) -> Labels:
-        """Return the ends of the intervals, as floats, labelled with time.
+        """Return the ends of the intervals, as floats, and the intervals in decimals, labelled with time.
 
         Returns
         -------
         Labels
-            The lower and the upper end of each variable over the times.
+            The lower and the upper end of each variable over the times, and both as text with all digits.
         """
         ends = {
             f"{name} {end}": (("t",), np.array([float(getattr(one[i], end)) for one in self.states]))
             for i, name in enumerate(self.variables)
             for end in ("low", "high")
         }
+        digits = {
+            f"{name} digits": (("t",), np.array([" to ".join(one[i].decimals(self.digits + 3)) for one in self.states]))
+            for i, name in enumerate(self.variables)
+        }
         facts = ("system", "complete", "width", "bits", "steps")
-        return Labels({"t": (("t",), self.times)}, ends, {"t": "T"}, {name: getattr(self, name) for name in facts})
+        return Labels(
+            {"t": (("t",), self.times)}, ends | digits, {"t": "T"}, {name: getattr(self, name) for name in facts}
+        )
+
+
+@dataclass(frozen=True)
+class ProvedOrbit(Result):
+    """An orbit with proved bounds on its true error.
+
+    Attributes
+    ----------
+    orbit : Orbit
+        The orbit.
+    tube : Tube
+        The intervals that contain the true states.
+    least : float
+        Lower bound on the largest error of any component.
+    largest : float
+        Upper bound on the same error.
+    right_to : float
+        Largest error of a state that counts as right.
+    right_until : float
+        Last time up to which every state is right; 0 if the first one is not.
+    """
+
+    orbit: Orbit
+    tube: Tube
+    least: float
+    largest: float
+    right_to: float
+    right_until: float
+
+    def labels(self) -> Labels:
+        """Return the orbit, with its proved error among the facts.
+
+        Returns
+        -------
+        Labels
+            The variables over the times.
+        """
+        found = self.orbit.labels()
+        proved = ("least", "largest", "right_to", "right_until")
+        return Labels(
+            found.coords,
+            found.variables,
+            found.units,
+            {**found.facts, **{f"proved {name}": getattr(self, name) for name in proved}},
+        )
 
 
 def tube(
@@ -510,6 +573,62 @@ def proved_error(orbit: Orbit, found: Tube) -> tuple[float, float]:
         math.nextafter(float(max(least for least, _ in bounds)), 0.0),
         math.nextafter(float(max(most for _, most in bounds)), math.inf),
     )
+
+
+def proved_orbit(
+    body: Body,
+    state: Sequence[float],
+    times: Sequence[float] | Array,
+    accuracy: Accuracy = "standard",
+    right_to: float = 1e-6,
+    digits: int = 18,
+    most_work: float = MOST_WORK,
+) -> ProvedOrbit:
+    """Return an orbit with proved bounds on its true error.
+
+    Parameters
+    ----------
+    body : Body
+        The body; its parameters are taken as exact.
+    state : sequence of float, shape (d,)
+        Initial state at time 0, taken as exact.
+    times : array_like, shape (n,)
+        Times, monotonic from 0 forward or backward.
+    accuracy : str or Level, default "standard"
+        Accuracy level of the orbit.
+    right_to : float, default 1e-6
+        Largest error of a component that counts as right.
+    digits : int, default 18
+        Number of digits of the intervals, see `tube`.
+    most_work : float, optional
+        Work limit, see `tube`.
+
+    Returns
+    -------
+    ProvedOrbit
+        The orbit with its proved error, up to the last time that the tube reaches.
+
+    Raises
+    ------
+    InvalidParameter
+        If a number is not finite, or python-flint is not installed.
+    WorkLimit
+        If the tube ends before its first time.
+
+    Examples
+    --------
+    >>> from hess_mechanics import proved_orbit, systems
+    >>> proved_orbit(*systems()["hess"].example_motion, [0.5]).largest < 1e-6
+    True
+    """
+    found = tube(body, state, times, digits, most_work)
+    if not found.times.size:
+        raise WorkLimit(
+            "No time is enclosed: reduce the digits or the time, or allow more work; or choose less extreme parameters."
+        )
+    orbit = solve(body, state, found.times, accuracy)
+    least, largest = proved_error(orbit, found)
+    return ProvedOrbit(orbit, found, least, largest, right_to, right_until(orbit, found, right_to))
 
 
 def right_until(orbit: Orbit, found: Tube, error: float) -> float:

@@ -1,0 +1,82 @@
+"""The catalogue: every system and every computation, declared once.
+
+Commands, sweeps, charts, the trade of speed against accuracy and the documentation read it.  What applies to every
+system with a motion is declared in `of_motions`, to every system with a section in `of_sections`, and what belongs to
+one problem in `of_problems`.
+
+>>> from hess_mechanics.catalogue import find
+>>> find("circle-map").compute({"h": 1.5, "f": 0.6, "a": 0.5}).kind
+'hyperbolic'
+"""
+
+from __future__ import annotations
+
+import importlib
+import pkgutil
+from collections.abc import Iterator, Mapping
+from difflib import get_close_matches
+from functools import cache
+
+from hess_mechanics.catalogue import of_motions, of_problems, of_sections
+from hess_mechanics.catalogue.declared import Choice, Computation, Many, NoValue, Number
+from hess_mechanics.dynamics.motions import Motions, anywhere, section_of
+from hess_mechanics.dynamics.system import System, systems
+from hess_mechanics.errors import InvalidParameter
+
+__all__ = [
+    "Choice",
+    "Computation",
+    "Many",
+    "Motions",
+    "NoValue",
+    "Number",
+    "catalogue",
+    "computations_of",
+    "find",
+    "motions",
+]
+
+
+@cache
+def motions() -> Mapping[str, Motions]:
+    """Return the motions of all systems by name: from any state, and from a point of each section."""
+    found = {name: anywhere(system) for name, system in systems().items()}
+    package = importlib.import_module("hess_mechanics")
+    for module in pkgutil.walk_packages(package.__path__, f"{package.__name__}."):
+        section = getattr(importlib.import_module(module.name), "SECTION", None)
+        if isinstance(section, Motions):
+            found[section.name] = section
+    sectioned = {one.system.name for one in found.values() if one.section is not None}
+    for name, system in systems().items():
+        if name not in sectioned and (section := section_of(system)) is not None:
+            found[section.name] = section
+    return found
+
+
+def computations_of(system: System | Motions) -> Mapping[str, Computation]:
+    """Return the computations of a system of one's own, by name and system."""
+    both = [system] if isinstance(system, Motions) else [anywhere(system), section_of(system)]
+    return {one.key: one for of in both if of is not None for one in _of(of)}
+
+
+def _of(of: Motions) -> Iterator[Computation]:
+    yield from of_motions.computations(of)
+    if of.section is not None:
+        yield from of_sections.computations(of)
+
+
+@cache
+def catalogue() -> Mapping[str, Computation]:
+    """Return all computations by name and system, such as "orbit suslov"."""
+    every = [*of_problems.COMPUTATIONS, *(one for of in motions().values() for one in _of(of))]
+    return {one.key: one for one in every}
+
+
+def find(key: str) -> Computation:
+    """Return the computation of this name and system.  Raises `InvalidParameter` with those that are close."""
+    every = catalogue()
+    if isinstance(key, str) and key in every:
+        return every[key]
+    named = [one for one in every if one.split(" ")[0] == str(key).split(" ")[0]]
+    close = named or get_close_matches(str(key), every, 3, 0.4) or [*dict.fromkeys(one.split(" ")[0] for one in every)]
+    raise InvalidParameter(f"There is no computation {str(key)[:60]!r}: choose from {', '.join(close)}.")

@@ -1,0 +1,232 @@
+"""A computation as data: what commands, sweeps, charts, the documentation and the trade know of it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Any, Literal
+
+import numpy as np
+
+from hess_mechanics.dynamics.motions import Motions
+from hess_mechanics.errors import InvalidParameter, ModelError
+from hess_mechanics.numerics.accuracy import Accuracy, Kind, Level
+from hess_mechanics.numerics.arguments import as_level, as_number
+from hess_mechanics.numerics.labelled import Result
+from hess_mechanics.numerics.results import Array, Mask
+from hess_mechanics.parameters import Parameter
+
+__all__ = ["Choice", "Computation", "Many", "NoValue", "Number"]
+
+Value = float | str
+
+
+class NoValue(ModelError):
+    """A result has no such number, for example no period because the motion never returns."""
+
+
+@dataclass(frozen=True)
+class Number:
+    """A number of a result, which sweeps and charts take.
+
+    Attributes
+    ----------
+    symbol, title, unit : its symbol, its name in words, and its unit.
+    read : returns it from the result.  Raises `NoValue`.
+    error : returns its estimated error from the result; None without an estimate.
+    turn : period of the values, for example 1 for rotation numbers; 0 if they are not periodic.
+    named : values that stand for categories, with their names.
+    """
+
+    symbol: str
+    title: str
+    read: Callable[[Any], float]
+    unit: str = "1"
+    error: Callable[[Any], float] | None = None
+    turn: float = 0.0
+    named: Mapping[int, str] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Choice:
+    """An argument that is a word; `sweep` and charts take its default."""
+
+    name: str
+    doc: str
+    names: tuple[str, ...]
+    default: str
+
+
+@dataclass(frozen=True)
+class Many:
+    """Numbers of many cells at once, NaN where there is none, and the cells without one by the type of their error."""
+
+    numbers: Mapping[str, Array]
+    missing: Mapping[type[ModelError], Mask]
+
+
+@dataclass(frozen=True)
+class Computation:
+    """One thing that can be computed.
+
+    Attributes
+    ----------
+    name : its name, such as "circle-map".
+    title : its name in words.
+    function : the public function, whose docstring describes it.
+    call : computes it, call(accuracy, **values).  Raises `ModelError`.
+    parameters : its numbers, whose defaults are the example.
+    numbers : the numbers of a result by name; the first is what a sweep takes by default.
+    kind : row of the table of accuracy: what a level means for it.
+    error : distance of a result from a more accurate one, NaN if there is nothing to compare.
+    unit : unit of this distance.
+    choices : its arguments that are words.
+    example : values that differ from the defaults in the example, so that it takes about a second.
+    system : name of the system; empty for a computation of its own.
+    source : label of the equation in the paper, or a citation.
+    group : heading of its command.
+    many : computes some of the numbers for many cells at once, many(accuracy, **columns).
+    """
+
+    name: str
+    title: str
+    function: Callable[..., Any]
+    call: Callable[..., Result]
+    parameters: tuple[Parameter, ...]
+    numbers: Mapping[str, Number]
+    kind: Kind
+    error: Callable[[Any, Any], float]
+    unit: str = "1"
+    choices: tuple[Choice, ...] = ()
+    example: Mapping[str, Value] = field(default_factory=dict)
+    system: str = ""
+    source: str = ""
+    group: Literal["compute", "prove"] = "compute"
+    many: Callable[..., Many] | None = None
+
+    @property
+    def key(self) -> str:
+        """Name and system, as they are typed: "orbit suslov"."""
+        return f"{self.name} {self.system}".strip()
+
+    @property
+    def doc(self) -> str:
+        """The first sentences of the function's docstring."""
+        return (self.function.__doc__ or "").partition("\n\n    Parameters")[0].strip()
+
+    def parameter(self, name: str) -> Parameter:
+        """Return the parameter of this name.  Raises `InvalidParameter`, which lists the names."""
+        for one in self.parameters:
+            if one.name == name:
+                return one
+        raise InvalidParameter(
+            f"{self.key} has no parameter {name!r}; choose from {', '.join(one.name for one in self.parameters)}."
+        )
+
+    def number(self, name: str) -> Number:
+        """Return the number of this name.  Raises `InvalidParameter`, which lists the names."""
+        if name not in self.numbers:
+            raise InvalidParameter(f"{self.key} has no number {name!r}; choose from {', '.join(self.numbers)}.")
+        return self.numbers[name]
+
+    def values(self, given: Mapping[str, Any] | None = None) -> dict[str, Value]:
+        """Return the values of all arguments, checked; those that are not given have their defaults.
+
+        Raises `InvalidParameter`.
+        """
+        given = given or {}
+        words = {one.name: one for one in self.choices}
+        for name in given:
+            if name not in words:
+                self.parameter(name)
+        found: dict[str, Value] = {
+            one.name: one.check(as_number(one.name, given.get(one.name, one.default))) for one in self.parameters
+        }
+        for one in self.choices:
+            word = str(given.get(one.name, one.default))
+            if word not in one.names:
+                raise InvalidParameter(f"{one.name} is one of {', '.join(one.names)}, not {word[:40]!r}.")
+            found[one.name] = word
+        return found
+
+    def compute(self, given: Mapping[str, Any] | None = None, accuracy: Accuracy = "precise") -> Result:
+        """Return the result for some values; the others have their defaults.
+
+        Raises `ModelError`.
+        """
+        level: Level = as_level(accuracy)
+        return self.call(level, **self.values(given))
+
+    @classmethod
+    def of_motion(
+        cls,
+        name: str,
+        title: str,
+        of: Motions,
+        function: Callable[..., Any],
+        call: Callable[..., Result],
+        parameters: tuple[Parameter, ...],
+        numbers: Mapping[str, Number],
+        kind: Kind,
+        error: Callable[[Any, Any], float],
+        **more: Any,
+    ) -> Computation:
+        """Return a computation of the motions of a system, from call(body, state, accuracy, **values)."""
+
+        def run(accuracy: Level, **values: Any) -> Result:
+            own, rest = _parted(of, values)
+            body, state = of.start(own)
+            return call(body, state, accuracy, **rest)
+
+        both = (*of.parameters, *of.place, *parameters)
+        more.setdefault("source", of.source)
+        return cls(name, f"{title}: {of.title}", function, run, both, numbers, kind, error, system=of.name, **more)
+
+    @classmethod
+    def of_section(
+        cls,
+        name: str,
+        title: str,
+        of: Motions,
+        function: Callable[..., Any],
+        call: Callable[..., Result],
+        parameters: tuple[Parameter, ...],
+        numbers: Mapping[str, Number],
+        kind: Kind,
+        error: Callable[[Any, Any], float],
+        **more: Any,
+    ) -> Computation:
+        """Return a computation of a section, from call(map, place, **values)."""
+
+        def run(accuracy: Level, **values: Any) -> Result:
+            from hess_mechanics.dynamics.return_map import ReturnMap
+
+            assert of.section is not None
+            own, rest = _parted(of, values)
+            place = tuple(own[one.name] for one in of.place)
+            return call(ReturnMap(of.section(own), accuracy), place, **rest)
+
+        both = (*of.parameters, *of.place, *parameters)
+        more.setdefault("source", of.source)
+        return cls(name, f"{title}: {of.title}", function, run, both, numbers, kind, error, system=of.name, **more)
+
+
+def _parted(of: Motions, values: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:
+    """Return the values of the motions, and the others."""
+    names = {one.name for one in (*of.parameters, *of.place)}
+    return (
+        {name: value for name, value in values.items() if name in names},
+        {name: value for name, value in values.items() if name not in names},
+    )
+
+
+def largest_difference(values: Any, exact: Any, turn: float = math.inf) -> float:
+    """Return the largest difference of two arrays of one shape, up to full turns; NaN if the shapes differ."""
+    one, other = np.asarray(values, float), np.asarray(exact, float)
+    if one.shape != other.shape or not one.size:
+        return math.nan
+    away = one - other
+    if math.isfinite(turn):
+        away = away - turn * np.round(away / turn)
+    return float(np.max(np.abs(away)))

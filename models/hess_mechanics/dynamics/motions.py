@@ -1,0 +1,175 @@
+"""Motions of a system by named numbers: what the catalogue of computations knows of a system.
+
+A module that defines `SYSTEM` has motions from any state.  `SECTION` beside it, or in the module of a section, gives
+motions that start at a point of that section.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from hess_mechanics import parameters as known
+from hess_mechanics.dynamics.system import Body, System
+from hess_mechanics.errors import InvalidParameter
+from hess_mechanics.parameters import Parameter
+
+if TYPE_CHECKING:
+    from hess_mechanics.dynamics.return_map import PoincareSection
+
+__all__ = ["Motions", "anywhere", "body_parameters", "on_section", "section_of", "usual", "whole"]
+
+Start = tuple[float, ...]
+Values = Mapping[str, float]
+
+_KNOWN: Mapping[str, Parameter] = {
+    one.name: one
+    for one in (
+        *known.TENSOR,
+        *known.FIELD,
+        known.D,
+        *known.INVERSE_MOMENTS,
+        *known.CENTRE,
+        known.MU,
+        known.A_HESS,
+        known.B_HESS,
+        known.C1,
+        known.C2,
+        known.CUBIC,
+        known.QUARTIC,
+        *known.OMEGA,
+        *known.GAMMA,
+        *known.MOMENTUM,
+        *known.REDUCED_GAMMA,
+    )
+}
+"""Parameters and variables of the systems of the paper, by name."""
+_REDUCED = {one.name: one for one in known.REDUCED_OMEGA}
+_FREE = (-1e6, 1e6)
+"""Bounds of a number of a system of one's own."""
+
+
+def usual(of: Parameter, default: float, doc: str = "") -> Parameter:
+    """Return a parameter with another default; doc : replaces its description."""
+    return replace(of, default=default, doc=doc or of.doc)
+
+
+def whole(name: str, symbol: str, default: float, low: float, high: float, doc: str) -> Parameter:
+    """Return an integer parameter of a computation."""
+    return Parameter(name, symbol, doc, default, (low, high), 1.0, (low, high), doc, "Computation", whole=True)
+
+
+@dataclass(frozen=True)
+class Motions:
+    """Motions of a system, by their numbers.
+
+    Attributes
+    ----------
+    name : name in the catalogue.
+    title : its name in words.
+    system : the equations of motion.
+    parameters : of the body, and of the energy and plane of a section; their defaults are the example.
+    place : where the motion starts: the state, or the coordinates of a point of the section.
+    start : returns body and state from the values of both.  Raises `ModelError`.
+    section : returns the section from the values of the parameters; None for motions that start anywhere.
+    source : label of the equations in the paper.
+    """
+
+    name: str
+    title: str
+    system: System
+    parameters: tuple[Parameter, ...]
+    place: tuple[Parameter, ...]
+    start: Callable[[Values], tuple[Body, Start]]
+    section: Callable[[Values], PoincareSection] | None = None
+    source: str = ""
+
+
+def _parameter(system: System, name: str, default: float) -> Parameter:
+    """Return the parameter of this name, without a description for a system of one's own."""
+    own = _KNOWN if system.labels else {}
+    found = (_REDUCED if system.name == "hess" else {}).get(name) or own.get(name)
+    if found is not None:
+        return usual(found, default)
+    reach = max(1.0, 2.0 * abs(default))
+    return Parameter(name, name, name, default, (-reach, reach), reach / 100.0, _FREE)
+
+
+def body_parameters(system: System) -> tuple[Parameter, ...]:
+    """Return the parameters of a system, with the values of its example as defaults."""
+    return tuple(
+        _parameter(system, name, value) for name, value in zip(system.parameters, system.example[1], strict=True)
+    )
+
+
+def anywhere(system: System) -> Motions:
+    """Return the motions of a system that start at any state, by default at that of its example."""
+    names = system.arguments
+    place = tuple(_parameter(system, name, value) for name, value in zip(names, system.example[0], strict=True))
+
+    def start(values: Values) -> tuple[Body, Start]:
+        state = np.array([values[name] for name in names])
+        if names[-3:] in (("g1", "g2", "g3"), ("n1", "n2", "n3")):
+            # The vertical is normalised.
+            size = float(np.linalg.norm(state[-3:]))
+            if size == 0.0:
+                raise InvalidParameter("The vertical has length 0: choose other components.")
+            state[-3:] /= size
+        return system.at([values[name] for name in system.parameters]), tuple(state.tolist())
+
+    labels = ", ".join(system.labels)
+    return Motions(system.name, system.title, system, body_parameters(system), place, start, source=labels)
+
+
+def on_section(
+    name: str,
+    title: str,
+    parameters: tuple[Parameter, ...],
+    place: tuple[Parameter, ...],
+    section: Callable[[Values], PoincareSection],
+    system: System,
+    source: str = "",
+) -> Motions:
+    """Return the motions from the points of a section; the arguments are those of `Motions`."""
+
+    def start(values: Values) -> tuple[Body, Start]:
+        from hess_mechanics.dynamics.return_map import ReturnMap
+        from hess_mechanics.numerics.accuracy import PRECISE
+
+        of = section(values)
+        state = ReturnMap(of, PRECISE).state_at(np.array([values[one.name] for one in place]))
+        return of, tuple(state.tolist())
+
+    return Motions(name, title, system, parameters, place, start, section, source)
+
+
+def section_of(system: System) -> Motions | None:
+    """Return the motions from the default section of a system, at the integrals of its example; None without one."""
+    from hess_mechanics.dynamics.variable_section import VariableSection, variable_section
+
+    if len(system.variables) < 2:
+        return None
+    levels = {name: float(value) for name, value in system.integrals(*system.example).items()}
+    body = body_parameters(system)
+
+    def section(values: Values) -> VariableSection:
+        at = system.at([values[one.name] for one in body])
+        return variable_section(at, {name: values[name] for name in levels})
+
+    try:
+        example = variable_section(system.at(), levels)
+    except InvalidParameter:
+        return None
+    taken = {one.name for one in body}
+    if taken & {*levels, *example.names}:
+        return None
+    energies = tuple(_parameter(system, name, value) for name, value in levels.items())
+    at = dict(zip(system.variables, system.example[0], strict=True))
+    argument = dict(zip(system.variables, system.arguments, strict=True))
+    place = tuple(_parameter(system, argument[name], at[name]) for name in example.names)
+    return on_section(
+        f"{system.name}-section", f"{system.title}, a point of a section", (*body, *energies), place, section, system
+    )
