@@ -1,4 +1,4 @@
-"""Numbers of a computation at many cells, for sweeps and charts: each cell has a status, and a reason if it has none."""
+"""Numbers of a computation at many cells, for sweeps and charts: each cell has a status, or a reason for its lack."""
 
 from __future__ import annotations
 

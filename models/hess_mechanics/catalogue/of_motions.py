@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -18,7 +19,6 @@ from hess_mechanics.dynamics.section import MAX_CROSSINGS, Plane, section
 from hess_mechanics.dynamics.spectrum import Spectrum, lyapunov_spectrum
 from hess_mechanics.dynamics.system import Body
 from hess_mechanics.dynamics.tube import WORK_PER_SECOND, ProvedOrbit, Tube, proved_orbit, tube
-from hess_mechanics.errors import ModelError
 from hess_mechanics.numerics.accuracy import Kind, Level
 from hess_mechanics.numerics.results import Orbit, SectionCrossings
 from hess_mechanics.parameters import Parameter
@@ -277,6 +277,10 @@ def computations(of: Motions) -> Iterator[Computation]:
         group="prove",
         example={"t": 1.0, "samples": 3.0},
     )
+
+
+def _last(i: int, orbit: Orbit) -> float:
+    return float(orbit.states[-1, i])
 
 
 def _error(result: Any) -> float:
