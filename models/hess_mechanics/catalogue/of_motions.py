@@ -155,10 +155,8 @@ def computations(of: Motions) -> Iterator[Computation]:
         (*_TIMES, *_STEPS),
         {
             **{
-                name: Number(
-                    variable, f"{variable} at the last time", lambda r, i=i: float(r.states[-1, i]), error=_error
-                )
-                for i, (name, variable) in enumerate(zip(of.system.arguments, of.system.variables, strict=True))
+                name: Number(symbol, f"{symbol} at the last time", partial(_last, i), error=_error)
+                for i, (name, symbol) in enumerate(zip(of.system.arguments, of.system.variables, strict=True))
             },
             "drift": Number("Δ", "largest drift of an integral", lambda r: max(r.drift.values(), default=0.0)),
             "error": Number("ε", "estimated error", _error),
