@@ -1,13 +1,12 @@
-"""The plan of a sweep: everything that determines its values, and regions of cells as units of work."""
+"""The plan of a sweep: everything that determines its values."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 from importlib import metadata
-from itertools import product
 
 import numpy as np
 
@@ -71,7 +70,7 @@ class Plan:
         """Return the checked plan.  Raises `InvalidParameter`, `WorkLimit`."""
         if not 1 <= len(over) <= _MOST_AXES:
             raise InvalidParameter(f"A sweep takes one to {_MOST_AXES} parameters, not {len(over)}.")
-        if both := sorted(set(over) & set(fixed)):
+        if both := sorted(over.keys() & fixed):
             raise InvalidParameter(f"{both[0]} is both swept and fixed: give it only once.")
         known = {name: what.parameter(name) for name in (*over, *fixed)}
         for name in numbers:
@@ -79,7 +78,7 @@ class Plan:
         if not 1 <= (most := as_number("most_cells", most_cells)) <= _HARD_LIMIT:
             raise WorkLimit(f"most_cells must lie between 1 and {_HARD_LIMIT:g}, not be {most:g}.")
         # Before any value is created.
-        cells = math.prod(_count(name, values) for name, values in over.items())
+        cells = math.prod(int(values[2]) if _is_range(values) else np.size(values) for values in over.values())
         if cells > most:
             raise WorkLimit(
                 f"The sweep has {cells} cells; at most {most:.0f} are allowed: choose fewer values, or raise "
@@ -87,7 +86,7 @@ class Plan:
             )
         axes = {name: _axis(known[name], values) for name, values in over.items()}
         others = {one.name: _value(what, one, fixed) for one in what.parameters if one.name not in over}
-        return cls(what, tuple(dict.fromkeys(numbers)), level, axes, others, source)
+        return cls(what, tuple(numbers), level, axes, others, source)
 
     @property
     def variables(self) -> dict[str, str]:
@@ -115,44 +114,23 @@ class Plan:
         fixed = {name: np.full(every.size, value) for name, value in self.fixed.items()}
         return {name: values[i] for (name, values), i in at} | fixed
 
-    def piece_of(self, cells: float) -> tuple[int, ...]:
-        """Return the shape of pieces with at most `cells` cells, by halving the longest side."""
-        shape = list(self.shape)
-        while math.prod(shape) > max(1.0, cells):
-            longest = shape.index(max(shape))
-            shape[longest] = -(-shape[longest] // 2)
-        return tuple(shape)
-
-    def regions(self, piece: Sequence[int]) -> Iterator[Region]:
-        """Yield the regions of all pieces of this shape; the last one along an axis may be smaller."""
-        for corner in product(*(range(0, whole, side) for whole, side in zip(self.shape, piece, strict=True))):
-            ends = zip(self.axes, corner, piece, self.shape, strict=True)
-            yield {name: slice(low, min(low + side, whole)) for name, low, side, whole in ends}
-
 
 def _is_range(values: Axis) -> bool:
     return isinstance(values, tuple) and len(values) == 3 and isinstance(values[2], (int, np.integer))
 
 
-def _count(name: str, values: Axis) -> int:
-    try:
-        count = int(values[2]) if _is_range(values) else len(values)
-    except TypeError:
-        raise InvalidParameter(f"The range of {name} must be a list of values or (low, high, count).") from None
-    if count < 1 + _is_range(values):
-        raise InvalidParameter(f"The range of {name} has {count} values: choose 2 or more, as in (0.0, 1.0, 11).")
-    return count
-
-
 def _axis(one: Parameter, values: Axis) -> Array:
     if _is_range(values):
-        values = np.linspace(*(one.check(as_number(one.name, end)) for end in values[:2]), int(values[2]))
+        low, high = (one.check(as_number(one.name, end)) for end in values[:2])
+        if values[2] < 2:
+            raise InvalidParameter(f"The range of {one.name} has {values[2]} values: choose 2 or more.")
+        return np.linspace(low, high, int(values[2]))
     try:
         found = np.array(values, float)
     except (TypeError, ValueError, OverflowError):
         raise InvalidParameter(f"The values of {one.name} must all be numbers.") from None
-    if found.ndim != 1:
-        raise InvalidParameter(f"The values of {one.name} must be a one-dimensional list of numbers.")
+    if found.ndim != 1 or not found.size:
+        raise InvalidParameter(f"The values of {one.name} must be a list of numbers or (low, high, count).")
     for value in found.tolist():
         one.check(value)
     if np.unique(found).size < found.size:

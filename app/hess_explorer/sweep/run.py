@@ -3,23 +3,20 @@
 from __future__ import annotations
 
 import json
-import signal
-import threading
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import ExitStack, contextmanager
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import nullcontext
 from pathlib import Path
-from types import FrameType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from hess_explorer.compute.cells import Outcome, evaluate
 from hess_explorer.sweep.errors import Interrupted, StoreError, WorkersLost
 from hess_explorer.sweep.function import plan_of
-from hess_explorer.sweep.piece import named, seconds_of_a_cell
+from hess_explorer.sweep.piece import cells_of_a_piece, named
 from hess_explorer.sweep.plan import MAX_CELLS, Axis, Plan
 from hess_explorer.sweep.progress import Report, reporting
-from hess_explorer.sweep.store import Store, opened, path_of, require_libraries
+from hess_explorer.sweep.store import create, exists, load, missing, require_libraries, write
 from hess_explorer.sweep.workers import connected, results, size
 from hess_mechanics.catalogue import Computation, find
 from hess_mechanics.errors import InvalidParameter
@@ -31,22 +28,6 @@ if TYPE_CHECKING:
     from distributed import Client
 
 __all__ = ["explain", "sweep"]
-
-_SHORTEST, _LONGEST = 0.25, 2.0
-"""Duration of a piece in seconds: long compared with the overhead, short enough to lose."""
-_PIECES = 16
-"""Pieces per worker, so that all workers finish at about the same time; fewer if they would be too short."""
-_RATE = 50.0
-"""Maximum number of pieces per second for the scheduler and the writer."""
-_MOST_NUMBERS = 1_000_000
-"""Maximum number of values of a piece, which take 8 MB."""
-
-
-def _cells_of_a_piece(plan: Plan, workers: int) -> float:
-    cost, least = seconds_of_a_cell(plan), workers / _RATE
-    seconds = min(max(_LONGEST, least), max(_SHORTEST, least, cost * plan.cells / (_PIECES * workers)))
-    return min(seconds / cost, _MOST_NUMBERS / len(plan.numbers))
-
 
 def _planned(
     computation: str | Computation | Callable[..., object],
@@ -153,54 +134,33 @@ def sweep(
     if not (progress is None or isinstance(progress, bool) or callable(progress)):
         raise InvalidParameter(f"progress = {progress!r} is not a function: give True for a bar or a log.")
     plan = _planned(computation, numbers, over, fixed, as_level_name(level), most_cells)
-    path = None if store is None else path_of(store)
-    kept = None if path is None else opened(path, plan)
-    todo = [] if kept is None else kept.missing()
-    if kept is not None and not todo:
-        return kept.dataset()
     try:
-        with ExitStack() as stack:
-            client = stack.enter_context(connected(workers, scheduler))
-            if kept is None:
-                kept = Store.create(path, plan, plan.piece_of(_cells_of_a_piece(plan, size(client))))
-                todo = kept.missing()
-            left = sum(plan.part(region).cells for region in todo)
-            report = stack.enter_context(reporting(progress, plan.cells, plan.cells - left))
-            interrupted = stack.enter_context(_ctrl_c())
-            for region, done in results(client, plan, todo, interrupted.is_set):
-                kept.write(region, done)
-                report(plan.part(region).cells)
-        if interrupted.is_set():
-            raise KeyboardInterrupt
+        path = None if store is None else Path(store)
+    except TypeError:
+        raise InvalidParameter(f"{store!r} is not the name of a folder: write it like 'rho.zarr'.") from None
+    place: Any = path if path is not None and exists(path, plan) else None
+    todo = None if place is None else missing(place, plan)
+    hint = "" if path is None else f"  Finished cells are saved in {str(path)!r}: run the same sweep again to continue."
+    try:
+        # A finished sweep needs no workers.
+        with nullcontext() if todo == [] else connected(plan, workers, scheduler) as client:
+            if todo is None:
+                place = create(path, plan, cells_of_a_piece(plan, size(client)))
+                todo = missing(place, plan)
+            done = plan.cells - sum(plan.part(region).cells for region in todo)
+            with reporting(progress, plan.cells, done) as report:
+                for region, found in results(client, plan, todo):
+                    write(place, region, found)
+                    report(plan.part(region).cells)
     except KeyboardInterrupt as error:
-        if kept is None:
+        if place is None:
             raise
-        found = kept.dataset()
-        message = f"stopped after {np.count_nonzero(found.status)} of {plan.cells} cells."
-        raise Interrupted(f"{message} {kept.resume_hint}".strip(), found) from error
-    except WorkersLost as error:
-        raise WorkersLost(f"{error} {kept.resume_hint if kept else ''}".strip()) from error
-    return kept.dataset()
-
-
-@contextmanager
-def _ctrl_c() -> Iterator[threading.Event]:
-    """Yield an event that the first Ctrl-C sets instead of interrupting a library; the second one raises."""
-    pressed = threading.Event()
-    if threading.current_thread() is not threading.main_thread():
-        yield pressed
-        return
-
-    def press(number: int, frame: FrameType | None) -> None:
-        if pressed.is_set():
-            raise KeyboardInterrupt
-        pressed.set()
-
-    before = signal.signal(signal.SIGINT, press)
-    try:
-        yield pressed
-    finally:
-        signal.signal(signal.SIGINT, before)
+        kept = load(place)
+        message = f"stopped after {np.count_nonzero(kept.status)} of {plan.cells} cells."
+        raise Interrupted(f"{message}{hint}", kept) from error
+    except (StoreError, WorkersLost) as error:
+        raise type(error)(f"{error}{hint if place else ''}") from error
+    return load(place)
 
 
 def explain(found: xr.Dataset, **cell: float) -> str:

@@ -11,7 +11,7 @@ import math
 import shutil
 import uuid
 import warnings
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from contextlib import contextmanager
 from importlib.util import find_spec
 from itertools import islice
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     import xarray as xr
     from zarr.storage import MemoryStore
 
-__all__ = ["Store", "opened", "path_of", "read", "require_libraries"]
+__all__ = ["create", "exists", "load", "missing", "read", "require_libraries", "write"]
 
 _PROGRAM = "hess-explorer sweep"
 _MOST_FAILURES = 1000
@@ -44,137 +44,65 @@ def require_libraries() -> None:
         raise MissingLibrary("Sweeps need xarray, Zarr and Dask: pip install 'hess-explorer[sweep]'.")
 
 
-class Store:
-    """The results of a sweep.
+def create(path: Path | None, plan: Plan, cells: float) -> Path | MemoryStore:
+    """Return a new store with pieces of at most so many cells, in memory without a path.
 
-    Attributes
-    ----------
-    place : its folder, or a store of Zarr in memory.
-    piece : shape of a piece.
+    Raises `OtherSweep`, `StoreError`.
     """
+    if path is None:
+        from zarr.storage import MemoryStore
 
-    def __init__(self, place: Path | MemoryStore, plan: Plan) -> None:
-        """Open the store."""
-        self.place, self._plan = place, plan
-        self.piece: tuple[int, ...] = _open(place).status.encoding["chunks"]
-
-    @classmethod
-    def create(cls, path: Path | None, plan: Plan, piece: tuple[int, ...]) -> Store:
-        """Create an empty store with pieces of this shape, or open the same one if another process was faster.
-
-        Raises `OtherSweep`, `StoreError`.
-        """
-        if path is None:
-            from zarr.storage import MemoryStore
-
-            memory = MemoryStore()
-            _fill(memory, plan, piece)
-            return cls(memory, plan)
-        begun = path.with_name(f"{path.name}.begun-{uuid.uuid4().hex}")
-        try:
-            _fill(begun, plan, piece)
-            # Renaming makes the creation atomic; it fails if another process has filled the folder.
-            begun.rename(path)
-        except OSError as error:
-            shutil.rmtree(begun, ignore_errors=True)
-            if (other := opened(path, plan)) is not None:
-                return other
+        memory = MemoryStore()
+        _fill(memory, plan, cells)
+        return memory
+    begun = path.with_name(f"{path.name}.begun-{uuid.uuid4().hex}")
+    try:
+        _fill(begun, plan, cells)
+        # Renaming makes the creation atomic; it fails if another process has filled the folder.
+        begun.rename(path)
+    except OSError as error:
+        shutil.rmtree(begun, ignore_errors=True)
+        if not exists(path, plan):
             raise StoreError(f"{str(path)!r} cannot be written ({error.strerror}); choose another folder.") from error
-        return cls(path, plan)
-
-    @property
-    def resume_hint(self) -> str:
-        """A sentence on where the results are and how to resume."""
-        if not isinstance(self.place, Path):
-            return ""
-        return f"Finished cells are saved in {str(self.place)!r}: run the same sweep again to continue."
-
-    def missing(self) -> list[Region]:
-        """Return the pieces that are not finished."""
-        stored = _open(self.place)
-        return [region for region in self._plan.regions(self.piece) if not self._has(stored.isel(region))]
-
-    def _has(self, part: xr.Dataset) -> bool:
-        """Return True if a piece is readable, each cell has a status, and each cell with a value some finite number."""
-        try:
-            status = part.status.values
-            if not status.all():
-                return False
-            part.load()
-        except _DAMAGED:
-            return False
-        finite = np.any([np.isfinite(part[name].values) for name in self._plan.variables], axis=0)
-        return bool((finite | (status >= Outcome.OUTSIDE_REGION)).all())
-
-    def write(self, region: Region, done: PieceResult) -> None:
-        """Save a piece, with the status last.  Raises `StoreError`."""
-        import xarray as xr
-        import zarr
-
-        parts = {name: (tuple(region), values) for name, values in done.arrays.items()}
-        status = {"status": parts.pop("status")}
-        try:
-            if done.failures:
-                facts = zarr.open_group(self.place, mode="r+", use_consolidated=True).attrs
-                both = {**_failures(facts), **done.failures}
-                facts["failures"] = json.dumps(dict(islice(both.items(), _MOST_FAILURES)), ensure_ascii=False)
-            for variables in (parts, status):
-                xr.Dataset(variables).to_zarr(self.place, region=region, consolidated=False)
-        except (OSError, ValueError) as error:
-            raise StoreError(f"{str(self.place)!r} cannot be written ({error}).  {self.resume_hint}") from error
-
-    def dataset(self) -> xr.Dataset:
-        """Return the results; unfinished cells have the status 0."""
-        return _loaded(self.place)
+    return path
 
 
-def _failures(facts: Mapping[str, Any]) -> dict[str, str]:
-    return dict(json.loads(facts.get("failures", "{}")))
-
-
-def _fill(place: Path | MemoryStore, plan: Plan, piece: tuple[int, ...]) -> None:
-    """Write the attributes of a store, its axes, and its arrays without any chunk."""
-    from zarr.codecs import Crc32cCodec, ZstdCodec
-
-    cells = _empty(plan, piece)
-    # Checksums reveal incomplete files.  The doubles look random, so compression would cost more than it saves.
-    packed: dict[Any, Any] = {name: {"compressors": (Crc32cCodec(),)} for name in cells.data_vars}
-    packed["status"] = {"compressors": (ZstdCodec(level=1, checksum=True),), "fill_value": 0}
-    with warnings.catch_warnings():
-        # Without consolidated metadata `xr.open_zarr` warns; with them Zarr says that its specification lacks them.
-        warnings.filterwarnings("ignore", "Consolidated metadata is currently not part")
-        cells.to_zarr(place, compute=False, zarr_format=3, consolidated=True, encoding=packed)
-
-
-def _empty(plan: Plan, piece: tuple[int, ...]) -> xr.Dataset:
-    """Return a Dataset without finished cells, with names, units and coordinates.  Raises `InvalidParameter`."""
+def _fill(place: Path | MemoryStore, plan: Plan, cells: float) -> None:
+    """Write the attributes of a store, its axes, and its arrays without any chunk.  Raises `InvalidParameter`."""
     import dask.array
     import xarray as xr
+    from zarr.codecs import Crc32cCodec, ZstdCodec
 
-    what = plan.computation
+    what, dimensions = plan.computation, tuple(plan.axes)
+    chunks = dask.array.core.normalize_chunks("auto", plan.shape, limit=cells, dtype=np.uint8)
 
-    def full(value: float | np.uint8, name: str, symbol: str = "", units: str = "1", **about: Any) -> Any:
-        cells = dask.array.full(plan.shape, value, chunks=piece, dtype=np.asarray(value).dtype)
-        return tuple(plan.axes), cells, {"long_name": name, "symbol": symbol or name, "units": units, **about}
+    def empty(value: Any, name: str, symbol: str, unit: str, **about: Any) -> Any:
+        array = dask.array.full(plan.shape, value, chunks=chunks, dtype=np.asarray(value).dtype)
+        return dimensions, array, {"long_name": name, "symbol": symbol, "units": unit, **about}
 
     variables = {}
     for own, name in plan.variables.items():
         one = what.number(name)
-        variables[own] = full(math.nan, one.title, one.symbol, one.unit)
+        variables[own] = empty(math.nan, one.title, one.symbol, one.unit)
         if one.error is not None:
-            variables[f"{own}_error"] = full(math.nan, f"estimated error: {one.title}", f"δ{one.symbol}", one.unit)
-    words = " ".join(one.words.replace(" ", "_") for one in Outcome)
-    variables["status"] = full(
-        np.uint8(0), "how each cell ended", flag_values=[int(one) for one in Outcome], flag_meanings=words
-    )
-    if taken := set(variables) & {one.name for one in what.parameters}:
+            variables[f"{own}_error"] = empty(math.nan, f"estimated error: {one.title}", f"δ{one.symbol}", one.unit)
+    flags = {"flag_values": [*map(int, Outcome)], "flag_meanings": " ".join(o.words.replace(" ", "_") for o in Outcome)}
+    variables["status"] = empty(np.uint8(0), "how each cell ended", "status", "1", **flags)
+    if taken := variables.keys() & {one.name for one in what.parameters}:
         raise InvalidParameter(f"{what.key} has a number and a parameter {min(taken)!r}: choose another name for one.")
-    axes = {}
-    for name, values in plan.axes.items():
-        of = what.parameter(name)
-        about = {"long_name": of.label, "description": of.doc, "symbol": of.symbol, "units": of.unit}
-        axes[name] = (name, values, about)
-    return xr.Dataset(variables, axes, _facts(plan))
+    known = {name: what.parameter(name) for name in dimensions}
+    axes = {
+        name: (name, plan.axes[name], {"long_name": one.label, "symbol": one.symbol, "units": one.unit})
+        for name, one in known.items()
+    }
+    # Checksums reveal incomplete files.  The doubles look random, so compression would cost more than it saves.
+    packed: dict[Any, Any] = {name: {"compressors": (Crc32cCodec(),)} for name in variables}
+    packed["status"] = {"compressors": (ZstdCodec(level=1, checksum=True),), "fill_value": 0}
+    with warnings.catch_warnings():
+        # Without consolidated metadata `xr.open_zarr` warns; with them Zarr says that its specification lacks them.
+        warnings.filterwarnings("ignore", "Consolidated metadata is currently not part")
+        whole = xr.Dataset(variables, axes, _facts(plan))
+        whole.to_zarr(place, compute=False, zarr_format=3, consolidated=True, encoding=packed)
 
 
 def _facts(plan: Plan) -> dict[str, str]:
@@ -190,8 +118,78 @@ def _facts(plan: Plan) -> dict[str, str]:
     }
 
 
+def exists(path: Path, plan: Plan) -> bool:
+    """Return True if the path has a store of this sweep, False if it is free.  Raises `OtherSweep`, `StoreError`."""
+    try:
+        if not path.exists() or (path.is_dir() and not any(path.iterdir())):
+            return False
+    except OSError as error:
+        raise StoreError(f"{str(path)!r} cannot be read ({error.strerror}); choose another folder.") from error
+    if why := _difference(_open(path), plan):
+        raise OtherSweep(
+            f"{str(path)!r} contains another sweep: it {why}.  Choose another folder, or repeat that sweep."
+        )
+    return True
+
+
+def _difference(stored: xr.Dataset, plan: Plan) -> str:
+    """Return what distinguishes the sweep of a store, as the end of a sentence; empty for the same sweep."""
+    held, own = ({**facts, **json.loads(facts["parameters"])} for facts in (stored.attrs, _facts(plan)))
+    for name in [name for name in own if name not in ("parameters", "source")]:
+        if held.get(name) != own[name]:
+            return f"has {name} = {held.get(name)}, not {own[name]}"
+    if held["source"] != plan.source:
+        return f"has another text of the function {plan.computation.key}"
+    for name, values in plan.axes.items():
+        if name not in stored.dims or not np.array_equal(stored[name], values):
+            return f"is not over the same values of {name}"
+    return ""
+
+
+def missing(place: Path | MemoryStore, plan: Plan) -> list[Region]:
+    """Return the pieces that are not finished."""
+    from dask.array.core import normalize_chunks, slices_from_chunks
+
+    stored = _open(place)
+    chunks = normalize_chunks(stored.status.encoding["chunks"], plan.shape)
+    regions = (dict(zip(plan.axes, one, strict=True)) for one in slices_from_chunks(chunks))
+    return [region for region in regions if not _finished(stored.isel(region), plan)]
+
+
+def _finished(part: xr.Dataset, plan: Plan) -> bool:
+    """Return True if a piece is readable, each cell has a status, and each cell with a value some finite number."""
+    try:
+        status = part.status.values
+        if not status.all():
+            return False
+        part.load()
+    except _DAMAGED:
+        return False
+    finite = np.any([np.isfinite(part[name]) for name in plan.variables], axis=0)
+    return bool((finite | (status >= Outcome.OUTSIDE_REGION)).all())
+
+
+def write(place: Path | MemoryStore, region: Region, done: PieceResult) -> None:
+    """Save a piece, with the status last.  Raises `StoreError`."""
+    import xarray as xr
+    import zarr
+
+    arrays, failures = done
+    parts = {name: (tuple(region), values) for name, values in arrays.items()}
+    status = {"status": parts.pop("status")}
+    try:
+        if failures:
+            facts = zarr.open_group(place, mode="r+", use_consolidated=True).attrs
+            both = json.loads(str(facts.get("failures", "{}"))) | failures
+            facts["failures"] = json.dumps(dict(islice(both.items(), _MOST_FAILURES)), ensure_ascii=False)
+        for variables in (parts, status):
+            xr.Dataset(variables).to_zarr(place, region=region, consolidated=False)
+    except (OSError, ValueError) as error:
+        raise StoreError(f"{str(place)!r} cannot be written ({error}).") from error
+
+
 @contextmanager
-def _reading(place: Path | MemoryStore, message: str) -> Iterator[None]:
+def _reading(place: Any, message: str) -> Iterator[None]:
     try:
         yield
     except _DAMAGED as error:
@@ -211,45 +209,11 @@ def _open(place: Path | MemoryStore) -> xr.Dataset:
         return found[[*(name for name in own if name in found), "status"]]
 
 
-def _loaded(place: Path | MemoryStore) -> xr.Dataset:
+def load(place: Path | MemoryStore) -> xr.Dataset:
+    """Return the results of a store; unfinished cells have the status 0.  Raises `StoreError`."""
     found = _open(place)
     with _reading(place, "has a part that cannot be read: run the same sweep again to recompute it."):
         return found.load().drop_encoding() if found.status.size <= MAX_CELLS else found
-
-
-def opened(path: Path, plan: Plan) -> Store | None:
-    """Return the store of this sweep, or None if the path does not exist.  Raises `OtherSweep`, `StoreError`."""
-    try:
-        if not path.exists() or (path.is_dir() and not any(path.iterdir())):
-            return None
-    except OSError as error:
-        raise StoreError(f"{str(path)!r} cannot be read ({error.strerror}); choose another folder.") from error
-    if why := _difference(_open(path), plan):
-        raise OtherSweep(
-            f"{str(path)!r} contains another sweep: it {why}.  Choose another folder, or repeat that sweep."
-        )
-    return Store(path, plan)
-
-
-def _difference(stored: xr.Dataset, plan: Plan) -> str:
-    """Return what distinguishes the sweep of a store, as the end of a sentence; empty for the same sweep."""
-    if stored.attrs["computation"] == plan.computation.key and stored.attrs["source"] != plan.source:
-        return f"has another text of the function {plan.computation.key}"
-    for name, values in plan.axes.items():
-        if name not in stored.dims or not np.array_equal(stored[name], values):
-            return f"is not over the same values of {name}"
-    held, own = ({**facts, **json.loads(facts["parameters"])} for facts in (stored.attrs, _facts(plan)))
-    for name in own.keys() - {"parameters"}:
-        if held.get(name) != own[name]:
-            return f"has {name} = {held.get(name)}, not {own[name]}"
-    return ""
-
-
-def path_of(place: str | Path) -> Path:
-    """Return the path of a store.  Raises `InvalidParameter`."""
-    if not isinstance(place, str | Path):
-        raise InvalidParameter(f"{place!r} is not the name of a folder: write it like 'rho.zarr'.")
-    return Path(place)
 
 
 def read(path: str | Path) -> xr.Dataset:
@@ -271,4 +235,4 @@ def read(path: str | Path) -> xr.Dataset:
         If there is no store, or a part of it cannot be read.
     """
     require_libraries()
-    return _loaded(path_of(path))
+    return load(Path(path))
