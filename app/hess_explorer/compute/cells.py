@@ -147,7 +147,8 @@ def _at_once(
         return None
     if not set(numbers) <= set(found.numbers):
         return None
-    status, why = np.full(count, Outcome.OK, np.uint8), {}
+    status: Outcomes = np.full(count, Outcome.OK, np.uint8)
+    why: dict[int, str] = {}
     for kind, there in found.missing.items():
         outcome = next(outcome for error, outcome in _OF_ERROR if issubclass(kind, error))
         status[there] = outcome

@@ -21,9 +21,11 @@ from hess_mechanics.numerics.accuracy import Kind
 from hess_mechanics.parameters import Parameter
 from hess_mechanics.return_maps import (
     Basins,
+    Hysteresis,
     PlanePoints,
     basins,
     continued_orbit,
+    hysteresis,
     manifold,
     orbit_diagram,
     period_doublings,
@@ -41,6 +43,7 @@ _TRANSIENT = whole("transient", "N₀", 300, 0, 20_000, "Crossings skipped.")
 _KEPT = whole("kept", "N", 200, 8, 20_000, "Crossings analysed.")
 _SHOWN = whole("kept", "N", 64, 1, 20_000, "Crossings shown at each value.")
 _AVERAGED = usual(known.SPAN, 200.0, "Time of MEGNO and of the mean divergence.")
+_VALUES = whole("values", "n", 50, 2, 20_000, "Number of values of the parameter.")
 _MEASURED = _TRANSIENT, _KEPT, _AVERAGED
 _BACKWARD = whole("backward", "−t", 0, 0, 1, "1: backward in time, to repellers.")
 _REACH = Parameter(
@@ -102,6 +105,12 @@ def _diagram(
         kept=int(kept),
         follow=bool(follow),
     )
+
+
+def _hysteresis(
+    map_: ReturnMap, place: Place, over: str, low: float, to: float, values: float, transient: float, kept: float
+) -> Hysteresis:
+    return hysteresis(map_, over, np.linspace(low, to, int(values)), place, transient=int(transient), kept=int(kept))
 
 
 def _doublings(map_: ReturnMap, place: Place, period: float, over: str, to: float, most: float) -> Cascade:
@@ -171,7 +180,7 @@ def computations(of: Motions) -> Iterator[Computation]:
     assert of.section is not None
     over, low, to = _followed(of)
     example = of.section({one.name: one.default for one in of.parameters})
-    orbit: dict[str, Value] = {"period": 1.0}
+    orbit: dict[str, Value] = {"period": float(of.period)}
     yield Computation.of_section(
         "periodic-orbit",
         "Periodic orbit",
@@ -234,7 +243,7 @@ def computations(of: Motions) -> Iterator[Computation]:
         (
             low,
             to,
-            whole("values", "n", 50, 2, 20_000, "Number of values of the parameter."),
+            _VALUES,
             usual(_TRANSIENT, 200.0),
             _SHOWN,
             whole("follow", "f", 1, 0, 1, "1: each value starts where the one before ends; 0: at the place."),
@@ -245,6 +254,19 @@ def computations(of: Motions) -> Iterator[Computation]:
         lambda r, exact: largest_difference(r.periods, exact.periods),
         choices=(over,),
         example={"values": 3.0, "transient": 30.0, "kept": 8.0},
+    )
+    yield Computation.of_section(
+        "hysteresis",
+        "Orbit diagram there and back",
+        of,
+        hysteresis,
+        _hysteresis,
+        (low, to, _VALUES, usual(_TRANSIENT, 200.0), usual(_KEPT, 64.0, "Crossings shown at each value, 16 or more.")),
+        {"intervals": Number("n", "number of intervals over which the ways differ", lambda r: float(len(r.intervals)))},
+        Kind.SECTION,
+        lambda r, exact: float(r.intervals != exact.intervals),
+        choices=(over,),
+        example={"values": 3.0, "transient": 30.0, "kept": 16.0},
     )
     yield Computation.of_section(
         "regime",
