@@ -85,6 +85,8 @@ def plan_of(
     plan = Plan.of(what, (), level, over, fixed, most_cells, _source(function))
     fields = _fields(calls, plan)
     title = (inspect.getdoc(_inner(function)) or name).partition("\n")[0]
+    if taken := {*fields, *(() if fields else (name,))} & {*defaults, "status"}:
+        raise InvalidParameter(f"{name} returns {min(taken)!r}, the name of another variable: choose another name.")
     numbers = {each: _number(each, title, each) for each in fields} or {name: _number(name, title, None)}
     what = replace(what, numbers=numbers, call=replace(calls, fields=fields))
     return replace(plan, computation=what, numbers=tuple(numbers))

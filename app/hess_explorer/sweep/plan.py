@@ -91,7 +91,7 @@ class Plan:
     @property
     def variables(self) -> dict[str, str]:
         """The names of the numbers by that of their variable in a Dataset."""
-        return {name.replace("-", "_"): name for name in self.numbers}
+        return {f"{name.replace('-', '_')}{'_value' if name in self.axes else ''}": name for name in self.numbers}
 
     @property
     def shape(self) -> tuple[int, ...]:

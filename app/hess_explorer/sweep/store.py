@@ -24,7 +24,7 @@ from hess_explorer.compute.cells import Outcome
 from hess_explorer.sweep.errors import OtherSweep, StoreError
 from hess_explorer.sweep.piece import PieceResult
 from hess_explorer.sweep.plan import MAX_CELLS, Plan, Region, version
-from hess_mechanics.errors import InvalidParameter, MissingLibrary
+from hess_mechanics.errors import MissingLibrary
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -68,7 +68,7 @@ def create(path: Path | None, plan: Plan, cells: float) -> Path | MemoryStore:
 
 
 def _fill(place: Path | MemoryStore, plan: Plan, cells: float) -> None:
-    """Write the attributes of a store, its axes, and its arrays without any chunk.  Raises `InvalidParameter`."""
+    """Write the attributes of a store, its axes, and its arrays without any chunk."""
     import dask.array
     import xarray as xr
     from zarr.codecs import Crc32cCodec, ZstdCodec
@@ -88,21 +88,21 @@ def _fill(place: Path | MemoryStore, plan: Plan, cells: float) -> None:
             variables[f"{own}_error"] = empty(math.nan, f"estimated error: {one.title}", f"δ{one.symbol}", one.unit)
     flags = {"flag_values": [*map(int, Outcome)], "flag_meanings": " ".join(o.words.replace(" ", "_") for o in Outcome)}
     variables["status"] = empty(np.uint8(0), "how each cell ended", "status", "1", **flags)
-    if taken := variables.keys() & {one.name for one in what.parameters}:
-        raise InvalidParameter(f"{what.key} has a number and a parameter {min(taken)!r}: choose another name for one.")
     known = {name: what.parameter(name) for name in dimensions}
     axes = {
         name: (name, plan.axes[name], {"long_name": one.label, "symbol": one.symbol, "units": one.unit})
         for name, one in known.items()
     }
+    facts = {**_facts(plan), "variables": ", ".join(variables)}
     # Checksums reveal incomplete files.  The doubles look random, so compression would cost more than it saves.
     packed: dict[Any, Any] = {name: {"compressors": (Crc32cCodec(),)} for name in variables}
     packed["status"] = {"compressors": (ZstdCodec(level=1, checksum=True),), "fill_value": 0}
     with warnings.catch_warnings():
         # Without consolidated metadata `xr.open_zarr` warns; with them Zarr says that its specification lacks them.
         warnings.filterwarnings("ignore", "Consolidated metadata is currently not part")
-        whole = xr.Dataset(variables, axes, _facts(plan))
-        whole.to_zarr(place, compute=False, zarr_format=3, consolidated=True, encoding=packed)
+        xr.Dataset(variables, axes, facts).to_zarr(
+            place, compute=False, zarr_format=3, consolidated=True, encoding=packed
+        )
 
 
 def _facts(plan: Plan) -> dict[str, str]:
@@ -205,8 +205,7 @@ def _open(place: Path | MemoryStore) -> xr.Dataset:
         if found.attrs["program"] != _PROGRAM:
             raise ValueError
         # Zarr sorts the names.
-        own = [f"{name.replace('-', '_')}{end}" for name in found.numbers.split(", ") for end in ("", "_error")]
-        return found[[*(name for name in own if name in found), "status"]]
+        return found[found.attrs["variables"].split(", ")]
 
 
 def load(place: Path | MemoryStore) -> xr.Dataset:

@@ -115,14 +115,14 @@ def _proved(
 
 
 def _normal(of: Motions) -> tuple[Parameter, ...]:
-    """Return the components of the normal of a plane in the space of states; by default the last variable is 0."""
+    """Return the components of the normal of a plane among the states; by default the last variable but one is 0."""
     names = of.system.variables
     return tuple(
         Parameter(
             f"n_{i + 1}",
             f"n({name})",
             f"Normal, {name}",
-            float(i + 1 == len(names)),
+            float(i == max(0, len(names) - 2)),
             (-1.0, 1.0),
             0.1,
             (-1e3, 1e3),
@@ -201,11 +201,7 @@ def computations(of: Motions) -> Iterator[Computation]:
         {
             **{
                 f"exponent-{i + 1}": Number(
-                    f"λ{'₁₂₃₄₅₆₇₈₉'[i] if i < 9 else i + 1}",
-                    f"Lyapunov exponent {i + 1}",
-                    lambda r, i=i: float(r.values[i]),
-                    "1/time",
-                    lambda r, i=i: float(r.errors[i]),
+                    f"λ{i + 1}", f"Lyapunov exponent {i + 1}", partial(_rate, i), "1/time", partial(_rate_error, i)
                 )
                 for i in range(len(of.system.variables))
             },
@@ -255,7 +251,7 @@ def computations(of: Motions) -> Iterator[Computation]:
             "end": Number("t", "last enclosed time", lambda r: float(r.times[-1]) if r.times.size else 0.0, "time"),
         },
         Kind.ORBIT,
-        lambda r, exact: 0.0,
+        lambda r, exact: float(r.width),
         group="prove",
         example={"t": 1.0, "samples": 3.0},
     )
@@ -279,6 +275,14 @@ def computations(of: Motions) -> Iterator[Computation]:
 
 def _last(i: int, orbit: Orbit) -> float:
     return float(orbit.states[-1, i])
+
+
+def _rate(i: int, spectrum: Spectrum) -> float:
+    return float(spectrum.values[i])
+
+
+def _rate_error(i: int, spectrum: Spectrum) -> float:
+    return float(spectrum.errors[i])
 
 
 def _error(result: Any) -> float:
