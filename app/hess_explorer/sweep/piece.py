@@ -13,6 +13,7 @@ import numpy as np
 from hess_explorer.compute.cells import Outcome, evaluate
 from hess_explorer.sweep.errors import WorkersLost
 from hess_explorer.sweep.plan import Plan, version
+from hess_mechanics.catalogue import catalogue, find
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.arguments import as_level
 from hess_mechanics.numerics.results import Array
@@ -64,12 +65,15 @@ def sendable(plan: Plan) -> bytes:
     """
     import cloudpickle
 
+    what = plan.computation
+    # By name where that is enough: a copy of a system would have to compile its kernels.
+    known = catalogue().get(what.key) is what
     try:
-        return bytes(cloudpickle.dumps(replace(plan, axes={})))
+        return bytes(cloudpickle.dumps((what.key if known else what, plan.numbers, plan.level, plan.fixed)))
     # Whatever the objects that a function uses raise.
     except Exception as error:
         raise InvalidParameter(
-            f"{plan.computation.key} cannot be sent to other processes ({error}): leave out workers, or define it "
+            f"{what.key} cannot be sent to other processes ({error}): leave out workers, or define it "
             "without what cannot be pickled, such as open files and locks."
         ) from error
 
@@ -77,8 +81,8 @@ def sendable(plan: Plan) -> bytes:
 @lru_cache(maxsize=1)
 def received(content: bytes) -> Plan:
     """Return the plan that was sent, the same object for all pieces: a function keeps what it has compiled."""
-    found: Plan = pickle.loads(content)
-    return found
+    what, numbers, level, fixed = pickle.loads(content)
+    return Plan(find(what) if isinstance(what, str) else what, numbers, level, {}, fixed)
 
 
 def compute_sent(content: bytes, needed: str, axes: Mapping[str, Array]) -> PieceResult:

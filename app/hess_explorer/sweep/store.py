@@ -10,7 +10,6 @@ import json
 import math
 import shutil
 import uuid
-import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
 from importlib.util import find_spec
@@ -97,12 +96,9 @@ def _fill(place: Path | MemoryStore, plan: Plan, cells: float) -> None:
     # Checksums reveal incomplete files.  The doubles look random, so compression would cost more than it saves.
     packed: dict[Any, Any] = {name: {"compressors": (Crc32cCodec(),)} for name in variables}
     packed["status"] = {"compressors": (ZstdCodec(level=1, checksum=True),), "fill_value": 0}
-    with warnings.catch_warnings():
-        # Without consolidated metadata `xr.open_zarr` warns; with them Zarr says that its specification lacks them.
-        warnings.filterwarnings("ignore", "Consolidated metadata is currently not part")
-        xr.Dataset(variables, axes, facts).to_zarr(
-            place, compute=False, zarr_format=3, consolidated=True, encoding=packed
-        )
+    # The specification of Zarr 3 has no consolidated metadata.
+    whole = xr.Dataset(variables, axes, facts)
+    whole.to_zarr(place, compute=False, zarr_format=3, consolidated=False, encoding=packed)
 
 
 def _facts(plan: Plan) -> dict[str, str]:
@@ -179,7 +175,7 @@ def write(place: Path | MemoryStore, region: Region, done: PieceResult) -> None:
     status = {"status": parts.pop("status")}
     try:
         if failures:
-            facts = zarr.open_group(place, mode="r+", use_consolidated=True).attrs
+            facts = zarr.open_group(place, mode="r+", use_consolidated=False).attrs
             both = json.loads(str(facts.get("failures", "{}"))) | failures
             facts["failures"] = json.dumps(dict(islice(both.items(), _MOST_FAILURES)), ensure_ascii=False)
         for variables in (parts, status):
@@ -201,10 +197,10 @@ def _open(place: Path | MemoryStore) -> xr.Dataset:
     import xarray as xr
 
     with _reading(place, "does not contain a sweep: choose another folder."):
-        found = xr.open_zarr(place, zarr_format=3, consolidated=True, chunks=None)
+        found = xr.open_zarr(place, zarr_format=3, consolidated=False, chunks=None)
         if found.attrs["program"] != _PROGRAM:
             raise ValueError
-        # Zarr sorts the names.
+        # Zarr does not keep their order.
         return found[found.attrs["variables"].split(", ")]
 
 

@@ -84,10 +84,20 @@ def connected(plan: Plan, workers: str | int | None, scheduler: str | Client | N
         return
     if scheduler is not None and "://" not in scheduler:
         raise InvalidParameter(f"{scheduler!r} is not a Dask scheduler: write its address like tcp://host:8786.")
-    quiet = {"memory_limit": 0, "dashboard_address": None, "silence_logs": "CRITICAL"}
+    # No dashboard: its port may be in use.
+    quiet = {"dashboard": False, "dashboard_address": "127.0.0.1:0"}
     with ExitStack() as stack:
         try:
-            at = scheduler or stack.enter_context(LocalCluster(count, threads_per_worker=1, host="127.0.0.1", **quiet))
+            at = scheduler or stack.enter_context(
+                LocalCluster(
+                    n_workers=count,
+                    threads_per_worker=1,
+                    host="127.0.0.1",
+                    memory_limit=0,
+                    scheduler_kwargs=quiet,
+                    silence_logs="CRITICAL",
+                )
+            )
             client = stack.enter_context(Client(at, timeout=_WAIT, set_as_default=False))
             client.wait_for_workers(1, timeout=_WAIT)
             # They import the mechanics while this thread measures the cost of a cell.
