@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import signal
 from collections.abc import Iterable, Iterator
 from contextlib import ExitStack, contextmanager
 from itertools import islice
@@ -14,14 +15,19 @@ from hess_explorer.sweep.plan import Plan, Region, version
 from hess_mechanics.errors import InvalidParameter
 
 if TYPE_CHECKING:
-    from distributed import Client
+    from distributed import Client, Worker
 
-__all__ = ["connected", "results", "size"]
+__all__ = ["connected", "dask_setup", "results", "size"]
 
 _WAIT = 60.0
 """Timeout in seconds for the cluster to respond with at least one worker."""
 _AHEAD = 3
 """Queued pieces per worker, so that no worker is idle."""
+
+
+def dask_setup(worker: Worker) -> None:
+    """Let a worker of this machine ignore Ctrl-C, which reaches it from the terminal: its sweep ends it."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
 def size(client: Client | None) -> int:
@@ -96,6 +102,7 @@ def connected(plan: Plan, workers: str | int | None, scheduler: str | Client | N
                     memory_limit=0,
                     scheduler_kwargs=quiet,
                     silence_logs="CRITICAL",
+                    preload=[__name__],
                 )
             )
             client = stack.enter_context(Client(at, timeout=_WAIT, set_as_default=False))
