@@ -1,4 +1,4 @@
-"""`sweep`: numbers of the catalogue in pieces of any size, failing cells, progress, and one sentence for every error."""
+"""`sweep`: numbers of the catalogue in pieces of any size, failing cells, progress, and one-sentence errors."""
 
 import sys
 
@@ -76,7 +76,6 @@ WRONG = [
     ({"over": {"h": [np.nan]}}, "h = nan is not between"),
     ({"over": {"h": (1, 10**400, 3)}}, "h is not a finite number"),
     ({"a": 1e9}, "a = 1e9 is not between -1000 and 1000"),
-
     ({"workers": "many"}, "choose all or 1 to"),
     ({"scheduler": "many"}, "'many' is not a Dask scheduler: write its address like tcp://host:8786"),
     ({"store": 3}, "3 is not the name of a folder"),

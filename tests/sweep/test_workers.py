@@ -13,6 +13,7 @@ from hess_explorer.sweep import WorkersLost, sweep
 from hess_explorer.sweep import workers as working
 from hess_mechanics.errors import InvalidParameter
 from support.cluster import local_cluster
+from support.command_line import typed
 from support.processes import interruptible
 
 
@@ -69,7 +70,7 @@ def test_a_cluster_finds_the_same_and_its_client_stays_open(client, pairs, alone
     assert client.submit(sum, [1, 2]).result() == 3
 
 
-SWEEP = "sweep lyapunov suslov --over w1=0.2:1.4:40 --set t=1e5 --accuracy draft --workers 2".split()
+SWEEP = typed("sweep lyapunov suslov --over w1=0.2:1.4:40 --set t=1e5 --accuracy draft --workers 2")
 
 
 @pytest.mark.parametrize("end", [signal.SIGINT, signal.SIGKILL], ids=lambda one: one.name)
@@ -92,9 +93,7 @@ def test_no_process_is_left_whatever_they_compute(end):
     assert psutil.wait_procs(children, timeout=10.0)[1] == []
 
 
-def test_a_piece_that_no_worker_can_do_is_said_and_the_others_are_kept(
-    client, pairs, alone, tmp_path, monkeypatch
-):
+def test_a_piece_that_no_worker_can_do_is_said_and_the_others_are_kept(client, pairs, alone, tmp_path, monkeypatch):
     # Not at the top of this module, which the workers do not have.
     from hess_explorer.sweep.piece import compute_sent
 
@@ -154,5 +153,6 @@ def test_a_script_without_the_condition_is_said(tmp_path):
     (tmp_path / "mine.py").write_text(
         "from hess_explorer.sweep import sweep\nsweep(lambda x: x, {'x': [1.0, 2.0]}, workers=2)\n"
     )
-    done = subprocess.run([sys.executable, tmp_path / "mine.py"], capture_output=True, text=True, timeout=60.0)
+    words = [sys.executable, tmp_path / "mine.py"]
+    done = subprocess.run(words, capture_output=True, text=True, timeout=60.0, check=False)
     assert "in a script call `sweep` below `if __name__ == '__main__':`" in done.stderr.splitlines()[-1]

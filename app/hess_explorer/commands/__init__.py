@@ -31,7 +31,7 @@ COMMANDS: Mapping[str, str] = {
     "code": "print the Python code that computes and draws a picture of the page",
     "lesson": "check a lesson that you write, or begin one",
     "docs": "build the documentation",
-    "sweep": "compute a quantity over one to three parameters",
+    "sweep": "compute numbers over one to three parameters",
     "shot": "take a screenshot of the page as PNG",
     "bench": "compare the speed with other integrators at equal measured error (in a source checkout)",
 }

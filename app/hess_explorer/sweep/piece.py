@@ -7,6 +7,7 @@ import time
 from collections.abc import Mapping
 from dataclasses import replace
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 
@@ -47,7 +48,7 @@ def compute(piece: Plan) -> PieceResult:
     """Return the results at all cells of a plan."""
     columns = piece.columns()
     found = evaluate(piece.computation, piece.numbers, columns, as_level(piece.level))
-    arrays = {}
+    arrays: dict[str, Any] = {}
     for own, name in piece.variables.items():
         arrays[own] = found.values[name]
         if name in found.errors:

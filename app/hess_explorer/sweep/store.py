@@ -1,7 +1,7 @@
 """The Zarr group of a sweep, on a disk or in memory, which xarray writes region by region.
 
 Its chunks are the pieces of the sweep, each a file that is whole or not there.  The status of a piece is written after
-its values, so a piece with a status is finished, whenever the run ended.  A piece that cannot be read is computed again.
+its values, so a piece with a status is finished, whenever the run ended.  Unreadable pieces are computed again.
 """
 
 from __future__ import annotations
@@ -201,7 +201,8 @@ def _open(place: Path | MemoryStore) -> xr.Dataset:
         if found.attrs["program"] != _PROGRAM:
             raise ValueError
         # Zarr does not keep their order.
-        return found[found.attrs["variables"].split(", ")]
+        ordered: xr.Dataset = found[found.attrs["variables"].split(", ")]
+        return ordered
 
 
 def load(place: Path | MemoryStore) -> xr.Dataset:

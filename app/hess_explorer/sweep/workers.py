@@ -7,7 +7,7 @@ import signal
 from collections.abc import Iterable, Iterator
 from contextlib import ExitStack, contextmanager
 from itertools import islice
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from hess_explorer.sweep.errors import WorkersLost
 from hess_explorer.sweep.piece import PieceResult, compute, compute_sent, received, sendable
@@ -47,7 +47,8 @@ def results(client: Client | None, plan: Plan, regions: Iterable[Region]) -> Ite
     from distributed import as_completed
 
     content, left, lost = sendable(plan), iter(regions), []
-    waiting, finished = {}, as_completed(loop=client.loop)
+    waiting: dict[Any, Region] = {}
+    finished = as_completed(loop=client.loop)
 
     def submit() -> None:
         for region in islice(left, max(0, _AHEAD * size(client) - len(waiting))):
