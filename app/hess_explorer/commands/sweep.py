@@ -163,12 +163,11 @@ def _series(found: xr.Dataset) -> dict[str, list[Any]]:
             "hess_explorer.sweep.read."
         )
     cells = found.to_dataframe(dim_order=[*found.status.dims]).reset_index()
-    series = {
+    series: dict[str, list[Any]] = {
         str(name): [value if math.isfinite(value) else None for value in column.tolist()]
         for name, column in cells.items()
     }
-    series["status"] = [Outcome(code).words for code in series["status"]]
-    return series
+    return series | {"status": [Outcome(code).words for code in series["status"]]}
 
 
 COMMAND = Command(

@@ -83,7 +83,7 @@ def _fill(place: Path | MemoryStore, plan: Plan, cells: float) -> None:
     for own, name in plan.variables.items():
         one = what.number(name)
         variables[own] = empty(math.nan, one.title, one.symbol, one.unit)
-        if one.error is not None:
+        if one.error_reader is not None:
             variables[f"{own}_error"] = empty(math.nan, f"estimated error: {one.title}", f"δ{one.symbol}", one.unit)
     flags = {"flag_values": [*map(int, Outcome)], "flag_meanings": " ".join(o.words.replace(" ", "_") for o in Outcome)}
     variables["status"] = empty(np.uint8(0), "how each cell ended", "status", "1", **flags)
