@@ -1,7 +1,6 @@
 """Stores: resumed after every kind of end, read back, and refused if they belong to another sweep."""
 
 import json
-import shutil
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
@@ -138,13 +137,6 @@ def test_what_is_no_store_is_refused(tori, tmp_path):
         read(tmp_path / "nothing")
     with pytest.raises(StoreError, match="cannot be written"):
         tori(store=tmp_path / "file" / "below")
-
-
-def test_a_store_that_loses_an_array_is_said(tori, tmp_path):
-    tori(store=tmp_path / "rho.zarr")
-    shutil.rmtree(tmp_path / "rho.zarr" / "status")
-    with pytest.raises(StoreError, match="does not contain a sweep"):
-        tori(store=tmp_path / "rho.zarr")
 
 
 def test_a_disk_that_is_full_is_said_and_the_rest_is_kept(tori, tmp_path, monkeypatch):

@@ -7,6 +7,7 @@ import signal
 from collections.abc import Iterable, Iterator
 from contextlib import ExitStack, contextmanager
 from itertools import islice
+from textwrap import shorten
 from typing import TYPE_CHECKING, Any
 
 from hess_explorer.sweep.errors import WorkersLost
@@ -67,7 +68,7 @@ def results(client: Client | None, plan: Plan, regions: Iterable[Region]) -> Ite
                 raise
             # Several workers died on this piece, or a worker could not read it; the other pieces go on.
             except Exception as error:
-                lost.append(f"{type(error).__name__}: {' '.join(str(error).split()).rstrip('.')[:300]}.")
+                lost.append(f"{type(error).__name__}: {shorten(str(error), 200, placeholder=' …')}")
     finally:
         client.cancel(list(waiting))
     if lost:
