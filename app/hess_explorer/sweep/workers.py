@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import signal
-from collections.abc import Iterable, Iterator
+from collections.abc import Generator, Iterable, Iterator
 from contextlib import ExitStack, contextmanager
 from itertools import islice
 from textwrap import shorten
@@ -39,7 +39,7 @@ def size(client: Client | None) -> int:
         raise WorkersLost("The cluster has stopped responding: restart it.") from error
 
 
-def results(client: Client | None, plan: Plan, regions: Iterable[Region]) -> Iterator[tuple[Region, PieceResult]]:
+def results(client: Client | None, plan: Plan, regions: Iterable[Region]) -> Generator[tuple[Region, PieceResult]]:
     """Yield the results of the pieces in any order.  Raises `WorkersLost`."""
     if client is None:
         for region in regions:
