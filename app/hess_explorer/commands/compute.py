@@ -43,7 +43,9 @@ def parser(words: list[str]) -> tuple[Parser, list[str]]:
         if what is None:
             raise _unknown("system", rest[0], [*of])
         return command_of(what).parser(f"{prog} {rest[0]}"), rest[1:]
-    overview = Parser(prog, "SYSTEM [OPTIONS]", f"{title_of(next(iter(of.values())))}.  SYSTEM --help shows the options.")
+    overview = Parser(
+        prog, "SYSTEM [OPTIONS]", f"{title_of(next(iter(of.values())))}.  SYSTEM --help shows the options."
+    )
     overview.list_words("systems", {system: motions()[system].title for system in of})
     overview.list_words("or one of your own", {"FILE.py:NAME": "a System that a Python file defines"})
     if not {"-h", "--help"} & {*rest}:
@@ -82,17 +84,13 @@ def command_of(what: Computation) -> Command:
         option(_typed(one.name), one.doc, choices=one.names, default=one.default, dest=_typed(one.name))
         for one in what.choices
     ]
-    example = " ".join(f"{_typed(name)} {_value(value)}" for name, value in what.example.items())
+    example = " ".join(f"{_typed(name)} {str(value).removesuffix('.0')}" for name, value in what.example.items())
     options = (*map(_option, what.parameters), *words, *OUTPUT)
     return Command("\n\n".join(description), options, partial(_run, what), example)
 
 
 def _typed(name: str) -> str:
     return f"--{name.replace('_', '-')}"
-
-
-def _value(value: float | str) -> str:
-    return value if isinstance(value, str) else plain(value, 17)
 
 
 def _unit(unit: str) -> str:

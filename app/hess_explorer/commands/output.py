@@ -137,9 +137,11 @@ def _ascii(name: str) -> str:
 
 
 def _text(result: Result, about: Mapping[str, Any], notes: list[str]) -> bytes:
-    lines = []
+    lines, errors = [], about.get("errors", {})
     for name, value in {**about, **result.labels().facts}.items():
-        lines += textwrap.wrap(f"{name}: {_words(value)}", 100, subsequent_indent="  ")
+        if name != "errors":
+            words = _words(value, errors if name == "numbers" else {})
+            lines += textwrap.wrap(f"{name}: {words}", 100, subsequent_indent="  ")
     frame = result.to_pandas()
     if not frame.empty:
         lines += ["", frame.to_string(index=False, max_rows=_ROWS, float_format="{:.9g}".format)]
@@ -148,9 +150,10 @@ def _text(result: Result, about: Mapping[str, Any], notes: list[str]) -> bytes:
     return "\n".join([*lines, *notes, ""]).encode()
 
 
-def _words(value: Any) -> str:
+def _words(value: Any, errors: Mapping[str, float]) -> str:
     if isinstance(value, Mapping):
-        return ", ".join(f"{name} = {_words(one)}" for name, one in value.items())
+        off = {name: f" ± {error:.1g}" for name, error in errors.items()}
+        return ", ".join(f"{name} = {_words(one, {})}{off.get(name, '')}" for name, one in value.items())
     return f"{value:.12g}" if isinstance(value, float) else str(value)
 
 
