@@ -14,11 +14,14 @@ import numpy as np
 
 from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.chaplygin_ball.section import BallSection
-from hess_mechanics.dynamics.cells import evenly
+from hess_mechanics.dynamics.attraction import arrivals
+from hess_mechanics.dynamics.basins import Contraction, SectionOrbits, attractors
+from hess_mechanics.dynamics.cells import Window, centres, evenly
 from hess_mechanics.dynamics.continuation import Branch, continued
 from hess_mechanics.dynamics.manifolds import Manifold, grown
-from hess_mechanics.dynamics.megno_map import require_plane
-from hess_mechanics.dynamics.orbit_diagram import Cascade, Diagram, cascade, diagram_over
+from hess_mechanics.dynamics.megno_map import corners, require_plane
+from hess_mechanics.dynamics.orbit_diagram import COMPARED, Cascade, Diagram, cascade, diagram_over
+from hess_mechanics.dynamics.orbit_diagram import hysteresis as differing
 from hess_mechanics.dynamics.periodic import MAX_PERIOD, PeriodicOrbit, find_periodic, place_units
 from hess_mechanics.dynamics.return_map import PoincareSection, ReturnMap
 from hess_mechanics.dynamics.section import section_points
@@ -28,8 +31,9 @@ from hess_mechanics.errors import InvalidParameter, OutsideRegion, WorkLimit
 from hess_mechanics.euler_poisson.andoyer import AndoyerSection
 from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.numerics.accuracy import Accuracy, Kind, plan
-from hess_mechanics.numerics.arguments import as_level, as_number, as_pairs, as_place, as_whole
+from hess_mechanics.numerics.arguments import as_cells, as_level, as_number, as_pairs, as_place, as_whole
 from hess_mechanics.numerics.labelled import Labels, Result
+from hess_mechanics.numerics.parallel import share
 from hess_mechanics.numerics.results import Array, angle_facts, frozen
 from hess_mechanics.suslov.equations import SuslovBody
 from hess_mechanics.suslov.quartic import QuarticBody, QuarticSection
@@ -38,8 +42,12 @@ from hess_mechanics.suslov_hess.equations import HessBody
 from hess_mechanics.suslov_hess.section import TorusSection
 
 __all__ = [
+    "Basins",
+    "Hysteresis",
     "PlanePoints",
+    "basins",
     "continued_orbit",
+    "hysteresis",
     "manifold",
     "orbit_diagram",
     "period_doublings",
@@ -500,6 +508,102 @@ def orbit_diagram(
     return found
 
 
+@dataclass(frozen=True)
+class Hysteresis(Result):
+    """Orbit diagrams over a parameter there and back.
+
+    Attributes
+    ----------
+    there, back : Diagram
+        The diagram over rising values, and over falling values from where the first one ends.
+    intervals : tuple of (float, float)
+        Intervals of values over which they differ.
+    """
+
+    there: Diagram
+    back: Diagram
+    intervals: tuple[tuple[float, float], ...]
+
+    def labels(self) -> Labels:
+        """Return the points of both diagrams, labelled with the way and the value of the parameter.
+
+        Returns
+        -------
+        Labels
+            The coordinates over the points.
+        """
+        one, other = self.there.labels(), self.back.labels()
+        way = [
+            np.full(len(each.coords[self.there.parameter][1]), name) for each, name in ((one, "there"), (other, "back"))
+        ]
+        both = {
+            name: (dims, np.concatenate([values, other.coords[name][1]])) for name, (dims, values) in one.coords.items()
+        }
+        return Labels(
+            {"way": (("point",), np.concatenate(way)), **both},
+            {
+                name: (dims, np.concatenate([values, other.variables[name][1]]))
+                for name, (dims, values) in one.variables.items()
+            },
+            one.units,
+            {"intervals": "; ".join(f"{low:.12g} to {high:.12g}" for low, high in self.intervals), **one.facts},
+        )
+
+
+def hysteresis(
+    map_: ReturnMap,
+    parameter: str,
+    values: Sequence[float] | Array,
+    at: Sequence[float],
+    *,
+    transient: int = 200,
+    kept: int = 64,
+) -> Hysteresis:
+    """Return the orbit diagrams of a section over a parameter there and back, and where they differ.
+
+    Parameters
+    ----------
+    map_ : ReturnMap
+        Return map of the section.
+    parameter : str
+        Name of the parameter, one of `map_.section.constants`.
+    values : array_like, shape (n,)
+        Values of the parameter on the way there.
+    at : sequence of float, shape (d,)
+        Point of the section where the orbit starts.
+    transient : int, default 200
+        Crossings discarded at each value.
+    kept : int, default 64
+        Crossings kept at each value, at least 16: fewer are not compared.
+
+    Returns
+    -------
+    Hysteresis
+        Both diagrams, and the intervals over which they differ.
+
+    Raises
+    ------
+    InvalidParameter
+        If there is no such parameter, or a number is out of range.
+    OutsideRegion
+        If no motion crosses the section at the point, for all values.
+    WorkLimit
+        If the diagram has too many points.
+
+    Examples
+    --------
+    >>> from hess_mechanics import HessBody, hysteresis, return_map
+    >>> P = return_map(HessBody(I22=2.0, I23=1.0, b3=-1.0), h=1.5, f=0.6)
+    >>> hysteresis(P, "h", [1.4, 1.5], (1.0,), transient=50, kept=16).intervals
+    ()
+    """
+    kept = as_whole("kept", kept, COMPARED, 20_000)
+    there = orbit_diagram(map_, parameter, values, at, transient=transient, kept=kept)
+    ends = [end.tolist() for end, some in zip(there.ends, there.places, strict=True) if len(some)]
+    back = orbit_diagram(map_, parameter, there.values[::-1], ends[-1], transient=transient, kept=kept)
+    return Hysteresis(there, back, differing(map_.turns, there, back))
+
+
 def period_doublings(map_: ReturnMap, orbit: PeriodicOrbit, parameter: str, to: float, most: int = 6) -> Cascade:
     """Return the cascade of period doublings of a periodic orbit, over a parameter.
 
@@ -545,6 +649,122 @@ def period_doublings(map_: ReturnMap, orbit: PeriodicOrbit, parameter: str, to: 
         map_.constant(parameter),
         to,
         as_whole("most", most, 1, 6),
+    )
+
+
+@dataclass(frozen=True)
+class Basins(Result):
+    """Basins of attraction on a section.
+
+    Attributes
+    ----------
+    names : tuple of str
+        Names of the two coordinates.
+    x, y : ndarray, shape (m,) and (n,)
+        Centres of the cells.
+    attractor : ndarray of int, shape (n, m)
+        Attractor 0, 1, … that the orbit from each cell reaches; −1 where no motion crosses the section, −2 where no
+        attractor is reached in 240 crossings.
+    crossings : ndarray, shape (n, m)
+        Crossings until the attractor is reached; NaN where none is.
+    divergence : tuple of Contraction
+        Mean divergence on each set that orbits approach, an attractor or not.
+    attractors : int
+        Number of attractors.
+    level : str
+        Name of the accuracy level.
+    """
+
+    names: tuple[str, str]
+    x: Array
+    y: Array
+    attractor: Array
+    crossings: Array
+    divergence: tuple[Contraction, ...]
+    attractors: int
+    level: str
+
+    def labels(self) -> Labels:
+        """Return the attractor and the crossings, labelled with both coordinates.
+
+        Returns
+        -------
+        Labels
+            Both arrays over the cells.
+        """
+        across, up = self.names
+        divergence = {f"divergence {i}": f"{one.mean:.6g} ± {one.error:.2g}" for i, one in enumerate(self.divergence)}
+        return Labels(
+            {up: ((up,), self.y), across: ((across,), self.x)},
+            {"attractor": ((up, across), self.attractor), "crossings": ((up, across), self.crossings)},
+            place_units(self.names),
+            {"attractors": self.attractors, **divergence, "level": self.level},
+        )
+
+
+def basins(
+    map_: ReturnMap, cells: tuple[int, int] = (16, 12), window: Window | None = None, t: float = 1000.0
+) -> Basins:
+    """Return the basins of attraction on a section, computed on all cores.
+
+    The sets that orbits approach are found from 256 orbits over the section.  A set is an attractor if the mean
+    divergence on it is negative by three times its error.
+
+    Parameters
+    ----------
+    map_ : ReturnMap
+        Return map of a section with two coordinates.  The four named levels are coarser here than for orbits.
+    cells : (int, int), default (16, 12)
+        Number of cells across and up, at most 100 000 together.
+    window : ((float, float), (float, float)), optional
+        Corners (x0, y0) and (x1, y1) of the window.  By default the whole section.
+    t : float, default 1000
+        Time over which the divergence is averaged.
+
+    Returns
+    -------
+    Basins
+        The attractor of each cell, and the divergence on each set that orbits approach.
+
+    Raises
+    ------
+    InvalidParameter
+        If the section has only one coordinate, or a number is out of range.
+    OutsideRegion
+        If no motion crosses the section.
+    WorkLimit
+        If an orbit needs too many steps.
+
+    Examples
+    --------
+    >>> from hess_mechanics import SuslovBody, basins, return_map
+    >>> P = return_map(SuslovBody(1.5, 1.0, 0.4, 0.0, 0.3, -0.5, 1.0), E=1.842, accuracy="draft")
+    >>> basins(P, cells=(6, 4)).attractors
+    2
+    """
+    section, level = map_.section, plan(Kind.BASINS, map_.accuracy).level
+    (x0, y0), (x1, y1) = corners(section, window)
+    m, n = as_cells(cells)
+    there = attractors(section, as_number("t", t), level)
+    x, y = centres(x0, x1, m), centres(y0, y1, n)
+    number, crossings = np.empty((n, m)), np.empty((n, m))
+
+    def row(i: int) -> None:
+        found = arrivals(SectionOrbits(section, level), there.sets, x, np.full(m, y[i]))
+        number[i], crossings[i] = found.number, found.crossings
+
+    share(row, n)
+    crossings[number < 0.0] = np.nan
+    across, up = section.names
+    return Basins(
+        (across, up),
+        frozen(x),
+        frozen(y),
+        frozen(number),
+        frozen(crossings),
+        there.contractions,
+        there.count,
+        level.name,
     )
 
 

@@ -147,7 +147,8 @@ def _at_once(
         return None
     if not set(numbers) <= set(found.numbers):
         return None
-    status, why = np.full(count, Outcome.OK, np.uint8), {}
+    status: Outcomes = np.full(count, Outcome.OK, np.uint8)
+    why: dict[int, str] = {}
     for kind, there in found.missing.items():
         outcome = next(outcome for error, outcome in _OF_ERROR if issubclass(kind, error))
         status[there] = outcome
@@ -163,7 +164,8 @@ def _one_by_one(
 ) -> CellResults:
     values = {name: np.full(count, np.nan) for name in numbers}
     errors = {name: np.full(count, np.nan) for name in numbers if what.number(name).error is not None}
-    status, why = np.zeros(count, np.uint8), {}
+    status: Outcomes = np.zeros(count, np.uint8)
+    why: dict[int, str] = {}
     rows = zip(*(column.tolist() for column in columns.values()), strict=True)
     for i, row in enumerate(rows):
         cell = dict(zip(columns, row, strict=True))

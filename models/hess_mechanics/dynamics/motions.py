@@ -76,6 +76,7 @@ class Motions:
     start : returns body and state from the values of both.  Raises `ModelError`.
     section : returns the section from the values of the parameters; None for motions that start anywhere.
     source : label of the equations in the paper.
+    period : number of returns of the saddle near the place, for examples.
     """
 
     name: str
@@ -86,6 +87,7 @@ class Motions:
     start: Callable[[Values], tuple[Body, Start]]
     section: Callable[[Values], PoincareSection] | None = None
     source: str = ""
+    period: int = 1
 
 
 def _parameter(system: System, name: str, default: float) -> Parameter:
@@ -98,10 +100,11 @@ def _parameter(system: System, name: str, default: float) -> Parameter:
     return Parameter(name, name, name, default, (-reach, reach), reach / 100.0, _FREE)
 
 
-def body_parameters(system: System) -> tuple[Parameter, ...]:
-    """Return the parameters of a system, with the values of its example as defaults."""
+def body_parameters(system: System, *values: float) -> tuple[Parameter, ...]:
+    """Return the parameters of a system with these defaults, or with those of its example."""
     return tuple(
-        _parameter(system, name, value) for name, value in zip(system.parameters, system.example[1], strict=True)
+        _parameter(system, name, value)
+        for name, value in zip(system.parameters, values or system.example[1], strict=True)
     )
 
 
@@ -132,6 +135,7 @@ def on_section(
     section: Callable[[Values], PoincareSection],
     system: System,
     source: str = "",
+    period: int = 1,
 ) -> Motions:
     """Return the motions from the points of a section; the arguments are those of `Motions`."""
 
@@ -143,7 +147,7 @@ def on_section(
         state = ReturnMap(of, PRECISE).state_at(np.array([values[one.name] for one in place]))
         return of, tuple(state.tolist())
 
-    return Motions(name, title, system, parameters, place, start, section, source)
+    return Motions(name, title, system, parameters, place, start, section, source, period)
 
 
 def section_of(system: System) -> Motions | None:
