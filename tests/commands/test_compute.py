@@ -14,7 +14,7 @@ from pytest import approx
 import hess_mechanics
 from hess_explorer.__main__ import main
 from hess_explorer.commands.compute import command_of
-from hess_mechanics import SuslovBody, basins
+from hess_mechanics import SuslovBody, basins, return_map
 from hess_mechanics.catalogue import catalogue, find
 from hess_mechanics.errors import WorkLimit
 from support.command_line import replaced, table, typed, without_patience
@@ -35,12 +35,13 @@ THETA_0, TRACE, PERIOD = -1.846842405836762766371, 4.381325585713531995065, 3.66
 STATE = [-1.4371975558069667, 1.0002904454089423, -0.2723685171956202, -0.19917972328798356, -0.9413515967329006]
 
 
+QUICK = ("hess", "torus", "quartic", "")
+
+
 def once():
-    """One computation of each name, of another system each time."""
-    names = {}
-    for one in catalogue().values():
-        names.setdefault(one.name, []).append(one)
-    return [of[i % len(of)].key for i, of in enumerate(names.values())]
+    """One computation of each name, of a system that is computed quickly."""
+    ordered = sorted(catalogue().values(), key=lambda one: QUICK.index(one.system) if one.system in QUICK else 9)
+    return [one.key for one in {one.name: one for one in reversed(ordered)}.values()]
 
 
 def example(what):
@@ -102,6 +103,8 @@ def test_the_example_of_a_computation_says_the_same_as_json_and_as_csv(key, answ
         assert list(found[part]) == list(named)
         for name, (dims, values) in named.items():
             assert found[part][name]["dims"] == list(dims)
+            if values.dtype.kind == "f":
+                values = np.where(np.isfinite(values), values, np.nan)
             np.testing.assert_array_equal(np.array(found[part][name]["data"], values.dtype), values)
     assert found["parameters"] == facts["parameters"] == what.values(what.example)
     assert list(found["numbers"]) == list(what.numbers)
@@ -235,4 +238,4 @@ def test_basins_of_a_body_beyond_double_range_end():
     """No subinterval of a step was ever free of roots, so the search did not end; now it names what is too large."""
     body = SuslovBody(1.5, 1.07, 4.4e90, 0.0, 0.3, -0.5, 1.0)
     with pytest.raises(WorkLimit, match=r"the field exceeds the range of double precision in .*I13 \* ω1"):
-        basins(body, 0.68, plane=2, cells=(8, 6), accuracy="draft")
+        basins(return_map(body, E=0.68, plane=2, accuracy="draft"), cells=(8, 6))
