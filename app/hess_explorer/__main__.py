@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from importlib import import_module, metadata
 
 from hess_explorer.commands import COMMANDS, HEADINGS, CommandError
-from hess_explorer.commands.command import Options, Parser
+from hess_explorer.commands.command import Command, Options, Parser
 
 __all__ = ["main", "parsed"]
 
@@ -46,12 +46,12 @@ def parsed(words: Sequence[str]) -> Options:
     """
     name, *rest = _with_negative_values(_with_command(list(words)))
     if name in COMMANDS:
-        module = import_module(f"hess_explorer.commands.{name}")
-        return module.COMMAND.parser(f"hess-explorer {name}").parse_args(rest)
+        command: Command = import_module(f"hess_explorer.commands.{name}").COMMAND
+        return command.parser(f"hess-explorer {name}").parse_args(rest)
     from hess_explorer.commands import compute
 
     if not name.startswith("-"):
-        parser, rest = compute.parser([name, *rest])
+        parser, rest = compute.parser(name, rest)
         return parser.parse_args(rest)
     parser = Parser(
         "hess-explorer",

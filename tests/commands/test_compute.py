@@ -3,7 +3,6 @@
 import math
 import subprocess
 import sys
-from io import StringIO
 
 import numpy as np
 import pandas as pd
@@ -17,7 +16,7 @@ from hess_explorer.commands.compute import command_of
 from hess_mechanics import SuslovBody, basins, return_map
 from hess_mechanics.catalogue import catalogue, find
 from hess_mechanics.errors import WorkLimit
-from support.command_line import replaced, table, typed, without_patience
+from support.command_line import replaced, typed, without_patience
 from support.mechanics import ROOT
 
 CIRCLE_MAP = typed("circle-map --h 1.5 --f 0.6 --a 0.5 --accuracy reference")
@@ -59,7 +58,12 @@ def test_circle_map(answer):
     # The multipliers are the squares of the eigenvalues of a matrix with determinant 1.
     root = math.exp(numbers["log-multiplier"] / 2.0)
     assert root + 1.0 / root == approx(TRACE, rel=1e-12)
-    assert (data.attrs["kind"], numbers["rotation-number"], numbers["locked"], found["notes"]) == ("hyperbolic", 0, 1, [])
+    assert (data.attrs["kind"], numbers["rotation-number"], numbers["locked"], found["notes"]) == (
+        "hyperbolic",
+        0,
+        1,
+        [],
+    )
     assert 0 < data.attrs["error_estimate"] < 1e-12
 
 
@@ -103,9 +107,8 @@ def test_the_example_of_a_computation_says_the_same_as_json_and_as_csv(key, answ
         assert list(found[part]) == list(named)
         for name, (dims, values) in named.items():
             assert found[part][name]["dims"] == list(dims)
-            if values.dtype.kind == "f":
-                values = np.where(np.isfinite(values), values, np.nan)
-            np.testing.assert_array_equal(np.array(found[part][name]["data"], values.dtype), values)
+            finite = np.where(np.isfinite(values), values, np.nan) if values.dtype.kind == "f" else values
+            np.testing.assert_array_equal(np.array(found[part][name]["data"], values.dtype), finite)
     assert found["parameters"] == facts["parameters"] == what.values(what.example)
     assert list(found["numbers"]) == list(what.numbers)
     assert {name: facts[name] for name in found["attrs"]} == found["attrs"]

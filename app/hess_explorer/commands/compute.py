@@ -6,6 +6,7 @@ import inspect
 from collections.abc import Mapping
 from difflib import get_close_matches
 from functools import partial
+from typing import Any
 
 from hess_mechanics.catalogue import Computation, Motions, NoValue, catalogue, computations_of, motions
 from hess_mechanics.dynamics.system import System
@@ -29,9 +30,11 @@ def titles(group: str) -> dict[str, str]:
     return {one.name: title_of(one) for one in catalogue().values() if one.group == group}
 
 
-def parser(words: list[str]) -> tuple[Parser, list[str]]:
-    """Return the parser for `COMPUTATION [SYSTEM] ...` and the words that it parses.  Raises `CommandError`."""
-    name, *rest = words
+def parser(name: str, rest: list[str]) -> tuple[Parser, list[str]]:
+    """Return the parser of a computation and the words that it parses, those after the system.
+
+    Raises `CommandError` if there is no such computation or system.
+    """
     of = {one.system: one for one in catalogue().values() if one.name == name}
     if not of:
         raise _unknown("command", name, [*COMMANDS, *dict.fromkeys(one.name for one in catalogue().values())])
@@ -108,7 +111,7 @@ def _run(what: Computation, options: Options) -> None:
     require_file(options, ("text", "json", "csv"))
     with computing():
         known = vars(options)
-        given = what.values({one.name: known[_typed(one.name)] for one in (*what.parameters, *what.choices)})
+        given = what.values({name: known[_typed(name)] for name in what.values()})
         result = what.compute(given, options.accuracy)
         notes = _notes_on_body(given) if what.key in catalogue() else []
         numbers: dict[str, float | None] = {}
@@ -125,7 +128,7 @@ def _run(what: Computation, options: Options) -> None:
         write(options, result, {**about, **({"errors": errors} if errors else {})}, notes)
 
 
-def _notes_on_body(given: Mapping[str, float | str]) -> list[str]:
+def _notes_on_body(given: Mapping[str, Any]) -> list[str]:
     """Return a note if no rigid body has these moments of inertia."""
     from hess_mechanics import HeavyBody, check_body
 

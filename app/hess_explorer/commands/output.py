@@ -81,16 +81,14 @@ def _plain(value: Any) -> Any:
     return [value.real, value.imag] if isinstance(value, complex) else value.tolist()
 
 
-def _strict(named: Mapping[str, Any], notes: list[str]) -> dict[str, str]:
-    """Return the values as strict JSON, with null for numbers that are not finite, and note these."""
-    strict = {}
-    for name, value in named.items():
+def _strict(named: Mapping[str, Any], notes: list[str]) -> Iterator[tuple[str, str]]:
+    """Yield the values as strict JSON, with null for numbers that are not finite, then the notes, also on these."""
+    for name, value in {**named, "notes": notes}.items():
         lost: list[str] = []
         known = json.loads(json.dumps(value, default=_plain), parse_constant=lost.append)
-        strict[name] = json.dumps(known, ensure_ascii=False, allow_nan=False)
         if lost:
             notes.append(f"{name}: null stands for a number that is missing or exceeds the range of double precision.")
-    return strict
+        yield name, json.dumps(known, ensure_ascii=False, allow_nan=False)
 
 
 def _json(result: Result, about: Mapping[str, Any], notes: list[str]) -> bytes:
@@ -103,17 +101,16 @@ def _json(result: Result, about: Mapping[str, Any], notes: list[str]) -> bytes:
         }
         for part, named in (("coords", known.coords), ("data_vars", known.variables))
     }
-    named = _strict({**about, "attrs": known.facts, **arrays}, notes)
-    named["notes"] = json.dumps(notes, ensure_ascii=False)
-    return ("{\n" + ",\n".join(f'  "{name}": {value}' for name, value in named.items()) + "\n}\n").encode()
+    strict = _strict({**about, "attrs": known.facts, **arrays}, notes)
+    return ("{\n" + ",\n".join(f'  "{name}": {value}' for name, value in strict) + "\n}\n").encode()
 
 
 def _csv(result: Result, about: Mapping[str, Any], notes: list[str]) -> bytes:
     known = result.labels()
-    facts = _strict({**about, **known.facts, "units": known.units}, notes)
-    facts["notes"] = json.dumps(notes, ensure_ascii=False)
-    comments = "".join(f"# {name}: {value}\n" for name, value in facts.items())
-    return (comments + result.to_pandas().to_csv(index=False, lineterminator="\n")).encode()
+    strict = _strict({**about, **known.facts, "units": known.units}, notes)
+    comments = "".join(f"# {name}: {value}\n" for name, value in strict)
+    table: str = result.to_pandas().to_csv(index=False, lineterminator="\n")
+    return f"{comments}{table}".encode()
 
 
 def _netcdf(result: Result, about: Mapping[str, Any], notes: list[str]) -> bytes:

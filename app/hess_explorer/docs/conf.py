@@ -10,6 +10,12 @@ from importlib.metadata import version as installed
 from sphinx.application import Sphinx
 from sphinx.pycode import ModuleAnalyzer
 
+from hess_explorer.__main__ import main
+from hess_explorer.commands.compute import command_of, title_of
+from hess_mechanics.catalogue import Computation, catalogue, motions
+from hess_mechanics.numerics.accuracy import LEVELS, PLANS, Kind
+from hess_mechanics.parameters import Parameter, plain
+
 project = "Hess Explorer"
 version = release = installed("hess-explorer")
 
@@ -48,8 +54,6 @@ def _table(*rows: Iterable[str]) -> Iterator[str]:
 
 def _output(words: list[str]) -> str:
     """Return the output of a command."""
-    from hess_explorer.__main__ import main
-
     said = io.TextIOWrapper(io.BytesIO(), encoding="utf-8")
     # Standard error has the message that a command takes long.
     with redirect_stdout(said), redirect_stderr(io.StringIO()) as errors:
@@ -60,8 +64,6 @@ def _output(words: list[str]) -> str:
 
 
 def _levels() -> Iterator[str]:
-    from hess_mechanics.numerics.accuracy import LEVELS, PLANS, Kind
-
     docs = ModuleAnalyzer.for_module("hess_mechanics.numerics.accuracy").find_attr_docs()
     yield from _table(
         ("kind", *LEVELS, "the promise"),
@@ -76,9 +78,7 @@ def _levels() -> Iterator[str]:
     )
 
 
-def _parameters(of: Iterable[object]) -> Iterator[str]:
-    from hess_mechanics.parameters import plain
-
+def _parameters(of: Iterable[Parameter]) -> Iterator[str]:
     head = ("parameter", "symbol", "meaning", "unit", "bounds", "default")
     rows = ((f"`{p.name}`", p.symbol, p.doc or p.label, p.unit, p.range, plain(p.default)) for p in of)
     yield from _table(head, *rows)
@@ -86,10 +86,7 @@ def _parameters(of: Iterable[object]) -> Iterator[str]:
 
 def _computations() -> Iterator[str]:
     """Yield the lines of the page of all computations: each once, and their systems."""
-    from hess_explorer.commands.compute import command_of, title_of
-    from hess_mechanics.catalogue import catalogue, motions
-
-    every: dict[str, list[object]] = {}
+    every: dict[str, list[Computation]] = {}
     for one in catalogue().values():
         every.setdefault(one.name, []).append(one)
     for name, of in every.items():
