@@ -115,14 +115,14 @@ def _proved(
 
 
 def _normal(of: Motions) -> tuple[Parameter, ...]:
-    """Return the components of the normal of a plane in the space of states; by default the last variable is 0."""
+    """Return the components of the normal of a plane among the states; by default the last variable but one is 0."""
     names = of.system.variables
     return tuple(
         Parameter(
             f"n_{i + 1}",
             f"n({name})",
             f"Normal, {name}",
-            float(i + 1 == len(names)),
+            float(i == max(0, len(names) - 2)),
             (-1.0, 1.0),
             0.1,
             (-1e3, 1e3),
@@ -251,7 +251,7 @@ def computations(of: Motions) -> Iterator[Computation]:
             "end": Number("t", "last enclosed time", lambda r: float(r.times[-1]) if r.times.size else 0.0, "time"),
         },
         Kind.ORBIT,
-        lambda r, exact: 0.0,
+        lambda r, exact: float(r.width),
         group="prove",
         example={"t": 1.0, "samples": 3.0},
     )

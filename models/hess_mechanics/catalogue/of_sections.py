@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from hess_mechanics import parameters as known
-from hess_mechanics.catalogue.declared import Choice, Computation, NoValue, Number, Value, largest_difference
+from hess_mechanics.catalogue.declared import Choice, Computation, NoValue, Number, largest_difference
 from hess_mechanics.dynamics.continuation import Branch
 from hess_mechanics.dynamics.manifolds import Manifold
 from hess_mechanics.dynamics.motions import Motions, usual, whole
@@ -38,7 +38,6 @@ __all__ = ["computations"]
 Place = tuple[float, ...]
 
 _UNDECIDED = (MotionKind.UNDECIDED, MotionKind.SETTLING)
-_PERIOD = whole("period", "N", 0, 0, MAX_PERIOD, "Number of returns; 0: detected, up to 12.")
 _TRANSIENT = whole("transient", "N₀", 300, 0, 20_000, "Crossings skipped.")
 _KEPT = whole("kept", "N", 200, 8, 20_000, "Crossings analysed.")
 _SHOWN = whole("kept", "N", 64, 1, 20_000, "Crossings shown at each value.")
@@ -180,14 +179,14 @@ def computations(of: Motions) -> Iterator[Computation]:
     assert of.section is not None
     over, low, to = _followed(of)
     example = of.section({one.name: one.default for one in of.parameters})
-    orbit: dict[str, Value] = {"period": float(of.period)}
+    returns = whole("period", "N", of.period, 0, MAX_PERIOD, "Number of returns; 0: detected, up to 12.")
     yield Computation.of_section(
         "periodic-orbit",
         "Periodic orbit",
         of,
         periodic_orbit,
         _periodic,
-        (_PERIOD,),
+        (returns,),
         {
             "time": Number("T", "period in time", lambda r: r.time, "time", lambda r: r.time_error),
             "multiplier": Number(
@@ -200,7 +199,6 @@ def computations(of: Motions) -> Iterator[Computation]:
         },
         Kind.ORBIT,
         _away,
-        example=orbit,
     )
     yield Computation.of_section(
         "branch",
@@ -208,15 +206,15 @@ def computations(of: Motions) -> Iterator[Computation]:
         of,
         continued_orbit,
         _branch,
-        (_PERIOD, to, whole("points", "n", 200, 2, 2000, "Largest number of points of the branch.")),
+        (returns, to, whole("points", "n", 200, 2, 2000, "Largest number of points of the branch.")),
         {
             "bifurcations": Number("n", "number of bifurcations", lambda r: float(len(r.bifurcations))),
             "end": Number("λ", "value of the parameter at the end", lambda r: float(r.values[-1])),
         },
         Kind.ORBIT,
-        lambda r, exact: largest_difference(r.values[-1:], exact.values[-1:]),
+        lambda r, exact: largest_difference(r.places[-1], exact.places[-1]),
         choices=(over,),
-        example={**orbit, "points": 5.0},
+        example={"points": 5.0},
     )
     yield Computation.of_section(
         "period-doublings",
@@ -224,7 +222,7 @@ def computations(of: Motions) -> Iterator[Computation]:
         of,
         period_doublings,
         _doublings,
-        (_PERIOD, to, whole("most", "n", 3, 1, 6, "Largest number of doublings.")),
+        (returns, to, whole("most", "n", 3, 1, 6, "Largest number of doublings.")),
         {
             "count": Number("n", "number of doublings", lambda r: float(len(r.values))),
             "first": Number("λ₁", "value of the parameter at the first doubling", _first),
@@ -232,7 +230,7 @@ def computations(of: Motions) -> Iterator[Computation]:
         Kind.ORBIT,
         lambda r, exact: largest_difference(r.values, exact.values),
         choices=(over,),
-        example={**orbit, "most": 1.0},
+        example={"most": 1.0},
     )
     yield Computation.of_section(
         "orbit-diagram",
@@ -322,7 +320,7 @@ def computations(of: Motions) -> Iterator[Computation]:
         manifold,
         _manifold,
         (
-            _PERIOD,
+            returns,
             _REACH,
             whole("stable", "W", 0, 0, 1, "1: the stable manifold, 0: the unstable one."),
             whole("side", "±", 1, -1, 1, "1: along the direction of the saddle, −1: against it."),
@@ -330,7 +328,7 @@ def computations(of: Motions) -> Iterator[Computation]:
         {"length": Number("s", "length of the branch", lambda r: float(r.length), error=lambda r: r.error_estimate)},
         Kind.ORBIT,
         lambda r, exact: largest_difference(r.points[-1], exact.points[-1]),
-        example={**orbit, "length": 0.1},
+        example={"length": 0.1},
     )
     yield Computation.of_section(
         "basins",
