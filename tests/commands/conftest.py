@@ -18,7 +18,7 @@ def no_patience(monkeypatch):
 @pytest.fixture
 def answer(capsys):
     def call(*words):
-        assert main([*words, "--format", "json"]) == 0
+        assert main(words) == 0
         out, err = capsys.readouterr()
         assert err == ""
         return strict_json(out)

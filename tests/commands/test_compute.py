@@ -47,41 +47,41 @@ def example(what):
     return [*what.key.split(), *typed(command_of(what).example), "--accuracy", "draft"]
 
 
+@pytest.fixture
+def answer(answer):
+    return lambda *words: answer(*words, "--format", "json")
+
+
 # Values
 
 
 def test_circle_map(answer):
     found = answer(*CIRCLE_MAP)
-    numbers, data = found["numbers"], xr.Dataset.from_dict(found)
-    assert float(data["Θ"].sel({"φ": 0.0})) == approx(THETA_0, abs=1e-12)
+    numbers, facts = found["numbers"], found["facts"]
+    assert found["Θ"][found["φ"].index(0.0)] == approx(THETA_0, abs=1e-12)
     assert (numbers["trace"], numbers["period"]) == approx((TRACE, PERIOD), rel=1e-12)
     # The multipliers are the squares of the eigenvalues of a matrix with determinant 1.
     root = math.exp(numbers["log-multiplier"] / 2.0)
     assert root + 1.0 / root == approx(TRACE, rel=1e-12)
-    assert (data.attrs["kind"], numbers["rotation-number"], numbers["locked"], found["notes"]) == (
-        "hyperbolic",
-        0,
-        1,
-        [],
-    )
-    assert 0 < data.attrs["error_estimate"] < 1e-12
+    assert (facts["kind"], numbers["locked"], found["notes"]) == ("hyperbolic", 1, [])
+    assert 0 < facts["error_estimate"] < 1e-12
 
 
 def test_orbit(answer):
     found = answer(*SUSLOV)
     assert [found["numbers"][name] for name in ("w1", "w2", "g1", "g2", "g3")] == approx(STATE, abs=1e-11)
-    assert found["coords"]["t"]["data"] == [0.0, 5.0, 10.0]
-    assert 0 < found["errors"]["w1"] == found["attrs"]["error_estimate"] < 1e-10
-    assert answer(*replaced(SUSLOV, "--t", "-10"))["coords"]["t"]["data"][-1] == -10.0
+    assert found["t"] == [0.0, 5.0, 10.0]
+    assert 0 < found["errors"]["w1"] == found["facts"]["error_estimate"] < 1e-10
+    assert answer(*replaced(SUSLOV, "--t", "-10"))["t"][-1] == -10.0
 
 
 def test_what_double_precision_cannot_hold_is_null_with_a_note(answer, as_table):
     found = answer("circle-map", "--a", "500")
     assert found["numbers"]["trace"] is None
     assert found["numbers"]["log-multiplier"] < -2 * 709
-    assert [note.partition(":")[0] for note in found["notes"]] == ["numbers", "attrs"]
+    assert [note.partition(":")[0] for note in found["notes"]] == ["numbers", "facts"]
     facts, _, _ = as_table("circle-map", "--a", "500")
-    assert facts["trace"] is None
+    assert facts["facts"]["trace"] is None
     # A torus without limit cycles.
     found = answer("circle-map", "--a", "0.1", "--h", "0.5", "--f", "0.3")
     assert found["numbers"]["stable"] is None
@@ -102,19 +102,15 @@ def test_the_example_of_a_computation_says_the_same_as_json_and_as_csv(key, answ
     what = find(key)
     found, result = answer(*example(what)), what.compute(what.example, "draft")
     facts, header, rows = as_table(*example(what))
-    known = result.labels()
-    for part, named in (("coords", known.coords), ("data_vars", known.variables)):
-        assert list(found[part]) == list(named)
-        for name, (dims, values) in named.items():
-            assert found[part][name]["dims"] == list(dims)
-            finite = np.where(np.isfinite(values), values, np.nan) if values.dtype.kind == "f" else values
-            np.testing.assert_array_equal(np.array(found[part][name]["data"], values.dtype), finite)
-    assert found["parameters"] == facts["parameters"] == what.values(what.example)
-    assert list(found["numbers"]) == list(what.numbers)
-    assert {name: facts[name] for name in found["attrs"]} == found["attrs"]
     frame = result.to_pandas()
     assert header == list(frame)
     assert rows == [["" if pd.isna(cell) else str(cell) for cell in row] for row in frame.itertuples(index=False)]
+    for name, column in frame.replace([np.inf, -np.inf], np.nan).items():
+        assert found[name] == [None if pd.isna(cell) else cell for cell in column.tolist()]
+    assert found["parameters"] == facts["parameters"] == what.values(what.example)
+    assert list(found["numbers"]) == list(what.numbers)
+    assert {name: found[name] for name in facts} == facts
+    assert set(found["facts"]) == set(result.labels().facts)
 
 
 @pytest.mark.parametrize("key", ["circle-map", "spectrum hess", "megno ball", "tube suslov"])
@@ -127,7 +123,7 @@ def test_netcdf_and_text_have_the_same_numbers(key, capsys, tmp_path):
         assert {one.attrs["long_name"] for one in data.variables.values()} == set(expected.variables)
         for one in data.variables.values():
             assert one.values.tolist() == expected[one.attrs["long_name"]].values.tolist()
-        assert set(expected.attrs) | {"computation", "parameters", "numbers"} <= set(data.attrs)
+        assert {"computation", "parameters", "numbers", "facts"} <= set(data.attrs)
     assert main(example(what)) == 0
     out = capsys.readouterr().out
     assert out.startswith(f"computation: {key}\n")

@@ -111,8 +111,8 @@ OUTPUT = (
     option("--accuracy", "draft, standard, precise (default) or reference", default="precise", metavar="LEVEL"),
     option(
         "--format",
-        "text (default): the numbers, and the first and last rows; json: strict JSON with all digits, which xarray "
-        "reads with Dataset.from_dict; csv: a table, with other results as # comments; netcdf: needs --out",
+        "text (default): the numbers, and the first and last rows; json: strict JSON with all digits; csv: a table, "
+        "with other results as # comments; netcdf: arrays with their dimensions, needs --out",
         choices=("text", "json", "csv", "netcdf"),
         default="text",
     ),

@@ -110,8 +110,7 @@ def _option(of: Parameter) -> Option:
 def _run(what: Computation, options: Options) -> None:
     require_file(options, ("text", "json", "csv"))
     with computing():
-        known = vars(options)
-        given = what.values({name: known[_typed(name)] for name in what.values()})
+        given = what.values({name: vars(options)[_typed(name)] for name in what.values()})
         result = what.compute(given, options.accuracy)
         notes = _notes_on_body(given) if what.key in catalogue() else []
         numbers: dict[str, float | None] = {}
@@ -124,8 +123,17 @@ def _run(what: Computation, options: Options) -> None:
                     errors[name] = of.error(result)
             except (NoValue, ArithmeticError) as error:
                 notes.append(f"{name}: {error}")
-        about = {"computation": what.key, "accuracy": options.accuracy, "parameters": given, "numbers": numbers}
-        write(options, result, {**about, **({"errors": errors} if errors else {})}, notes)
+        known = result.labels()
+        facts = {
+            "computation": what.key,
+            "accuracy": options.accuracy,
+            "parameters": given,
+            "numbers": numbers,
+            "errors": errors,
+            "facts": known.facts,
+            "units": known.units,
+        }
+        write(options, result.to_pandas(), facts, result.to_xarray, notes)
 
 
 def _notes_on_body(given: Mapping[str, Any]) -> list[str]:

@@ -9,15 +9,12 @@ import sys
 import textwrap
 import threading
 import unicodedata
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, nullcontext
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from hess_explorer.commands import CommandError
-
-if TYPE_CHECKING:
-    from hess_mechanics.numerics.labelled import Result
 
 __all__ = ["LONG", "PATIENCE", "computing", "require_file", "show", "write", "write_file"]
 
@@ -67,13 +64,33 @@ def require_file(options: argparse.Namespace, text: Sequence[str]) -> None:
         raise CommandError(f"{options.format.upper()} is a binary format: name a file with --out FILE.")
 
 
-def write(options: argparse.Namespace, result: Result, about: Mapping[str, Any], notes: Sequence[str] = ()) -> None:
-    """Write a result in the chosen format; about : what was computed, notes : remarks in full sentences.
+def write(
+    options: argparse.Namespace,
+    table: Any,
+    facts: Mapping[str, Any],
+    data: Callable[[], Any],
+    notes: Sequence[str] = (),
+) -> None:
+    """Write a result in the chosen format.
 
-    Raises `ModelError` if a library is missing, and `CommandError` if the file cannot be written.
+    table : DataFrame of its columns.  facts : all other results.  data : returns a Dataset of the columns.  notes :
+    remarks in full sentences.  Raises `CommandError` if the file cannot be written.
     """
-    writers = {"text": _text, "json": _json, "csv": _csv, "netcdf": _netcdf}
-    show(writers[options.format](result, about, list(notes)), options.out)
+    told = list(notes)
+    known = _strict(facts, told)
+    known["notes"] = json.dumps(told, ensure_ascii=False)
+    if options.format == "netcdf":
+        written = _netcdf(data(), known)
+    elif options.format == "text":
+        written = _text(table, facts, notes).encode()
+    elif options.format == "csv":
+        comments = "".join(f"# {name}: {value}\n" for name, value in known.items())
+        written = (comments + str(table.to_csv(index=False, lineterminator="\n"))).encode()
+    else:
+        known |= _strict({str(name): column.tolist() for name, column in table.items()}, [])
+        lines = ",\n".join(f'  "{name}": {value}' for name, value in known.items())
+        written = f"{{\n{lines}\n}}\n".encode()
+    show(written, options.out)
 
 
 def _plain(value: Any) -> Any:
@@ -81,48 +98,25 @@ def _plain(value: Any) -> Any:
     return [value.real, value.imag] if isinstance(value, complex) else value.tolist()
 
 
-def _strict(named: Mapping[str, Any], notes: list[str]) -> Iterator[tuple[str, str]]:
-    """Yield the values as strict JSON, with null for numbers that are not finite, then the notes, also on these."""
-    for name, value in {**named, "notes": notes}.items():
+def _strict(named: Mapping[str, Any], notes: list[str]) -> dict[str, str]:
+    """Return the values as strict JSON, with null for numbers that are not finite, and note these."""
+    strict = {}
+    for name, value in named.items():
         lost: list[str] = []
         known = json.loads(json.dumps(value, default=_plain), parse_constant=lost.append)
+        strict[name] = json.dumps(known, ensure_ascii=False, allow_nan=False)
         if lost:
             notes.append(f"{name}: null stands for a number that is missing or exceeds the range of double precision.")
-        yield name, json.dumps(known, ensure_ascii=False, allow_nan=False)
+    return strict
 
 
-def _json(result: Result, about: Mapping[str, Any], notes: list[str]) -> bytes:
-    """Return the result as `xarray.Dataset.from_dict` reads it, and what was computed."""
-    known = result.labels()
-    arrays = {
-        part: {
-            name: {"dims": dims, "attrs": {"units": known.units.get(name, "")}, "data": values}
-            for name, (dims, values) in named.items()
-        }
-        for part, named in (("coords", known.coords), ("data_vars", known.variables))
-    }
-    strict = _strict({**about, "attrs": known.facts, **arrays}, notes)
-    return ("{\n" + ",\n".join(f'  "{name}": {value}' for name, value in strict) + "\n}\n").encode()
-
-
-def _csv(result: Result, about: Mapping[str, Any], notes: list[str]) -> bytes:
-    known = result.labels()
-    strict = _strict({**about, **known.facts, "units": known.units}, notes)
-    comments = "".join(f"# {name}: {value}\n" for name, value in strict)
-    table: str = result.to_pandas().to_csv(index=False, lineterminator="\n")
-    return f"{comments}{table}".encode()
-
-
-def _netcdf(result: Result, about: Mapping[str, Any], notes: list[str]) -> bytes:
+def _netcdf(data: Any, attributes: Mapping[str, str]) -> bytes:
     """Return a file of NetCDF 3, which SciPy writes; its names are ASCII, `long_name` has the symbols."""
-    data = result.to_xarray()
     for name, one in data.variables.items():
         one.attrs["long_name"] = name
-    data.attrs = {
-        _ascii(name): value if isinstance(value, (str, float)) else json.dumps(value, default=_plain)
-        for name, value in {**about, **data.attrs, "notes": notes}.items()
-    }
-    return bytes(data.rename({name: _ascii(name) for name in {*data.variables, *data.dims}}).to_netcdf(engine="scipy"))
+    data.attrs = attributes
+    names = {name: _ascii(str(name)) for name in {*data.variables, *data.dims}}
+    return bytes(data.rename(names).to_netcdf(engine="scipy"))
 
 
 def _ascii(name: str) -> str:
@@ -133,18 +127,17 @@ def _ascii(name: str) -> str:
     )
 
 
-def _text(result: Result, about: Mapping[str, Any], notes: list[str]) -> bytes:
-    lines, errors = [], about.get("errors", {})
-    for name, value in {**about, **result.labels().facts}.items():
-        if name != "errors":
+def _text(table: Any, facts: Mapping[str, Any], notes: Sequence[str]) -> str:
+    lines, errors = [], facts.get("errors", {})
+    for name, value in facts.items():
+        if name not in ("errors", "units"):
             words = _words(value, errors if name == "numbers" else {})
             lines += textwrap.wrap(f"{name}: {words}", 100, subsequent_indent="  ")
-    frame = result.to_pandas()
-    if not frame.empty:
-        lines += ["", frame.to_string(index=False, max_rows=_ROWS, float_format="{:.9g}".format)]
-    if len(frame) > _ROWS:
-        lines.append(f"{len(frame)} rows; --format csv has all of them.")
-    return "\n".join([*lines, *notes, ""]).encode()
+    if not table.empty:
+        lines += ["", table.to_string(index=False, max_rows=_ROWS, float_format="{:.9g}".format)]
+    if len(table) > _ROWS:
+        lines.append(f"{len(table)} rows; --format csv has all of them.")
+    return "\n".join([*lines, *notes, ""])
 
 
 def _words(value: Any, errors: Mapping[str, float]) -> str:
