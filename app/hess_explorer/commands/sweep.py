@@ -1,4 +1,4 @@
-"""`hess-explorer sweep`: a quantity over one to three parameters, on one core or many, resumable."""
+"""`hess-explorer sweep`: numbers of a computation over one to three parameters, on one core or many, resumable."""
 
 from __future__ import annotations
 
@@ -7,7 +7,6 @@ import inspect
 import json
 import math
 from collections.abc import Callable
-from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
@@ -22,7 +21,6 @@ from .output import Answer, computing, show, write
 if TYPE_CHECKING:
     import xarray as xr
 
-
 __all__ = ["COMMAND"]
 
 _MOST_ROWS = 1_000_000
@@ -34,16 +32,7 @@ def _values(text: str) -> tuple[float, float, int] | list[float]:
 
 
 def _workers(text: str) -> str | int:
-    if text == "all" or "://" in text:
-        return text
-    return integer(1, 10_000)(text)
-
-
-def _part(text: str) -> tuple[int, int]:
-    number, slash, parts = text.partition("/")
-    if not slash:
-        raise argparse.ArgumentTypeError(f"{shown(text)} is not a part; write it like 3/40")
-    return integer(1, 10_000)(number), integer(1, 10_000)(parts)
+    return text if text == "all" else integer(1, 10_000)(text)
 
 
 def _function(text: str) -> Callable[..., object]:
@@ -66,44 +55,31 @@ def _run(options: Options) -> None:
     # A sweep prints its own progress.
     with computing(own_progress=True):
         if options.list:
-            show(_listed(options.quantity).encode())
+            show(_listed(" ".join(options.computation)).encode())
             return
-        if options.read is not None:
+        stored = options.read or options.status
+        if stored is None:
+            found = _swept(options)
+        elif options.computation or options.over or options.set or options.store:
+            raise CommandError("--read and --status take only --format and --out: remove the other options.")
+        else:
             from hess_explorer.sweep import read
 
-            if options.quantity or options.over or options.set or options.store:
-                raise CommandError("--read can be combined only with --format and --out: remove the other options.")
-            found = read(options.read)
-        elif options.status is not None:
-            if options.quantity or options.over or options.set or options.store:
-                raise CommandError("--status can be combined only with --out: remove the other options.")
-            _write_status(options, options.status)
-            return
-        else:
-            found = _swept(options)
-            if options.part is not None:
-                _write_status(options, options.store)
-                _require_no_failures(found)
-                return
-    table = options.store is None or options.format is not None or options.out is not None
-    options.format = options.format or "json"
-    _write(options, found, table)
-    if options.read is None:
+            found = read(stored)
+    _write(options, found, options.status is None and (options.store is None or options.format or options.out))
+    if stored is None:
         _require_no_failures(found)
 
 
 def _require_no_failures(found: xr.Dataset) -> None:
     """Raise `CommandError` if cells have failed."""
     from hess_explorer.sweep import Outcome
-    from hess_explorer.sweep.work import named
 
-    failed, failures = np.argwhere(found.status.values == Outcome.FAILED), _failures(found)
-    if len(failed):
-        axes = {str(name): found[name].values for name in found.status.dims}
-        cells = (named({name: axes[name][i] for name, i in zip(axes, at, strict=True)}) for at in failed)
-        text = next((f"; {cell}: {failures[cell]}" for cell in cells if cell in failures), "")
-        words = "cell has" if len(failed) == 1 else "cells have"
-        raise CommandError(f"{len(failed)} {words} failed of {found.status.size}{text}.", status=1)
+    failed = int(np.count_nonzero(found.status == Outcome.FAILED))
+    if failed:
+        text = next((f"; {cell}: {why}" for cell, why in _failures(found).items()), "")
+        words = "cell has" if failed == 1 else "cells have"
+        raise CommandError(f"{failed} {words} failed of {found.status.size}{text}.", status=1)
 
 
 def _failures(found: xr.Dataset) -> dict[str, str]:
@@ -113,17 +89,15 @@ def _failures(found: xr.Dataset) -> dict[str, str]:
 
 def _swept(options: Options) -> xr.Dataset:
     from hess_explorer.sweep import Interrupted, sweep
-    from hess_explorer.sweep.grid import MAX_NUMBERS
-    from hess_explorer.sweep.quantities import quantity
 
-    if options.quantity is None:
-        raise CommandError("A sweep needs a quantity: run hess-explorer sweep --list to see all of them.")
+    name = " ".join(options.computation)
+    if not name:
+        raise CommandError("A sweep needs a computation: run hess-explorer sweep --list to see all of them.")
     over, fixed = _once(options.over, "--over"), _once(options.set, "--set")
-    what = _function(options.quantity) if ":" in options.quantity else quantity(options.quantity).name
-    for name in fixed:
+    for one in fixed:
         # It becomes a keyword argument of `sweep`, which has others.
-        if name in inspect.signature(sweep).parameters:
-            raise CommandError(f"{options.quantity} has no parameter {name!r} that --set can give: rename it.")
+        if one in inspect.signature(sweep).parameters:
+            raise CommandError(f"{name} has no parameter {one!r} that --set can give: rename it.")
     rows = math.prod(values[2] if isinstance(values, tuple) else len(values) for values in over.values())
     if options.store is None and rows > _MOST_ROWS:
         raise CommandError(
@@ -131,122 +105,88 @@ def _swept(options: Options) -> xr.Dataset:
         )
     try:
         return sweep(
-            what,
+            _function(name) if ":" in name else name,
             over,
+            numbers=options.numbers and options.numbers.split(","),
             level=options.accuracy,
             store=options.store,
-            part=options.part,
             workers=options.workers,
+            scheduler=options.scheduler,
             progress=True,
-            most_cells=options.most_cells or MAX_NUMBERS,
+            **({} if options.most_cells is None else {"most_cells": options.most_cells}),
             **fixed,
         )
     except Interrupted as stopped:
         # A store already contains the results.
         if options.store is None:
-            options.format = options.format or "json"
             _write(options, stopped.dataset, True)
         raise
 
 
-def _listed(name: str | None) -> str:
-    from hess_explorer.sweep.quantities import QUANTITIES, quantity
+def _listed(name: str) -> str:
+    from hess_mechanics.catalogue import catalogue, find
 
-    if name is None:
-        return "".join(f"{one.name}\n    {one.symbol}: {one.title}\n" for one in QUANTITIES.values())
-    one = quantity(name)
+    if not name:
+        return "".join(f"{one.key}\n    {one.title}\n" for one in catalogue().values())
+    what = find(name)
+    numbers = (f"    {key}: {one.symbol}, {one.title} ({one.unit})\n" for key, one in what.numbers.items())
     rows = (
-        f"    {each.name}{'' if each.name in one.needed else f' = {each.default:g}'}: {each.doc} "
-        f"({each.bounds[0]:g} … {each.bounds[1]:g})\n"
-        for each in one.parameters
+        f"    {one.name} = {one.default:g}: {one.doc} ({one.bounds[0]:g} … {one.bounds[1]:g})\n"
+        for one in what.parameters
     )
-    return f"{one.name}\n    {one.symbol}: {one.title}, {one.units}\n    {one.doc}\n\n{''.join(rows)}"
-
-
-def _write_status(options: Options, store: Path) -> None:
-    """Write what is missing in a store."""
-    from hess_explorer.sweep import store_status
-
-    found = store_status(store)
-    options.format = "json"
-    # As `sbatch --array` takes it.
-    missing = ",".join(map(str, found.missing_parts))
-    write(options, Answer({}, {"store": str(store), **asdict(found), "missing_parts": missing}))
+    return f"{what.key}\n    {what.doc}\n\nNumbers\n{''.join(numbers)}\nParameters\n{''.join(rows)}"
 
 
 def _write(options: Options, found: xr.Dataset, table: bool) -> None:
     """Write the table of a sweep, or only its facts."""
     from hess_explorer.sweep import Outcome
 
-    status = found.status.values
-    counts = {
-        Outcome(code).words: int(count) for code, count in zip(*np.unique(status, return_counts=True), strict=True)
-    }
+    counts = zip(*np.unique(found.status.values, return_counts=True), strict=True)
     facts = {
-        "quantity": found.attrs["quantity"],
-        "title": found.attrs["title"],
-        "units": found[_variables(found)[0]].attrs["units"],
+        **{name: found.attrs[name] for name in ("computation", "title", "level", "version")},
         "parameters": json.loads(found.attrs["parameters"]),
-        "level": found.attrs["level"],
-        "version": found.attrs["version"],
-        "cells": list(status.shape),
-        "status_counts": counts,
-        **{name: found.attrs[name] for name in ("link", "largest_error") if name in found.attrs},
+        "units": {name: one.attrs["units"] for name, one in found.data_vars.items() if name != "status"},
+        "cells": list(found.status.shape),
+        "status_counts": {Outcome(code).words: int(count) for code, count in counts},
         **({"failures": failures} if (failures := _failures(found)) else {}),
         **({} if options.store is None else {"store": str(options.store)}),
     }
-    series = _series(found) if table else {}
-    write(options, Answer(series, facts))
-
-
-def _variables(found: xr.Dataset) -> list[str]:
-    """Return the names of the variables with values."""
-    return [str(name) for name in found.data_vars if name not in ("status", "error")]
+    options.format = options.format or "json"
+    write(options, Answer(_series(found) if table else {}, facts))
 
 
 def _series(found: xr.Dataset) -> dict[str, list[Any]]:
     from hess_explorer.sweep import Outcome
 
-    status = found.status.values
-    if status.size > _MOST_ROWS:
+    if found.status.size > _MOST_ROWS:
         raise CommandError(
-            f"The table would have {status.size} rows, but at most {_MOST_ROWS} are allowed: open the store with "
+            f"The table would have {found.status.size} rows, but at most {_MOST_ROWS} are allowed: open the store with "
             "hess_explorer.sweep.read."
         )
-    axes = np.meshgrid(*(found[name].values for name in found.status.dims), indexing="ij")
-    series: dict[str, list[Any]] = {
-        str(name): axis.ravel().tolist() for name, axis in zip(found.status.dims, axes, strict=True)
+    cells = found.to_dataframe(dim_order=[*found.status.dims]).reset_index()
+    series = {
+        str(name): [value if math.isfinite(value) else None for value in column.tolist()]
+        for name, column in cells.items()
     }
-    columns: dict[str, Any] = {}
-    for name in _variables(found):
-        values = found[name].values
-        if values.ndim > status.ndim:
-            # A chart contains only one part.
-            columns |= {f"{name}_{part}": values[..., i] for i, part in enumerate(found.number.values.tolist())}
-        else:
-            columns[name] = values
-    if "error" in found:
-        columns["error"] = found["error"].values
-    for name, column in columns.items():
-        series[name] = [value if math.isfinite(value) else None for value in column.ravel().tolist()]
-    series["status"] = [Outcome(code).words for code in status.ravel().tolist()]
+    series["status"] = [Outcome(code).words for code in series["status"]]
     return series
 
 
 COMMAND = Command(
-    "Compute a quantity (see --list) for every combination of the values of one to three of its parameters.  Column "
-    "status tells how each cell ended; a cell without a number is null, or empty in CSV.  With --store, finished parts "
-    "are saved in a folder, and the same command resumes an interrupted sweep; the table is printed only with "
-    "--format.  Ctrl-C stops the sweep and keeps the finished parts.  The exit status is 1 if cells have "
-    "failed; the texts of their exceptions are kept as failures.  Requires: pip install 'hess-explorer[sweep]'.",
+    "Compute numbers of a computation (see --list) for every combination of the values of one to three of its "
+    "parameters.  Column status tells how each cell ended; a cell without a number is null, or empty in CSV.  With "
+    "--store, finished parts are saved in a folder, and the same command resumes an interrupted sweep; the table is "
+    "printed only with --format.  Ctrl-C stops the sweep and keeps the finished parts.  The exit status is 1 if cells "
+    "have failed; the texts of their exceptions are kept as failures.  Requires: pip install 'hess-explorer[sweep]'.",
     (
         option(
-            "quantity",
-            "quantity to compute, see --list; or a function of yours, FILE.py:NAME",
-            nargs="?",
-            metavar="QUANTITY",
+            "computation",
+            "computation and system, see --list; or a function of yours, FILE.py:NAME",
+            nargs="*",
+            metavar="COMPUTATION",
         ),
-        flag("--list", "list all quantities, or the parameters of the given quantity"),
+        flag("--list", "list all computations, or the numbers and parameters of the given one"),
+        option("--numbers", "numbers to compute, separated by commas (default: the first)", metavar="NAMES"),
         option(
             "--over",
             "parameter and its values: lo:hi:n or a list 1,2,3; up to three times",
@@ -266,31 +206,20 @@ COMMAND = Command(
         option(
             "--store", "folder that saves the results (Zarr); an existing store is resumed", type=Path, metavar="FOLDER"
         ),
-        option(
-            "--part",
-            "compute only part k of n, counted from 1: the jobs of an array share the store",
-            type=_part,
-            metavar="K/N",
-        ),
-        option("--status", "tell what is missing in this store, without computing", type=Path, metavar="FOLDER"),
-        option(
-            "--read",
-            "write the table of this store, or of a chart saved by the page, without computing",
-            type=Path,
-            metavar="PLACE",
-        ),
+        option("--status", "tell how many cells of this store are missing", type=Path, metavar="FOLDER"),
+        option("--read", "write the table of this store, without computing", type=Path, metavar="FOLDER"),
         option(
             "--workers",
-            "number of processes, all for one per core, or the address of a Dask scheduler such as tcp://host:8786 "
-            "(default: one thread)",
+            "number of processes on this machine, all for one per core (default: one thread)",
             type=_workers,
-            metavar="WHO",
+            metavar="N",
         ),
-        whole("--most-cells", 1, 9_999_999_999, "maximum number of values (default 10000000)"),
+        option("--scheduler", "address of a Dask scheduler such as tcp://host:8786", metavar="ADDRESS"),
+        whole("--most-cells", 1, 9_999_999_999, "maximum number of cells (default 10000000)"),
         OUTPUT[0],
         option("--format", OUTPUT[1].settings["help"], choices=("json", "csv")),
         OUTPUT[2],
     ),
     _run,
-    "rotation-number --over h=-0.9:2:30 --over f=0:1:20 --set a=0.5 --format csv",
+    "circle-map --numbers rotation-number,trace --over h=-0.9:2:30 --over f=0:1:20 --set a=0.5 --format csv",
 )

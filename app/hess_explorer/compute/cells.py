@@ -26,11 +26,15 @@ from hess_mechanics.errors import (
 from hess_mechanics.numerics.accuracy import Level, Status
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["CellResults", "Outcome", "Outcomes", "evaluate", "refused"]
+__all__ = ["CellResults", "Outcome", "Outcomes", "UserError", "evaluate", "refused"]
 
 logger = logging.getLogger("hess_explorer")
 
 Outcomes: TypeAlias = NDArray[np.uint8]
+
+
+class UserError(Exception):
+    """An exception of a function of the user, with its type and text."""
 
 
 class Outcome(IntEnum):
@@ -91,6 +95,7 @@ _OF_ERROR: tuple[tuple[type[Exception], Outcome], ...] = (
     (InvalidParameter, Outcome.INVALID_PARAMETER),
     (ModelError, Outcome.NO_VALUE),
     (ArithmeticError, Outcome.BEYOND_RANGE),
+    (UserError, Outcome.FAILED),
 )
 
 

@@ -4,16 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from hess_mechanics.catalogue import NoValue
 from hess_mechanics.errors import ModelError
 
 if TYPE_CHECKING:
     import xarray as xr
 
 __all__ = ["Interrupted", "NoValue", "OtherSweep", "StoreError", "WorkersLost"]
-
-
-class NoValue(ModelError):
-    """The motion of a cell has no such quantity, for example no period because it never returns."""
 
 
 class OtherSweep(ModelError):

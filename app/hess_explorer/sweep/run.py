@@ -1,120 +1,113 @@
-"""`sweep` computes a quantity over one to three parameters; `explain` gives the status of a cell."""
+"""`sweep` computes numbers over one to three parameters; `explain` gives the status of a cell."""
 
 from __future__ import annotations
 
 import json
-import signal
-import threading
-from collections.abc import Callable, Iterator, Mapping
-from contextlib import ExitStack, contextmanager
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import nullcontext
 from pathlib import Path
-from types import FrameType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from hess_explorer.compute.cells import Outcome, evaluate
 from hess_explorer.sweep.errors import Interrupted, StoreError, WorkersLost
-from hess_explorer.sweep.function import quantity_of, sendable
-from hess_explorer.sweep.grid import MAX_NUMBERS, Axis, Part, SweepGrid, expanded, size
+from hess_explorer.sweep.function import plan_of
+from hess_explorer.sweep.piece import cells_of_a_piece, named
+from hess_explorer.sweep.plan import MAX_CELLS, Axis, Plan
 from hess_explorer.sweep.progress import Report, reporting
-from hess_explorer.sweep.quantities import quantity as named
-from hess_explorer.sweep.quantity import Outcome, Quantity, evaluate
-from hess_explorer.sweep.result import Memory, Storage, require_libraries
-from hess_explorer.sweep.store import FILES, Store, opened, path_of
-from hess_explorer.sweep.work import Chunk, cost_of_a_cell, version
-from hess_explorer.sweep.work import named as cell_name
-from hess_explorer.sweep.workers import WorkerCount, crew
+from hess_explorer.sweep.store import create, exists, load, missing, require_libraries, write
+from hess_explorer.sweep.workers import connected, results, size
+from hess_mechanics.catalogue import Computation, find
 from hess_mechanics.errors import InvalidParameter
-from hess_mechanics.numerics.accuracy import Accuracy, Level
-from hess_mechanics.numerics.arguments import as_level, as_level_name, as_number, as_parts, as_whole
+from hess_mechanics.numerics.accuracy import Accuracy
+from hess_mechanics.numerics.arguments import as_level, as_level_name, as_number
 
 if TYPE_CHECKING:
     import xarray as xr
+    from distributed import Client
 
-__all__ = ["explain", "seconds_of_a_piece", "sweep"]
+__all__ = ["explain", "sweep"]
 
-_SHORTEST, _LONGEST = 0.25, 2.0
-"""Duration of a piece in seconds: long compared with the overhead, short enough to lose."""
-_PIECES = 16
-"""Pieces per worker, so that all workers finish at about the same time; fewer if they would be too short."""
-_RATE = 50.0
-"""Maximum number of pieces per second for the scheduler and the writer."""
-_MOST_PARTS = 10_000
-_MOST_NUMBERS = 1_000_000
-"""Maximum number of values of a piece, which take 8 MB."""
-
-
-def seconds_of_a_piece(work: float, workers: int) -> float:
-    """Return the duration of a piece in seconds, for a total work in seconds and a number of workers."""
-    least = workers / _RATE
-    return min(max(_LONGEST, least), max(_SHORTEST, least, work / (_PIECES * workers)))
-
-
-def _cells_of_a_piece(what: Quantity, grid: SweepGrid, accuracy: Level, workers: int, parts: int) -> float:
-    cost = cost_of_a_cell(what, grid, accuracy)
-    wanted = min(seconds_of_a_piece(cost * grid.cells, workers) / cost, _MOST_NUMBERS / what.numbers)
-    # Each part of a job array has several files, however cheap the cells are.
-    return wanted if parts == 1 else min(wanted, grid.cells / (FILES * parts))
+def _planned(
+    computation: str | Computation | Callable[..., object],
+    numbers: Sequence[str] | None,
+    over: Mapping[str, Axis],
+    fixed: Mapping[str, float],
+    level: str,
+    most_cells: float,
+) -> Plan:
+    """Return the checked plan of a sweep.  Raises `InvalidParameter`, `WorkLimit`."""
+    if not isinstance(over, Mapping):
+        raise InvalidParameter(f"over = {over!r} is not a mapping: write it like {{'h': (1.2, 1.6, 3)}}.")
+    if callable(computation):
+        if numbers is not None:
+            raise InvalidParameter("A function has the numbers that it returns: leave out numbers.")
+        return plan_of(computation, over, fixed, level, most_cells)
+    what = computation if isinstance(computation, Computation) else find(computation)
+    if isinstance(numbers, str) or numbers is not None and not numbers:
+        raise InvalidParameter(f"numbers = {numbers!r} is not a list of names: write it like ('trace',).")
+    return Plan.of(what, numbers or [*what.numbers][:1], level, over, fixed, most_cells)
 
 
 def sweep(
-    quantity: str | Callable[..., object],
+    computation: str | Computation | Callable[..., object],
     over: Mapping[str, Axis],
     *,
+    numbers: Sequence[str] | None = None,
     level: Accuracy = "precise",
     store: str | Path | None = None,
-    part: Part | None = None,
-    workers: WorkerCount = None,
+    workers: str | int | None = None,
+    scheduler: str | Client | None = None,
     progress: bool | Report | None = None,
-    most_cells: int = MAX_NUMBERS,
-    stop: threading.Event | None = None,
+    most_cells: int = MAX_CELLS,
     **fixed: float,
 ) -> xr.Dataset:
-    """Compute a quantity over one to three of its parameters.
+    """Compute numbers of a computation over one to three of its parameters.
 
     Parameters
     ----------
-    quantity : str or callable
-        A name in `QUANTITIES`, which defines the parameters, their bounds and defaults.  Or your function: its
-        parameters are numbers given by name, and it returns a number or a named tuple of numbers, whose fields become
-        variables.  A parameter `level` receives the level.  The function is called once before the sweep begins.
+    computation : str, Computation or callable
+        A name of the catalogue such as "circle-map" or "lyapunov suslov", which defines the parameters, their bounds
+        and defaults; or a computation of a system of your own.  Or your function: its parameters are numbers given by
+        name, and it returns a number or a named tuple of numbers, whose fields become variables.  A parameter `level`
+        receives the level.  The function is called once before the sweep begins.
     over : mapping of str
         The swept parameters: (low, high, count) for evenly spaced values with both ends, or a list of values.
+    numbers : sequence of str, optional
+        Numbers of the computation, by default the first.  Each is a variable, with `_` for `-` in its name.
     level : str or Level
         "draft", "standard", "precise" or "reference".
     store : str or Path, optional
-        Folder of a Zarr store that saves every finished piece.  The same call resumes an interrupted sweep.
+        Folder of a Zarr group that keeps every finished piece.  The same call resumes an interrupted sweep.
         Simultaneous runs are safe but repeat work.
-    part : (int, int), optional
-        (3, 40) computes part 3 of 40, counted from 1: the jobs of an array share a store, and each one writes its own
-        files.
-    workers : None, "all", int, str or distributed.Client
-        None computes in this thread; "all" starts a process per core; an integer is a number of processes.  "tcp://…"
-        or "tls://…" is the address of a Dask scheduler, and a Client of Dask is used as it is; its workers need the
-        same version of this package.
+    workers : None, "all" or int
+        None computes in this thread; an integer starts that many processes for this sweep, "all" one per core.  In a
+        script they need the call below ``if __name__ == "__main__":``.
+    scheduler : str or distributed.Client, optional
+        Address of a Dask scheduler, "tcp://…" or "tls://…", or a Client, whose workers compute the sweep; they need
+        the same version of this package.
     progress : bool or callable, optional
         True shows a progress bar, or prints a line every 30 seconds if standard error is not a terminal; a function is
         called with a `Progress`.
     most_cells : int
-        Maximum number of values.
-    stop : threading.Event, optional
-        Stops the sweep when it is set; unfinished cells have the status 0.
+        Maximum number of cells.
     **fixed : float
         Values of the other parameters that differ from their defaults.
 
     Returns
     -------
     xarray.Dataset
-        The values, their `status` (see `Outcome` and `explain`) and, if available, the estimated `error`; the attribute
-        `failures` has the exceptions of up to 1000 failed cells, as JSON.  On one kind of processor the values do not
-        depend on `store`, `part` and `workers`.
+        The numbers, their estimated errors as `<name>_error` where there is an estimate, and the `status` of each cell
+        (see `Outcome` and `explain`); the attribute `failures` has the exceptions of up to 1000 failed cells, as JSON.
+        On one kind of processor the values do not depend on `store`, `workers` and `scheduler`.
 
     Raises
     ------
     InvalidParameter
         If a name or a value is not allowed.
     WorkLimit
-        If the sweep has too many values.
+        If the sweep has too many cells.
     MissingLibrary
         If a required library is not installed.
     StoreError
@@ -129,8 +122,8 @@ def sweep(
     Examples
     --------
     >>> from hess_explorer.sweep import sweep
-    >>> found = sweep("rotation-number", over={"h": (1.2, 1.6, 3), "f": [0.1, 0.6]}, a=0.5)
-    >>> found.rotation_number.dims, found.status.values.tolist()
+    >>> found = sweep("circle-map", over={"h": (1.2, 1.6, 3), "f": [0.1, 0.6]}, numbers=("trace",), a=0.5)
+    >>> found.trace.dims, found.status.values.tolist()
     (('h', 'f'), [[1, 1], [1, 1], [1, 1]])
     >>> def area(width, height=2.0):
     ...     return width * height
@@ -140,88 +133,34 @@ def sweep(
     require_libraries()
     if not (progress is None or isinstance(progress, bool) or callable(progress)):
         raise InvalidParameter(f"progress = {progress!r} is not a function: give True for a bar or a log.")
-    level = as_level_name(level)
-    accuracy = as_level(level)
-    if not isinstance(over, Mapping):
-        raise InvalidParameter(f"over = {over!r} is not a mapping: write it like {{'h': (1.2, 1.6, 3)}}.")
-    what = named(quantity) if isinstance(quantity, str) else quantity_of(quantity, over, fixed, accuracy, most_cells)
-    grid = SweepGrid.of(what, over, fixed, most_cells)
-    path = None if store is None else path_of(store)
-    parts = _parts(part, path)
-    kept: Storage | None = None if path is None else opened(path, what, grid, level, parts)
-    todo = [] if kept is None else kept.missing(part)
-    if kept is not None and not todo:
-        return kept.dataset()
+    plan = _planned(computation, numbers, over, fixed, as_level_name(level), most_cells)
     try:
-        with ExitStack() as stack:
-            interrupted = stack.enter_context(_ctrl_c())
-
-            def stopped() -> bool:
-                return interrupted.is_set() or (stop is not None and stop.is_set())
-
-            hands = stack.enter_context(crew(workers, stopped))
-            if kept is None:
-                if interrupted.is_set():
-                    raise KeyboardInterrupt("stopped before anything was computed.")
-                shape = grid.box_of(_cells_of_a_piece(what, grid, accuracy, parts * hands.size, parts))
-                kept = (
-                    Memory(what, grid, level, shape)
-                    if path is None
-                    else Store.create(path, what, grid, level, shape, parts)
-                )
-                todo = kept.missing(part)
-            sent = sendable(what, workers in (None, 1))
-            pieces = ((box, Chunk(sent, level, version(), grid.pieces(box), grid.fixed)) for box in todo)
-            cells = kept.cells(part)
-            report = stack.enter_context(reporting(progress, cells, cells - sum(map(size, todo))))
-            for box, done in hands.run(pieces, stopped):
-                kept.write(box, done)
-                report(size(box))
-        if interrupted.is_set():
-            raise KeyboardInterrupt
+        path = None if store is None else Path(store)
+    except TypeError:
+        raise InvalidParameter(f"{store!r} is not the name of a folder: write it like 'rho.zarr'.") from None
+    place: Any = path if path is not None and exists(path, plan) else None
+    todo = None if place is None else missing(place, plan)
+    hint = "" if path is None else f"  Finished cells are saved in {str(path)!r}: run the same sweep again to continue."
+    try:
+        # A finished sweep needs no workers.
+        with nullcontext() if todo == [] else connected(plan, workers, scheduler) as client:
+            if todo is None:
+                place = create(path, plan, cells_of_a_piece(plan, size(client)))
+                todo = missing(place, plan)
+            done = plan.cells - sum(plan.part(region).cells for region in todo)
+            with reporting(progress, plan.cells, done) as report:
+                for region, found in results(client, plan, todo):
+                    write(place, region, found)
+                    report(plan.part(region).cells)
     except KeyboardInterrupt as error:
-        if kept is None:
+        if place is None:
             raise
-        found = kept.dataset()
-        ended = int(np.count_nonzero(found.status))
-        raise Interrupted(
-            " ".join([f"stopped after {ended} of {grid.cells} cells.", kept.resume_hint]).strip(), found
-        ) from error
-    except WorkersLost as error:
-        raise WorkersLost(" ".join([str(error), kept.resume_hint if kept else ""]).strip()) from error
-    return kept.dataset()
-
-
-def _parts(part: Part | None, path: Path | None) -> int:
-    """Return the number of parts of a job array, 1 without one.  Raises `InvalidParameter`."""
-    if part is None:
-        return 1
-    number, parts = (as_whole("part", one, 0, 10**9) for one in as_parts("part", part, 2))
-    if not 1 <= number <= parts <= _MOST_PARTS:
-        raise InvalidParameter(f"Part {number} of {parts} does not exist: count from 1, up to {_MOST_PARTS} parts.")
-    if path is None:
-        raise InvalidParameter("The parts of a sweep need a store that they share: name its folder.")
-    return parts
-
-
-@contextmanager
-def _ctrl_c() -> Iterator[threading.Event]:
-    """Yield an event that the first Ctrl-C sets instead of interrupting a library; the second one raises."""
-    pressed = threading.Event()
-    if threading.current_thread() is not threading.main_thread():
-        yield pressed
-        return
-
-    def press(number: int, frame: FrameType | None) -> None:
-        if pressed.is_set():
-            raise KeyboardInterrupt
-        pressed.set()
-
-    before = signal.signal(signal.SIGINT, press)
-    try:
-        yield pressed
-    finally:
-        signal.signal(signal.SIGINT, before)
+        kept = load(place)
+        message = f"stopped after {np.count_nonzero(kept.status)} of {plan.cells} cells."
+        raise Interrupted(f"{message}{hint}", kept) from error
+    except (StoreError, WorkersLost) as error:
+        raise type(error)(f"{error}{hint if place else ''}") from error
+    return load(place)
 
 
 def explain(found: xr.Dataset, **cell: float) -> str:
@@ -246,26 +185,18 @@ def explain(found: xr.Dataset, **cell: float) -> str:
     StoreError
         If the Dataset is not a result of `sweep`.
     """
-    if "quantity" not in getattr(found, "attrs", {}):
+    facts = getattr(found, "attrs", {})
+    if "computation" not in facts:
         raise StoreError("This Dataset is not the result of a sweep: pass one returned by `sweep` or `read`.")
     axes = tuple(map(str, found.status.dims))
-    cell = {name: as_number(name, value) for name, value in cell.items()}
     if set(cell) != set(axes):
         raise InvalidParameter(f"A cell of this sweep has the coordinates {', '.join(axes)}: give all of them.")
-    if "state" in found.attrs:
-        # The cells of a chart are states of a scene.
-        from hess_explorer.sweep.chart_file import chart_of
-
-        return chart_of(found).why(*(cell[name] for name in axes))
-    failures = json.loads(found.attrs.get("failures", "{}"))
-    if (failure := failures.get(cell_name({name: cell[name] for name in axes}))) is not None:
+    cell = {name: as_number(name, cell[name]) for name in axes}
+    if (failure := json.loads(facts.get("failures", "{}")).get(named(cell))) is not None:
         return str(failure)
-    if "source" in found.attrs:
-        raise InvalidParameter(
-            f"{found.attrs['quantity']} is a function of your own: call it with the values of the cell for the reason."
-        )
-    what, accuracy = named(found.attrs["quantity"]), as_level(found.attrs["level"])
-    fixed = json.loads(found.attrs["parameters"])
-    grid = SweepGrid.of(what, {name: [cell[name]] for name in axes}, fixed, what.numbers)
-    outcome = evaluate(what, expanded(grid.axes, grid.fixed), accuracy)
+    if facts["source"]:
+        raise InvalidParameter(f"{facts['title']} is a function of your own: call it at the cell for the reason.")
+    over, fixed = {name: [value] for name, value in cell.items()}, json.loads(facts["parameters"])
+    plan = _planned(facts["computation"], facts["numbers"].split(", "), over, fixed, facts["level"], 1)
+    outcome = evaluate(plan.computation, plan.numbers, plan.columns(), as_level(plan.level))
     return outcome.why.get(0, f"{Outcome(int(outcome.status[0])).words}.")

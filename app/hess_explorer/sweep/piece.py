@@ -1,0 +1,117 @@
+"""Compute a piece of a sweep, here or on a worker, and choose its size."""
+
+from __future__ import annotations
+
+import pickle
+import time
+from collections.abc import Mapping
+from dataclasses import replace
+from functools import lru_cache
+
+import numpy as np
+
+from hess_explorer.compute.cells import Outcome, evaluate
+from hess_explorer.sweep.errors import WorkersLost
+from hess_explorer.sweep.plan import Plan, version
+from hess_mechanics.errors import InvalidParameter
+from hess_mechanics.numerics.arguments import as_level
+from hess_mechanics.numerics.results import Array
+
+__all__ = ["PieceResult", "cells_of_a_piece", "compute", "compute_sent", "named", "received", "sendable"]
+
+PieceResult = tuple[dict[str, Array], dict[str, str]]
+"""Arrays in the shape of a piece by variable, the status last; and texts of exceptions by cell."""
+_MOST_FAILURES = 100
+"""Largest number of texts of exceptions of a piece."""
+_SHORTEST, _LONGEST = 0.25, 2.0
+"""Duration of a piece in seconds: long compared with the overhead, short enough to lose."""
+_PIECES = 16
+"""Pieces per worker, so that all workers finish at about the same time; fewer if they would be too short."""
+_RATE = 50.0
+"""Maximum number of pieces per second for the scheduler and the writer."""
+_MOST_NUMBERS = 1_000_000
+"""Maximum number of values of a piece, which take 8 MB."""
+_LONG_ENOUGH = 0.05
+"""Minimum duration in seconds of a trial that measures the cost of a cell."""
+_PART = 128
+"""A trial computes at most this fraction (1/128) of all cells."""
+
+
+def named(cell: Mapping[str, float]) -> str:
+    """Return the coordinates of a cell in words, with all digits."""
+    return ", ".join(f"{name} = {float(value)!r}" for name, value in cell.items())
+
+
+def compute(piece: Plan) -> PieceResult:
+    """Return the results at all cells of a plan."""
+    columns = piece.columns()
+    found = evaluate(piece.computation, piece.numbers, columns, as_level(piece.level))
+    arrays = {}
+    for own, name in piece.variables.items():
+        arrays[own] = found.values[name]
+        if name in found.errors:
+            arrays[f"{own}_error"] = found.errors[name]
+    arrays["status"] = found.status
+    failed = np.flatnonzero(found.status == Outcome.FAILED)[:_MOST_FAILURES].tolist()
+    failures = {named({name: columns[name][i] for name in piece.axes}): found.why[i] for i in failed}
+    return {name: values.reshape(piece.shape) for name, values in arrays.items()}, failures
+
+
+def sendable(plan: Plan) -> bytes:
+    """Return a plan without its axes as workers receive it, with the text of functions of a notebook.
+
+    Raises `InvalidParameter`.
+    """
+    import cloudpickle
+
+    try:
+        return bytes(cloudpickle.dumps(replace(plan, axes={})))
+    # Whatever the objects that a function uses raise.
+    except Exception as error:
+        raise InvalidParameter(
+            f"{plan.computation.key} cannot be sent to other processes ({error}): leave out workers, or define it "
+            "without what cannot be pickled, such as open files and locks."
+        ) from error
+
+
+@lru_cache(maxsize=1)
+def received(content: bytes) -> Plan:
+    """Return the plan that was sent, the same object for all pieces: a function keeps what it has compiled."""
+    found: Plan = pickle.loads(content)
+    return found
+
+
+def compute_sent(content: bytes, needed: str, axes: Mapping[str, Array]) -> PieceResult:
+    """Return the results of a piece of a plan that was sent.  Raises `WorkersLost` if the versions differ."""
+    if needed != version():
+        raise WorkersLost(
+            f"A worker has version {version()} of hess-explorer, but the sweep needs {needed}: "
+            "install the same version on all workers."
+        )
+    return compute(replace(received(content), axes=axes))
+
+
+def cells_of_a_piece(plan: Plan, workers: int) -> float:
+    """Return how many cells a piece has at most, from trials at random cells."""
+    cost, least = _seconds_of_a_cell(plan), workers / _RATE
+    seconds = min(max(_LONGEST, least), max(_SHORTEST, least, cost * plan.cells / (_PIECES * workers)))
+    return max(1.0, min(seconds / cost, _MOST_NUMBERS / len(plan.numbers)))
+
+
+def _seconds_of_a_cell(plan: Plan) -> float:
+    """Return the cost of a cell; ∞ for few cells, which are pieces of their own."""
+    if plan.cells < _PART // 4:
+        return np.inf
+    random = np.random.default_rng(0)
+
+    def trial(count: int) -> float:
+        columns, begun = plan.columns(random.integers(plan.cells, size=count)), time.perf_counter()
+        evaluate(plan.computation, plan.numbers, columns, as_level(plan.level))
+        return time.perf_counter() - begun
+
+    # The first cell compiles or loads kernels.
+    trial(1)
+    count = 1
+    while (seconds := trial(count)) < _LONG_ENOUGH and 2 * count * _PART <= plan.cells:
+        count *= 2
+    return seconds / count
