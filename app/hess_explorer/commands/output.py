@@ -134,7 +134,7 @@ def _text(table: Any, facts: Mapping[str, Any], notes: Sequence[str]) -> str:
             words = _words(value, errors if name == "numbers" else {})
             lines += textwrap.wrap(f"{name}: {words}", 100, subsequent_indent="  ")
     if not table.empty:
-        lines += ["", table.to_string(index=False, max_rows=_ROWS, float_format="{:.9g}".format)]
+        lines += ["", table.to_string(index=False, max_rows=_ROWS, na_rep="–", float_format="{:.9g}".format)]
     if len(table) > _ROWS:
         lines.append(f"{len(table)} rows; --format csv has all of them.")
     return "\n".join([*lines, *notes, ""])
