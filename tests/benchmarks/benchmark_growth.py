@@ -79,7 +79,7 @@ def of_crossings(crossings):
 def of_cells(cells):
     side = math.isqrt(cells)
     over = {"h": (0.2, 2.0, side), "f": (0.01, 1.0, side)}
-    return lambda: sweep("rotation-number", over=over, a=0.5)
+    return lambda: sweep("circle-map", over=over, a=0.5)
 
 
 def of_pages(pages):

@@ -66,10 +66,7 @@ def test_a_level_and_its_name_mean_the_same_and_a_name_that_no_level_has_is_refu
         CALLS[name]("exact")
 
 
-INTERNAL = {
-    "cost_of_a_cell", "create", "empty", "evaluate", "integrated", "longest_step", "measured", "no_chaos", "opened",
-    "quantity_of", "require",
-}  # fmt: skip
+INTERNAL = {"integrated", "longest_step", "measured", "no_chaos", "plan_of"}
 """Functions that take a level that is already read, or its name in a store."""
 
 

@@ -1,48 +1,40 @@
-"""Local processes, and workers of a Dask cluster: the same numbers, and no loss when one dies."""
+"""Workers of a Dask cluster: the same numbers, no loss when one dies, and no process that is left behind."""
 
 import os
 import signal
 import subprocess
-import threading
+import sys
 import time
-from contextlib import suppress
 
 import psutil
 import pytest
 
 from hess_explorer.sweep import WorkersLost, sweep
-from hess_explorer.sweep import run as running
 from hess_explorer.sweep import workers as working
-from hess_mechanics.errors import InvalidParameter
 from support.cluster import local_cluster
+from support.command_line import typed
 from support.processes import interruptible
 
 
 def motions(**options):
     """The exponents of some motions; the options are those of `sweep`."""
-    return sweep("lyapunov-suslov", {"w1": (0.2, 1.4, 6), "I22": (1.0, 2.0, 5)}, level="draft", t=15.0, **options)
+    return sweep("lyapunov suslov", {"w1": (0.2, 1.4, 6), "I22": (1.0, 2.0, 5)}, level="draft", t=15.0, **options)
 
 
 @pytest.fixture(scope="module")
-def cluster():
-    """Yield the address of a cluster with two workers."""
-    with local_cluster(2) as address:
-        yield address
-
-
-@pytest.fixture
-def client(cluster):
+def client():
+    """Yield a client of a cluster with two workers."""
     from distributed import Client
 
-    with Client(cluster, set_as_default=False) as found:
+    with local_cluster(2) as address, Client(address, set_as_default=False) as found:
         found.wait_for_workers(2, timeout=60)
         yield found
 
 
 @pytest.fixture
-def pairs(monkeypatch):
+def pairs(in_pieces):
     """Pieces of two cells."""
-    monkeypatch.setattr(running, "_cells_of_a_piece", lambda *_: 2)
+    in_pieces(2)
 
 
 @pytest.fixture(scope="module")
@@ -51,169 +43,92 @@ def alone():
     return motions()
 
 
-@pytest.mark.thorough
-def test_workers_find_the_same_and_one_that_is_killed_is_no_loss(cluster, client, pairs, alone, tmp_path):
-    before = client.run(os.getpid)
-    killed = []
+def workers():
+    """Return the worker processes of this process."""
+    running = (one for one in psutil.Process().children() if one.status() != psutil.STATUS_ZOMBIE)
+    return [one for one in running if "spawn_main" in " ".join(one.cmdline())]
+
+
+def test_processes_find_the_same_one_that_is_killed_is_no_loss_and_none_is_left(pairs, alone, tmp_path):
+    before, seen = workers(), []
 
     def kill_one(now):
-        if now.done and not killed:
-            killed.append(next(iter(before.values())))
-            os.kill(killed[0], signal.SIGKILL)
+        seen.append({*workers()} - {*before})
+        if now.done and len(seen) == 2:
+            next(iter(seen[0])).kill()
 
-    found = motions(
-        workers=cluster,
-        progress=kill_one,
-        store=tmp_path / "lambda.zarr",
-    )
-    assert killed
+    found = motions(workers=2, progress=kill_one, store=tmp_path / "lambda.zarr")
     assert found.identical(alone)
-    # Another one has taken its place.
-    client.wait_for_workers(2, timeout=60)
-    assert set(client.run(os.getpid).values()) - set(before.values())
+    assert len(seen[0]) == 2
+    assert not {*workers()} - {*before}
 
 
-def test_a_client_is_used_and_stays_open(client):
-    def scaled(w1, I22=1.0):
-        return 2.0 * w1 * I22
-
-    assert sweep(scaled, {"w1": [0.2, 0.3]}, workers=client).scaled.values.tolist() == [0.4, 0.6]
+def test_a_cluster_finds_the_same_and_its_client_stays_open(client, pairs, alone):
+    assert motions(scheduler=client).identical(alone)
+    assert motions(scheduler=client.scheduler.address).identical(alone)
     assert client.submit(sum, [1, 2]).result() == 3
 
 
-@pytest.mark.thorough
-def test_a_scheduler_answers_over_tls(tmp_path, pairs, alone):
-    import dask
-    from distributed import LocalCluster, Security
-
-    certificate, key = str(tmp_path / "certificate.pem"), str(tmp_path / "key.pem")
-    words = ["req", "-x509", "-newkey", "rsa:2048", "-nodes", "-subj", "/CN=localhost", "-days", "2"]
-    subprocess.run(["openssl", *words, "-keyout", key, "-out", certificate], check=True, capture_output=True)
-    client = {"ca-file": certificate, "client.cert": certificate, "client.key": key}
-    roles = {
-        f"tls_{role}_{end}": file
-        for role in ("scheduler", "worker", "client")
-        for end, file in (("cert", certificate), ("key", key))
-    }
-    security = Security(tls_ca_file=certificate, require_encryption=True, **roles)
-    quiet = {"dashboard_address": None, "silence_logs": "ERROR"}
-    with LocalCluster(1, processes=False, host="tls://127.0.0.1", security=security, **quiet) as cluster:
-        with pytest.raises(InvalidParameter, match="set the certificates in Dask's configuration, or pass a Client"):
-            motions(workers=cluster.scheduler_address)
-        with dask.config.set({f"distributed.comm.tls.{name}": file for name, file in client.items()}):
-            assert motions(workers=cluster.scheduler_address).identical(alone)
+SWEEP = typed("sweep lyapunov suslov --over w1=0.2:1.4:40 --set t=1e5 --accuracy draft --workers 2")
 
 
-def children():
-    """Return the child processes of this process that compute."""
-    found = []
-    for one in psutil.Process().children():
-        # One may end meanwhile.
-        with suppress(psutil.NoSuchProcess, psutil.ZombieProcess):
-            found += [one] if any("sweep" in word and "processes" in word for word in one.cmdline()) else []
-    return found
+@pytest.mark.parametrize("end", [signal.SIGINT, signal.SIGKILL], ids=lambda one: one.name)
+def test_no_process_is_left_whatever_they_compute(end):
+    """Cells of minutes; Ctrl-C reaches all processes of a terminal."""
+    words = [sys.executable, "-m", "hess_explorer", *SWEEP]
+    with interruptible():
+        process = psutil.Popen(words, start_new_session=True, stderr=subprocess.PIPE, text=True)
+    deadline = time.monotonic() + 60.0
+    while sum("spawn_main" in " ".join(one.cmdline()) for one in process.children()) < 2:
+        assert time.monotonic() < deadline
+        time.sleep(0.1)
+    children = process.children(recursive=True)
+    time.sleep(3.0)
+    os.killpg(process.pid, end) if end == signal.SIGINT else process.kill()
+    _, said = process.communicate(timeout=30.0)
+    assert process.returncode == (130 if end == signal.SIGINT else -signal.SIGKILL)
+    # After SIGKILL Python itself says that it cleans up.
+    assert end == signal.SIGKILL or said == "hess-explorer: interrupted.\n"
+    assert psutil.wait_procs(children, timeout=10.0)[1] == []
 
 
-def test_all_cores_find_the_same_one_that_is_killed_is_no_loss_and_none_is_left(pairs, alone, monkeypatch, tmp_path):
-    monkeypatch.setattr(working, "_cores", lambda: 2)
-    seen, killed = [], []
-
-    def kill_one(now):
-        seen.append(children())
-        if now.done and not killed:
-            killed.append(seen[-1][0])
-            killed[0].kill()
-
-    found = motions(
-        workers="all",
-        progress=kill_one,
-        store=tmp_path / "lambda.zarr",
-    )
-    assert found.identical(alone)
-    # Two, and another one that has taken the place of one.
-    assert len({one.pid for some in seen for one in some}) == 3
-    assert children() == []
-
-
-def test_processes_are_ended_with_the_sweep_whatever_they_compute(monkeypatch):
-    monkeypatch.setattr(running, "_cells_of_a_piece", lambda *_: 1)
-    stop = threading.Event()
-    threading.Timer(1.5, stop.set).start()
-    begun = time.monotonic()
-    # Minutes.
-    found = sweep("lyapunov-suslov", {"w1": [0.2, 0.3, 0.4]}, t=1e5, workers=2, stop=stop)
-    assert time.monotonic() - begun < 20.0
-    assert found.status.values.tolist() == [0, 0, 0]
-    assert children() == []
-
-
-@pytest.mark.thorough
-def test_a_piece_that_process_after_process_dies_of_is_said_and_the_others_are_kept(pairs, alone, monkeypatch):
-    from hess_explorer.sweep import processes
-
-    monkeypatch.setattr(processes, "_DEATHS", 2)
-    # One piece, whoever gets it.
-    monkeypatch.setattr(
-        processes,
-        "_PROGRAM",
-        """
-import os
-from hess_explorer.sweep import processes
-compute = processes.compute
-def dies(piece):
-    if 0.2 in piece.axes["w1"] and 2.0 in piece.axes["I22"]:
-        os._exit(1)
-    return compute(piece)
-processes.compute = dies
-processes.serve()""",
-    )
-    seen = []
-    with pytest.raises(WorkersLost, match=r"1 pieces failed; .*2 worker processes crashed on it\."):
-        motions(workers=2, progress=seen.append)
-    assert 30 - seen[-1].done in (1, 2)
-
-
-def test_a_piece_that_no_worker_can_do_is_said_and_the_others_are_kept(
-    cluster, client, pairs, alone, tmp_path, monkeypatch
-):
-    from hess_explorer.sweep.work import compute
-
+def test_a_piece_that_no_worker_can_do_is_said_and_the_others_are_kept(client, pairs, alone, tmp_path, monkeypatch):
     # Not at the top of this module, which the workers do not have.
-    def breaks(piece):
-        if 0.2 in piece.axes["w1"]:
+    from hess_explorer.sweep.piece import compute_sent
+
+    def breaks(content, version, axes):
+        if 0.2 in axes["w1"]:
             raise RuntimeError("this machine has no such thing")
-        return compute(piece)
+        return compute_sent(content, version, axes)
 
     store = tmp_path / "lambda.zarr"
-    monkeypatch.setattr(working, "compute", breaks)
-    with pytest.raises(WorkersLost, match=r"pieces failed.*no such thing\..*run the same sweep again to continue"):
-        motions(workers=cluster, store=store)
-    monkeypatch.setattr(working, "compute", compute)
+    with monkeypatch.context() as now:
+        now.setattr(working, "compute_sent", breaks)
+        with pytest.raises(WorkersLost, match=r"pieces failed.*no such thing.*run the same sweep again to continue"):
+            motions(scheduler=client, store=store)
     seen = []
-    found = motions(store=store, progress=seen.append)
+    assert motions(store=store, progress=seen.append).identical(alone)
     assert seen[0].done >= 20
-    assert found.identical(alone)
 
 
-def test_workers_of_another_version_are_refused(cluster, client, pairs, monkeypatch):
-    monkeypatch.setattr(running, "version", lambda: "9.9")
+def test_workers_of_another_version_are_refused(client, pairs, monkeypatch):
+    monkeypatch.setattr(working, "version", lambda: "9.9")
     with pytest.raises(WorkersLost, match=r"needs 9\.9: install the same version on all workers"):
-        motions(workers=cluster)
+        motions(scheduler=client)
 
 
-def test_a_cluster_that_is_not_there_is_one_sentence(monkeypatch):
+def test_a_cluster_that_is_not_there_or_has_no_workers_is_one_sentence(monkeypatch):
     monkeypatch.setattr(working, "_WAIT", 0.5)
     with pytest.raises(WorkersLost, match=r"No Dask scheduler .* answered at tcp://127\.0\.0\.1:9 within 0\.5 s"):
-        sweep("rotation-number", {"h": [0.5]}, a=0.5, f=0.1, workers="tcp://127.0.0.1:9")
+        motions(scheduler="tcp://127.0.0.1:9")
+    with local_cluster(0) as empty, pytest.raises(WorkersLost, match="with a worker answered"):
+        motions(scheduler=empty)
 
 
-def test_a_cluster_without_workers_is_waited_for_until_ctrl_c_or_not_for_ever(monkeypatch):
-    with local_cluster(0) as empty:
-        timer = threading.Timer(0.7, os.kill, (os.getpid(), signal.SIGINT))
-        timer.start()
-        with interruptible(), pytest.raises(KeyboardInterrupt, match=r"stopped before anything was computed\."):
-            sweep("rotation-number", {"h": [0.5]}, a=0.5, f=0.1, workers=empty)
-        timer.join()
-        monkeypatch.setattr(working, "_WAIT", 0.5)
-        with pytest.raises(WorkersLost, match="with a worker answered"):
-            sweep("rotation-number", {"h": [0.5]}, a=0.5, f=0.1, workers=empty)
+def test_a_script_without_the_condition_is_said(tmp_path):
+    (tmp_path / "mine.py").write_text(
+        "from hess_explorer.sweep import sweep\nsweep(lambda x: x, {'x': [1.0, 2.0]}, workers=2)\n"
+    )
+    words = [sys.executable, tmp_path / "mine.py"]
+    done = subprocess.run(words, capture_output=True, text=True, timeout=60.0, check=False)
+    assert "in a script call `sweep` below `if __name__ == '__main__':`" in done.stderr.splitlines()[-1]

@@ -22,7 +22,7 @@ COMMANDS: Mapping[str, tuple[str, str]] = {
     "site": ("files", "build a folder of pages that needs no server"),
     "code": ("files", "print the Python code that computes and draws a picture of the page"),
     "lesson": ("files", "check a lesson that you write, or begin one"),
-    "sweep": ("files", "compute a quantity over one to three parameters"),
+    "sweep": ("files", "compute numbers over one to three parameters"),
     "docs": ("help", "build the documentation"),
     "bench": ("help", "compare the speed with other integrators at equal measured error (in a source checkout)"),
 }

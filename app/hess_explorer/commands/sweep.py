@@ -151,7 +151,7 @@ def _write(options: Options, found: xr.Dataset, table: bool) -> None:
         **({} if options.store is None else {"store": str(options.store)}),
     }
     options.format = options.format or "json"
-    cells = _cells(found)
+    cells = _cells(found if table else found.isel({one: slice(0) for one in found.status.dims}))
     write(options, cells if table else cells[[]], facts, lambda: found)
 
 

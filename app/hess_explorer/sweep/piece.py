@@ -7,12 +7,14 @@ import time
 from collections.abc import Mapping
 from dataclasses import replace
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 
 from hess_explorer.compute.cells import Outcome, evaluate
 from hess_explorer.sweep.errors import WorkersLost
 from hess_explorer.sweep.plan import Plan, version
+from hess_mechanics.catalogue import catalogue, find
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.arguments import as_level
 from hess_mechanics.numerics.results import Array
@@ -46,7 +48,7 @@ def compute(piece: Plan) -> PieceResult:
     """Return the results at all cells of a plan."""
     columns = piece.columns()
     found = evaluate(piece.computation, piece.numbers, columns, as_level(piece.level))
-    arrays = {}
+    arrays: dict[str, Any] = {}
     for own, name in piece.variables.items():
         arrays[own] = found.values[name]
         if name in found.errors:
@@ -64,12 +66,15 @@ def sendable(plan: Plan) -> bytes:
     """
     import cloudpickle
 
+    what = plan.computation
+    # By name where that is enough: a copy of a system would have to compile its kernels.
+    known = catalogue().get(what.key) is what
     try:
-        return bytes(cloudpickle.dumps(replace(plan, axes={})))
+        return bytes(cloudpickle.dumps((what.key if known else what, plan.numbers, plan.level, plan.fixed)))
     # Whatever the objects that a function uses raise.
     except Exception as error:
         raise InvalidParameter(
-            f"{plan.computation.key} cannot be sent to other processes ({error}): leave out workers, or define it "
+            f"{what.key} cannot be sent to other processes ({error}): leave out workers, or define it "
             "without what cannot be pickled, such as open files and locks."
         ) from error
 
@@ -77,8 +82,8 @@ def sendable(plan: Plan) -> bytes:
 @lru_cache(maxsize=1)
 def received(content: bytes) -> Plan:
     """Return the plan that was sent, the same object for all pieces: a function keeps what it has compiled."""
-    found: Plan = pickle.loads(content)
-    return found
+    what, numbers, level, fixed = pickle.loads(content)
+    return Plan(find(what) if isinstance(what, str) else what, numbers, level, {}, fixed)
 
 
 def compute_sent(content: bytes, needed: str, axes: Mapping[str, Array]) -> PieceResult:

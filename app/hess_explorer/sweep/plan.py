@@ -9,6 +9,7 @@ from functools import cache
 from importlib import metadata
 
 import numpy as np
+from numpy.typing import NDArray
 
 from hess_mechanics.catalogue import Computation
 from hess_mechanics.errors import InvalidParameter, WorkLimit
@@ -107,7 +108,7 @@ class Plan:
         """Return the plan of the cells in a region."""
         return replace(self, axes={name: values[region[name]] for name, values in self.axes.items()})
 
-    def columns(self, cells: Array | None = None) -> dict[str, Array]:
+    def columns(self, cells: NDArray[np.int64] | None = None) -> dict[str, Array]:
         """Return all parameters at each cell, or at these cells, the last axis varying fastest."""
         every = np.arange(self.cells) if cells is None else cells
         at = zip(self.axes.items(), np.unravel_index(every, self.shape), strict=True)

@@ -29,6 +29,7 @@ if TYPE_CHECKING:
 
 __all__ = ["explain", "sweep"]
 
+
 def _planned(
     computation: str | Computation | Callable[..., object],
     numbers: Sequence[str] | None,
@@ -45,7 +46,7 @@ def _planned(
             raise InvalidParameter("A function has the numbers that it returns: leave out numbers.")
         return plan_of(computation, over, fixed, level, most_cells)
     what = computation if isinstance(computation, Computation) else find(computation)
-    if isinstance(numbers, str) or numbers is not None and not numbers:
+    if isinstance(numbers, str) or (numbers is not None and not numbers):
         raise InvalidParameter(f"numbers = {numbers!r} is not a list of names: write it like ('trace',).")
     return Plan.of(what, numbers or [*what.numbers][:1], level, over, fixed, most_cells)
 

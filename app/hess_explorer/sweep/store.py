@@ -1,7 +1,7 @@
 """The Zarr group of a sweep, on a disk or in memory, which xarray writes region by region.
 
 Its chunks are the pieces of the sweep, each a file that is whole or not there.  The status of a piece is written after
-its values, so a piece with a status is finished, whenever the run ended.  A piece that cannot be read is computed again.
+its values, so a piece with a status is finished, whenever the run ended.  Unreadable pieces are computed again.
 """
 
 from __future__ import annotations
@@ -10,7 +10,6 @@ import json
 import math
 import shutil
 import uuid
-import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
 from importlib.util import find_spec
@@ -84,7 +83,7 @@ def _fill(place: Path | MemoryStore, plan: Plan, cells: float) -> None:
     for own, name in plan.variables.items():
         one = what.number(name)
         variables[own] = empty(math.nan, one.title, one.symbol, one.unit)
-        if one.error is not None:
+        if one.error_reader is not None:
             variables[f"{own}_error"] = empty(math.nan, f"estimated error: {one.title}", f"δ{one.symbol}", one.unit)
     flags = {"flag_values": [*map(int, Outcome)], "flag_meanings": " ".join(o.words.replace(" ", "_") for o in Outcome)}
     variables["status"] = empty(np.uint8(0), "how each cell ended", "status", "1", **flags)
@@ -97,12 +96,9 @@ def _fill(place: Path | MemoryStore, plan: Plan, cells: float) -> None:
     # Checksums reveal incomplete files.  The doubles look random, so compression would cost more than it saves.
     packed: dict[Any, Any] = {name: {"compressors": (Crc32cCodec(),)} for name in variables}
     packed["status"] = {"compressors": (ZstdCodec(level=1, checksum=True),), "fill_value": 0}
-    with warnings.catch_warnings():
-        # Without consolidated metadata `xr.open_zarr` warns; with them Zarr says that its specification lacks them.
-        warnings.filterwarnings("ignore", "Consolidated metadata is currently not part")
-        xr.Dataset(variables, axes, facts).to_zarr(
-            place, compute=False, zarr_format=3, consolidated=True, encoding=packed
-        )
+    # The specification of Zarr 3 has no consolidated metadata.
+    whole = xr.Dataset(variables, axes, facts)
+    whole.to_zarr(place, compute=False, zarr_format=3, consolidated=False, encoding=packed)
 
 
 def _facts(plan: Plan) -> dict[str, str]:
@@ -179,7 +175,7 @@ def write(place: Path | MemoryStore, region: Region, done: PieceResult) -> None:
     status = {"status": parts.pop("status")}
     try:
         if failures:
-            facts = zarr.open_group(place, mode="r+", use_consolidated=True).attrs
+            facts = zarr.open_group(place, mode="r+", use_consolidated=False).attrs
             both = json.loads(str(facts.get("failures", "{}"))) | failures
             facts["failures"] = json.dumps(dict(islice(both.items(), _MOST_FAILURES)), ensure_ascii=False)
         for variables in (parts, status):
@@ -201,11 +197,12 @@ def _open(place: Path | MemoryStore) -> xr.Dataset:
     import xarray as xr
 
     with _reading(place, "does not contain a sweep: choose another folder."):
-        found = xr.open_zarr(place, zarr_format=3, consolidated=True, chunks=None)
+        found = xr.open_zarr(place, zarr_format=3, consolidated=False, chunks=None)
         if found.attrs["program"] != _PROGRAM:
             raise ValueError
-        # Zarr sorts the names.
-        return found[found.attrs["variables"].split(", ")]
+        # Zarr does not keep their order.
+        ordered: xr.Dataset = found[found.attrs["variables"].split(", ")]
+        return ordered
 
 
 def load(place: Path | MemoryStore) -> xr.Dataset:

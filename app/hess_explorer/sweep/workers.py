@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import os
+import signal
 from collections.abc import Iterable, Iterator
 from contextlib import ExitStack, contextmanager
 from itertools import islice
-from typing import TYPE_CHECKING
+from textwrap import shorten
+from typing import TYPE_CHECKING, Any
 
 from hess_explorer.sweep.errors import WorkersLost
 from hess_explorer.sweep.piece import PieceResult, compute, compute_sent, received, sendable
@@ -14,14 +16,19 @@ from hess_explorer.sweep.plan import Plan, Region, version
 from hess_mechanics.errors import InvalidParameter
 
 if TYPE_CHECKING:
-    from distributed import Client
+    from distributed import Client, Worker
 
-__all__ = ["connected", "results", "size"]
+__all__ = ["connected", "dask_setup", "results", "size"]
 
 _WAIT = 60.0
 """Timeout in seconds for the cluster to respond with at least one worker."""
 _AHEAD = 3
 """Queued pieces per worker, so that no worker is idle."""
+
+
+def dask_setup(worker: Worker) -> None:
+    """Let a worker of this machine ignore Ctrl-C, which reaches it from the terminal: its sweep ends it."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
 def size(client: Client | None) -> int:
@@ -41,7 +48,8 @@ def results(client: Client | None, plan: Plan, regions: Iterable[Region]) -> Ite
     from distributed import as_completed
 
     content, left, lost = sendable(plan), iter(regions), []
-    waiting, finished = {}, as_completed(loop=client.loop)
+    waiting: dict[Any, Region] = {}
+    finished = as_completed(loop=client.loop)
 
     def submit() -> None:
         for region in islice(left, max(0, _AHEAD * size(client) - len(waiting))):
@@ -60,7 +68,7 @@ def results(client: Client | None, plan: Plan, regions: Iterable[Region]) -> Ite
                 raise
             # Several workers died on this piece, or a worker could not read it; the other pieces go on.
             except Exception as error:
-                lost.append(f"{type(error).__name__}: {' '.join(str(error).split()).rstrip('.')[:300]}.")
+                lost.append(f"{type(error).__name__}: {shorten(str(error), 200, placeholder=' …')}")
     finally:
         client.cancel(list(waiting))
     if lost:
@@ -84,10 +92,21 @@ def connected(plan: Plan, workers: str | int | None, scheduler: str | Client | N
         return
     if scheduler is not None and "://" not in scheduler:
         raise InvalidParameter(f"{scheduler!r} is not a Dask scheduler: write its address like tcp://host:8786.")
-    quiet = {"memory_limit": 0, "dashboard_address": None, "silence_logs": "CRITICAL"}
+    # No dashboard: its port may be in use.
+    quiet = {"dashboard": False, "dashboard_address": "127.0.0.1:0"}
     with ExitStack() as stack:
         try:
-            at = scheduler or stack.enter_context(LocalCluster(count, threads_per_worker=1, host="127.0.0.1", **quiet))
+            at = scheduler or stack.enter_context(
+                LocalCluster(
+                    n_workers=count,
+                    threads_per_worker=1,
+                    host="127.0.0.1",
+                    memory_limit=0,
+                    scheduler_kwargs=quiet,
+                    silence_logs="CRITICAL",
+                    preload=[__name__],
+                )
+            )
             client = stack.enter_context(Client(at, timeout=_WAIT, set_as_default=False))
             client.wait_for_workers(1, timeout=_WAIT)
             # They import the mechanics while this thread measures the cost of a cell.
