@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import math
 from collections.abc import Mapping
 from difflib import get_close_matches
 from functools import partial
@@ -119,10 +120,11 @@ def _run(what: Computation, options: Options) -> None:
             numbers[name] = None
             try:
                 numbers[name] = of.read(result)
-                if of.error is not None:
-                    errors[name] = of.error(result)
-            except (NoValue, ArithmeticError) as error:
-                notes.append(f"{name}: {error}")
+                # NaN stands for no estimate.
+                if of.error is not None and math.isfinite(error := of.error(result)):
+                    errors[name] = error
+            except (NoValue, ArithmeticError) as missing:
+                notes.append(f"{name}: {missing}")
         known = result.labels()
         facts = {
             "computation": what.key,
