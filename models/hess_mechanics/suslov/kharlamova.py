@@ -334,7 +334,31 @@ def _solved(u0: Array, v0: Array, a: Array, height: float) -> tuple[Array, Array
 
 
 def arc(body: PlaneBody, state: Sequence[float]) -> Arc:
-    """Return the arc of the orbit through a state (5,).  Raises `InvalidParameter`."""
+    """Return the arc of the orbit through a state, in closed form.
+
+    Parameters
+    ----------
+    body : PlaneBody
+        The body.
+    state : sequence of float, shape (5,)
+        The state (ω1, ω2, γ1, γ2, γ3).
+
+    Returns
+    -------
+    Arc
+        The arc, with its kind and period.
+
+    Raises
+    ------
+    InvalidParameter
+        If a number is not finite.
+
+    Examples
+    --------
+    >>> from hess_mechanics import PlaneBody, arc
+    >>> arc(PlaneBody(1.3, 0.8, 0.5, -0.2), (1.0, -0.5, 0.0, 0.6, 0.8)).kind
+    'periodic'
+    """
     require_finite(**dict(zip(("ω1", "ω2", "γ1", "γ2", "γ3"), map(float, state), strict=True)))
     u0, v0, a = np.array(state[2:4]), np.array([-state[1], state[0]]), body.acceleration
     rows, coefficients, rates = _solved(u0, v0[None], a, float(state[4]))
