@@ -83,7 +83,8 @@ def test_no_process_is_left_whatever_they_compute(end):
         assert time.monotonic() < deadline
         time.sleep(0.1)
     children = process.children(recursive=True)
-    time.sleep(3.0)
+    # Workers that have not started yet would say more.
+    time.sleep(5.0)
     os.killpg(process.pid, end) if end == signal.SIGINT else process.kill()
     _, said = process.communicate(timeout=30.0)
     assert process.returncode == (130 if end == signal.SIGINT else -signal.SIGKILL)

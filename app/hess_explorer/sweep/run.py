@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Mapping, Sequence
-from contextlib import nullcontext
+from contextlib import closing, nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -149,8 +149,8 @@ def sweep(
                 place = create(path, plan, cells_of_a_piece(plan, size(client)))
                 todo = missing(place, plan)
             done = plan.cells - sum(plan.part(region).cells for region in todo)
-            with reporting(progress, plan.cells, done) as report:
-                for region, found in results(client, plan, todo):
+            with reporting(progress, plan.cells, done) as report, closing(results(client, plan, todo)) as pieces:
+                for region, found in pieces:
                     write(place, region, found)
                     report(plan.part(region).cells)
     except KeyboardInterrupt as error:

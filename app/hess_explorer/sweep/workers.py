@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import os
 import signal
-from collections.abc import Iterable, Iterator
+import threading
+from collections.abc import Generator, Iterable, Iterator
 from contextlib import ExitStack, contextmanager
 from itertools import islice
 from textwrap import shorten
@@ -39,7 +40,7 @@ def size(client: Client | None) -> int:
         raise WorkersLost("The cluster has stopped responding: restart it.") from error
 
 
-def results(client: Client | None, plan: Plan, regions: Iterable[Region]) -> Iterator[tuple[Region, PieceResult]]:
+def results(client: Client | None, plan: Plan, regions: Iterable[Region]) -> Generator[tuple[Region, PieceResult]]:
     """Yield the results of the pieces in any order.  Raises `WorkersLost`."""
     if client is None:
         for region in regions:
@@ -76,6 +77,23 @@ def results(client: Client | None, plan: Plan, regions: Iterable[Region]) -> Ite
 
 
 @contextmanager
+def _ctrl_c_later() -> Iterator[None]:
+    """Delay Ctrl-C until the end: a cluster that is interrupted when it starts stays open."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    pressed: list[int] = []
+    before = signal.signal(signal.SIGINT, lambda number, frame: pressed.append(number))
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
+        # Also if the workers could not start because of it.
+        if pressed:
+            raise KeyboardInterrupt
+
+
+@contextmanager
 def connected(plan: Plan, workers: str | int | None, scheduler: str | Client | None) -> Iterator[Client | None]:
     """Yield a client of the workers, None for this thread.  Raises `InvalidParameter`, `WorkersLost`."""
     cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
@@ -96,17 +114,18 @@ def connected(plan: Plan, workers: str | int | None, scheduler: str | Client | N
     quiet = {"dashboard": False, "dashboard_address": "127.0.0.1:0"}
     with ExitStack() as stack:
         try:
-            at = scheduler or stack.enter_context(
-                LocalCluster(
-                    n_workers=count,
-                    threads_per_worker=1,
-                    host="127.0.0.1",
-                    memory_limit=0,
-                    scheduler_kwargs=quiet,
-                    silence_logs="CRITICAL",
-                    preload=[__name__],
+            with _ctrl_c_later():
+                at = scheduler or stack.enter_context(
+                    LocalCluster(
+                        n_workers=count,
+                        threads_per_worker=1,
+                        host="127.0.0.1",
+                        memory_limit=0,
+                        scheduler_kwargs=quiet,
+                        silence_logs="CRITICAL",
+                        preload=[__name__],
+                    )
                 )
-            )
             client = stack.enter_context(Client(at, timeout=_WAIT, set_as_default=False))
             client.wait_for_workers(1, timeout=_WAIT)
             # They import the mechanics while this thread measures the cost of a cell.
