@@ -27,6 +27,7 @@ from hess_mechanics.dynamics.sampling import PIXELS, SAGITTA, sample_times
 from hess_mechanics.dynamics.system import System
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.accuracy import Accuracy
+from hess_mechanics.numerics.arguments import as_parts
 from hess_mechanics.numerics.results import Array, Orbit, frozen
 from hess_mechanics.rigid_body.inertia import require_finite, require_positive_definite
 from hess_mechanics.suslov.equations import SYSTEM
@@ -351,7 +352,7 @@ def arc(body: PlaneBody, state: Sequence[float]) -> Arc:
     Raises
     ------
     InvalidParameter
-        If a number is not finite.
+        If the state has not five finite numbers.
 
     Examples
     --------
@@ -359,7 +360,8 @@ def arc(body: PlaneBody, state: Sequence[float]) -> Arc:
     >>> arc(PlaneBody(1.3, 0.8, 0.5, -0.2), (1.0, -0.5, 0.0, 0.6, 0.8)).kind
     'periodic'
     """
-    require_finite(**dict(zip(("ω1", "ω2", "γ1", "γ2", "γ3"), map(float, state), strict=True)))
+    state = as_parts("state", state, 5)
+    require_finite(**dict(zip(SYSTEM.variables, map(float, state), strict=True)))
     u0, v0, a = np.array(state[2:4]), np.array([-state[1], state[0]]), body.acceleration
     rows, coefficients, rates = _solved(u0, v0[None], a, float(state[4]))
     low, high, period, side, other_low, other_high = map(float, rows[0])
