@@ -2,28 +2,16 @@
 
 from __future__ import annotations
 
-import argparse
 import io
 import re
 import sys
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from importlib import import_module, metadata
-from typing import Any, NoReturn
 
-from hess_explorer.commands import COMMANDS, CommandError
+from hess_explorer.commands import COMMANDS, HEADINGS, CommandError
+from hess_explorer.commands.command import Command, Options, Parser
 
-__all__ = ["main"]
-
-
-class _Parser(argparse.ArgumentParser):
-    """Argument parser that reports an error in one sentence, without the usage text, and knows no abbreviations."""
-
-    def __init__(self, **settings: Any) -> None:
-        # Also in subcommands, where `--h` would be `--help`.
-        super().__init__(allow_abbrev=False, **settings)
-
-    def error(self, message: str) -> NoReturn:
-        raise CommandError(f"{message} (see {self.prog} --help).")
+__all__ = ["main", "parsed"]
 
 
 def _version() -> str:
@@ -31,23 +19,6 @@ def _version() -> str:
         return metadata.version("hess-explorer")
     except metadata.PackageNotFoundError:
         return "run from its source folder, not installed"
-
-
-def _parser(declared: Iterable[str] = COMMANDS) -> argparse.ArgumentParser:
-    """Return the parser of all commands; only the modules of the `declared` commands are imported."""
-    parser = _Parser(
-        prog="hess-explorer",
-        description="An interactive explorer of the Suslov problem, its Hess case "
-        "and their relatives.  Without a command: serve.",
-    )
-    parser.add_argument("--version", action="version", version=f"hess-explorer {_version()}")
-    commands = parser.add_subparsers(required=True, metavar="COMMAND")
-    for name, purpose in COMMANDS.items():
-        added = commands.add_parser(name, help=purpose)
-        if name in declared:
-            module = import_module(f"hess_explorer.commands.{name.replace('-', '_')}")
-            module.COMMAND.declare(added)
-    return parser
 
 
 def _with_command(words: list[str]) -> list[str]:
@@ -66,6 +37,33 @@ def _with_negative_values(words: list[str]) -> list[str]:
         else:
             joined.append(word)
     return joined
+
+
+def parsed(words: Sequence[str]) -> Options:
+    """Return the options of a command line, with the function `run` that carries it out.
+
+    Only the module of its command is imported.  Raises `CommandError`.
+    """
+    name, *rest = _with_negative_values(_with_command(list(words)))
+    if name in COMMANDS:
+        command: Command = import_module(f"hess_explorer.commands.{name}").COMMAND
+        return command.parser(f"hess-explorer {name}").parse_args(rest)
+    from hess_explorer.commands import compute
+
+    if not name.startswith("-"):
+        parser, rest = compute.parser(name, rest)
+        return parser.parse_args(rest)
+    parser = Parser(
+        "hess-explorer",
+        "[COMMAND] [OPTIONS]",
+        "An interactive explorer of the Suslov problem, its Hess case and their relatives.  Without a command: serve.  "
+        "COMMAND --help shows the options of a command.",
+    )
+    parser.add_argument("--version", action="version", version=f"hess-explorer {_version()}")
+    for heading in HEADINGS:
+        by_hand = {name: purpose for name, (of, purpose) in COMMANDS.items() if of == heading}
+        parser.list_words(heading, {**by_hand, **compute.titles(heading)})
+    return parser.parse_args([name])
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -87,8 +85,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     if isinstance(sys.stdout, io.TextIOWrapper):
         sys.stdout.reconfigure(errors="backslashreplace")
     try:
-        words = _with_negative_values(_with_command(words))
-        options = _parser(words[:1]).parse_args(words)
+        options = parsed(words)
         options.run(options)
     except CommandError as error:
         print(f"hess-explorer: {error}", file=sys.stderr)

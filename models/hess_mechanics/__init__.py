@@ -11,18 +11,39 @@ Examples
 'hyperbolic'
 """
 
+from importlib.util import find_spec
 from types import FunctionType
 from typing import Any
 
 import lazy_loader
 
 # The names of the stub beside this file; each module is imported when one of its names is used first.
-_found, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
+_found, _stub_names, _ = lazy_loader.attach_stub(__name__, __file__)
+
+
+def _computations() -> dict[str, FunctionType]:
+    """Return the public functions of the catalogue by name."""
+    from hess_mechanics.catalogue import catalogue
+
+    return {one.function.__name__: one.function for one in catalogue().values()}
+
+
+def __dir__() -> list[str]:
+    """Return the names of the stub and of the catalogue's functions."""
+    return sorted({*_stub_names(), *_computations()})
 
 
 def __getattr__(name: str) -> Any:
     """Return a name of the package; its functions check their arguments against their annotations."""
-    found = _found(name)
+    if name == "__all__":
+        return __dir__()
+    try:
+        found = _found(name)
+    except AttributeError:
+        # A module is imported by the import system, which asks for it here first.
+        if name.startswith("_") or find_spec(f"{__name__}.{name}") or name not in _computations():
+            raise
+        found = _computations()[name]
     if isinstance(found, FunctionType):
         from hess_mechanics.numerics.arguments import typed
 

@@ -47,22 +47,7 @@ def refusal(capsys):
         assert out == ""
         assert err.startswith("hess-explorer: ")
         assert err.count("\n") == 1
-        assert err.endswith(".\n")
+        assert err.endswith((".\n", "?\n"))
         return err
-
-    return call
-
-
-@pytest.fixture
-def example(capsys):
-    """The words of the example at the end of a command's help, without the program's name."""
-
-    def call(*words):
-        with pytest.raises(SystemExit) as end:
-            main([*words, "--help"])
-        assert end.value.code == 0
-        # Help is broken into lines, after a hyphen too.
-        text = " ".join(capsys.readouterr().out.split())
-        return text.partition("Example: hess-explorer ")[2].replace("- 0.9", "-0.9").split()
 
     return call

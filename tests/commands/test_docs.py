@@ -12,6 +12,7 @@ import hess_mechanics
 from hess_explorer import sweep
 from hess_explorer.__main__ import main
 from hess_explorer.scenes import scenes
+from hess_mechanics.catalogue import catalogue, motions
 
 TUTORIALS = files("hess_explorer") / "docs" / "tutorials"
 thorough = pytest.mark.thorough  # the build takes a minute
@@ -43,6 +44,15 @@ def site(tmp_path_factory):
 def test_every_public_name_is_in_the_api(site, page, package):
     names = set(re.findall(r'<dt[^>]* id="([\w.]+)"', site[f"api/{page}.html"]))
     assert [name for name in package.__all__ if f"{package.__name__}.{name}" not in names] == []
+
+
+@thorough
+def test_every_computation_is_on_its_page_with_the_output_of_its_example(site):
+    text = site["api/computations.html"]
+    names = {one.name for one in catalogue().values()}
+    assert [name for name in names if f'id="{name}"' not in text] == []
+    assert len(re.findall("\ncomputation: ", re.sub("<[^>]+>", "", text))) == len(names)
+    assert all(f'id="system-{name}"' in text for name in motions())
 
 
 @thorough

@@ -14,7 +14,7 @@ from support.command_line import typed
 from support.disk import full_disk, names
 from support.mechanics import ROOT
 
-ORBIT = "orbit hess --a 0.5 --b 1 --omega 0.3,0.2 --gamma 0,0.6,0.8 --t 0:5:50"
+ORBIT = "orbit hess --t 5 --samples 50 --format csv"
 FULL = Path("/dev/full")
 
 

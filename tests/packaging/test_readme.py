@@ -6,7 +6,7 @@ import tomllib
 
 import pytest
 
-from hess_explorer.__main__ import _parser, _with_command, _with_negative_values, main
+from hess_explorer.__main__ import main, parsed
 from hess_explorer.commands.output import PATIENCE
 from hess_explorer.scenes import scenes
 from support.measured import write_measured
@@ -92,7 +92,7 @@ def test_the_commands_of_the_readme_work(words, capsys, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     if words[0] in ("shot", "bench", "serve", "site") or "--lesson" in words:
         # They take long, and have tests of their own: here, that they are understood.
-        _parser().parse_args(_with_negative_values(_with_command(words)))
+        parsed(words)
         return
     assert main(words) == 0
     out, err = capsys.readouterr()

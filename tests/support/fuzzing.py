@@ -1,6 +1,5 @@
 """Fuzzing: random links, messages and command lines, and counts of the responses."""
 
-import argparse
 import io
 import json
 import logging
@@ -12,13 +11,16 @@ import time
 import warnings
 from collections import Counter
 from contextlib import chdir, contextmanager, nullcontext, redirect_stderr, redirect_stdout
+from importlib import import_module
 from logging.handlers import BufferingHandler
 from threading import Barrier, Event
 from urllib.parse import quote, urlencode
 
 import numpy as np
 
-from hess_explorer.__main__ import _parser, main
+from hess_explorer.__main__ import main
+from hess_explorer.commands import COMMANDS
+from hess_explorer.commands.compute import command_of
 from hess_explorer.commands.output import PATIENCE
 from hess_explorer.compute.background import run_in_steps
 from hess_explorer.compute.budget import limited
@@ -30,6 +32,7 @@ from hess_explorer.scenes import scenes
 from hess_explorer.sweep.chart import swept
 from hess_explorer.sweep.charting import FAILED
 from hess_explorer.sweep.quantity import Outcome
+from hess_mechanics.catalogue import catalogue
 from hess_mechanics.numerics.jit import seconds_compiling
 from hess_mechanics.numerics.parallel import THREADS
 from support.board import Browser
@@ -423,15 +426,14 @@ def _told(story):
 # ---- command lines ----------------------------------------------------------------------------------------------
 
 
-def _examples(parser):
-    """The command lines in the help of all commands, and whether each takes a level of accuracy."""
-    for action in parser._actions:
-        if isinstance(action, argparse._SubParsersAction):
-            for one in action.choices.values():
-                yield from _examples(one)
-    given = re.search(r"Example: hess-explorer (.*)", parser.epilog or "", re.DOTALL)
-    if given is not None:
-        yield shlex.split(given[1])
+def _examples():
+    """The command lines in the help of all commands."""
+    for name in COMMANDS:
+        # Those that take minutes, a browser, a port or files are for other tests.
+        if name not in ("bench", "docs", "lesson", "serve", "shot", "site"):
+            yield [name, *shlex.split(import_module(f"hess_explorer.commands.{name}").COMMAND.example)]
+    for one in catalogue().values():
+        yield [*one.key.split(), *shlex.split(command_of(one).example)]
 
 
 def _argument(random, text):
@@ -478,9 +480,7 @@ def _elsewhere():
 @_elsewhere()
 def fuzz_commands(random, count):
     """Run this many command lines in this process, and discard the files they write."""
-    # Those that take minutes or a browser are for other tests.
-    findings = Findings()
-    examples = [one for one in _examples(_parser()) if one[0] not in ("bench", "docs", "shot")]
+    findings, examples = Findings(), list(_examples())
     for _ in range(count):
         if findings.over:
             break

@@ -5,32 +5,14 @@ from __future__ import annotations
 import argparse
 import math
 import runpy
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
+from typing import Any, NoReturn, TypeVar
 from urllib.parse import parse_qsl, urlencode
 
 from . import CommandError
 
-if TYPE_CHECKING:
-    # Importing the mechanics takes a second, which would delay the first message of `serve`.
-    from hess_mechanics.parameters import Parameter
-
-__all__ = [
-    "assigned",
-    "checked",
-    "ends",
-    "integer",
-    "listed",
-    "number",
-    "numbers",
-    "run_file",
-    "samples",
-    "shown",
-    "state_of",
-    "values",
-    "vector",
-]
+__all__ = ["assigned", "ends", "integer", "listed", "number", "run_file", "shown", "state_of"]
 
 T = TypeVar("T")
 _SHOWN, _MAX_STATE = 60, 2000
@@ -67,18 +49,6 @@ def number(text: str) -> float:
     return value
 
 
-def checked(of: Parameter) -> Callable[[str], float]:
-    """Return the argument type of a number within the bounds of a parameter."""
-    return lambda text: _within(of, number(text))
-
-
-def _within(of: Parameter, value: float) -> float:
-    try:
-        return of.check(value)
-    except ValueError as error:
-        raise argparse.ArgumentTypeError(str(error).removesuffix(".")) from None
-
-
 def integer(low: int, high: int) -> Callable[[str], int]:
     """Return the argument type of an integer from `low` to `high`, which have at most ten digits."""
 
@@ -86,25 +56,6 @@ def integer(low: int, high: int) -> Callable[[str], int]:
         if not (text.isascii() and text.isdigit() and len(text) <= 10 and low <= int(text) <= high):
             _refuse(text, f"is not a whole number from {low} to {high}")
         return int(text)
-
-    return parse
-
-
-def numbers(text: str) -> tuple[float, ...]:
-    """Return the numbers of a comma-separated list."""
-    return tuple(map(number, text.split(",")))
-
-
-def vector(of: str | Sequence[Parameter]) -> Callable[[str], tuple[float, ...]]:
-    """Return the argument type of a comma-separated list with a number for each parameter or name ("w1,w2")."""
-    names = of if isinstance(of, str) else ",".join(one.name for one in of)
-    types = [number] * (names.count(",") + 1) if isinstance(of, str) else [checked(one) for one in of]
-
-    def parse(text: str) -> tuple[float, ...]:
-        parts = text.split(",")
-        if len(parts) != len(types):
-            _refuse(text, f"has length {len(parts)}; write {len(types)} numbers {names}")
-        return tuple(read(part) for read, part in zip(types, parts, strict=True))
 
     return parse
 
@@ -148,19 +99,3 @@ def listed(text: str, most: int) -> list[float]:
     if len(parts) > most:
         _refuse(text, f"has {len(parts)} numbers; at most {most} are allowed in a list, use lo:hi:n")
     return [number(part) for part in parts]
-
-
-def values(text: str) -> list[float]:
-    """Return the numbers of a comma-separated list, or n evenly spaced numbers for lo:hi:n."""
-    from hess_mechanics.dynamics.orbit import MAX_SAMPLES
-
-    if ":" not in text:
-        return listed(text, MAX_SAMPLES)
-    low, high, count = ends(text, MAX_SAMPLES)
-    # A weighted mean, so that both ends are exact and hi − lo cannot overflow.
-    return [low * ((count - 1 - i) / (count - 1)) + high * (i / (count - 1)) for i in range(count)]
-
-
-def samples(of: Parameter) -> Callable[[str], list[float]]:
-    """Return the argument type of many values of a parameter, within its bounds."""
-    return lambda text: [_within(of, value) for value in values(text)]

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import argparse
 import sys
 from importlib import import_module
 from pathlib import Path
 
 from . import CommandError
-from .command import Command
+from .command import Command, Parser
 
 __all__ = ["COMMAND"]
 
@@ -18,8 +17,8 @@ _TESTS = Path(__file__).resolve().parents[3] / "tests"
 class _SourceCommand(Command):
     """The command defined in tests/benchmarks/bench.py, which only a source checkout has."""
 
-    def declare(self, parser: argparse.ArgumentParser) -> None:
-        """Declare its options in a parser.  Raises `CommandError` without the sources."""
+    def parser(self, prog: str) -> Parser:
+        """Return the parser of its arguments.  Raises `CommandError` without the sources."""
         if not (_TESTS / "benchmarks" / "bench.py").is_file():
             raise CommandError(
                 "The benchmark measures with scripts of the source tree, which an installed package does not contain: "
@@ -27,7 +26,8 @@ class _SourceCommand(Command):
             )
         if str(_TESTS) not in sys.path:
             sys.path.append(str(_TESTS))
-        import_module("benchmarks.bench").COMMAND.declare(parser)
+        command: Command = import_module("benchmarks.bench").COMMAND
+        return command.parser(prog)
 
 
-COMMAND = _SourceCommand()
+COMMAND = _SourceCommand("", (), lambda _: None)

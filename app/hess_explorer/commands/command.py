@@ -4,41 +4,56 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any, NoReturn
 
-from hess_explorer.commands import arguments
+from hess_explorer.commands import CommandError, arguments
 
-if TYPE_CHECKING:
-    from hess_mechanics.parameters import Parameter
-
-__all__ = [
-    "OUT",
-    "OUTPUT",
-    "STATE",
-    "Command",
-    "Option",
-    "Options",
-    "flag",
-    "number",
-    "option",
-    "picture",
-    "samples",
-    "vector",
-    "whole",
-]
+__all__ = ["OUT", "OUTPUT", "STATE", "Command", "Option", "Options", "Parser", "flag", "option", "picture", "whole"]
 
 Options = argparse.Namespace
 """The parsed options of a command."""
 
 
+class _Help(argparse.HelpFormatter):
+    """Formatter that wraps each paragraph and keeps indented lists."""
+
+    def _fill_text(self, text: str, width: int, indent: str) -> str:
+        parts = text.split("\n\n")
+        return "\n\n".join(one if "\n  " in one else super(_Help, self)._fill_text(one, width, indent) for one in parts)
+
+
+class Parser(argparse.ArgumentParser):
+    """Argument parser that reports an error in one sentence, without the usage text, and knows no abbreviations."""
+
+    def __init__(self, prog: str, usage: str, description: str, epilog: str = "") -> None:
+        super().__init__(
+            prog, f"{prog} {usage}", description, epilog, formatter_class=_Help, allow_abbrev=False, add_help=False
+        )
+        self.add_argument("-h", "--help", action="help", help="show this help and exit")
+
+    def error(self, message: str) -> NoReturn:
+        """Raise `CommandError`."""
+        raise CommandError(f"{message} (see {self.prog} --help).")
+
+    def list_words(self, heading: str, words: Mapping[str, str]) -> None:
+        """Add a list of words with their meaning to the help text."""
+        group = self.add_argument_group(heading)
+        for word, meaning in words.items():
+            group.add_argument(word, help=meaning.replace("%", "%%"))
+
+
 @dataclass(frozen=True)
 class Option:
-    """An option: its name with the dashes (a positional argument without them), and its argparse settings."""
+    """An option.
+
+    name : with the dashes; a positional argument has none.  settings : of `add_argument`.  group : heading in the help.
+    """
 
     name: str
     settings: Mapping[str, Any]
+    group: str = ""
 
 
 @dataclass(frozen=True)
@@ -51,76 +66,38 @@ class Command:
     options : its options.
     run : runs the command with the parsed options; raises `CommandError`.
     example : arguments of an example.
-    purpose : short description of a subcommand.
-    systems : subcommands by name; there are no options and no example then.
-    kind : what the subcommands are, for the help text.
-    exclusive : names of mutually exclusive options.
     """
 
-    description: str = ""
-    options: Sequence[Option] = ()
-    run: Callable[[Options], None] | None = None
+    description: str
+    options: Sequence[Option]
+    run: Callable[[Options], None]
     example: str = ""
-    purpose: str = ""
-    systems: Mapping[str, Command] = field(default_factory=dict)
-    exclusive: Sequence[str] = ()
-    kind: str = "SYSTEM"
 
-    def declare(self, parser: argparse.ArgumentParser) -> None:
-        """Declare the command in a parser."""
-        if self.systems:
-            if self.description:
-                parser.description = self.description
-            systems = parser.add_subparsers(required=True, metavar=self.kind)
-            for name, one in self.systems.items():
-                one.declare(systems.add_parser(name, help=one.purpose))
-            return
-        parser.description = self.description
-        if self.example:
-            parser.epilog = f"Example: {parser.prog} {self.example}"
-        group = parser.add_mutually_exclusive_group() if self.exclusive else parser
-        for each in self.options:
-            (group if each.name in self.exclusive else parser).add_argument(each.name, **each.settings)
+    def parser(self, prog: str) -> Parser:
+        """Return the parser of its arguments; prog : how the command is typed."""
+        places = [one.settings["metavar"] for one in self.options if not one.name.startswith("-")]
+        example = f"Example: {prog} {self.example}" if self.example else ""
+        parser = Parser(prog, " ".join(["[OPTIONS]", *places]), self.description, example)
+        groups: dict[str, argparse._ActionsContainer] = {"": parser}
+        for one in self.options:
+            if one.group not in groups:
+                groups[one.group] = parser.add_argument_group(one.group)
+            try:
+                groups[one.group].add_argument(one.name, **one.settings)
+            except argparse.ArgumentError as error:
+                raise CommandError(f"{prog} has two options {one.name}: rename one of them.") from error
         parser.set_defaults(run=self.run)
+        return parser
 
 
-def option(name: str, help: str, **settings: Any) -> Option:
+def option(name: str, help: str, group: str = "", **settings: Any) -> Option:
     """Return an option; settings : arguments of `ArgumentParser.add_argument`."""
-    return Option(name, {"help": help, **settings})
+    return Option(name, {"help": help, **settings}, group)
 
 
 def flag(name: str, help: str) -> Option:
     """Return an option without a value."""
     return option(name, help, action="store_true")
-
-
-def _required(default: object) -> dict[str, Any]:
-    return {"required": True} if default is None else {"default": default}
-
-
-def number(of: Parameter, default: float | None = None, *, name: str = "", help: str = "", **settings: Any) -> Option:
-    """Return the option of a parameter; it is required unless it has a default.
-
-    name, help : replace those of the parameter.
-    """
-    description = help or of.doc
-    if default is not None:
-        description += f" (default {default:g})"
-    return option(
-        name or f"--{of.name}",
-        description,
-        type=arguments.checked(of),
-        metavar=of.name.upper(),
-        **{**_required(default), **settings},
-    )
-
-
-def vector(
-    name: str, of: str | Sequence[Parameter], help: str, default: tuple[float, ...] | None = None, **settings: Any
-) -> Option:
-    """Return the option of a comma-separated list of numbers; of : parameters, or names such as "w1,w2"."""
-    names = of if isinstance(of, str) else ",".join(one.name for one in of)
-    return option(name, help, type=arguments.vector(of), metavar=names, **{**_required(default), **settings})
 
 
 def whole(name: str, low: int, high: int, help: str, default: int | None = None) -> Option:
@@ -129,25 +106,15 @@ def whole(name: str, low: int, high: int, help: str, default: int | None = None)
     return option(name, description, type=arguments.integer(low, high), metavar="N", default=default)
 
 
-def samples(of: Parameter, help: str, default: list[float] | None = None) -> Option:
-    """Return the option of many values of a parameter: a list or lo:hi:n."""
-    return option(
-        f"--{of.name}",
-        f"{help}: a number, a list 1,2,3 or lo:hi:n",
-        type=arguments.samples(of),
-        metavar="VALUES",
-        **_required(default),
-    )
-
-
 OUT = option("--out", "write to this file instead of standard output", type=Path, metavar="FILE")
 OUTPUT = (
     option("--accuracy", "draft, standard, precise (default) or reference", default="precise", metavar="LEVEL"),
     option(
         "--format",
-        "json (default): strict JSON with all digits; csv: a table, with other results as # comments",
-        choices=("json", "csv"),
-        default="json",
+        "text (default): the numbers, and the first and last rows; json: strict JSON with all digits; csv: a table, "
+        "with other results as # comments; netcdf: arrays with their dimensions, needs --out",
+        choices=("text", "json", "csv", "netcdf"),
+        default="text",
     ),
     OUT,
 )

@@ -24,21 +24,10 @@ def _run(options: Options) -> None:
     if missing:
         raise CommandError(f"The documentation needs {', '.join(missing)}: pip install 'hess-explorer[docs]'.")
     folder = Path(options.out or tempfile.mkdtemp(prefix="hess-explorer-docs-"))
-    print("Building the documentation takes about a minute.", file=sys.stderr)
-    build = [
-        sys.executable,
-        "-m",
-        "sphinx",
-        "-q",
-        "-b",
-        "html",
-        "-d",
-        str(folder / ".doctrees"),
-        str(_SOURCE),
-        str(folder),
-    ]
+    print("Building the documentation takes a few minutes.", file=sys.stderr)
+    words = ["-q", "-b", "html", "-d", str(folder / ".doctrees"), str(_SOURCE), str(folder)]
     # Show only the end of Sphinx's output, and only on failure.
-    ran = subprocess.run(build, capture_output=True, text=True, check=False)
+    ran = subprocess.run([sys.executable, "-m", "sphinx", *words], capture_output=True, text=True, check=False)
     if ran.returncode:
         raise CommandError(f"The documentation could not be built in {str(folder)!r}: {ran.stderr.strip()[-500:]}")
     index = folder / "index.html"

@@ -11,11 +11,10 @@ from hess_explorer.export.formats import FILM_WIDTHS, SECONDS, WIDTHS, FileReque
 from . import CommandError
 from .arguments import shown
 from .command import Command, Options, flag, option, picture, whole
-from .output import computing, show
+from .output import computing, require_file, show
 
 __all__ = ["COMMAND"]
 
-_TEXTS = ("csv", "json", "svg", "html")
 _LARGE = 20e6
 """Size of a page in bytes beyond which a warning is printed, as on the page."""
 
@@ -96,8 +95,7 @@ def _picture(options: Options) -> bytes:
 
 
 def _run(options: Options) -> None:
-    if options.out is None and options.format not in _TEXTS:
-        raise CommandError(f"{options.format.upper()} is a binary format: name a file with --out FILE.")
+    require_file(options, ("csv", "json", "svg", "html"))
     is_page = options.format in holding("state")
     if (options.vary or options.lesson) and not is_page:
         raise CommandError("Sliders and lessons need a page: add --format html.")

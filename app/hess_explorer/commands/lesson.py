@@ -13,13 +13,13 @@ __all__ = ["COMMAND"]
 _GUIDE = Path(str(files("hess_explorer"))) / "docs/guides/lesson.md"
 
 
-def _check(options: Options) -> None:
+def _check(files: list[Path]) -> None:
     from hess_explorer.lessons.collection import examined, files_in
     from hess_explorer.lessons.lesson import LessonError
     from hess_explorer.lessons.review import hints
 
     try:
-        paths = files_in(options.files)
+        paths = files_in(files)
     except LessonError as error:
         raise CommandError(str(error)) from error
     count = 0
@@ -36,43 +36,50 @@ def _check(options: Options) -> None:
         raise CommandError(f"{count} {'mistake' if count == 1 else 'mistakes'} found.", status=1)
 
 
-def _new(options: Options) -> None:
+def _new(files: list[Path]) -> None:
     from hess_explorer.lessons.example import EXAMPLE
     from hess_mechanics.numerics.files import write_whole
 
+    (file,) = files
     try:
         # Fails if the file exists, even if it was created a moment ago.
-        options.file.touch(exist_ok=False)
+        file.touch(exist_ok=False)
         try:
-            write_whole(options.file, EXAMPLE.encode())
+            write_whole(file, EXAMPLE.encode())
         except BaseException:
-            options.file.unlink()
+            file.unlink()
             raise
     except FileExistsError as error:
-        raise CommandError(f"{str(options.file)!r} exists: choose another name.") from error
+        raise CommandError(f"{str(file)!r} exists: choose another name.") from error
     except OSError as error:
-        raise CommandError(f"{str(options.file)!r} cannot be written: {error.strerror or error}.") from error
-    print(f"Wrote {options.file}.  Look at it: hess-explorer serve --lesson {options.file}")
+        raise CommandError(f"{str(file)!r} cannot be written: {error.strerror or error}.") from error
+    print(f"Wrote {file}.  Look at it: hess-explorer serve --lesson {file}")
+
+
+def _run(options: Options) -> None:
+    if options.action == "new" and len(options.files) > 1:
+        raise CommandError("lesson new writes one file: name one.")
+    (_new if options.action == "new" else _check)(options.files)
 
 
 COMMAND = Command(
     f"Help to write a lesson: one Markdown file, given step by step on the page.  The format: {_GUIDE}",
-    purpose="check a lesson that you write, or begin one",
-    kind="ACTION",
-    systems={
-        "check": Command(
-            "Print all mistakes in lessons, each with file and line; the exit status is 1 if there is one.",
-            (option("files", "Markdown file of a lesson, or a folder of them", type=Path, nargs="+", metavar="FILE"),),
-            _check,
-            "first.md",
-            "print all mistakes in lessons",
+    (
+        option(
+            "action",
+            "check: print all mistakes in lessons, each with file and line; the exit status is 1 if there is one.  "
+            "new: write an example with comments, to be changed into your own lesson",
+            choices=("check", "new"),
+            metavar="ACTION",
         ),
-        "new": Command(
-            f"Write an example with comments, to be changed into your own lesson.  The format: {_GUIDE}",
-            (option("file", "the file to write; it must not exist yet", type=Path, metavar="FILE"),),
-            _new,
-            "first.md",
-            "write an example of a lesson, with comments",
+        option(
+            "files",
+            "Markdown file of a lesson; with check also several, or folders of them; with new it must not exist yet",
+            type=Path,
+            nargs="+",
+            metavar="FILE",
         ),
-    },
+    ),
+    _run,
+    "check first.md",
 )

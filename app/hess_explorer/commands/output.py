@@ -4,87 +4,25 @@ from __future__ import annotations
 
 import argparse
 import json
-import math
 import os
 import sys
+import textwrap
 import threading
-import time
+import unicodedata
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, nullcontext
-from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from hess_explorer.commands import CommandError
 
-if TYPE_CHECKING:
-    from hess_mechanics import BodyCheck, CircleMap, Orbit, SectionCrossings, Spectrum
-    from hess_mechanics.chaplygin_ball.integrable_cases import Period
-    from hess_mechanics.chaplygin_ball.phase_cloud import Cloud
-    from hess_mechanics.numerics.labelled import Result
-    from hess_mechanics.suslov.scattering import Scattering
-
-__all__ = [
-    "LONG",
-    "PATIENCE",
-    "Answer",
-    "body_facts",
-    "columns",
-    "computing",
-    "quality",
-    "show",
-    "table",
-    "text",
-    "write",
-    "write_file",
-]
+__all__ = ["LONG", "PATIENCE", "computing", "require_file", "show", "write", "write_file"]
 
 LONG = 2.0
 """Seconds after which a command reports that it is still running."""
 PATIENCE = "Still computing; Ctrl-C ends it."
-
-
-Compute = Callable[[argparse.Namespace], "Answer"]
-
-
-@dataclass(frozen=True)
-class Answer:
-    """The result of a command.
-
-    Attributes
-    ----------
-    series : columns of equal length with finite numbers; None marks a missing value (null in JSON, empty in CSV).
-    facts : all other results.
-    notes : remarks in full sentences.
-    columns : header of the CSV table, if it differs from the names of the series.
-    """
-
-    series: Mapping[str, Sequence[Any]]
-    facts: Mapping[str, Any]
-    notes: Sequence[str] = ()
-    columns: Sequence[str] = ()
-
-
-def table(compute: Compute) -> Callable[[argparse.Namespace], None]:
-    """Return a function that computes an answer and writes it to the chosen output in the chosen format."""
-
-    def run(options: argparse.Namespace) -> None:
-        with computing():
-            answer = compute(options)
-        write(options, answer)
-
-    return run
-
-
-def text(compute: Callable[[argparse.Namespace], str]) -> Callable[[argparse.Namespace], None]:
-    """Return a function that computes a text and writes it to the chosen output."""
-
-    def run(options: argparse.Namespace) -> None:
-        with computing():
-            found = compute(options)
-        show(f"{found}\n".encode(), options.out)
-
-    return run
+_ROWS = 20
+"""Most rows of a table in text."""
 
 
 @contextmanager
@@ -110,115 +48,103 @@ def computing(own_progress: bool = False) -> Iterator[None]:
 
 @contextmanager
 def _patience() -> Iterator[None]:
-    """Report after `LONG` seconds that the command is still running; in a terminal also count the seconds."""
-    done, seen, begun = threading.Event(), sys.stderr.isatty(), time.monotonic()
-
-    def report() -> None:
-        if done.wait(LONG):
-            return
-        if not seen:
-            print(PATIENCE, file=sys.stderr, flush=True)
-            return
-        while True:
-            print(f"\r{PATIENCE} {time.monotonic() - begun:.0f} s", end="", file=sys.stderr, flush=True)
-            if done.wait(1.0):
-                break
-        # Carriage return, then clear the line.
-        print("\r\x1b[K", end="", file=sys.stderr, flush=True)
-
-    reporter = threading.Thread(target=report, name="patience", daemon=True)
-    reporter.start()
+    """Report after `LONG` seconds that the command is still running."""
+    timer = threading.Timer(LONG, print, (PATIENCE,), {"file": sys.stderr, "flush": True})
+    timer.daemon = True
+    timer.start()
     try:
         yield
     finally:
-        done.set()
-        reporter.join()
+        timer.cancel()
 
 
-def quality(result: CircleMap | Cloud | Orbit | Period | Scattering | SectionCrossings | Spectrum) -> dict[str, Any]:
-    """Return the accuracy and cost of a result, which every command reports."""
-    drift = getattr(result, "drift", None)
-    return {
-        "error_estimate": result.error_estimate,
-        **({"time_error": result.time_error} if hasattr(result, "time_error") else {}),
-        **({} if drift is None else {"drift": dict(drift)}),
-        "status": str(result.status),
-        "level": result.level,
-        "steps": result.cost.steps,
-        "wall_ms": result.cost.wall_ms,
-    }
+def require_file(options: argparse.Namespace, text: Sequence[str]) -> None:
+    """Raise `CommandError` for a binary format without a file; text : the formats that are not binary."""
+    if options.out is None and options.format not in text:
+        raise CommandError(f"{options.format.upper()} is a binary format: name a file with --out FILE.")
 
 
-def columns(result: Result) -> dict[str, list[Any]]:
-    """Return the columns of a result by name: coordinates, then variables."""
-    known = result.labels()
-    return {name: values.tolist() for name, (_, values) in {**known.coords, **known.variables}.items()}
+def write(
+    options: argparse.Namespace,
+    table: Any,
+    facts: Mapping[str, Any],
+    data: Callable[[], Any],
+    notes: Sequence[str] = (),
+) -> None:
+    """Write a result in the chosen format.
 
-
-def body_facts(check: BodyCheck) -> dict[str, Any]:
-    """Return the facts of a check that a rigid body can have these moments of inertia."""
-    return {"is_body": check.is_body, "body": check.sentence}
-
-
-def _strict(value: Any) -> Any:
-    """Return the value (numbers, strings, lists, dicts) with None in place of non-finite numbers."""
-    if isinstance(value, float):
-        return value if math.isfinite(value) else None
-    if isinstance(value, dict):
-        return {key: _strict(part) for key, part in value.items()}
-    if isinstance(value, list):
-        return [_strict(part) for part in value]
-    return value
-
-
-def _is_number(value: Any) -> bool:
-    """Return True if the value, or each item of a list, is not a float or is finite."""
-    if isinstance(value, list):
-        return all(map(_is_number, value))
-    return not isinstance(value, float) or math.isfinite(value)
-
-
-def write(options: argparse.Namespace, answer: Answer) -> None:
-    """Write the answer to the chosen output in the chosen format.
-
-    Raises
-    ------
-    CommandError
-        If a number of a series exceeds the range of double precision, or the file cannot be written.
+    table : DataFrame of its columns.  facts : all other results.  data : returns a Dataset of the columns.  notes :
+    remarks in full sentences.  Raises `CommandError` if the file cannot be written.
     """
-    series, facts = answer.series, answer.facts
-    for name, column in series.items():
-        if not all(map(_is_number, column)):
-            raise CommandError(
-                f"{name}: a number exceeds the range of double precision; choose less extreme parameters "
-                "or another time span."
-            )
-    strict = {key: _strict(value) for key, value in facts.items()}
-    lost = [
-        f"{key}: null stands for a number that exceeds the range of double precision."
-        for key, value in facts.items()
-        if strict[key] != value
-    ]
-    strict["notes"] = [*answer.notes, *lost]
-    if options.format == "json":
-        pairs = {**series, **strict}.items()
-        lines = [f"  {json.dumps(key)}: {_json(value)}" for key, value in pairs]
-        written = "{\n" + ",\n".join(lines) + "\n}\n"
+    told = list(notes)
+    known = _strict(facts, told)
+    known["notes"] = json.dumps(told, ensure_ascii=False)
+    if options.format == "netcdf":
+        written = _netcdf(data(), known)
+    elif options.format == "text":
+        written = _text(table, facts, notes).encode()
+    elif options.format == "csv":
+        comments = "".join(f"# {name}: {value}\n" for name, value in known.items())
+        written = (comments + str(table.to_csv(index=False, lineterminator="\n"))).encode()
     else:
-        rows = (_row(cells) for cells in zip(*series.values(), strict=True))
-        comments = (f"# {key}: {_json(value)}" for key, value in strict.items())
-        written = "\n".join([*comments, ",".join(answer.columns or tuple(series)), *rows]) + "\n"
-    show(written.encode(), options.out)
+        known |= _strict({str(name): column.tolist() for name, column in table.items()}, [])
+        lines = ",\n".join(f'  "{name}": {value}' for name, value in known.items())
+        written = f"{{\n{lines}\n}}\n".encode()
+    show(written, options.out)
 
 
-def _json(value: Any) -> str:
-    return json.dumps(value, ensure_ascii=False, allow_nan=False)
+def _plain(value: Any) -> Any:
+    """Return numbers and arrays of NumPy, and complex numbers, as JSON has them."""
+    return [value.real, value.imag] if isinstance(value, complex) else value.tolist()
 
 
-def _row(cells: Sequence[Any]) -> str:
-    flat = [one for cell in cells for one in (cell if isinstance(cell, list) else [cell])]
-    # Strings contain no commas, so they need no quotes.
-    return ",".join("" if one is None else one if isinstance(one, str) else repr(one) for one in flat)
+def _strict(named: Mapping[str, Any], notes: list[str]) -> dict[str, str]:
+    """Return the values as strict JSON, with null for numbers that are not finite, and note these."""
+    strict = {}
+    for name, value in named.items():
+        lost: list[str] = []
+        known = json.loads(json.dumps(value, default=_plain), parse_constant=lost.append)
+        strict[name] = json.dumps(known, ensure_ascii=False, allow_nan=False)
+        if lost:
+            notes.append(f"{name}: null stands for a number that is missing or exceeds the range of double precision.")
+    return strict
+
+
+def _netcdf(data: Any, attributes: Mapping[str, str]) -> bytes:
+    """Return a file of NetCDF 3, which SciPy writes; its names are ASCII, `long_name` has the symbols."""
+    for name, one in data.variables.items():
+        one.attrs["long_name"] = name
+    data.attrs = attributes
+    names = {name: _ascii(str(name)) for name in {*data.variables, *data.dims}}
+    return bytes(data.rename(names).to_netcdf(engine="scipy"))
+
+
+def _ascii(name: str) -> str:
+    """Return the name with Greek letters written out: omega1 for ω₁."""
+    return "".join(
+        char if char.isascii() else unicodedata.name(char).rpartition(" ")[2].lower()
+        for char in unicodedata.normalize("NFKD", name).replace("−", "-").replace("/", "_")
+    )
+
+
+def _text(table: Any, facts: Mapping[str, Any], notes: Sequence[str]) -> str:
+    lines, errors = [], facts.get("errors", {})
+    for name, value in facts.items():
+        if name not in ("errors", "units"):
+            words = _words(value, errors if name == "numbers" else {})
+            lines += textwrap.wrap(f"{name}: {words}", 100, subsequent_indent="  ")
+    if not table.empty:
+        lines += ["", table.to_string(index=False, max_rows=_ROWS, na_rep="–", float_format="{:.9g}".format)]
+    if len(table) > _ROWS:
+        lines.append(f"{len(table)} rows; --format csv has all of them.")
+    return "\n".join([*lines, *notes, ""])
+
+
+def _words(value: Any, errors: Mapping[str, float]) -> str:
+    if isinstance(value, Mapping):
+        off = {name: f" ± {error:.1g}" for name, error in errors.items()}
+        return ", ".join(f"{name} = {_words(one, {})}{off.get(name, '')}" for name, one in value.items())
+    return f"{value:.12g}" if isinstance(value, float) else str(value)
 
 
 def show(data: bytes, out: Path | None = None) -> None:

@@ -10,53 +10,37 @@ from hess_mechanics import EdgeProof, Proof, certificate, prove
 from hess_mechanics.suslov_hess.certificate import claim
 
 from .command import OUT, Command, Options, option, whole
-from .output import text
+from .output import computing, show
 
 __all__ = ["COMMAND"]
 
 
-def _computed(options: Options) -> str:
-    proof = prove(options.a, options.h, options.f, options.bits)
-    found = certificate(proof)
+def _run(options: Options) -> None:
+    with computing():
+        proof = prove(options.a, options.h, options.f, options.bits)
+        found = certificate(proof)
     if options.format == "json":
-        return json.dumps(found, ensure_ascii=False, allow_nan=False, indent=1)
-    return "\n".join(_words(proof, found))
+        text = json.dumps(found, ensure_ascii=False, allow_nan=False, indent=1)
+    else:
+        text = "\n".join(_words(proof, found))
+    show(f"{text}\n".encode(), options.out)
 
 
 def _words(proof: Proof | EdgeProof, found: dict[str, Any]) -> Iterator[str]:
     yield claim(proof)
-    if isinstance(proof, EdgeProof):
-        yield from _edge_words(found)
-    else:
-        yield from _torus_words(found)
-    versions = found["versions"]
-    effort = (
-        ""
-        if isinstance(proof, EdgeProof)
-        else (f"{len(proof.steps)} Taylor steps, {proof.bits} bits, {proof.seconds:.2f} s; ")
-    )
-    yield f"{effort}python-flint {versions['python-flint']}, FLINT {versions['flint']}"
+    for key, name in (("trace", "|trace|"), ("rotation_number", "rotation number"), ("period", "period")):
+        if found.get(key) is not None:
+            yield f"{name} {_interval(found[key])}"
+    what, key, rate = ("equilibrium", "rates", "rate") if "rates" in found else ("cycle", "multipliers", "multiplier")
+    for name, phi, value in zip(("attracting", "repelling"), found["fixed_points"], found[key], strict=False):
+        yield f"{name} {what}: φ {_interval(phi)}, {rate} {_interval(value)}"
+    if isinstance(proof, Proof):
+        yield f"{len(proof.steps)} Taylor steps, {proof.bits} bits, {proof.seconds:.2f} s"
+    yield f"python-flint {found['versions']['python-flint']}, FLINT {found['versions']['flint']}"
     yield (
         "The proof holds for the equations with exactly these numbers, provided that the ball arithmetic of Arb is "
         "correct; --format json prints the certificate."
     )
-
-
-def _torus_words(found: dict[str, Any]) -> Iterator[str]:
-    yield f"|trace| {_interval(found['trace'])}"
-    if found["rotation_number"] is not None:
-        yield f"rotation number {_interval(found['rotation_number'])}"
-    for name, phi, multiplier in zip(
-        ("attracting", "repelling"), found["fixed_points"], found["multipliers"], strict=False
-    ):
-        yield f"{name} cycle: φ {_interval(phi)}, multiplier {_interval(multiplier)}"
-
-
-def _edge_words(found: dict[str, Any]) -> Iterator[str]:
-    if found["period"] is not None:
-        yield f"period {_interval(found['period'])}"
-    for name, phi, rate in zip(("attracting", "repelling"), found["fixed_points"], found["rates"], strict=False):
-        yield f"{name} equilibrium: φ {_interval(phi)}, rate {_interval(rate)}"
 
 
 def _interval(pair: list[str]) -> str:
@@ -89,6 +73,6 @@ COMMAND = Command(
         ),
         OUT,
     ),
-    text(_computed),
+    _run,
     "--a 0.5 --h 1.5 --f 0.6 --format json",
 )

@@ -15,7 +15,7 @@ from . import CommandError
 from .arguments import assigned, ends, integer, listed, run_file, shown
 from .arguments import number as any_number
 from .command import OUTPUT, Command, Options, flag, option, whole
-from .output import Answer, computing, show, write
+from .output import computing, show, write
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -151,10 +151,12 @@ def _write(options: Options, found: xr.Dataset, table: bool) -> None:
         **({} if options.store is None else {"store": str(options.store)}),
     }
     options.format = options.format or "json"
-    write(options, Answer(_series(found) if table else {}, facts))
+    cells = _cells(found if table else found.isel({one: slice(0) for one in found.status.dims}))
+    write(options, cells if table else cells[[]], facts, lambda: found)
 
 
-def _series(found: xr.Dataset) -> dict[str, list[Any]]:
+def _cells(found: xr.Dataset) -> Any:
+    """Return a DataFrame of all cells."""
     from hess_explorer.sweep import Outcome
 
     if found.status.size > _MOST_ROWS:
@@ -163,11 +165,8 @@ def _series(found: xr.Dataset) -> dict[str, list[Any]]:
             "hess_explorer.sweep.read."
         )
     cells = found.to_dataframe(dim_order=[*found.status.dims]).reset_index()
-    series: dict[str, list[Any]] = {
-        str(name): [value if math.isfinite(value) else None for value in column.tolist()]
-        for name, column in cells.items()
-    }
-    return series | {"status": [Outcome(code).words for code in series["status"]]}
+    cells["status"] = [Outcome(code).words for code in cells["status"]]
+    return cells
 
 
 COMMAND = Command(
@@ -215,7 +214,7 @@ COMMAND = Command(
         option("--scheduler", "address of a Dask scheduler such as tcp://host:8786", metavar="ADDRESS"),
         whole("--most-cells", 1, 9_999_999_999, "maximum number of cells (default 10000000)"),
         OUTPUT[0],
-        option("--format", OUTPUT[1].settings["help"], choices=("json", "csv")),
+        option("--format", OUTPUT[1].settings["help"], choices=OUTPUT[1].settings["choices"]),
         OUTPUT[2],
     ),
     _run,

@@ -112,7 +112,24 @@ class Clouds:
 
 
 def course(cloud: Cloud) -> CloudHistory:
-    """Return the history of a cloud at all of its times."""
+    """Return the history of a cloud at all of its times.
+
+    Parameters
+    ----------
+    cloud : Cloud
+        The cloud, see `cloud`.
+
+    Returns
+    -------
+    CloudHistory
+        Volume, growth and divergence over the times.
+
+    Examples
+    --------
+    >>> from hess_mechanics import BallBody, cloud, course
+    >>> float(course(cloud(BallBody(2.0, 1.0, 0.3, 0.5, 0.0), 2.0, 1.0, count=20)).volume[0].round(6))
+    1.0
+    """
 
     def of(values: Array) -> Array:
         return frozen(np.stack([values.mean(axis=0), values.min(axis=0), values.max(axis=0)]))
@@ -121,7 +138,25 @@ def course(cloud: Cloud) -> CloudHistory:
 
 
 def density(cloud: Cloud) -> Density:
-    """Return the density in bins of width `BIN` from the smallest |s|, but not below `SMALLEST`, to the largest."""
+    """Return the density in bins of width `BIN` from the smallest |s|, but not below `SMALLEST`, to the largest.
+
+    Parameters
+    ----------
+    cloud : Cloud
+        The cloud, see `cloud`.
+
+    Returns
+    -------
+    Density
+        Histograms over ln|s|, at first, at last and over the time.
+
+    Examples
+    --------
+    >>> from hess_mechanics import BallBody, cloud, density
+    >>> found = density(cloud(BallBody(2.0, 1.0, 0.3, 0.5, 0.0), 2.0, 1.0, count=20))
+    >>> bool(abs(found.last.sum() * (found.log_s[1] - found.log_s[0]) - 1.0) < 1e-12)
+    True
+    """
     low = max(SMALLEST, float(cloud.log_s.min()))
     first = math.floor(low / BIN)
     edges = BIN * np.arange(first, max(first + 1, math.floor(float(cloud.log_s.max()) / BIN) + 1) + 1, dtype=float)

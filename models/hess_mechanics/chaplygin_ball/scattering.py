@@ -245,7 +245,7 @@ def ball_scattering(
     Notes
     -----
     The motion is followed until γ has settled on a circle of N^s.  Another distance shifts the curve θ⁺(φ) along φ, by
-    the rotation of γ in between, up to an error of order `distance`², which the estimates include.
+    the rotation of γ in between, up to an error of order distance², which the estimates include.
 
     References
     ----------

@@ -27,6 +27,7 @@ from hess_mechanics.dynamics.sampling import PIXELS, SAGITTA, sample_times
 from hess_mechanics.dynamics.system import System
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.accuracy import Accuracy
+from hess_mechanics.numerics.arguments import as_parts
 from hess_mechanics.numerics.results import Array, Orbit, frozen
 from hess_mechanics.rigid_body.inertia import require_finite, require_positive_definite
 from hess_mechanics.suslov.equations import SYSTEM
@@ -334,8 +335,33 @@ def _solved(u0: Array, v0: Array, a: Array, height: float) -> tuple[Array, Array
 
 
 def arc(body: PlaneBody, state: Sequence[float]) -> Arc:
-    """Return the arc of the orbit through a state (5,).  Raises `InvalidParameter`."""
-    require_finite(**dict(zip(("ω1", "ω2", "γ1", "γ2", "γ3"), map(float, state), strict=True)))
+    """Return the arc of the orbit through a state, in closed form.
+
+    Parameters
+    ----------
+    body : PlaneBody
+        The body.
+    state : sequence of float, shape (5,)
+        The state (ω1, ω2, γ1, γ2, γ3).
+
+    Returns
+    -------
+    Arc
+        The arc, with its kind and period.
+
+    Raises
+    ------
+    InvalidParameter
+        If the state has not five finite numbers.
+
+    Examples
+    --------
+    >>> from hess_mechanics import PlaneBody, arc
+    >>> arc(PlaneBody(1.3, 0.8, 0.5, -0.2), (1.0, -0.5, 0.0, 0.6, 0.8)).kind
+    'periodic'
+    """
+    state = as_parts("state", state, 5)
+    require_finite(**dict(zip(SYSTEM.variables, map(float, state), strict=True)))
     u0, v0, a = np.array(state[2:4]), np.array([-state[1], state[0]]), body.acceleration
     rows, coefficients, rates = _solved(u0, v0[None], a, float(state[4]))
     low, high, period, side, other_low, other_high = map(float, rows[0])

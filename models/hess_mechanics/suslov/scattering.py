@@ -257,7 +257,28 @@ def scattering(body: SuslovBody, level: Accuracy, arc: int = 1, distance: float 
 def cos_chi(body: SuslovBody) -> float:
     """Return cos χ in closed form, for any inertia tensor; see the module.
 
-    Raises `InvalidParameter` (a field, I13 = I23 = 0), `WorkLimit` (see `shape`).
+    Parameters
+    ----------
+    body : SuslovBody
+        Body with b = 0 and I13 or I23 not 0.
+
+    Returns
+    -------
+    float
+        The cosine of the angle of scattering.
+
+    Raises
+    ------
+    InvalidParameter
+        If the body has a field, or I13 = I23 = 0.
+    WorkLimit
+        If the shape of the motion needs too much work, see `shape`.
+
+    Examples
+    --------
+    >>> from hess_mechanics import SuslovBody, cos_chi
+    >>> round(cos_chi(SuslovBody(2.0, 1.0, 0.3, 0.5)), 6)
+    -0.956593
     """
     of = shape(body)
     root = cmath.sqrt(of.kappa**2 - complex(of.K, of.c) ** 2)

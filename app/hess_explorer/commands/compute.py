@@ -1,0 +1,151 @@
+"""`hess-explorer COMPUTATION [SYSTEM]`: the computations of the catalogue."""
+
+from __future__ import annotations
+
+import inspect
+import math
+from collections.abc import Mapping
+from difflib import get_close_matches
+from functools import partial
+from typing import Any
+
+from hess_mechanics.catalogue import Computation, Motions, NoValue, catalogue, computations_of, motions
+from hess_mechanics.dynamics.system import System
+from hess_mechanics.parameters import Parameter, plain
+
+from . import COMMANDS, CommandError
+from .arguments import number, run_file, shown
+from .command import OUTPUT, Command, Option, Options, Parser, option
+from .output import computing, require_file, write
+
+__all__ = ["command_of", "parser", "title_of", "titles"]
+
+
+def title_of(what: Computation) -> str:
+    """Return the title of a computation without that of its system."""
+    return what.title.removesuffix(f": {motions()[what.system].title}") if what.system else what.title
+
+
+def titles(group: str) -> dict[str, str]:
+    """Return the computations under a heading: names and titles."""
+    return {one.name: title_of(one) for one in catalogue().values() if one.group == group}
+
+
+def parser(name: str, rest: list[str]) -> tuple[Parser, list[str]]:
+    """Return the parser of a computation and the words that it parses, those after the system.
+
+    Raises `CommandError` if there is no such computation or system.
+    """
+    of = {one.system: one for one in catalogue().values() if one.name == name}
+    if not of:
+        raise _unknown("command", name, [*COMMANDS, *dict.fromkeys(one.name for one in catalogue().values())])
+    prog = f"hess-explorer {name}"
+    if "" in of:
+        return command_of(of[""]).parser(prog), rest
+    if rest and not rest[0].startswith("-"):
+        what = _own(name, rest[0]) if ":" in rest[0] else of.get(rest[0])
+        if what is None:
+            raise _unknown("system", rest[0], [*of])
+        return command_of(what).parser(f"{prog} {rest[0]}"), rest[1:]
+    overview = Parser(
+        prog, "SYSTEM [OPTIONS]", f"{title_of(next(iter(of.values())))}.  SYSTEM --help shows the options."
+    )
+    overview.list_words("systems", {system: motions()[system].title for system in of})
+    overview.list_words("or one of your own", {"FILE.py:NAME": "a System that a Python file defines"})
+    if not {"-h", "--help"} & {*rest}:
+        overview.error(f"name a system after {name}: {', '.join(of)}")
+    return overview, ["--help"]
+
+
+def _unknown(kind: str, name: str, known: list[str]) -> CommandError:
+    close = get_close_matches(name, known, 3)
+    hint = f"did you mean {' or '.join(close)}?" if close else f"choose from {', '.join(known)}."
+    return CommandError(f"There is no {kind} {shown(name)}: {hint}")
+
+
+def _own(name: str, text: str) -> Computation:
+    """Return the computation of the system FILE.py:NAME."""
+    path, _, variable = text.rpartition(":")
+    system = run_file(path).get(variable)
+    if not isinstance(system, (System, Motions)):
+        raise CommandError(f"{shown(path)} defines no System {shown(variable)}: write it like mine.py:SYSTEM.")
+    of = [one for one in computations_of(system).values() if one.name == name]
+    if not of:
+        raise CommandError(f"The system {system.name} has no section, which {name} needs: choose another computation.")
+    return of[0]
+
+
+def command_of(what: Computation) -> Command:
+    """Return the command of a computation."""
+    numbers = (f"  {name:<18} {one.title} ({one.symbol}{_unit(one.unit)})" for name, one in what.numbers.items())
+    description = [
+        f"{what.title}.",
+        inspect.cleandoc(what.doc),
+        *([f"Source: {what.source}."] if what.source else []),
+        "\n".join(["Numbers of the result:", *numbers]),
+    ]
+    words = [
+        option(_typed(one.name), one.doc, choices=one.names, default=one.default, dest=_typed(one.name))
+        for one in what.choices
+    ]
+    example = " ".join(f"{_typed(name)} {str(value).removesuffix('.0')}" for name, value in what.example.items())
+    options = (*map(_option, what.parameters), *words, *OUTPUT)
+    return Command("\n\n".join(description), options, partial(_run, what), example)
+
+
+def _typed(name: str) -> str:
+    return f"--{name.replace('_', '-')}"
+
+
+def _unit(unit: str) -> str:
+    return "" if unit == "1" else f", {unit}"
+
+
+def _option(of: Parameter) -> Option:
+    bounds = f"{of.symbol}{_unit(of.unit)}, {of.range}, default {plain(of.default)}"
+    help = f"{of.doc or of.label} ({bounds})".replace("%", "%%")
+    name = _typed(of.name)
+    return option(name, help, of.group, type=number, default=of.default, metavar=of.name.upper(), dest=name)
+
+
+def _run(what: Computation, options: Options) -> None:
+    require_file(options, ("text", "json", "csv"))
+    with computing():
+        given = what.values({name: vars(options)[_typed(name)] for name in what.values()})
+        result = what.compute(given, options.accuracy)
+        notes = _notes_on_body(given) if what.key in catalogue() else []
+        numbers: dict[str, float | None] = {}
+        errors = {}
+        for name, of in what.numbers.items():
+            numbers[name] = None
+            try:
+                numbers[name] = of.read(result)
+                # NaN stands for no estimate.
+                if of.error is not None and math.isfinite(error := of.error(result)):
+                    errors[name] = error
+            except (NoValue, ArithmeticError) as missing:
+                notes.append(f"{name}: {missing}")
+        known = result.labels()
+        facts = {
+            "computation": what.key,
+            "accuracy": options.accuracy,
+            "parameters": given,
+            "numbers": numbers,
+            "errors": errors,
+            "facts": known.facts,
+            "units": known.units,
+        }
+        write(options, result.to_pandas(), facts, result.to_xarray, notes)
+
+
+def _notes_on_body(given: Mapping[str, Any]) -> list[str]:
+    """Return a note if no rigid body has these moments of inertia."""
+    from hess_mechanics import HeavyBody, check_body
+
+    if {"I11", "I22", "I13", "I23"} <= given.keys():
+        check = check_body(given["I11"], given["I22"], given["I13"], given["I23"])
+    elif {"a1", "a2", "a3"} <= given.keys():
+        check = HeavyBody((given["a1"], given["a2"], given["a3"]), (0.0, 0.0, 0.0), 0.0).check
+    else:
+        return []
+    return [] if check.is_body else [check.sentence]

@@ -1,0 +1,243 @@
+"""The computations of the catalogue as commands: their numbers, their formats, and a sentence for every error."""
+
+import math
+import subprocess
+import sys
+
+import numpy as np
+import pandas as pd
+import pytest
+import xarray as xr
+from pytest import approx
+
+import hess_mechanics
+from hess_explorer.__main__ import main
+from hess_explorer.commands.compute import command_of
+from hess_mechanics import SuslovBody, basins, return_map
+from hess_mechanics.catalogue import catalogue, find
+from hess_mechanics.errors import WorkLimit
+from support.command_line import replaced, typed, without_patience
+from support.mechanics import ROOT
+
+CIRCLE_MAP = typed("circle-map --h 1.5 --f 0.6 --a 0.5 --accuracy reference")
+SUSLOV = typed(
+    "orbit suslov --I11 2 --I22 1 --I13 0.3 --I23 0.5 --b1 0.3 --b2 -.5 --b3 1 --w1 0.8 --w2 -0.4 --g1 0.3 --g2 0.2 "
+    "--g3 0.93 --t 10 --samples 3 --accuracy reference"
+)
+OWN = """
+from hess_mechanics import System
+SYSTEM = System("spring", lambda y, p: (y[1], -p[0] * y[0]), "x v", {"k": 4.0}, example=(1.0, 0.0))
+"""
+
+# 40-digit Taylor series, rounded to double.
+THETA_0, TRACE, PERIOD = -1.846842405836762766371, 4.381325585713531995065, 3.668400280441695618498
+STATE = [-1.4371975558069667, 1.0002904454089423, -0.2723685171956202, -0.19917972328798356, -0.9413515967329006]
+
+
+QUICK = ("hess", "torus", "quartic", "")
+
+
+def once():
+    """One computation of each name, of a system that is computed quickly."""
+    ordered = sorted(catalogue().values(), key=lambda one: QUICK.index(one.system) if one.system in QUICK else 9)
+    return [one.key for one in {one.name: one for one in reversed(ordered)}.values()]
+
+
+def example(what):
+    return [*what.key.split(), *typed(command_of(what).example), "--accuracy", "draft"]
+
+
+@pytest.fixture
+def answer(answer):
+    return lambda *words: answer(*words, "--format", "json")
+
+
+# Values
+
+
+def test_circle_map(answer):
+    found = answer(*CIRCLE_MAP)
+    numbers, facts = found["numbers"], found["facts"]
+    assert found["Θ"][found["φ"].index(0.0)] == approx(THETA_0, abs=1e-12)
+    assert (numbers["trace"], numbers["period"]) == approx((TRACE, PERIOD), rel=1e-12)
+    # The multipliers are the squares of the eigenvalues of a matrix with determinant 1.
+    root = math.exp(numbers["log-multiplier"] / 2.0)
+    assert root + 1.0 / root == approx(TRACE, rel=1e-12)
+    assert (facts["kind"], numbers["locked"], found["notes"]) == ("hyperbolic", 1, [])
+    assert 0 < facts["error_estimate"] < 1e-12
+
+
+def test_orbit(answer):
+    found = answer(*SUSLOV)
+    assert [found["numbers"][name] for name in ("w1", "w2", "g1", "g2", "g3")] == approx(STATE, abs=1e-11)
+    assert found["t"] == [0.0, 5.0, 10.0]
+    assert 0 < found["errors"]["w1"] == found["facts"]["error_estimate"] < 1e-10
+    assert answer(*replaced(SUSLOV, "--t", "-10"))["t"][-1] == -10.0
+
+
+def test_what_double_precision_cannot_hold_is_null_with_a_note(answer, as_table):
+    found = answer("circle-map", "--a", "500")
+    assert found["numbers"]["trace"] is None
+    assert found["numbers"]["log-multiplier"] < -2 * 709
+    assert [note.partition(":")[0] for note in found["notes"]] == ["numbers", "facts"]
+    facts, _, _ = as_table("circle-map", "--a", "500")
+    assert facts["facts"]["trace"] is None
+    # A torus without limit cycles.
+    found = answer("circle-map", "--a", "0.1", "--h", "0.5", "--f", "0.3")
+    assert found["numbers"]["stable"] is None
+    assert found["notes"][0].startswith("stable: The circle map is elliptic")
+
+
+@pytest.mark.parametrize("words", ["euler-poisson --a3 9", "suslov --I13 2"])
+def test_moments_of_no_body_are_noted_and_computed(answer, words):
+    (note,) = answer("orbit", *typed(words), "--t", "1")["notes"]
+    assert note.startswith("Not a rigid body")
+
+
+# Every command
+
+
+@pytest.mark.parametrize("key", once())
+def test_the_example_of_a_computation_says_the_same_as_json_and_as_csv(key, answer, as_table):
+    what = find(key)
+    found, result = answer(*example(what)), what.compute(what.example, "draft")
+    facts, header, rows = as_table(*example(what))
+    frame = result.to_pandas()
+    assert header == list(frame)
+    assert rows == [["" if pd.isna(cell) else str(cell) for cell in row] for row in frame.itertuples(index=False)]
+    for name, column in frame.replace([np.inf, -np.inf], np.nan).items():
+        assert found[name] == [None if pd.isna(cell) else cell for cell in column.tolist()]
+    assert found["parameters"] == facts["parameters"] == what.values(what.example)
+    assert list(found["numbers"]) == list(what.numbers)
+    assert {name: found[name] for name in facts} == facts
+    assert set(found["facts"]) == set(result.labels().facts)
+
+
+@pytest.mark.parametrize("key", ["circle-map", "spectrum hess", "megno ball", "tube suslov"])
+def test_netcdf_and_text_have_the_same_numbers(key, capsys, tmp_path):
+    what, file = find(key), tmp_path / "out.nc"
+    assert main([*example(what), "--format", "netcdf", "--out", str(file)]) == 0
+    assert capsys.readouterr().out == ""
+    expected = what.compute(what.example, "draft").to_xarray()
+    with xr.open_dataset(file, engine="scipy") as data:
+        assert {one.attrs["long_name"] for one in data.variables.values()} == set(expected.variables)
+        for one in data.variables.values():
+            assert one.values.tolist() == expected[one.attrs["long_name"]].values.tolist()
+        assert {"computation", "parameters", "numbers", "facts"} <= set(data.attrs)
+    assert main(example(what)) == 0
+    out = capsys.readouterr().out
+    assert out.startswith(f"computation: {key}\n")
+    assert f"numbers: {next(iter(what.numbers))} = " in out
+
+
+def test_the_help_lists_commands_systems_options_and_numbers(capsys):
+    def told(*words):
+        with pytest.raises(SystemExit) as end:
+            main([*words, "--help"])
+        assert end.value.code == 0
+        return capsys.readouterr().out
+
+    lines = told().splitlines()
+    for heading, command in (("page", "serve"), ("compute", "orbit"), ("prove", "tube"), ("files", "sweep")):
+        below = lines[lines.index(f"{heading}:") :]
+        assert [line.split()[0] for line in below[: below.index("")] if line.startswith("  ")].count(command) == 1
+    assert all(one.system in told(one.name) for one in catalogue().values())
+    text = told("circle-map")
+    for part in ("--phi PHI", "between -1000 and 1000", "rotation number (ρ, turns per return)", "eq0003"):
+        assert part in text
+    assert text.endswith("Example: hess-explorer circle-map --a 0.5 --h 1.5 --f 0.6\n")
+
+
+def test_a_system_of_ones_own(answer, refusal, tmp_path):
+    file = tmp_path / "own.py"
+    file.write_text(OWN)
+    found = answer("orbit", f"{file}:SYSTEM", "--k", "1", "--t", repr(math.pi))
+    assert found["computation"] == "orbit spring"
+    assert found["numbers"]["x"] == approx(-1.0, abs=1e-9)
+    assert "defines no System 'other'" in refusal("orbit", f"{file}:other")
+    file.write_text(OWN.replace("k", "out"))
+    assert "has two options --out: rename one" in refusal("orbit", f"{file}:SYSTEM")
+    file.write_text("1 / 0")
+    assert "stops with ZeroDivisionError" in refusal("orbit", f"{file}:SYSTEM")
+
+
+def test_every_function_of_the_catalogue_is_in_the_package():
+    names = {one.function.__name__ for one in catalogue().values()}
+    assert names <= set(hess_mechanics.__all__) == set(dir(hess_mechanics))
+
+
+@pytest.mark.parametrize(
+    "script",
+    [
+        "import hess_mechanics; assert not unused('numba', 'hess_mechanics.catalogue'); "
+        "assert not hasattr(hess_mechanics, 'nothing'); from hess_mechanics import *; circle_map; proved_orbit",
+        "parsed(['serve']); assert not unused('numpy', 'hess_mechanics')",
+        f"main({CIRCLE_MAP}); assert not unused('panel', 'bokeh', 'holoviews', 'playwright')",
+    ],
+    ids=["package", "serve", "circle-map"],
+)
+def test_nothing_is_imported_that_is_not_used(script):
+    first = (
+        "import sys; from hess_explorer.__main__ import main, parsed; unused = lambda *names: {*names} & {*sys.modules}"
+    )
+    code = [sys.executable, "-c", f"{first}\n{script}"]
+    done = subprocess.run(code, cwd=ROOT, capture_output=True, timeout=120, check=False)
+    assert (done.returncode, without_patience(done.stderr)) == (0, b"")
+
+
+# What is wrong
+
+
+@pytest.mark.parametrize(
+    "words, part",
+    [
+        (["orbti"], "There is no command 'orbti': did you mean orbit?"),
+        (["xyzzy"], "There is no command 'xyzzy': choose from serve, shot, "),
+        (["orbit", "sulsov"], "There is no system 'sulsov': did you mean suslov"),
+        (["orbit"], "name a system after orbit: ball, "),
+        (replaced(CIRCLE_MAP, "--h", "nan"), "--h: 'nan' is not a finite number"),
+        (replaced(CIRCLE_MAP, "--h", "x" * 5000), "x…' is not a number; write it like 1.5"),
+        (replaced(CIRCLE_MAP, "--f", "9"), "choose |f| ≤ 1.81"),
+        (replaced(CIRCLE_MAP, "--accuracy", "best"), "choose one of draft, "),
+        (typed("circle-map --h 1 --f 0"), "separatrix"),
+        (replaced(SUSLOV, "--I11", "0"), "I11 = 0 is not between 0.001 and 1000"),
+        (replaced(SUSLOV, "--samples", "2.5"), "samples = 2.5 is not a whole number"),
+        (replaced(SUSLOV, "--t", "1e9"), "shorter"),
+        # Abbreviated, this was `--help`.
+        ([*SUSLOV, "--he", "1"], "unrecognized arguments: --he 1"),
+        ([*SUSLOV, "--format", "netcdf"], "name a file with --out FILE"),
+        (["orbit", "nowhere.py:SYSTEM"], "'nowhere.py' cannot be read (No such file"),
+    ],
+)
+def test_refusals(refusal, words, part):
+    assert part in refusal(*words)
+
+
+@pytest.mark.parametrize(
+    "words, library, extra",
+    [
+        (["tube", "suslov"], "flint", "prove"),
+        ([*CIRCLE_MAP, "--format", "netcdf", "--out", "circle.nc"], "xarray", "data"),
+    ],
+)
+def test_without_a_library_it_says_what_to_install(refusal, monkeypatch, words, library, extra):
+    monkeypatch.setitem(sys.modules, library, None)
+    assert f"pip install 'hess-explorer[{extra}]'" in refusal(*words)
+
+
+def test_a_reader_that_has_seen_enough_is_no_error():
+    words = [*replaced(SUSLOV, "--samples", "20000"), "--format", "csv"]
+    with subprocess.Popen(
+        [sys.executable, "-m", "hess_explorer", *words], cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.PIPE
+    ) as process:
+        assert process.stdout.readline().startswith(b"# computation")
+        process.stdout.close()
+        assert without_patience(process.stderr.read()) == b""
+    assert process.returncode == 0
+
+
+def test_basins_of_a_body_beyond_double_range_end():
+    """No subinterval of a step was ever free of roots, so the search did not end; now it names what is too large."""
+    body = SuslovBody(1.5, 1.07, 4.4e90, 0.0, 0.3, -0.5, 1.0)
+    with pytest.raises(WorkLimit, match=r"the field exceeds the range of double precision in .*I13 \* ω1"):
+        basins(return_map(body, E=0.68, plane=2, accuracy="draft"), cells=(8, 6))
