@@ -7,7 +7,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import IntEnum
-from typing import TypeAlias
+from typing import Self, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -40,50 +40,30 @@ class UserError(Exception):
 class Outcome(IntEnum):
     """Status of a cell.  From 10 on it has no number: NaN, or ∞ if the number exceeds double precision."""
 
-    NOT_COMPUTED = 0
-    OK = 1
-    FLOOR = 2
-    PROMISE_NOT_MET = 3
-    INCOMPLETE = 4
-    OUTSIDE_REGION = 10
-    SEPARATRIX = 11
-    INVALID_PARAMETER = 12
-    NO_BODY = 13
-    NO_FIELD = 14
-    WORK_LIMIT = 15
-    BEYOND_RANGE = 16
-    NO_VALUE = 17
-    FAILED = 18
+    words: str
+    """The status in words."""
 
-    @property
-    def words(self) -> str:
-        """The status in words."""
-        return _WORDS[self]
+    def __new__(cls, code: int, words: str) -> Self:
+        """Return the member of a code."""
+        found = int.__new__(cls, code)
+        found._value_, found.words = code, words
+        return found
 
+    NOT_COMPUTED = 0, "not computed"
+    OK = 1, "ok"
+    FLOOR = 2, "double-precision floor"
+    PROMISE_NOT_MET = 3, "promise not met"
+    INCOMPLETE = 4, "incomplete"
+    OUTSIDE_REGION = 10, "no such motion"
+    SEPARATRIX = 11, "separatrix"
+    INVALID_PARAMETER = 12, "invalid parameter"
+    NO_BODY = 13, "moment of inertia not positive"
+    NO_FIELD = 14, "no field"
+    WORK_LIMIT = 15, "too much work"
+    BEYOND_RANGE = 16, "beyond double precision"
+    NO_VALUE = 17, "no value"
+    FAILED = 18, "failed"
 
-_WORDS = {
-    Outcome.NOT_COMPUTED: "not computed",
-    Outcome.OK: "ok",
-    Outcome.FLOOR: "double-precision floor",
-    Outcome.PROMISE_NOT_MET: "promise not met",
-    Outcome.INCOMPLETE: "incomplete",
-    Outcome.OUTSIDE_REGION: "no such motion",
-    Outcome.SEPARATRIX: "separatrix",
-    Outcome.INVALID_PARAMETER: "invalid parameter",
-    Outcome.NO_BODY: "moment of inertia not positive",
-    Outcome.NO_FIELD: "no field",
-    Outcome.WORK_LIMIT: "too much work",
-    Outcome.BEYOND_RANGE: "beyond double precision",
-    Outcome.NO_VALUE: "no value",
-    Outcome.FAILED: "failed",
-}
-
-_OF_STATUS = {
-    Status.OK: Outcome.OK,
-    Status.FLOOR: Outcome.FLOOR,
-    Status.PROMISE_NOT_MET: Outcome.PROMISE_NOT_MET,
-    Status.INCOMPLETE: Outcome.INCOMPLETE,
-}
 
 _OF_ERROR: tuple[tuple[type[Exception], Outcome], ...] = (
     (OutsideRegion, Outcome.OUTSIDE_REGION),
@@ -180,7 +160,7 @@ def _one_by_one(
         except Exception as error:
             status[i], why[i] = refused(error, cell)
             continue
-        status[i] = _OF_STATUS.get(getattr(found, "status", Status.OK), Outcome.OK)
+        status[i] = Outcome[getattr(found, "status", Status.OK).name]
         outcomes = []
         for name in numbers:
             one = what.number(name)

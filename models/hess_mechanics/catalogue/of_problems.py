@@ -45,8 +45,9 @@ _ANGLES = np.linspace(-math.pi, math.pi, 64, endpoint=False)
 _TORUS = (known.A_HESS, known.H_PLANE, known.F_HESS)
 
 
-def _circle_map(accuracy: Level, a: float, h: float, f: float, phi: float) -> CircleMap:
-    return circle_map(a, h, f, accuracy)
+def _circle_map(accuracy: Level, a: float, h: float, f: float, phi: float) -> Numbers:
+    found = circle_map(a, h, f, accuracy)
+    return Numbers({"image": float(found.theta([phi])[0])}, {"image": found.error_estimate}, found)
 
 
 def _tori(accuracy: Level, a: Array, h: Array, f: Array, phi: Array) -> Many:
@@ -192,23 +193,24 @@ COMPUTATIONS: tuple[Computation, ...] = (
         _circle_map,
         (*_TORUS, known.CIRCLE_PHASE),
         {
-            "rotation-number": Number("ρ", "rotation number", "rotation_number", "turns per return", turn=1.0),
-            "trace": Number("|t|", "|trace| of the map as a matrix of SU(1,1)", "trace"),
+            "rotation-number": Number("ρ", "rotation number", "of.rotation_number", "turns per return", turn=1.0),
+            "trace": Number("|t|", "|trace| of the map as a matrix of SU(1,1)", "of.trace"),
             "locked": Number(
                 "locked",
                 "mode locking",
-                lambda r: len(r.fixed_points) == 2,
+                lambda r: len(r.of.fixed_points) == 2,
                 named={0: "no limit cycle", 1: "two limit cycles"},
             ),
-            "period": Number("T", "time of a return", "period", "time"),
-            "stable": Number("φ*", "angle of the stable limit cycle", lambda r: _cycle(r, 0).phi, "rad"),
-            "unstable": Number("φ*", "angle of the unstable limit cycle", lambda r: _cycle(r, 1).phi, "rad"),
+            "period": Number("T", "time of a return", "of.period", "time"),
+            "image": number_of("image", "Θ", "angle Θ(φ) after a return", "rad", error=True),
+            "stable": Number("φ*", "angle of the stable limit cycle", lambda r: _cycle(r.of, 0).phi, "rad"),
+            "unstable": Number("φ*", "angle of the unstable limit cycle", lambda r: _cycle(r.of, 1).phi, "rad"),
             "log-multiplier": Number(
-                "ln μ", "logarithm of the stable cycle's multiplier", lambda r: _cycle(r, 0).log_multiplier
+                "ln μ", "logarithm of the stable cycle's multiplier", lambda r: _cycle(r.of, 0).log_multiplier
             ),
         },
         Kind.MAP,
-        lambda r, exact: largest_difference(r.theta(_ANGLES), exact.theta(_ANGLES), 2.0 * math.pi),
+        lambda r, exact: largest_difference(r.of.theta(_ANGLES), exact.of.theta(_ANGLES), 2.0 * math.pi),
         unit="rad",
         example={"a": 0.5, "h": 1.5, "f": 0.6},
         source="eq0003",
