@@ -43,7 +43,7 @@ class Outcome(IntEnum):
     words: str
     """The status in words."""
 
-    def __new__(cls, code: int, words: str) -> Self:
+    def __new__(cls, code: int, words: str = "") -> Self:
         """Return the member of a code."""
         found = int.__new__(cls, code)
         found._value_, found.words = code, words
