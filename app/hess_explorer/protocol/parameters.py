@@ -10,6 +10,7 @@ import math
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Literal
 from urllib.parse import parse_qsl, urlencode, urlsplit
 
 from hess_explorer.protocol.formulas import polynomial
@@ -82,7 +83,7 @@ class Choice:
     options: tuple[str, ...]
     default: str
     doc: str = ""
-    group: Group = "Computation"
+    group: Group | Literal["Chart"] = "Computation"
 
     def read(self, text: str) -> tuple[str, str | None]:
         """Return the option of that name; otherwise the default and a note, which does not quote the text."""
