@@ -3,8 +3,6 @@ from .chaplygin_ball.equations import BallBody
 from .chaplygin_ball.integrable_cases import period
 from .chaplygin_ball.scattering import BallScattering, ball_scattering
 from .computations import (
-    Basins,
-    basins,
     cloud,
     rotation_along_line,
     rotation_numbers,
@@ -23,7 +21,7 @@ from .dynamics.return_map import ReturnMap
 from .dynamics.section import Plane, SectionPoints, section, section_points, sections
 from .dynamics.spectrum import Spectrum, lyapunov_spectrum
 from .dynamics.system import Body, ParametrizedSystem, System, systems
-from .dynamics.tube import Tube, proved_error, right_until, tube
+from .dynamics.tube import ProvedOrbit, Tube, proved_error, proved_orbit, right_until, tube
 from .dynamics.variation import Return, Transition, return_matrix, transition_matrix
 from .errors import ModelError
 from .euler_poisson.andoyer import AndoyerPlane
@@ -33,7 +31,9 @@ from .euler_poisson.loxodromic_pendulum import LoxodromicMotion, LoxodromicPendu
 from .numerics.accuracy import LEVELS, Level, Status, level
 from .numerics.results import Cost, Ensemble, Orbit, SectionCrossings
 from .return_maps import (
+    Basins,
     PlanePoints,
+    basins,
     continued_orbit,
     manifold,
     orbit_diagram,
@@ -113,6 +113,8 @@ __all__ = [  # noqa: RUF022 (by subject)
     "lyapunov_spectrum",
     "tube",
     "Tube",
+    "ProvedOrbit",
+    "proved_orbit",
     "proved_error",
     "right_until",
     "Spectrum",

@@ -14,10 +14,12 @@ import numpy as np
 
 from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.chaplygin_ball.section import BallSection
-from hess_mechanics.dynamics.cells import evenly
+from hess_mechanics.dynamics.attraction import arrivals
+from hess_mechanics.dynamics.basins import Contraction, SectionOrbits, attractors
+from hess_mechanics.dynamics.cells import Window, centres, evenly
 from hess_mechanics.dynamics.continuation import Branch, continued
 from hess_mechanics.dynamics.manifolds import Manifold, grown
-from hess_mechanics.dynamics.megno_map import require_plane
+from hess_mechanics.dynamics.megno_map import corners, require_plane
 from hess_mechanics.dynamics.orbit_diagram import Cascade, Diagram, cascade, diagram_over
 from hess_mechanics.dynamics.periodic import MAX_PERIOD, PeriodicOrbit, find_periodic, place_units
 from hess_mechanics.dynamics.return_map import PoincareSection, ReturnMap
@@ -28,8 +30,9 @@ from hess_mechanics.errors import InvalidParameter, OutsideRegion, WorkLimit
 from hess_mechanics.euler_poisson.andoyer import AndoyerSection
 from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.numerics.accuracy import Accuracy, Kind, plan
-from hess_mechanics.numerics.arguments import as_level, as_number, as_pairs, as_place, as_whole
+from hess_mechanics.numerics.arguments import as_cells, as_level, as_number, as_pairs, as_place, as_whole
 from hess_mechanics.numerics.labelled import Labels, Result
+from hess_mechanics.numerics.parallel import share
 from hess_mechanics.numerics.results import Array, angle_facts, frozen
 from hess_mechanics.suslov.equations import SuslovBody
 from hess_mechanics.suslov.quartic import QuarticBody, QuarticSection
@@ -38,7 +41,9 @@ from hess_mechanics.suslov_hess.equations import HessBody
 from hess_mechanics.suslov_hess.section import TorusSection
 
 __all__ = [
+    "Basins",
     "PlanePoints",
+    "basins",
     "continued_orbit",
     "manifold",
     "orbit_diagram",
@@ -545,6 +550,122 @@ def period_doublings(map_: ReturnMap, orbit: PeriodicOrbit, parameter: str, to: 
         map_.constant(parameter),
         to,
         as_whole("most", most, 1, 6),
+    )
+
+
+@dataclass(frozen=True)
+class Basins(Result):
+    """Basins of attraction on a section.
+
+    Attributes
+    ----------
+    names : tuple of str
+        Names of the two coordinates.
+    x, y : ndarray, shape (m,) and (n,)
+        Centres of the cells.
+    attractor : ndarray of int, shape (n, m)
+        Attractor 0, 1, … that the orbit from each cell reaches; −1 where no motion crosses the section, −2 where no
+        attractor is reached in 240 crossings.
+    crossings : ndarray, shape (n, m)
+        Crossings until the attractor is reached; NaN where none is.
+    divergence : tuple of Contraction
+        Mean divergence on each set that orbits approach, an attractor or not.
+    attractors : int
+        Number of attractors.
+    level : str
+        Name of the accuracy level.
+    """
+
+    names: tuple[str, str]
+    x: Array
+    y: Array
+    attractor: Array
+    crossings: Array
+    divergence: tuple[Contraction, ...]
+    attractors: int
+    level: str
+
+    def labels(self) -> Labels:
+        """Return the attractor and the crossings, labelled with both coordinates.
+
+        Returns
+        -------
+        Labels
+            Both arrays over the cells.
+        """
+        across, up = self.names
+        divergence = {f"divergence {i}": f"{one.mean:.6g} ± {one.error:.2g}" for i, one in enumerate(self.divergence)}
+        return Labels(
+            {up: ((up,), self.y), across: ((across,), self.x)},
+            {"attractor": ((up, across), self.attractor), "crossings": ((up, across), self.crossings)},
+            place_units(self.names),
+            {"attractors": self.attractors, **divergence, "level": self.level},
+        )
+
+
+def basins(
+    map_: ReturnMap, cells: tuple[int, int] = (16, 12), window: Window | None = None, t: float = 1000.0
+) -> Basins:
+    """Return the basins of attraction on a section, computed on all cores.
+
+    The sets that orbits approach are found from 256 orbits over the section.  A set is an attractor if the mean
+    divergence on it is negative by three times its error.
+
+    Parameters
+    ----------
+    map_ : ReturnMap
+        Return map of a section with two coordinates.  The four named levels are coarser here than for orbits.
+    cells : (int, int), default (16, 12)
+        Number of cells across and up, at most 100 000 together.
+    window : ((float, float), (float, float)), optional
+        Corners (x0, y0) and (x1, y1) of the window.  By default the whole section.
+    t : float, default 1000
+        Time over which the divergence is averaged.
+
+    Returns
+    -------
+    Basins
+        The attractor of each cell, and the divergence on each set that orbits approach.
+
+    Raises
+    ------
+    InvalidParameter
+        If the section has only one coordinate, or a number is out of range.
+    OutsideRegion
+        If no motion crosses the section.
+    WorkLimit
+        If an orbit needs too many steps.
+
+    Examples
+    --------
+    >>> from hess_mechanics import SuslovBody, basins, return_map
+    >>> P = return_map(SuslovBody(1.5, 1.0, 0.4, 0.0, 0.3, -0.5, 1.0), E=1.842, accuracy="draft")
+    >>> basins(P, cells=(6, 4)).attractors
+    2
+    """
+    section, level = map_.section, plan(Kind.BASINS, map_.accuracy).level
+    (x0, y0), (x1, y1) = corners(section, window)
+    m, n = as_cells(cells)
+    there = attractors(section, as_number("t", t), level)
+    x, y = centres(x0, x1, m), centres(y0, y1, n)
+    number, crossings = np.empty((n, m)), np.empty((n, m))
+
+    def row(i: int) -> None:
+        found = arrivals(SectionOrbits(section, level), there.sets, x, np.full(m, y[i]))
+        number[i], crossings[i] = found.number, found.crossings
+
+    share(row, n)
+    crossings[number < 0.0] = np.nan
+    across, up = section.names
+    return Basins(
+        (across, up),
+        frozen(x),
+        frozen(y),
+        frozen(number),
+        frozen(crossings),
+        there.contractions,
+        there.count,
+        level.name,
     )
 
 

@@ -22,8 +22,8 @@ from hess_mechanics import (
     systems,
     transition_matrix,
 )
+from hess_mechanics.dynamics.basins import mean_divergence
 from hess_mechanics.dynamics.system import Problem
-from hess_mechanics.suslov.section import mean_divergence
 from support.deviations import deviations, mean_of
 from support.moved import FARTHEST, from_moved_starts, moved_starts
 

@@ -15,8 +15,8 @@ from hess_explorer.protocol.parameters import places
 from hess_explorer.scenes import scenes
 from hess_explorer.views.section_plane import joined
 from hess_mechanics import SuslovBody, lyapunov_spectrum
+from hess_mechanics.dynamics.basins import contraction
 from hess_mechanics.numerics.accuracy import REFERENCE
-from hess_mechanics.suslov.basins import contraction
 from support.deviations import deviations
 from support.free_suslov import shown
 from support.mechanics import followed

@@ -163,7 +163,8 @@ def _one_by_one(
 ) -> CellResults:
     values = {name: np.full(count, np.nan) for name in numbers}
     errors = {name: np.full(count, np.nan) for name in numbers if what.number(name).error is not None}
-    status, why = np.zeros(count, np.uint8), {}
+    status: Outcomes = np.zeros(count, np.uint8)
+    why: dict[int, str] = {}
     rows = zip(*(column.tolist() for column in columns.values()), strict=True)
     for i, row in enumerate(rows):
         cell = dict(zip(columns, row, strict=True))

@@ -49,6 +49,7 @@ from hess_explorer.views.poisson_sphere import along_the_orbit, centre_of_mass
 from hess_explorer.views.section_plane import joined
 from hess_explorer.views.text import digits, with_error
 from hess_explorer.views.velocity_plane import nice_above, orbit_alone, orbit_columns, pixels_per_unit
+from hess_mechanics.dynamics.basins import MeanDivergence, mean_divergence
 from hess_mechanics.dynamics.sampling import HALF_A_PIXEL
 from hess_mechanics.dynamics.section import occupied_cells
 from hess_mechanics.errors import WorkLimit
@@ -58,7 +59,7 @@ from hess_mechanics.parameters import B1, B2, B3, H_SUSLOV, I11, I13, I22, I23
 from hess_mechanics.rigid_body.inertia import check_body
 from hess_mechanics.suslov.equations import SYSTEM, SuslovBody
 from hess_mechanics.suslov.principal_axis import Conformal, conformal
-from hess_mechanics.suslov.section import MeanDivergence, SuslovSection, mean_divergence
+from hess_mechanics.suslov.section import SuslovSection
 
 _MOST_STEPS = 100_000
 _CELLS = 32

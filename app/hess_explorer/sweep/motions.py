@@ -17,6 +17,7 @@ from hess_mechanics import parameters as known
 from hess_mechanics.chaplygin_ball import section as of_ball
 from hess_mechanics.chaplygin_ball.equations import SYSTEM as BALL
 from hess_mechanics.chaplygin_ball.equations import BallBody
+from hess_mechanics.dynamics.basins import contraction
 from hess_mechanics.dynamics.ensemble import complete
 from hess_mechanics.dynamics.lyapunov import lyapunov_exponent
 from hess_mechanics.dynamics.megno import megno
@@ -32,7 +33,6 @@ from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.parameters import Parameter
 from hess_mechanics.suslov import section as of_suslov
-from hess_mechanics.suslov.basins import contraction
 from hess_mechanics.suslov.equations import SYSTEM as SUSLOV
 from hess_mechanics.suslov.equations import SuslovBody, unit_vector
 

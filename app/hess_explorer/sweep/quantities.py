@@ -18,10 +18,10 @@ from hess_mechanics import parameters as known
 from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.chaplygin_ball.integrable_cases import period
 from hess_mechanics.chaplygin_ball.scattering import ball_scattering
+from hess_mechanics.dynamics.basins import attractors
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.accuracy import PLANS, Kind, Level
 from hess_mechanics.parameters import Parameter
-from hess_mechanics.suslov.basins import attractors
 from hess_mechanics.suslov.equations import SuslovBody, unit_vector
 from hess_mechanics.suslov.kharlamova import PlaneBody, arc
 from hess_mechanics.suslov.scattering import Scattering, cos_chi, scattering

@@ -11,13 +11,13 @@ import numpy as np
 
 from hess_mechanics.dynamics.motions import Motions
 from hess_mechanics.errors import InvalidParameter, ModelError
-from hess_mechanics.numerics.accuracy import Accuracy, Kind, Level
+from hess_mechanics.numerics.accuracy import Accuracy, Kind, Level, Status
 from hess_mechanics.numerics.arguments import as_level, as_number
-from hess_mechanics.numerics.labelled import Result
+from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.results import Array, Mask
 from hess_mechanics.parameters import Parameter
 
-__all__ = ["Choice", "Computation", "Many", "NoValue", "Number"]
+__all__ = ["Choice", "Computation", "Many", "NoValue", "Number", "Numbers", "largest_difference", "number_of"]
 
 Value = float | str
 
@@ -56,6 +56,37 @@ class Choice:
     doc: str
     names: tuple[str, ...]
     default: str
+
+
+@dataclass(frozen=True)
+class Numbers(Result):
+    """Numbers by name, for functions that return no `Result` of their own, or numbers that belong to another result.
+
+    Attributes
+    ----------
+    values, errors : numbers by name, and the estimated errors of some of them.
+    of : the result to which they belong, if there is one.
+    """
+
+    values: Mapping[str, float]
+    errors: Mapping[str, float] = field(default_factory=dict)
+    of: Any = None
+
+    @property
+    def status(self) -> Status:
+        """Status of the result."""
+        return getattr(self.of, "status", Status.OK)
+
+    def labels(self) -> Labels:
+        """Return the result to which the numbers belong, with the numbers among its facts."""
+        known = Labels({}, {}) if self.of is None else self.of.labels()
+        errors = {f"{name} error": value for name, value in self.errors.items()}
+        return Labels(known.coords, known.variables, known.units, {**self.values, **errors, **known.facts})
+
+
+def number_of(name: str, symbol: str, title: str, unit: str = "1", error: bool = False) -> Number:
+    """Return a number of `Numbers`."""
+    return Number(symbol, title, lambda r: r.values[name], unit, (lambda r: r.errors[name]) if error else None)
 
 
 @dataclass(frozen=True)

@@ -201,11 +201,7 @@ def computations(of: Motions) -> Iterator[Computation]:
         {
             **{
                 f"exponent-{i + 1}": Number(
-                    f"λ{'₁₂₃₄₅₆₇₈₉'[i] if i < 9 else i + 1}",
-                    f"Lyapunov exponent {i + 1}",
-                    lambda r, i=i: float(r.values[i]),
-                    "1/time",
-                    lambda r, i=i: float(r.errors[i]),
+                    f"λ{i + 1}", f"Lyapunov exponent {i + 1}", partial(_rate, i), "1/time", partial(_rate_error, i)
                 )
                 for i in range(len(of.system.variables))
             },
@@ -279,6 +275,14 @@ def computations(of: Motions) -> Iterator[Computation]:
 
 def _last(i: int, orbit: Orbit) -> float:
     return float(orbit.states[-1, i])
+
+
+def _rate(i: int, spectrum: Spectrum) -> float:
+    return float(spectrum.values[i])
+
+
+def _rate_error(i: int, spectrum: Spectrum) -> float:
+    return float(spectrum.errors[i])
 
 
 def _error(result: Any) -> float:

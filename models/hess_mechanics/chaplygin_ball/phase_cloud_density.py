@@ -17,6 +17,7 @@ from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.chaplygin_ball.phase_cloud import Cloud, carried, frame_times, histogram, occupation, patch, shell
 from hess_mechanics.dynamics.ensemble import complete, ensemble
 from hess_mechanics.numerics.accuracy import Accuracy
+from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.results import Array, Ensemble, frozen
 from hess_mechanics.suslov.additional_integral import of_body
 from hess_mechanics.suslov.equations import SuslovBody
@@ -30,16 +31,27 @@ SMALLEST = math.log(1e-30)
 
 
 @dataclass(frozen=True)
-class CloudHistory:
-    """Mean, minimum and maximum at each time, (3, m), of div v and of ln s(t)/s(0); volume: (m,), see `Cloud`."""
+class CloudHistory(Result):
+    """Mean, minimum and maximum at each time (m,), (3, m), of div v and of ln s(t)/s(0); volume: (m,), see `Cloud`."""
 
+    times: Array
     divergence: Array
     log_growth: Array
     volume: Array
 
+    def labels(self) -> Labels:
+        """Return volume, growth and divergence over t."""
+        along = ("t",)
+        parts = {
+            f"{what} {name}": (along, values[i])
+            for what, values in (("growth", self.log_growth), ("divergence", self.divergence))
+            for i, name in enumerate(("mean", "least", "largest"))
+        }
+        return Labels({"t": (along, self.times)}, {"volume": (along, self.volume), **parts}, {"t": "T"})
+
 
 @dataclass(frozen=True)
-class Density:
+class Density(Result):
     """Shares of the points per unit of ln|s|, in the bins about `log_s`: at the start, at the end, mean over the time.
 
     height : the mean in bins that all points pass.
@@ -50,6 +62,12 @@ class Density:
     last: Array
     mean: Array
     height: float
+
+    def labels(self) -> Labels:
+        """Return the three densities over ln|s|."""
+        along = ("ln|s|",)
+        parts = {"first": self.first, "last": self.last, "mean": self.mean}
+        return Labels({"ln|s|": (along, self.log_s)}, {name: (along, values) for name, values in parts.items()})
 
     @property
     def passed_by_most(self) -> tuple[float, float]:
@@ -99,7 +117,7 @@ def course(cloud: Cloud) -> CloudHistory:
     def of(values: Array) -> Array:
         return frozen(np.stack([values.mean(axis=0), values.min(axis=0), values.max(axis=0)]))
 
-    return CloudHistory(of(cloud.divergence), of(cloud.log_growth), frozen(cloud.volume))
+    return CloudHistory(frozen(cloud.times), of(cloud.divergence), of(cloud.log_growth), frozen(cloud.volume))
 
 
 def density(cloud: Cloud) -> Density:

@@ -14,10 +14,12 @@ from typing import ClassVar
 
 import numpy as np
 
+from hess_mechanics import parameters as known
 from hess_mechanics.chaplygin_ball.energy_surface import omega_of_energy
 from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody, kinetic_energy
 from hess_mechanics.chaplygin_ball.integrable_cases import has_area_integral, is_reversible
 from hess_mechanics.dynamics.cells import Window
+from hess_mechanics.dynamics.motions import body_parameters, on_section, usual
 from hess_mechanics.dynamics.orbit import solve
 from hess_mechanics.dynamics.return_map import PoincareSection
 from hess_mechanics.dynamics.section import MAX_STEPS, Plane, SectionPoints, section_points
@@ -29,6 +31,7 @@ from hess_mechanics.rigid_body.inertia import require_finite
 
 __all__ = [
     "EQUATOR",
+    "SECTION",
     "BallSection",
     "ball_section",
     "coordinates",
@@ -206,3 +209,19 @@ class BallSection(PoincareSection):
         psi = np.linspace(window[0][0], window[1][0], _COLUMNS + 1)
         psi = 0.5 * (psi[1:] + psi[:-1])
         return frozen((self.body.b1 * np.cos(psi) + self.body.b2 * np.sin(psi) >= self.h)[None, :].astype(float))
+
+
+def _section(values: Mapping[str, float]) -> BallSection:
+    body = BallBody(*(values[name] for name in SYSTEM.parameters))
+    return BallSection(body, values["h"] - math.hypot(body.b1, body.b2))
+
+
+SECTION = on_section(
+    "ball-section",
+    "Chaplygin ball, a point of a section",
+    (*body_parameters(SYSTEM, 1.0, 3.0, 0.2, -0.1, 5.0, 0.5, 0.2, 0.8), usual(known.H_BALL, 2.5)),
+    (usual(known.PSI, 1.5), usual(known.DELTA, 1.2)),
+    _section,
+    SYSTEM,
+)
+"""Motions from the section γ3 = 0."""

@@ -18,7 +18,7 @@ from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.parallel import share
 from hess_mechanics.numerics.results import Array, frozen
 
-__all__ = ["ENDED", "NOWHERE", "MegnoMap", "megno_map", "require_plane", "row_of_cells", "time_of"]
+__all__ = ["ENDED", "NOWHERE", "MegnoMap", "corners", "megno_map", "require_plane", "row_of_cells", "time_of"]
 
 NOWHERE, ENDED = -1, 4
 """Kinds of a cell whose centre no motion crosses, and of one whose motion cannot be followed over the time span."""
@@ -153,13 +153,13 @@ def megno_map(
     ((4, 6), ('q', 'p'))
     """
     section, level = map_.section, map_.accuracy
-    corners = (x0, y0), (x1, y1) = _corners(section, window)
+    window = (x0, y0), (x1, y1) = corners(section, window)
     m, n = shape = as_cells(cells)
     span = as_number("t", t)
     rows = np.empty((n, 3, m))
 
     def row(i: int) -> None:
-        rows[i] = row_of_cells(section, corners, shape, i, span, level)
+        rows[i] = row_of_cells(section, window, shape, i, span, level)
 
     share(row, n)
     across, up = section.names
@@ -183,7 +183,7 @@ def require_plane(section: PoincareSection) -> None:
         )
 
 
-def _corners(section: PoincareSection, window: Window | None) -> Window:
+def corners(section: PoincareSection, window: Window | None) -> Window:
     """Return the corners of a window, by default those of the whole section.  Raises `InvalidParameter`."""
     require_plane(section)
     names, sides = section.names, section.window

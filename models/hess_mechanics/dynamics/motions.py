@@ -98,10 +98,11 @@ def _parameter(system: System, name: str, default: float) -> Parameter:
     return Parameter(name, name, name, default, (-reach, reach), reach / 100.0, _FREE)
 
 
-def body_parameters(system: System) -> tuple[Parameter, ...]:
-    """Return the parameters of a system, with the values of its example as defaults."""
+def body_parameters(system: System, *values: float) -> tuple[Parameter, ...]:
+    """Return the parameters of a system with these defaults, or with those of its example."""
     return tuple(
-        _parameter(system, name, value) for name, value in zip(system.parameters, system.example[1], strict=True)
+        _parameter(system, name, value)
+        for name, value in zip(system.parameters, values or system.example[1], strict=True)
     )
 
 

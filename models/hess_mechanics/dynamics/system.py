@@ -26,14 +26,14 @@ from hess_mechanics.numerics.batch_kernels import ensemble_integrator, one_by_on
 from hess_mechanics.numerics.doubled_kernels import doubled_integrator
 from hess_mechanics.numerics.events_kernels import ANGLE, SurfaceKernels, crossing_finder, plane
 from hess_mechanics.numerics.expressions import Node
-from hess_mechanics.numerics.field_values import Undefined, values_with_rounding
+from hess_mechanics.numerics.field_values import Undefined, values_at, values_with_rounding
 from hess_mechanics.numerics.jit import announced, derived_kernel, inner
 from hess_mechanics.numerics.measured import nearby
 from hess_mechanics.numerics.recursions import Recursion
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.numerics.step_kernels import LONGEST
 from hess_mechanics.numerics.taylor_kernels import orbit_integrator
-from hess_mechanics.numerics.tracing import Field, check, expressions, trace
+from hess_mechanics.numerics.tracing import Field, check, divergence, expressions, trace
 from hess_mechanics.numerics.variation_kernels import Variation, products, variation, variation_integrator
 from hess_mechanics.parameters import plain
 
@@ -502,6 +502,27 @@ class System:
                 found.append(np.where(errors > _CANCELS * size, errors, 0.0))
         mean = np.asarray(np.sum(found, axis=0) / max(1, len(found) - 1))
         return mean if mean.any() else None
+
+    @cached_property
+    def _divergence(self) -> Node:
+        return divergence(self.field, len(self.variables), len(self.parameters))
+
+    def divergence(self, states: Array, parameters: Sequence[float]) -> Array:
+        """Return the divergence of the field, the growth rate of phase volume.
+
+        Parameters
+        ----------
+        states : ndarray, shape (n, d)
+            States.
+        parameters : sequence of float, shape (q,)
+            Values of the parameters.
+
+        Returns
+        -------
+        ndarray, shape (n,)
+            The divergence, exactly 0 where the derivatives of the field cancel.
+        """
+        return values_at(self._divergence, list(states.T), parameters)
 
     @cached_property
     def with_rounding(self) -> System:

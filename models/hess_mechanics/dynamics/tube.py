@@ -97,6 +97,8 @@ class Tube(Result):
         Names of the variables.
     spent : bool
         True if more work would have reached more times.
+    digits : int
+        Requested number of digits, with which `labels` writes the intervals.
     """
 
     system: str
@@ -245,7 +247,7 @@ def tube(
         following = 0 if best.complete else _more_bits(walk, digits, length, left)
         if following <= bits:
             spent = not best.complete and (walk.spent or (bool(walk.t) and bits < _MOST_BITS))
-            return replace(best, seconds=time.perf_counter() - begun, spent=spent)
+            return replace(best, seconds=time.perf_counter() - begun, spent=spent, digits=digits)
         bits = following
 
 

@@ -25,7 +25,9 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
+from hess_mechanics import parameters as known
 from hess_mechanics.dynamics.cells import Window, centres, evenly
+from hess_mechanics.dynamics.motions import body_parameters, on_section, usual
 from hess_mechanics.dynamics.return_map import PoincareSection
 from hess_mechanics.dynamics.section import MAX_STEPS, SectionPoints, section_points
 from hess_mechanics.dynamics.system import Problem, System
@@ -38,6 +40,7 @@ from hess_mechanics.numerics.results import Array, Mask, frozen
 from hess_mechanics.rigid_body.inertia import require_finite
 
 __all__ = [
+    "SECTION",
     "SHEETS",
     "AndoyerPlane",
     "AndoyerSection",
@@ -332,3 +335,25 @@ class AndoyerSection(PoincareSection):
         l, x = grid[0].ravel(), np.clip(grid[1].ravel(), -1.0, 1.0)
         inside = self.states_at(l, x)[1] if self.sheet else self.possible(l, x)
         return frozen(1.0 - inside.reshape(n, m).astype(float))
+
+
+def _section(values: Mapping[str, float]) -> AndoyerSection:
+    a1, a2, a3, r1, r2, r3, mu = (values[name] for name in SYSTEM.parameters)
+    body = HeavyBody((a1, a2, a3), (r1, r2, r3), mu)
+    return AndoyerSection(body, values["h"], values["f"], int(values["sheet"]))
+
+
+SECTION = on_section(
+    "euler-poisson-section",
+    "Euler–Poisson, a point of the Andoyer–Deprit section",
+    (
+        *body_parameters(SYSTEM, 1.0, 0.625, 0.25, 0.6, 0.0, 0.8, 1.0),
+        usual(known.H_HEAVY, 1.5),
+        usual(known.F_HEAVY, -0.7),
+        known.SHEET,
+    ),
+    (known.L, known.X),
+    _section,
+    SYSTEM,
+)
+"""Motions from the section g = π/2."""

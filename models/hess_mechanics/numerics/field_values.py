@@ -5,16 +5,21 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from operator import add, mul, sub, truediv
+from typing import Any
+
+import numpy as np
 
 from hess_mechanics.numerics.expressions import FUNCTIONS, Node
 from hess_mechanics.numerics.recursions import below
+from hess_mechanics.numerics.results import Array
 
-__all__ = ["Undefined", "values_with_rounding"]
+__all__ = ["Undefined", "values_at", "values_with_rounding"]
 
 _UNIT, _LARGEST = 2.0**-52, 1e200
 """Relative size of a rounding; size from which the terms of a series overflow."""
 _LONGEST_TEXT, _DEEPEST_TEXT = 60, 8
-_ARITHMETIC: dict[str, Callable[[float, float], float]] = {"+": add, "-": sub, "*": mul, "/": truediv}
+_NUMPY = {"acos": "arccos", "asin": "arcsin", "atan": "arctan", "atan2": "arctan2", "pow": "power"}
+_ARITHMETIC: dict[str, Callable[[Any, Any], Any]] = {"+": add, "-": sub, "*": mul, "/": truediv}
 
 
 class Undefined(ArithmeticError):
@@ -55,6 +60,27 @@ def values_with_rounding(
             raise Undefined(_reason(node, [known[argument][0] for argument in node.arguments], names))
         known[node] = found
     return [known[node] for node in nodes]
+
+
+def values_at(node: Node, y: Sequence[Array], p: Sequence[float]) -> Array:
+    """Return the values (n,) of an expression at variables (n,), NaN or ∞ where they are undefined."""
+    known: dict[Node, Array | float] = {}
+    with np.errstate(all="ignore"):
+        for one in below([node]):
+            arguments: list[Any] = [known[argument] for argument in one.arguments]
+            match one.operation:
+                case "number":
+                    known[one] = float(one.value)
+                case "variable" | "parameter":
+                    known[one] = (y if one.operation == "variable" else p)[one.value]
+                case "start" | "carried":
+                    known[one] = arguments[0]
+                case "negative":
+                    known[one] = -arguments[0]
+                case _:
+                    function = _ARITHMETIC.get(one.operation) or getattr(np, _NUMPY.get(one.operation, one.operation))
+                    known[one] = function(*map(np.asarray, arguments))
+    return np.broadcast_to(np.asarray(known[node], float), np.shape(y[0])).copy()
 
 
 def _evaluated(

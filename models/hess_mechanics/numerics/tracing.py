@@ -28,7 +28,7 @@ from typing import Any
 from hess_mechanics.numerics.expressions import ALLOWED, Node, NotTraceable, Symbol, Tape
 from hess_mechanics.numerics.recursions import Recursion, Series, below
 
-__all__ = ["Field", "check", "constant", "derivative", "expressions", "positive", "trace"]
+__all__ = ["Field", "check", "constant", "derivative", "divergence", "expressions", "positive", "trace"]
 
 _SATURATED = ("exp", "sinh", "cosh", "tanh")
 
@@ -87,6 +87,16 @@ def expressions(field: Field, variables: int, parameters: int) -> list[Node]:
     """Return the rates of a field, then those of its functions, as recorded.  Raises `NotTraceable`."""
     tape, found = _record(field, variables, parameters, 0)
     return [*found, *tape.functions(found, variables).values()]
+
+
+def divergence(field: Field, variables: int, parameters: int) -> Node:
+    """Return the divergence of a field, as recorded.  Raises `NotTraceable`."""
+
+    def with_divergence(y: Sequence[Any], p: Sequence[Any]) -> Sequence[Any]:
+        rates = tuple(field(y, p))
+        return *rates, sum(derivative(rate, x) for rate, x in zip(rates, y, strict=True))
+
+    return _record(with_divergence, variables, parameters, 1)[1][-1]
 
 
 def check(field: Field, variables: int, parameters: int) -> None:

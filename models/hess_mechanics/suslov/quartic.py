@@ -18,6 +18,8 @@ from typing import ClassVar
 
 import numpy as np
 
+from hess_mechanics import parameters as known
+from hess_mechanics.dynamics.motions import on_section, usual
 from hess_mechanics.dynamics.return_map import PoincareSection
 from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.dynamics.section import Plane, SectionPoints, occupied_cells, section_points
@@ -25,11 +27,12 @@ from hess_mechanics.dynamics.system import System
 from hess_mechanics.errors import InvalidParameter, NoField, OutsideRegion, WorkLimit
 from hess_mechanics.numerics.accuracy import Accuracy
 from hess_mechanics.numerics.results import Array, Mask
-from hess_mechanics.parameters import plain
+from hess_mechanics.parameters import Parameter, plain
 from hess_mechanics.rigid_body.inertia import require_finite, require_positive_definite
 from hess_mechanics.suslov.equations import SYSTEM
 
 __all__ = [
+    "SECTION",
     "QuarticBody",
     "QuarticSection",
     "angular_momentum",
@@ -491,3 +494,17 @@ class QuarticSection(PoincareSection):
     def places_of(self, states: Array) -> Array:
         """Return (q, p) (n, 2) of states (n, 5) of the section."""
         return self.body.on_section(states)
+
+
+SECTION = on_section(
+    "quartic",
+    "Suslov problem with b1 = b2 = 0, a point of a section",
+    (usual(known.I11, 2.0), usual(known.I22, 1.0), usual(known.B3, 1.0), known.H_QUARTIC),
+    (
+        Parameter("q", "q", "Start: q", 0.9, (-1.5, 1.5), 0.01, (-1e3, 1e3), "Coordinate along the major axis."),
+        Parameter("p", "p", "Start: p", 0.1, (-1.0, 1.0), 0.01, (-1.0, 1.0), "Its momentum."),
+    ),
+    lambda values: QuarticSection(QuarticBody(*(values[name] for name in ("I11", "I22", "b3", "h")))),
+    SYSTEM,
+)
+"""Motions from the section along the axis of the accessible region."""

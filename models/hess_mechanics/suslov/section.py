@@ -19,52 +19,25 @@ from typing import ClassVar
 
 import numpy as np
 
+from hess_mechanics import parameters as known
 from hess_mechanics.dynamics.cells import Window, evenly
-from hess_mechanics.dynamics.orbit import solve
+from hess_mechanics.dynamics.motions import body_parameters, on_section, usual, whole
 from hess_mechanics.dynamics.return_map import PoincareSection
 from hess_mechanics.dynamics.section import MAX_STEPS, Plane, SectionPoints, section_points
 from hess_mechanics.dynamics.system import System
 from hess_mechanics.errors import InvalidParameter, OutsideRegion
-from hess_mechanics.numerics.accuracy import DRAFT, Accuracy
+from hess_mechanics.numerics.accuracy import Accuracy
 from hess_mechanics.numerics.parallel import THREADS
 from hess_mechanics.numerics.results import Array, Mask, frozen
 from hess_mechanics.rigid_body.inertia import require_finite
-from hess_mechanics.suslov import principal_axis
 from hess_mechanics.suslov.equations import SYSTEM, SuslovBody
 
-__all__ = [
-    "MeanDivergence",
-    "SuslovSection",
-    "divergence",
-    "mean_divergence",
-    "require_reached",
-]
+__all__ = ["SECTION", "SuslovSection", "require_reached"]
 
 _TURNS = 40.0
 """Time limit per crossing, in units of 1/ν; few orbits take longer."""
 _EDGE = 1e-6
 _COLUMNS = 240
-
-
-def divergence(body: SuslovBody, states: Array) -> Array:
-    """Return div ẏ = I23ω1/I22 − I13ω2/I11 (n,) of states (n, 5), the growth rate of phase volume."""
-    return frozen(np.asarray(principal_axis.divergence(list(states.T), body.parameters), float))
-
-
-@dataclass(frozen=True)
-class MeanDivergence:
-    """Mean divergence (n,) along an orbit up to the times (n,)."""
-
-    times: Array
-    mean: Array
-
-
-def mean_divergence(body: SuslovBody, start: Sequence[float], span: float, count: int = 4000) -> MeanDivergence:
-    """Return the mean divergence along the orbit from `start`, at `count` times in `span`.  Raises as `solve`."""
-    times = np.linspace(0.0, span, count + 1)
-    rates = divergence(body, solve(body, start, times, DRAFT).states)
-    steps = 0.5 * (rates[1:] + rates[:-1]) * np.diff(times)
-    return MeanDivergence(frozen(times[1:]), frozen(np.cumsum(steps) / times[1:]))
 
 
 def _side(psi: Array) -> Array:
@@ -278,3 +251,25 @@ def require_reached(section: SuslovSection) -> None:
         raise OutsideRegion(
             f"No motion with E = {section.E:g} reaches γ{section.k} = 0: choose E above {section.lowest_energy:.6g}."
         )
+
+
+def _section(values: Mapping[str, float]) -> SuslovSection:
+    body = SuslovBody(*(values[name] for name in SYSTEM.parameters))
+    found = SuslovSection(body, values["h"] - math.hypot(body.b1, body.b2, body.b3), int(values["k"]))
+    require_reached(found)
+    return found
+
+
+SECTION = on_section(
+    "suslov-section",
+    "Suslov problem, a point of a section",
+    (
+        *body_parameters(SYSTEM, 1.5, 1.0, 0.0, 0.0, 0.3, -0.5, 1.0),
+        usual(known.H_SUSLOV, 3.0),
+        whole("k", "k", 3, 1, 3, "The section is γ_k = 0, γ_k growing."),
+    ),
+    (usual(known.PSI, 1.5), usual(known.DELTA, 1.2)),
+    _section,
+    SYSTEM,
+)
+"""Motions from the section γ_k = 0."""

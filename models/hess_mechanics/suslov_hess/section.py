@@ -19,6 +19,8 @@ from typing import ClassVar
 
 import numpy as np
 
+from hess_mechanics import parameters as known
+from hess_mechanics.dynamics.motions import on_section, usual
 from hess_mechanics.dynamics.return_map import PoincareSection
 from hess_mechanics.dynamics.section import Plane
 from hess_mechanics.dynamics.system import System
@@ -29,7 +31,7 @@ from hess_mechanics.suslov_hess.bifurcation import TurningPoints, turning_points
 from hess_mechanics.suslov_hess.circle_map import circle_map
 from hess_mechanics.suslov_hess.equations import SYSTEM
 
-__all__ = ["TorusSection"]
+__all__ = ["SECTION", "TorusSection"]
 
 
 @dataclass(frozen=True)
@@ -104,3 +106,14 @@ class TorusSection(PoincareSection):
     def places_of(self, states: Array) -> Array:
         """Return φ (n, 1) of states (n, 5)."""
         return np.arctan2(states[:, :1], states[:, 1:2])
+
+
+SECTION = on_section(
+    "torus",
+    "Suslov–Hess case, a point of a torus",
+    (usual(known.A_HESS, 0.7), usual(known.H_HESS, 0.5), known.F_HESS),
+    (usual(known.CIRCLE_PHASE, 1.0),),
+    lambda values: TorusSection(values["a"], values["h"], values["f"]),
+    SYSTEM,
+)
+"""Motions from the middle of the range of n3, on the torus (h, f) in units b = 1."""

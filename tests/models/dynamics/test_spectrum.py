@@ -6,6 +6,7 @@ import numpy as np
 from pytest import approx, mark, raises
 
 from hess_mechanics import System, lyapunov_exponent, lyapunov_spectrum, megno, systems, transition_matrix
+from hess_mechanics.dynamics.basins import mean_divergence
 from hess_mechanics.dynamics.ensemble import complete
 from hess_mechanics.dynamics.spectrum import kaplan_yorke
 from hess_mechanics.errors import InvalidParameter, WorkLimit
@@ -13,7 +14,6 @@ from hess_mechanics.euler_poisson.andoyer import AndoyerSection
 from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.numerics.accuracy import DRAFT, REFERENCE
 from hess_mechanics.suslov.equations import SuslovBody
-from hess_mechanics.suslov.section import mean_divergence
 from support.deviations import deviations, mean_of
 from support.moved import from_moved_starts
 from support.thorough import examples

@@ -10,10 +10,10 @@ from pytest import approx, mark, raises
 
 from hess_mechanics import SuslovBody, ensemble
 from hess_mechanics.dynamics.attraction import arrivals
+from hess_mechanics.dynamics.basins import SectionOrbits, attractors
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import DRAFT, PRECISE, STANDARD
-from hess_mechanics.suslov.basins import SectionOrbits, attractors
-from hess_mechanics.suslov.section import SuslovSection, divergence
+from hess_mechanics.suslov.section import SuslovSection
 from support.deviations import deviations
 from support.diagrams import settled
 from support.mechanics import differences, scipy_crossings
@@ -142,8 +142,10 @@ def test_what_attracts_forward_are_permanent_rotations_and_their_mirror_images_a
 
 def test_the_divergence_is_that_of_the_field():
     states = np.random.default_rng(3).normal(size=(40, 5))
-    assert divergence(BODY, states) == approx([divergence_of_field(BODY, y) for y in states], abs=1e-12)
-    assert not divergence(SuslovBody(1.0, 2.0, 0.0, 0.0, 1.0), states).any()
+    assert BODY.system.divergence(states, BODY.parameters) == approx(
+        [divergence_of_field(BODY, y) for y in states], abs=1e-12
+    )
+    assert not BODY.system.divergence(states, SuslovBody(1.0, 2.0, 0.0, 0.0, 1.0).parameters).any()
 
 
 # ---- exponents ---------------------------------------------------------------------------------------------------

@@ -20,6 +20,7 @@ from hess_explorer.views.caption import Caption
 from hess_explorer.views.text import digits
 from hess_mechanics.dynamics.attraction import CROSSINGS, LOST, NOWHERE, Arrivals, arrivals
 from hess_mechanics.dynamics.basin_boundary import arrivals_of_cells, divided, joined, resolved, unsure
+from hess_mechanics.dynamics.basins import Attractors, SectionOrbits, attractors
 from hess_mechanics.dynamics.cells import centres, evenly
 from hess_mechanics.dynamics.edge import saddle_between
 from hess_mechanics.dynamics.manifolds import Manifold
@@ -29,7 +30,6 @@ from hess_mechanics.errors import NotConverged
 from hess_mechanics.numerics.accuracy import PRECISE, Accuracy, Kind, Plan
 from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array, Mask
-from hess_mechanics.suslov.basins import Attractors, SectionOrbits, attractors
 from hess_mechanics.suslov.section import SuslovSection
 
 __all__ = ["Basins", "basins_trial"]

@@ -5,7 +5,7 @@ from pytest import approx, mark
 from scipy.integrate import solve_ivp
 
 from hess_mechanics import SuslovBody
-from hess_mechanics.suslov.basins import Contraction, contraction
+from hess_mechanics.dynamics.basins import Contraction, contraction
 from hess_mechanics.suslov.section import SuslovSection
 from support.deviations import deviations
 from support.diagrams import spread

@@ -1,4 +1,4 @@
-"""Attractors of the sections of the Suslov problem: recurrent sets about which phase volume shrinks.
+"""Attractors of a section: recurrent sets about which phase volume shrinks.
 
 Phase volume about an orbit grows by exp ∫div ẏ dt.  If the mean divergence is negative, beyond its error, the orbits
 approach a set of volume 0: an attractor.  If it is 0 they only fill different parts of phase space.
@@ -14,17 +14,46 @@ import numpy as np
 
 from hess_mechanics.dynamics.attraction import RecurrentSets, recurrent_sets
 from hess_mechanics.dynamics.ensemble import complete
+from hess_mechanics.dynamics.orbit import solve
+from hess_mechanics.dynamics.return_map import PoincareSection
+from hess_mechanics.dynamics.section import section_points
 from hess_mechanics.dynamics.spectrum import volume_sign
-from hess_mechanics.numerics.accuracy import Accuracy
-from hess_mechanics.numerics.results import Array, Mask
-from hess_mechanics.suslov.equations import SuslovBody
-from hess_mechanics.suslov.section import SuslovSection, mean_divergence
+from hess_mechanics.dynamics.system import Body, Problem
+from hess_mechanics.numerics.accuracy import DRAFT, Accuracy
+from hess_mechanics.numerics.results import Array, Mask, frozen
 
-__all__ = ["Attractors", "Contraction", "SectionOrbits", "attractors", "contraction"]
+__all__ = [
+    "Attractors",
+    "Contraction",
+    "MeanDivergence",
+    "SectionOrbits",
+    "attractors",
+    "contraction",
+    "mean_divergence",
+]
 
 _BATCHES = 12
+_SAMPLES = 4000
+_TURNS = 40.0
+"""Time limit per crossing, in units of 1/ν times the slowness of the section; few orbits take longer."""
 _MOST_STEPS = 1_000_000
 """Limit of the steps of an orbit."""
+
+
+@dataclass(frozen=True)
+class MeanDivergence:
+    """Mean divergence (n,) along an orbit up to the times (n,)."""
+
+    times: Array
+    mean: Array
+
+
+def mean_divergence(body: Body, start: Sequence[float], span: float) -> MeanDivergence:
+    """Return the mean divergence along the orbit from `start` (d,), at 4000 times in `span`.  Raises as `solve`."""
+    times = np.linspace(0.0, span, _SAMPLES + 1)
+    rates = body.system.divergence(solve(body, start, times, DRAFT).states, body.parameters)
+    steps = 0.5 * (rates[1:] + rates[:-1]) * np.diff(times)
+    return MeanDivergence(frozen(times[1:]), frozen(np.cumsum(steps) / times[1:]))
 
 
 @dataclass(frozen=True)
@@ -40,8 +69,8 @@ class Contraction:
         return bool(volume_sign(self.mean, self.error) < 0)
 
 
-def contraction(body: SuslovBody, start: Sequence[float], span: float) -> Contraction:
-    """Return the contraction along the orbit from `start` (5,), over the last two thirds of the time `span`.
+def contraction(body: Body, start: Sequence[float], span: float) -> Contraction:
+    """Return the contraction along the orbit from `start` (d,), over the last two thirds of the time `span`.
 
     The error is that of the means over 12 intervals of time, treated as independent.  Raises as `solve`.
     """
@@ -56,7 +85,7 @@ def contraction(body: SuslovBody, start: Sequence[float], span: float) -> Contra
 class SectionOrbits:
     """The orbits of a section forward in time, at a level, as `attraction.Orbits`."""
 
-    section: SuslovSection
+    section: PoincareSection
     level: Accuracy
 
     @property
@@ -70,21 +99,21 @@ class SectionOrbits:
         return self.section.window
 
     def states_at(self, x: Array, y: Array) -> tuple[Array, Mask]:
-        """Return the states (n, 5) at (ψ, δ) (n,), and the mask (n,) of the places with motion."""
+        """Return the states (n, d) at coordinates (n,), and the mask (n,) of the places with motion."""
         return self.section.states_at(x, y)
 
     def places_of(self, states: Array) -> Array:
-        """Return (ψ, δ) (n, 2) of states (n, 5)."""
+        """Return the coordinates (n, 2) of states (n, d)."""
         return self.section.places_of(states)
 
     def follow(self, starts: Array, crossings: int) -> list[Array]:
-        """Return the next crossings (n, 5) of each orbit from `starts` (k, 5).  Raises `WorkLimit`."""
+        """Return the next crossings (n, d) of each orbit from `starts` (k, d).  Raises `WorkLimit`."""
         if not len(starts):
             return []
-        found = complete(
-            self.section.points(starts.tolist(), crossings, True, self.level, threads=1, most_steps=_MOST_STEPS)
-        )
-        return found.states
+        of = self.section
+        end = crossings * _TURNS * of.slowness / Problem.of(of, starts).nu
+        found = section_points(of, starts, of.surface, end, self.level, crossings, threads=1, most_steps=_MOST_STEPS)
+        return complete(found).states
 
 
 @dataclass(frozen=True)
@@ -110,11 +139,11 @@ class Attractors:
         return max(self.contractions, key=lambda one: one.mean, default=None)
 
 
-def attractors(section: SuslovSection, span: float, level: Accuracy) -> Attractors:
+def attractors(section: PoincareSection, span: float, level: Accuracy) -> Attractors:
     """Return the attractors of a section; `span` is the time over which a divergence is averaged.
 
     Raises `InvalidParameter`, `WorkLimit`.
     """
     found = recurrent_sets(SectionOrbits(section, level))
-    on_each = tuple(contraction(section.body, state, span) for state in found.states)
+    on_each = tuple(contraction(section, state, span) for state in found.states)
     return Attractors(found.kept([one.attracts for one in on_each]), on_each)
