@@ -360,7 +360,7 @@ SCENE = Scene(
     place=10,
     presets=PRESETS,
     measures=(section_trial(lambda s: s.section), indicator_trial(lambda s: s.megno)),
-    charts=Charts(of_motion(SYSTEM, lambda s: s.given), over=("BS", "BS")),
+    charts=Charts(of_motion(SYSTEM, lambda s: s.given), over=("psi", "delta")),
     group="Ball",
     essential=("h", "I13", "D", "psi"),
     handle="psi",

@@ -183,7 +183,7 @@ SCENE = Scene(
     __file__,
     place=14,
     presets=PRESETS,
-    charts=Charts(of_torus(lambda s: (s.pendulum.a, s.pendulum.h, 0.0)), over=("LOX", "LOX")),
+    charts=Charts(of_torus(lambda s: (s.pendulum.a, s.pendulum.h, 0.0)), over=("energy", "I2")),
     group="Euler–Poisson",
     essential=("energy", "l", "I2"),
     title="Loxodromic pendulum",

@@ -307,7 +307,7 @@ SCENE = Scene(
     place=7,
     presets=PRESETS,
     measures=(section_trial(lambda s: s.section), indicator_trial(lambda s: s.megno)),
-    charts=Charts(of_motion(SYSTEM, lambda s: s.given), over=("Q", "Q")),
+    charts=Charts(of_motion(SYSTEM, lambda s: s.given), over=("h", "beta")),
     group="Heavy body",
     essential=("ratio", "h", "Q1", "Q2"),
     opening="section",

@@ -12,7 +12,7 @@ import numpy as np
 from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.parameters import Value
 from hess_explorer.scenes.framework.cells import DENSITY
-from hess_explorer.scenes.framework.charted import Charts, of_motion
+from hess_explorer.scenes.framework.charted import Charted, Charts, of_motion, parameters_of
 from hess_explorer.scenes.framework.orbit_batches import OrbitBatch
 from hess_explorer.scenes.framework.parameters import (
     TURN,
@@ -397,7 +397,15 @@ SCENE = Scene(
         basins_trial(lambda s: s.basins),
     ),
     charts=Charts(
-        of_motion(SYSTEM, lambda s: s.section.asked_start, time=lambda s: s.long),
+        (
+            *of_motion(SYSTEM, lambda s: s.section.asked_start, time=lambda s: s.long),
+            Charted(
+                "basins suslov-section",
+                ("attractors",),
+                # Attractors belong to the whole section: one cell is enough.
+                lambda s: {**parameters_of(s.body), "h": s.h, "k": s.poincare.k, "across": 1.0, "up": 1.0},
+            ),
+        ),
         over=_NAMES,
         placed=("starts", _NAMES),
     ),

@@ -38,7 +38,7 @@ from hess_mechanics.errors import InvalidParameter, ModelError
 from hess_mechanics.numerics.accuracy import DRAFT, Level, level
 from hess_mechanics.numerics.results import Array, frozen
 
-__all__ = ["STORED", "Chart", "Charted", "Charts", "Stored", "motion_of", "of_motion", "of_torus", "tensor_of"]
+__all__ = ["STORED", "Chart", "Charted", "Charts", "Stored", "of_motion", "of_torus", "parameters_of", "tensor_of"]
 
 Arguments = Mapping[str, float]
 
@@ -200,7 +200,7 @@ def _swept(of: type[Any], charted: Charted, sides: tuple[Side, ...]) -> tuple[st
 class Chart(Part[Any]):
     """The chart of a state.
 
-    numbers : the numbers by title; sides : the sides by symbol.
+    numbers : the numbers by option; sides : the sides by symbol.
     """
 
     numbers: Mapping[str, tuple[Charted, str]]
@@ -240,8 +240,8 @@ class Chart(Part[Any]):
     @property
     def title(self) -> str:
         """The title of the picture."""
-        name, (x, y) = self.host.chart, self.axes
-        return f"{name[0].upper()}{name[1:]} over ({x.symbol}, {y.symbol})"
+        x, y = self.axes
+        return f"{self.number.symbol} over ({x.symbol}, {y.symbol})"
 
     @cached_property
     def window(self) -> Window:
@@ -397,7 +397,7 @@ class Chart(Part[Any]):
 class Charts:
     """The numbers that a scene charts, and over which parameters.
 
-    charted : the computations; over : symbols of the first two sides; placed : a parameter of places and the symbols of
+    charted : the computations; over : the first two sides, parameters by name and coordinates by symbol; placed : a parameter of places and the symbols of
     their coordinates, which are sides as well.
     """
 
@@ -407,8 +407,12 @@ class Charts:
 
     @property
     def numbers(self) -> Mapping[str, tuple[Charted, str]]:
-        """The numbers by title."""
-        return {one.computation.number(name).title: (one, name) for one in self.charted for name in one.numbers}
+        """The numbers by their names in a link: that of the computation if only one of its numbers is charted."""
+        return {
+            name if len(one.numbers) > 1 else one.computation.name: (one, name)
+            for one in self.charted
+            for name in one.numbers
+        }
 
     def _sides(self, state: type[Any]) -> Mapping[str, Side]:
         found = []
@@ -423,12 +427,14 @@ class Charts:
     def added(self, state: type[Any]) -> type[Any]:
         """Return the class of states with the choices of a chart, which do not change other results."""
         numbers, sides = self.numbers, self._sides(state)
+        titles = "; ".join(f"{option}: {one.computation.number(name).title}" for option, (one, name) in numbers.items())
+        over = [next(symbol for symbol, side in sides.items() if one in (symbol, side.name)) for one in self.over]
         where = "Parameter along this axis of the chart; it has to change the number."
         specs = (
-            Choice("chart", "Number", (*numbers,), next(iter(numbers)), "Number that the chart shows.", "Chart"),
+            Choice("chart", "Number", (*numbers,), next(iter(numbers)), f"{titles}.", "Chart"),
             *(
                 Choice(f"chart_{axis}", label, (*sides,), first, where, "Chart")
-                for axis, label, first in zip("xy", ("Across", "Up"), self.over, strict=True)
+                for axis, label, first in zip("xy", ("Across", "Up"), over, strict=True)
             ),
             Places("chart_window", "The window of the chart", 2, (-_FAR, -_FAR), (_FAR, _FAR)),
         )
@@ -515,7 +521,10 @@ def _kinds(i: int, number: catalogue.Number) -> Layer[Any]:
 def of_torus(torus: Callable[[Any], tuple[float, float, float]]) -> tuple[Charted, ...]:
     """Return what is charted of a Suslov–Hess torus (a, h, f)."""
     numbers = ("rotation-number", "trace", "locked", "stable", "unstable", "log-multiplier")
-    return (Charted("circle-map", numbers, lambda s: dict(zip("ahf", torus(s), strict=True))),)
+    return (
+        Charted("circle-map", numbers, lambda s: dict(zip("ahf", torus(s), strict=True))),
+        Charted("critical-a", ("a",), lambda s: dict(zip("hf", torus(s)[1:], strict=True))),
+    )
 
 
 def tensor_of(body: Any) -> Arguments:
@@ -523,10 +532,9 @@ def tensor_of(body: Any) -> Arguments:
     return {"I11": body.I11, "I22": body.I22, "I13": body.I13, "I23": body.I23}
 
 
-def motion_of(body: Body, start: tuple[float, ...]) -> Arguments:
-    """Return the parameters of a body and the start of a motion."""
-    system = body.system
-    return dict(zip((*system.parameters, *system.arguments), (*body.parameters, *start), strict=True))
+def parameters_of(body: Body) -> Arguments:
+    """Return the parameters of a body."""
+    return dict(zip(body.system.parameters, body.parameters, strict=True))
 
 
 def of_motion(
@@ -539,7 +547,7 @@ def of_motion(
     name = system.name
 
     def motion(s: Any) -> Arguments:
-        return motion_of(s.body, start(s))
+        return {**parameters_of(s.body), **dict(zip(system.arguments, start(s), strict=True))}
 
     def averaged(s: Any) -> Arguments:
         return motion(s) if time is None else {**motion(s), "t": time(s)}
