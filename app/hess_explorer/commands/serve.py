@@ -22,6 +22,8 @@ from .arguments import assigned, number, run_file, shown
 from .command import Command, Options, option, whole
 
 if TYPE_CHECKING:
+    import xarray as xr
+
     from hess_explorer.lessons.lesson import Lesson
 
 __all__ = ["COMMAND"]
@@ -42,7 +44,7 @@ def _embedder(text: str) -> str:
 def _run(options: Options) -> None:
     _add_scenes(options.scenes)
     lessons = _lessons(options.lessons)
-    chart, state = _chart(options.chart, dict(options.slice))
+    state = _chart(options.chart, dict(options.slice))
     _require_free(options.address, options.port)
     if options.workers > 1 and not hasattr(os, "fork"):
         raise CommandError("--workers needs an operating system with fork: run the command without it.")
@@ -75,7 +77,6 @@ def _run(options: Options) -> None:
                 origins=options.origins,
                 ready=ready,
                 lessons=lessons,
-                chart=chart,
                 embedders=embedders,
                 workers=options.workers,
                 sessions=options.sessions,
@@ -96,21 +97,76 @@ def _add_scenes(paths: Sequence[Path]) -> None:
             raise CommandError(f"{shown(str(path))} brings no scene: {error}") from error
 
 
-def _chart(path: Path | None, at: Mapping[str, float]) -> tuple[str | None, str]:
-    """Return the text of the chart of a store, and the address of its state behind that of the server."""
+def _chart(path: Path | None, at: Mapping[str, float]) -> str:
+    """Show a stored sweep as the chart of a scene, and return the address of its state behind that of the server."""
     if path is None:
         if at:
             raise CommandError("--slice belongs to a chart: add --chart FOLDER.")
-        return None, ""
+        return ""
     from hess_explorer.sweep import read
-    from hess_explorer.sweep.shown import chart_file
     from hess_mechanics.errors import ModelError
 
     try:
-        found = chart_file(read(path), at)
+        return f"/?{_shown(read(path), at)}"
     except ModelError as error:
         raise CommandError(str(error)) from error
-    return json.dumps(found, ensure_ascii=False, allow_nan=False), f"/{found['link']}"
+
+
+def _shown(found: xr.Dataset, at: Mapping[str, float]) -> str:
+    """Put a sweep over two evenly spaced parameters into the chart of a scene, and return the link of its state.
+
+    at : values of its other parameters.  Raises `InvalidParameter`.
+    """
+    import numpy as np
+
+    from hess_explorer.protocol.parameters import Number, encode
+    from hess_explorer.scenes import scenes
+    from hess_explorer.scenes.framework.charted import STORED, Stored
+    from hess_mechanics.errors import InvalidParameter
+
+    fixed = json.loads(found.attrs["parameters"])
+    for name, value in at.items():
+        if name not in found.status.dims:
+            raise InvalidParameter(f"The sweep has no side {name!r}: choose among {', '.join(found.status.dims)}.")
+        found = found.sel({name: value}, method="nearest")
+        fixed[name] = float(found[name])
+        if not np.isclose(fixed[name], value, rtol=1e-9, atol=1e-12):
+            raise InvalidParameter(f"The sweep has no cells at {name} = {value:g}: the nearest are at {fixed[name]:g}.")
+    names = tuple(map(str, found.status.dims))
+    if len(names) != 2:
+        raise InvalidParameter(
+            f"A chart has two sides, but this sweep is over {', '.join(names)}: choose a value of each further one with "
+            "--slice NAME=NUMBER, or open it in Python."
+        )
+    x, y = sides = [found[name].values for name in names]
+    steps = [np.diff(side) for side in sides]
+    if not all(one.size and np.allclose(one, one[0], rtol=1e-6, atol=0.0) and one[0] > 0.0 for one in steps):
+        raise InvalidParameter("The sides of a chart are evenly spaced: sweep over ranges LO:HI:N, from low to high.")
+    (dx, dy) = (0.5 * float(one[0]) for one in steps)
+    cells = found.transpose(*names[::-1])
+    for scene in scenes().values():
+        for option, (charted, number) in ({} if scene.charted is None else scene.charted.numbers).items():
+            variable, symbols = (
+                number.replace("-", "_"),
+                {one.name: one.symbol for one in scene.specs if isinstance(one, Number)},
+            )
+            if charted.key != found.attrs["computation"] or variable not in found or not {*names} <= {*symbols}:
+                continue
+            given = {name: value for name, value in fixed.items() if name in symbols}
+            choices = {"accuracy": found.attrs["level"], "chart": option}
+            chosen = {f"chart_{axis}": symbols[name] for axis, name in zip("xy", names, strict=True)}
+            values, _ = scene.admit({**scene.defaults(), **given, **choices, **chosen})
+            first, last = ({**fixed, **{name: float(found[name][i]) for name in names}} for i in (0, -1))
+            window = (x[0] - dx, y[0] - dy), (x[-1] + dx, y[-1] + dy)
+            status = cells.status.values.astype(float)
+            STORED[charted.key, number, *names] = Stored(cells[variable].values, status, window, first, last)
+            if scene.of(values).charting.stored is not None:
+                return encode(scene.name, values)
+            del STORED[charted.key, number, *names]
+    raise InvalidParameter(
+        f"No scene shows {found.attrs['computation']} over {' and '.join(names)} with these parameters: open the sweep "
+        "in Python with hess_explorer.sweep.read."
+    )
 
 
 def _lessons(paths: Sequence[Path]) -> tuple[Lesson, ...]:

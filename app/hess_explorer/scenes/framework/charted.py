@@ -18,7 +18,7 @@ from bokeh.palettes import Cividis256
 
 from hess_explorer.compute.cache import CACHE, Task
 from hess_explorer.compute.cells import CellResults, Outcome, evaluate, refused
-from hess_explorer.protocol.parameters import Choice, Number, Places, Values, places, written
+from hess_explorer.protocol.parameters import Choice, Number, Places, Spec, Values, places, written
 from hess_explorer.scenes.framework.cells import COARSE, found_by_rows
 from hess_explorer.scenes.framework.parameters import declared, specs_of
 from hess_explorer.scenes.framework.part import Part, part
@@ -211,7 +211,8 @@ class Chart(Part[Any]):
         """The chart, or None and the reason why there is none."""
         charted, number = self.numbers[self.host.chart]
         x, y = self.axes
-        over = _swept(type(self.host), charted, tuple(self.sides.values()))
+        of: Any = type(self.host)
+        over = _swept(of, charted, tuple(self.sides.values()))
         for one in (x, y):
             if one.symbol not in over:
                 return None, f"{self.host.chart} does not depend on {one.symbol}: choose among {', '.join(over)}."
@@ -246,13 +247,13 @@ class Chart(Part[Any]):
     @cached_property
     def window(self) -> Window:
         """The visible window."""
-        if self._stored is not None and not self.host.chart_window:
-            return self._stored.window
+        if self.stored is not None and not self.host.chart_window:
+            return self.stored.window
         x, y = self.axes
         return window_of(tidy_window(self.host.chart_window), ((x.ends[0], y.ends[0]), (x.ends[1], y.ends[1])))
 
     @cached_property
-    def _stored(self) -> Stored | None:
+    def stored(self) -> Stored | None:
         """The stored sweep of this state, if any."""
         chart = self._chosen[0]
         kept = None if chart is None else STORED.get((chart.charted.key, chart.number, chart.x.name, chart.y.name))
@@ -264,8 +265,9 @@ class Chart(Part[Any]):
             ends = chart.arguments(*low), chart.arguments(*high)
         except ModelError:
             return None
+        usual = {one.name: one.default for one in chart.charted.computation.parameters}
         same = all(
-            math.isclose(own.get(name, value), value, rel_tol=1e-9, abs_tol=1e-12)
+            math.isclose({**usual, **own}[name], value, rel_tol=1e-9, abs_tol=1e-12)
             for own, known in zip(ends, (kept.first, kept.last), strict=True)
             for name, value in known.items()
         )
@@ -274,8 +276,8 @@ class Chart(Part[Any]):
     @cached_property
     def cells(self) -> tuple[Array, int] | None:
         """Values and status (n, 2, m), and the number of rows that are still coarse; None until some are known."""
-        if self._stored is not None:
-            return np.stack([self._stored.values, self._stored.status], axis=1), 0
+        if self.stored is not None:
+            return np.stack([self.stored.values, self.stored.status], axis=1), 0
         chart = self._chosen[0]
         if chart is None:
             return None
@@ -304,7 +306,7 @@ class Chart(Part[Any]):
         values = self.cells[0][:, 0]
         if own.turn:
             values = values - own.turn * np.round(values / own.turn)
-        (x0, y0), (x1, y1) = self.window if self._stored is None else self._stored.window
+        (x0, y0), (x1, y1) = self.window if self.stored is None else self.stored.window
         return CellGrid(values, (x0, x1), (y0, y1), self.ends)
 
     @cached_property
@@ -355,7 +357,7 @@ class Chart(Part[Any]):
         """Return a line about the cell at a place."""
         if self.cells is None:
             return ""
-        cells, (low, high) = self.cells[0], self.window if self._stored is None else self._stored.window
+        cells, (low, high) = self.cells[0], self.window if self.stored is None else self.stored.window
         n, _, m = cells.shape
         column, row = (
             min(max(int((at - a) / (b - a) * count), 0), count - 1)
@@ -430,7 +432,7 @@ class Charts:
         titles = "; ".join(f"{option}: {one.computation.number(name).title}" for option, (one, name) in numbers.items())
         over = [next(symbol for symbol, side in sides.items() if one in (symbol, side.name)) for one in self.over]
         where = "Parameter along this axis of the chart; it has to change the number."
-        specs = (
+        specs: tuple[Spec, ...] = (
             Choice("chart", "Number", (*numbers,), next(iter(numbers)), f"{titles}.", "Chart"),
             *(
                 Choice(f"chart_{axis}", label, (*sides,), first, where, "Chart")
