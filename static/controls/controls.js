@@ -46,6 +46,7 @@ export function render({ el }) {
     const group = element(`details.group.group-${name.toLowerCase()}`,
       element("summary", name), element("div.column", ...members))
     group.open = PHONE.matches || unfolded.has(name)
+    group.hidden = name === "Chart"
     group.addEventListener("toggle", () => {
       if (PHONE.matches) return
       if (group.open) unfolded.add(name)
@@ -96,6 +97,7 @@ export function render({ el }) {
   function showCharts() {
     const hidden = !gallery.openCells().some((cell) => nameOf(cell) === "chart")
     for (const item of /** @type {NodeListOf<HTMLElement>} */ (el.querySelectorAll('.group-chart, [data-name^="chart"]'))) {
+      if (item instanceof HTMLDetailsElement && item.hidden && !hidden) item.open = true
       item.hidden = hidden
     }
   }

@@ -6,15 +6,16 @@
 // the style `touch-action` cannot depend on the place.  Elsewhere two fingers zoom the page.  Bokeh would take the events of a
 // second finger for those of the first: they are withheld, and the drag ends where it is.
 
-// A finger covers about 40 pixels.
-const REACH = 30
+// A finger covers about 40 pixels, and a ring 20.
+const [REACH, REACH_OF_MOUSE] = [30, 14]
 
 /**
- * Return whether a finger is near one of the places.
- * @param {number[]} finger
+ * Return whether a pointer is near one of the places.
+ * @param {number[]} pointer
  * @param {number[][]} places
+ * @param {number} reach
  */
-export const isNear = ([x, y], places) => places.some(([a, b]) => Math.hypot(a - x, b - y) <= REACH)
+export const isNear = ([x, y], places, reach = REACH) => places.some(([a, b]) => Math.hypot(a - x, b - y) <= reach)
 
 /**
  * Let fingers drag in a plot.  isDragging() tells whether the current pointer may drag, which a cancelled one may not, and
@@ -34,7 +35,7 @@ export function connectTouch(host, plot, { places, boxes }) {
     const { left, top } = host.getBoundingClientRect()
     const [x, y] = [event.clientX - left, event.clientY - top]
     const { x0, x1, y0, y1 } = plot.frame.bbox
-    isOnHandle = isNear([x, y], places())
+    isOnHandle = isNear([x, y], places(), event.pointerType === "touch" ? REACH : REACH_OF_MOUSE)
     return event.pointerType !== "touch" || isOnHandle || (boxes && x0 <= x && x <= x1 && y0 <= y && y <= y1)
   }
 

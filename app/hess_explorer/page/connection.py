@@ -48,8 +48,10 @@ class Connection:
             self._queue.put(partial(self._answer, request))
 
     def end(self) -> None:
-        """Drop the waiting requests and stop the running one, because the page has closed."""
+        """Drop the waiting requests, stop the running one and the background work, because the page has closed."""
         self._queue.end()
+        if "_session" in vars(self):
+            self._session.background.stop()
 
     @cached_property
     def _session(self) -> Session:

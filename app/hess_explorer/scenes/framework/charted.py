@@ -29,7 +29,7 @@ from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import Axes, CellGrid, Layer, Positions, Range, Sign, image, target
 from hess_explorer.views.picture import Corners
 from hess_explorer.views.plot import Plot
-from hess_explorer.views.text import digits, with_error
+from hess_explorer.views.text import digits, ranging, with_error
 from hess_mechanics import catalogue
 from hess_mechanics.catalogue import Computation
 from hess_mechanics.dynamics.cells import centres
@@ -380,13 +380,13 @@ class Chart(Part[Any]):
         cells, coarse = self.cells
         rows, _, columns = cells.shape
         status = Counter(cells[:, 1][cells[:, 1] >= Outcome.OUTSIDE_REGION].astype(int).tolist())
-        said = [f"{columns} × {rows} cells" + (f", {rows - coarse} rows of them known" if coarse else "")]
-        if not self.number.named:
-            low, high = self.ends or (0.0, 1.0)
-            said.append(f"colours from {digits(low)} to {digits(high)}")
+        known = f", {rows - coarse} rows known" if coarse else ""
+        said = [f"{self.number.title}: {columns} × {rows} cells{known}"]
+        if self.ends is not None:
+            said.append(f"colours {ranging(*self.ends, 3)}")
         if status:
-            share, most = 100.0 * status.total() / (rows * columns), Outcome(max(status, key=lambda one: status[one]))
-            said.append(f"{digits(share, 2)} % have no number, mostly: {most.words}")
+            share, most = 100.0 * status.total() / (rows * columns), Outcome(status.most_common(1)[0][0])
+            said.append(f"{digits(share, 2)} % have none: {most.words}")
         return Caption(verdict, f"{'; '.join(said)}.")
 
     @property
@@ -429,13 +429,11 @@ class Charts:
     def added(self, state: type[Any]) -> type[Any]:
         """Return the class of states with the choices of a chart, which do not change other results."""
         numbers, sides = self.numbers, self._sides(state)
-        titles = "; ".join(f"{option}: {one.computation.number(name).title}" for option, (one, name) in numbers.items())
         over = [next(symbol for symbol, side in sides.items() if one in (symbol, side.name)) for one in self.over]
-        where = "Parameter along this axis of the chart; it has to change the number."
         specs: tuple[Spec, ...] = (
-            Choice("chart", "Number", (*numbers,), next(iter(numbers)), f"{titles}.", "Chart"),
+            Choice("chart", "Number", (*numbers,), next(iter(numbers)), "Number that the chart shows, named as in commands.", "Chart"),
             *(
-                Choice(f"chart_{axis}", label, (*sides,), first, where, "Chart")
+                Choice(f"chart_{axis}", label, (*sides,), first, "Parameter along this axis.", "Chart")
                 for axis, label, first in zip("xy", ("Across", "Up"), over, strict=True)
             ),
             Places("chart_window", "The window of the chart", 2, (-_FAR, -_FAR), (_FAR, _FAR)),
