@@ -46,7 +46,7 @@ _FIRST, _STAGES, _FAST_STAGES = 8, 3, 4
 """Cells along a side of the first stage, and the number of stages: one more for what is computed for many cells at once."""
 _BEYOND = 0.01
 """Share of the numbers beyond each end of the colours: without it one outlier would take all colours."""
-_FAR = 1e6
+_FAR, _LARGEST = 1e6, 1e38
 _SHORT = 20.0
 """Longest time of a motion that only loads the kernels."""
 _KINDS = ("#DCDCDC", theme.ORBIT, theme.SHEET, theme.STABLE, theme.UNSTABLE, "#E69F00", theme.MAP, theme.POINT)
@@ -281,6 +281,8 @@ class Chart(Part[Any]):
         chart = self._chosen[0]
         if chart is None:
             return None
+        # The number of this state comes first.
+        _ = self.own
         stages = _STAGES if chart.charted.computation.many is None else _FAST_STAGES
         counts = [_FIRST * COARSE**stage for stage in range(stages)]
         return found_by_rows(
@@ -304,6 +306,8 @@ class Chart(Part[Any]):
         if self.cells is None or (number is not own if own.named else number is not None or turning != (own.turn > 0)):
             return None
         values = self.cells[0][:, 0]
+        # Numbers are sent in single precision.
+        values = np.where(np.abs(values) < _LARGEST, values, np.nan)
         if own.turn:
             values = values - own.turn * np.round(values / own.turn)
         (x0, y0), (x1, y1) = self.window if self.stored is None else self.stored.window

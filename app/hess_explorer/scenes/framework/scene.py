@@ -8,7 +8,7 @@ from dataclasses import InitVar, dataclass, field, replace
 from functools import cached_property
 from html import escape
 from pathlib import Path
-from typing import Any, Generic, Self, TypeVar, cast
+from typing import Any, ClassVar, Generic, Self, TypeVar, cast
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.parameters import Choice, Number, Spec, Value, Values
@@ -206,7 +206,7 @@ class Scene(Generic[S]):
     essential: tuple[str, ...] = ()
     handle: str = ""
     opening: str = ""
-    charted: Charts | None = field(init=False, default=None)
+    charted: ClassVar[Charts | None] = None
 
     def __post_init__(self, charts: Charts | None) -> None:
         """Add the chart to states and pictures."""
