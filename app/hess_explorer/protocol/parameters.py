@@ -130,7 +130,7 @@ class Places:
         """Return the last `most` points as a text, and a note if the text had to be changed."""
         try:
             pairs = [tuple(map(float, pair.split(","))) for pair in text.split(";") if pair]
-            inside = all(
+            inside = bool(pairs) == bool(text) and all(
                 low <= value <= high
                 for pair in pairs
                 for value, low, high in zip(pair, self.low, self.high, strict=True)

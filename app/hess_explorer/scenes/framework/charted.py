@@ -23,7 +23,7 @@ from hess_explorer.scenes.framework.cells import COARSE, found_by_rows
 from hess_explorer.scenes.framework.parameters import declared, specs_of
 from hess_explorer.scenes.framework.part import Part, part
 from hess_explorer.scenes.framework.trial import bare
-from hess_explorer.scenes.framework.windows import Window, boxed, tidy_window, window_of
+from hess_explorer.scenes.framework.windows import Window, boxed, inside, tidy_window, window_of
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import Axes, CellGrid, Layer, Positions, Range, Sign, image, target
@@ -329,9 +329,9 @@ class Chart(Part[Any]):
         return (low, high) if low < high else (low - room, high + room)
 
     def here(self) -> Positions:
-        """Return the place of the state."""
+        """Return the place of the state, if it is in sight."""
         x, y = self.axes
-        return [(x.of(self.host), y.of(self.host))]
+        return inside([(x.of(self.host), y.of(self.host))], self.window)
 
     def choose(self, x: float, y: float) -> Values:
         """Return the parameters at a place.  Raises `ModelError` if no number is possible there."""
