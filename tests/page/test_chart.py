@@ -61,7 +61,7 @@ def test_arrow_keys_move_its_ring(page):
     h, f = page.shown("h")[0], page.shown("f")[0]
     _, (dx, dy) = at(page, "chart", h, f)
     # A click has left the arrow keys to the player.
-    page.picture("chart").locator(".host").evaluate("host => { host.blur(); host.focus() }")
+    page.picture("chart").locator(".host").evaluate("host => { host.focus(); host.blur(); host.focus() }")
     page.change(page.page.keyboard.press, "Shift+ArrowRight")
     page.change(page.page.keyboard.press, "ArrowDown")
     assert page.shown("h")[0] == approx(h + 10 * dx, abs=dx)

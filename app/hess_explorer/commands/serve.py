@@ -28,6 +28,9 @@ if TYPE_CHECKING:
 
 __all__ = ["COMMAND"]
 
+_MOST_CELLS = 256
+"""Largest number of cells of a stored sweep along each side that the page shows."""
+
 
 def _origin(text: str) -> str:
     if not re.fullmatch(r"([A-Za-z0-9._-]{1,253}|\[[0-9A-Fa-f:.]{2,45}\])(:\d{1,5})?", text):
@@ -138,11 +141,12 @@ def _shown(found: xr.Dataset, at: Mapping[str, float]) -> str:
             f"A chart has two sides, but this sweep is over {', '.join(names)}: choose a value of each further one with "
             "--slice NAME=NUMBER, or open it in Python."
         )
+    found = found.isel({name: slice(None, None, -(-found.sizes[name] // _MOST_CELLS)) for name in names})
     x, y = sides = [found[name].values for name in names]
     steps = [np.diff(side) for side in sides]
     if not all(one.size and np.allclose(one, one[0], rtol=1e-6, atol=0.0) and one[0] > 0.0 for one in steps):
         raise InvalidParameter("The sides of a chart are evenly spaced: sweep over ranges LO:HI:N, from low to high.")
-    (dx, dy) = (0.5 * float(one[0]) for one in steps)
+    dx, dy = (0.5 * float(one[0]) for one in steps)
     cells = found.transpose(*names[::-1])
     for scene in scenes().values():
         for option, (charted, number) in ({} if scene.charted is None else scene.charted.numbers).items():
