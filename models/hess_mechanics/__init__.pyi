@@ -32,9 +32,11 @@ from .numerics.accuracy import LEVELS, Level, Status, level
 from .numerics.results import Cost, Ensemble, Orbit, SectionCrossings
 from .return_maps import (
     Basins,
+    Hysteresis,
     PlanePoints,
     basins,
     continued_orbit,
+    hysteresis,
     manifold,
     orbit_diagram,
     period_doublings,
@@ -87,6 +89,8 @@ __all__ = [  # noqa: RUF022 (by subject)
     "MegnoMap",
     "orbit_diagram",
     "Diagram",
+    "hysteresis",
+    "Hysteresis",
     "period_doublings",
     "Cascade",
     "regime",

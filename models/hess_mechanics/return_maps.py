@@ -20,7 +20,8 @@ from hess_mechanics.dynamics.cells import Window, centres, evenly
 from hess_mechanics.dynamics.continuation import Branch, continued
 from hess_mechanics.dynamics.manifolds import Manifold, grown
 from hess_mechanics.dynamics.megno_map import corners, require_plane
-from hess_mechanics.dynamics.orbit_diagram import Cascade, Diagram, cascade, diagram_over
+from hess_mechanics.dynamics.orbit_diagram import COMPARED, Cascade, Diagram, cascade, diagram_over
+from hess_mechanics.dynamics.orbit_diagram import hysteresis as differing
 from hess_mechanics.dynamics.periodic import MAX_PERIOD, PeriodicOrbit, find_periodic, place_units
 from hess_mechanics.dynamics.return_map import PoincareSection, ReturnMap
 from hess_mechanics.dynamics.section import section_points
@@ -42,9 +43,11 @@ from hess_mechanics.suslov_hess.section import TorusSection
 
 __all__ = [
     "Basins",
+    "Hysteresis",
     "PlanePoints",
     "basins",
     "continued_orbit",
+    "hysteresis",
     "manifold",
     "orbit_diagram",
     "period_doublings",
@@ -503,6 +506,102 @@ def orbit_diagram(
         # Say why.
         map_.moved(parameter, float(found.values[0])).state_at(np.array(place))
     return found
+
+
+@dataclass(frozen=True)
+class Hysteresis(Result):
+    """Orbit diagrams over a parameter there and back.
+
+    Attributes
+    ----------
+    there, back : Diagram
+        The diagram over rising values, and over falling values from where the first one ends.
+    intervals : tuple of (float, float)
+        Intervals of values over which they differ.
+    """
+
+    there: Diagram
+    back: Diagram
+    intervals: tuple[tuple[float, float], ...]
+
+    def labels(self) -> Labels:
+        """Return the points of both diagrams, labelled with the way and the value of the parameter.
+
+        Returns
+        -------
+        Labels
+            The coordinates over the points.
+        """
+        one, other = self.there.labels(), self.back.labels()
+        way = [
+            np.full(len(each.coords[self.there.parameter][1]), name) for each, name in ((one, "there"), (other, "back"))
+        ]
+        both = {
+            name: (dims, np.concatenate([values, other.coords[name][1]])) for name, (dims, values) in one.coords.items()
+        }
+        return Labels(
+            {"way": (("point",), np.concatenate(way)), **both},
+            {
+                name: (dims, np.concatenate([values, other.variables[name][1]]))
+                for name, (dims, values) in one.variables.items()
+            },
+            one.units,
+            {"intervals": "; ".join(f"{low:.12g} to {high:.12g}" for low, high in self.intervals), **one.facts},
+        )
+
+
+def hysteresis(
+    map_: ReturnMap,
+    parameter: str,
+    values: Sequence[float] | Array,
+    at: Sequence[float],
+    *,
+    transient: int = 200,
+    kept: int = 64,
+) -> Hysteresis:
+    """Return the orbit diagrams of a section over a parameter there and back, and where they differ.
+
+    Parameters
+    ----------
+    map_ : ReturnMap
+        Return map of the section.
+    parameter : str
+        Name of the parameter, one of `map_.section.constants`.
+    values : array_like, shape (n,)
+        Values of the parameter on the way there.
+    at : sequence of float, shape (d,)
+        Point of the section where the orbit starts.
+    transient : int, default 200
+        Crossings discarded at each value.
+    kept : int, default 64
+        Crossings kept at each value, at least 16: fewer are not compared.
+
+    Returns
+    -------
+    Hysteresis
+        Both diagrams, and the intervals over which they differ.
+
+    Raises
+    ------
+    InvalidParameter
+        If there is no such parameter, or a number is out of range.
+    OutsideRegion
+        If no motion crosses the section at the point, for all values.
+    WorkLimit
+        If the diagram has too many points.
+
+    Examples
+    --------
+    >>> from hess_mechanics import HessBody, hysteresis, return_map
+    >>> P = return_map(HessBody(I22=2.0, I23=1.0, b3=-1.0), h=1.5, f=0.6)
+    >>> hysteresis(P, "h", [1.4, 1.5], (1.0,), transient=50, kept=16).intervals
+    ()
+    """
+    kept = as_whole("kept", kept, COMPARED, 20_000)
+    there = orbit_diagram(map_, parameter, values, at, transient=transient, kept=kept)
+    ends = [end.tolist() for end, some in zip(there.ends, there.places, strict=True) if len(some)]
+    back = orbit_diagram(map_, parameter, there.values[::-1], ends[-1], transient=transient, kept=kept)
+    return Hysteresis(there, back, differing(map_.turns, there, back))
 
 
 def period_doublings(map_: ReturnMap, orbit: PeriodicOrbit, parameter: str, to: float, most: int = 6) -> Cascade:

@@ -24,14 +24,20 @@ def _works(text):
     return tuple(name for name in WORKS if name in names)
 
 
-def _scenes(text):
-    from benchmarks.integrators.trade import names
+def _computations(text):
+    from hess_mechanics.catalogue import catalogue, find
+    from hess_mechanics.errors import ModelError
 
-    found, known = tuple(text.split(",")), names()
-    for name in found:
-        if name not in known:
-            raise argparse.ArgumentTypeError(f"{shown(name)} is not a scene; choose from {','.join(known)}")
-    return found
+    chosen = text.split(",")
+    try:
+        # A name without a system stands for all systems.
+        return tuple(
+            key
+            for one in chosen
+            for key in ([every for every in catalogue() if every.split(" ")[0] == one] or [find(one).key])
+        )
+    except ModelError as error:
+        raise argparse.ArgumentTypeError(str(error).removesuffix(".")) from error
 
 
 def _targets(text):
@@ -53,14 +59,15 @@ def _progress(text):
 
 
 def _run_trade(options):
-    from benchmarks.integrators.trade import Row, as_json, by_kind, heading, line_of, names, trade
+    from benchmarks.integrators.trade import Row, as_json, by_kind, heading, line_of, trade_of_catalogue
+    from hess_mechanics.catalogue import catalogue
 
     in_text = options.format == "text"
     if in_text:
         show(heading().encode())
     rows = []
     failed = []
-    for row in trade(options.scenes or names(), 1 if options.quick else 3, _progress):
+    for row in trade_of_catalogue(options.computations or catalogue(), 1 if options.quick else 3, _progress):
         if isinstance(row, Row):
             rows.append(row)
         else:
@@ -70,7 +77,7 @@ def _run_trade(options):
             show(line_of(row).encode())
     show((f"\n{by_kind(rows)}" if in_text else _json(as_json(rows))).encode())
     if failed:
-        raise CommandError("; ".join(f"{one.scene}: {one.kind} could not be measured ({one.why})" for one in failed))
+        raise CommandError("; ".join(f"{one.name} could not be measured ({one.why})" for one in failed))
 
 
 def _json(value):
@@ -116,11 +123,16 @@ COMMAND = Command(
         ),
         flag("--quick", "few repeats: a trial, not a measurement"),
         option("--json", "write everything measured to this file", type=Path, metavar="FILE"),
-        flag("--trade", "instead: cost and error of each accuracy level, for what each scene computes"),
-        option("--scenes", "with --trade: of these scenes (default: all)", type=_scenes, metavar="LIST"),
+        flag("--trade", "instead: cost and error of each accuracy level, for the computations of the catalogue"),
+        option(
+            "--computations",
+            'with --trade: these, such as orbit,circle-map or "orbit suslov" (default: all)',
+            type=_computations,
+            metavar="LIST",
+        ),
         option(
             "--format",
-            "with --trade: a table (default), or scene, kind, level, ms, error as JSON",
+            "with --trade: a table (default), or computation, kind, level, ms, error as JSON",
             choices=("text", "json"),
             default="text",
         ),

@@ -1,4 +1,4 @@
-"""`python tests/benchmarks/benchmark_trade.py`: what each level costs in all scenes, as `hess-explorer bench --trade`.
+"""`python tests/benchmarks/benchmark_trade.py`: what each level costs in all scenes.
 
 The table of all kinds of computation goes to app/README.md, with the ten scenes and kinds that take longest, and to the
 words of "Speed and accuracy".
@@ -25,7 +25,7 @@ def main():
     for row in trade(names(), 3, lambda text: print(f"{text} …", file=sys.stderr, flush=True)):
         print(line_of(row), end="", flush=True)
         if isinstance(row, Failed):
-            sys.exit(f"{row.scene}, {row.kind}: {row.why}")
+            sys.exit(f"{row.name}, {row.kind}: {row.why}")
         rows.append(row)
     table, head = by_kind(rows), f"{conditions()}."
     print(f"\n{table}")

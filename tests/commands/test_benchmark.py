@@ -18,8 +18,8 @@ from benchmarks.integrators.peers import PEERS
 from benchmarks.integrators.works import works
 from hess_explorer.__main__ import main
 from hess_explorer.commands import bench as bench_of_the_wheel
-from hess_explorer.scenes import scenes
 from hess_mechanics import LEVELS, level, solve, systems
+from hess_mechanics.catalogue import find
 from support import thorough
 from support.command_line import typed
 from support.mechanics import scipy_states
@@ -105,7 +105,7 @@ def test_the_command_from_end_to_end(tmp_path, capsys):
     [
         (["--works", "A,X"], "'X' is not a work; choose from A,A2,B,B2,C,D"),
         (["--targets", "1e-3,0"], "'1e-3,0' has an error that is not positive"),
-        (["--trade", "--scenes", "kharlamova,nowhere"], "'nowhere' is not a scene; choose from suslov-hess,"),
+        (["--trade", "--computations", "orbit,nowhere"], "There is no computation 'nowhere'"),
         (["--picture", "bench.pdf"], "'bench.pdf' is not a picture; end the name in .svg or .png"),
     ],
 )
@@ -125,25 +125,22 @@ def test_without_the_sources_the_command_says_what_to_do(monkeypatch, tmp_path, 
     )
 
 
-def test_the_trade_of_a_scene_is_measured_and_printed(capsys):
+def test_the_trade_of_a_computation_is_measured_and_printed(capsys):
     """Errors are compared with SciPy's orbit; times are not checked."""
-    assert main(typed("bench --trade --quick --scenes kharlamova --format json")) == 0
+    assert main(["bench", "--trade", "--quick", "--computations", "orbit suslov", "--format", "json"]) == 0
     said = capsys.readouterr()
-    assert said.err.splitlines() == ["kharlamova: orbit …"]
+    assert said.err.splitlines() == ["orbit suslov …"]
     data = json.loads(said.out)
-    assert [(one["scene"], one["kind"], one["level"]) for one in data] == [
-        ("kharlamova", "orbit", name) for name in LEVELS
+    assert [(one["computation"], one["kind"], one["level"]) for one in data] == [
+        ("orbit suslov", "orbit", name) for name in LEVELS
     ]
-    scene = scenes()["kharlamova"]
-    motion = scene.of(scene.defaults()).motion()
-    times = np.linspace(0.0, motion.span, 400)
-    exact = scipy_states(motion.system, motion.state, motion.parameters, times)
-    found = solve(motion, motion.state, times, level("draft")).states
-    away = np.abs(found - exact) * motion.weights
-    pixels = max(np.linalg.norm(away[:, :2], axis=1).max(), np.linalg.norm(away[:, 2:], axis=1).max())
-    assert data[0]["error"] == approx(pixels, rel=1e-3)
+    of = find("orbit suslov")
+    drafted = of.compute(accuracy="draft")
+    body, state = systems()["suslov"].example_motion
+    exact = scipy_states(body.system, state, body.parameters, drafted.times)
+    assert data[0]["error"] == approx(np.abs(drafted.states - exact).max(), rel=1e-3)
     assert data[0]["error"] > data[1]["error"] > data[2]["error"] > data[3]["error"]
-    assert all(one["ms"] > 0.0 and one["enough"] == "draft" for one in data)
+    assert all(one["ms"] > 0.0 for one in data)
 
 
 @pytest.mark.parametrize("name", sorted(one.stem for one in Path(bench_command.__file__).parent.glob("*.py")))

@@ -1,14 +1,17 @@
-"""`hess-explorer bench --trade`: every scene runs, no row is lost, and one table says what a level costs."""
+"""Tables of cost and error: no computation is lost, and one table says what a level costs."""
 
 from dataclasses import replace
 from math import nan
 
 import pytest
 
+from benchmarks.integrators import trade as rows
 from benchmarks.integrators.trade import Row, _draft_computes, _example, as_json, by_kind, line_of, names
 from hess_explorer.__main__ import main
 from hess_explorer.scenes import scenes
 from hess_mechanics import LEVELS
+from hess_mechanics import catalogue as declared
+from hess_mechanics.catalogue import find
 from hess_mechanics.dynamics.trade import LevelCost
 from hess_mechanics.numerics.accuracy import Kind
 from support.command_line import typed
@@ -23,17 +26,21 @@ def test_every_computation_of_every_scene_is_shown_by_some_state(name):
         assert trial.shown(_example(scene, trial)), trial.kind
 
 
-def test_a_computation_that_no_state_shows_is_said_and_the_others_stay(monkeypatch, capsys):
-    scene = scenes()["kharlamova"]
-    hidden = replace(scene.trials[0], kind=Kind.SECTION, shown=lambda state: False)
-    monkeypatch.setattr(type(scene), "trials", (hidden, *scene.trials))
-    assert main(typed("bench --trade --quick --scenes kharlamova")) == 2
+def test_a_computation_that_is_impossible_is_said_and_the_others_stay(monkeypatch, capsys):
+    of = find("circle-map")
+    beyond = replace(
+        of, parameters=tuple(replace(one, default=-0.999) if one.name == "h" else one for one in of.parameters)
+    )
+    every = {"circle-map": beyond, "cos-chi": find("cos-chi")}
+    monkeypatch.setattr(declared, "catalogue", lambda: every)
+    monkeypatch.setattr(rows, "find", every.get)
+    assert main(typed("bench --trade --quick")) == 2
     said = capsys.readouterr()
     lines = said.out.splitlines()
-    assert lines[2].startswith("| kharlamova | section | – | – | – | – | – | – | No example of the scene kharlamova")
-    assert lines[3].startswith("| kharlamova | orbit | ")
-    assert lines[-1].startswith("| orbit | as much | ")
-    assert said.err.splitlines()[-1].startswith("hess-explorer: kharlamova: section could not be measured (No example")
+    assert lines[2].startswith("| circle-map | map | – | – | – | – | – | – | No motion has h = -0.999")
+    assert lines[3].startswith("| cos-chi | map | ")
+    assert lines[-1].startswith("| map | ")
+    assert said.err.splitlines()[-1].startswith("hess-explorer: circle-map could not be measured (No motion has h")
 
 
 def row(scene, kind, times=(1.0, 2.0, 3.0, 4.0), errors=(0.1, 0.01, 0.001, 0.0)):

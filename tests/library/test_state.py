@@ -16,7 +16,7 @@ from pytest import approx
 import hess_explorer as hess
 from hess_explorer.export.figure import as_file
 from hess_explorer.export.picture_data import picture_data
-from hess_mechanics import BallBody, HeavyBody, HessBody, SuslovBody, basins, circle_map, level
+from hess_mechanics import BallBody, HeavyBody, HessBody, SuslovBody, basins, circle_map, level, return_map
 from hess_mechanics.errors import InvalidParameter, ModelError
 from hess_mechanics.euler_poisson import equations as euler_poisson
 
@@ -180,6 +180,9 @@ def test_a_sphere_is_the_figure_for_paper_in_pixels():
     assert pixels.std() > 0.05
 
 
+TWO = SuslovBody(1.5, 1.0, 0.4, 0.0, 0.3, -0.5, 1.0)
+
+
 @pytest.mark.parametrize("backend", ["bokeh", "matplotlib"])
 def test_pictures_and_results_are_drawn_with_either_extension(backend):
     hv.extension(backend)
@@ -187,7 +190,7 @@ def test_pictures_and_results_are_drawn_with_either_extension(backend):
         for plot in (
             hess.state("suslov-hess", accuracy="draft").plot("sphere"),
             circle_map(a=0.5, h=1.5, f=0.6, level=level("draft")).plot(),
-            basins(SuslovBody(1.5, 1.0, 0.4, 0.0, 0.3, -0.5, 1.0), 1.842, cells=(6, 4), accuracy="draft").plot(),
+            basins(return_map(TWO, E=1.842, accuracy="draft"), cells=(6, 4)).plot(),
         ):
             assert hv.render(plot) is not None
             assert hv.Store.current_backend == backend

@@ -22,7 +22,6 @@ EQUATOR = Plane((0.0, 0.0, 0.0, 0.0, 1.0))
 
 # Some functions of the package that take an accuracy, called with the least work.
 CALLS = {
-    "basins": lambda one: hm.basins(BODY, 1.842, cells=(2, 2), accuracy=one).crossings,
     "cloud": lambda one: hm.cloud(FREE_BALL, 2.0, 1.0, count=3, accuracy=one).omega,
     "rotation_numbers": lambda one: hm.rotation_numbers(0.5, 0.2, 0.6, one).rho,
     "return_map": lambda one: hm.return_map(BODY, E=1.842, accuracy=one).image((0.3, 1.2)),

@@ -54,7 +54,7 @@ def test_points_lie_on_their_sections_at_their_energies():
 
 
 def test_basins_clouds_and_maps_have_coordinates():
-    basins = hm.basins(SUSLOV, 1.842, cells=(6, 4), accuracy="draft").to_xarray()
+    basins = hm.basins(hm.return_map(SUSLOV, E=1.842, accuracy="draft"), cells=(6, 4)).to_xarray()
     assert basins["attractor"].dims == ("δ", "ψ")
     assert float(basins["ψ"][0]) == approx(-pi + pi / 6.0)
     cloud = hm.cloud(hm.BallBody(2.0, 1.0, 0.5, 0.7, 0.0), 2.0, 2.0, count=5, accuracy="draft")
@@ -84,7 +84,7 @@ def test_basins_clouds_and_maps_have_coordinates():
             lambda: hm.section_orbits(hm.return_map(SUSLOV, E=1.8), starts=[1.0, 2.0]),
             "is not a list of points; write them like [(0.0, 0.5)",
         ),
-        (lambda: hm.basins(SUSLOV, 1.8, cells=(1000, 1000)), "at most 100000 are allowed"),
+        (lambda: hm.basins(hm.return_map(SUSLOV, E=1.8), cells=(1000, 1000)), "at most 100000 are allowed"),
         (lambda: hm.rotation_along_line(HEAVY, -0.99, 0.0, ((0.0, 0.9), (0.1, 0.9))), "choose another line"),
     ],
 )

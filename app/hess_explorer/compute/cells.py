@@ -147,7 +147,8 @@ def _at_once(
         return None
     if not set(numbers) <= set(found.numbers):
         return None
-    status, why = np.full(count, Outcome.OK, np.uint8), {}
+    status: Outcomes = np.full(count, Outcome.OK, np.uint8)
+    why: dict[int, str] = {}
     for kind, there in found.missing.items():
         outcome = next(outcome for error, outcome in _OF_ERROR if issubclass(kind, error))
         status[there] = outcome
@@ -162,7 +163,7 @@ def _one_by_one(
     what: Computation, numbers: Sequence[str], columns: Mapping[str, Array], level: Level, count: int
 ) -> CellResults:
     values = {name: np.full(count, np.nan) for name in numbers}
-    errors = {name: np.full(count, np.nan) for name in numbers if what.number(name).error is not None}
+    errors = {name: np.full(count, np.nan) for name in numbers if what.number(name).error_reader is not None}
     status: Outcomes = np.zeros(count, np.uint8)
     why: dict[int, str] = {}
     rows = zip(*(column.tolist() for column in columns.values()), strict=True)
@@ -180,7 +181,7 @@ def _one_by_one(
             one = what.number(name)
             try:
                 values[name][i] = one.read(found)
-                if one.error is not None:
+                if name in errors:
                     errors[name][i] = one.error(found)
             except Exception as error:
                 outcome, why[i] = refused(error, cell)

@@ -5,11 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from operator import attrgetter
 from typing import Any, Literal
 
 import numpy as np
 
 from hess_mechanics.dynamics.motions import Motions
+from hess_mechanics.dynamics.return_map import ReturnMap
 from hess_mechanics.errors import InvalidParameter, ModelError
 from hess_mechanics.numerics.accuracy import Accuracy, Kind, Level, Status
 from hess_mechanics.numerics.arguments import as_level, as_number
@@ -26,6 +28,14 @@ class NoValue(ModelError):
     """A result has no such number, for example no period because the motion never returns."""
 
 
+Reader = str | Callable[[Any], float]
+"""Name of an attribute of a result, or a function of the result."""
+
+
+def _read(reader: Reader, result: Any) -> float:
+    return float(attrgetter(reader)(result) if isinstance(reader, str) else reader(result))
+
+
 @dataclass(frozen=True)
 class Number:
     """A number of a result, which sweeps and charts take.
@@ -33,19 +43,27 @@ class Number:
     Attributes
     ----------
     symbol, title, unit : its symbol, its name in words, and its unit.
-    read : returns it from the result.  Raises `NoValue`.
-    error : returns its estimated error from the result; None without an estimate.
+    reader : reads it from the result.  Raises `NoValue`.
+    error_reader : reads its estimated error from the result; None without an estimate.
     turn : period of the values, for example 1 for rotation numbers; 0 if they are not periodic.
     named : values that stand for categories, with their names.
     """
 
     symbol: str
     title: str
-    read: Callable[[Any], float]
+    reader: Reader
     unit: str = "1"
-    error: Callable[[Any], float] | None = None
+    error_reader: Reader | None = None
     turn: float = 0.0
     named: Mapping[int, str] = field(default_factory=dict)
+
+    def read(self, result: Any) -> float:
+        """Return the number.  Raises `NoValue`."""
+        return _read(self.reader, result)
+
+    def error(self, result: Any) -> float:
+        """Return its estimated error, NaN without an estimate."""
+        return math.nan if self.error_reader is None else _read(self.error_reader, result)
 
 
 @dataclass(frozen=True)
@@ -171,14 +189,15 @@ class Computation:
         for name in given:
             if name not in words:
                 self.parameter(name)
-        found: dict[str, Value] = {
-            one.name: one.check(as_number(one.name, given.get(one.name, one.default))) for one in self.parameters
-        }
-        for one in self.choices:
-            word = str(given.get(one.name, one.default))
-            if word not in one.names:
-                raise InvalidParameter(f"{one.name} is one of {', '.join(one.names)}, not {word[:40]!r}.")
-            found[one.name] = word
+        found: dict[str, Value] = {}
+        for one in self.parameters:
+            value = one.check(as_number(one.name, given.get(one.name, one.default)))
+            found[one.name] = int(value) if one.whole else value
+        for choice in self.choices:
+            word = str(given.get(choice.name, choice.default))
+            if word not in choice.names:
+                raise InvalidParameter(f"{choice.name} is one of {', '.join(choice.names)}, not {word[:40]!r}.")
+            found[choice.name] = word
         return found
 
     def compute(self, given: Mapping[str, Any] | None = None, accuracy: Accuracy = "precise") -> Result:
@@ -189,66 +208,58 @@ class Computation:
         level: Level = as_level(accuracy)
         return self.call(level, **self.values(given))
 
-    @classmethod
-    def of_motion(
-        cls,
-        name: str,
-        title: str,
-        of: Motions,
-        function: Callable[..., Any],
-        call: Callable[..., Result],
-        parameters: tuple[Parameter, ...],
-        numbers: Mapping[str, Number],
-        kind: Kind,
-        error: Callable[[Any, Any], float],
-        **more: Any,
-    ) -> Computation:
-        """Return a computation of the motions of a system, from call(body, state, accuracy, **values)."""
 
-        def run(accuracy: Level, **values: Any) -> Result:
-            own, rest = _parted(of, values)
-            body, state = of.start(own)
-            return call(body, state, accuracy, **rest)
-
-        both = (*of.parameters, *of.place, *parameters)
-        more.setdefault("source", of.source)
-        return cls(name, f"{title}: {of.title}", function, run, both, numbers, kind, error, system=of.name, **more)
-
-    @classmethod
-    def of_section(
-        cls,
-        name: str,
-        title: str,
-        of: Motions,
-        function: Callable[..., Any],
-        call: Callable[..., Result],
-        parameters: tuple[Parameter, ...],
-        numbers: Mapping[str, Number],
-        kind: Kind,
-        error: Callable[[Any, Any], float],
-        **more: Any,
-    ) -> Computation:
-        """Return a computation of a section, from call(map, place, **values)."""
-
-        def run(accuracy: Level, **values: Any) -> Result:
-            from hess_mechanics.dynamics.return_map import ReturnMap
-
-            assert of.section is not None
-            own, rest = _parted(of, values)
-            place = tuple(own[one.name] for one in of.place)
-            return call(ReturnMap(of.section(own), accuracy), place, **rest)
-
-        both = (*of.parameters, *of.place, *parameters)
-        more.setdefault("source", of.source)
-        return cls(name, f"{title}: {of.title}", function, run, both, numbers, kind, error, system=of.name, **more)
+Start = Callable[[Level, Mapping[str, Any]], tuple[Any, ...]]
 
 
-def _parted(of: Motions, values: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:
-    """Return the values of the motions, and the others."""
-    names = {one.name for one in (*of.parameters, *of.place)}
-    return (
-        {name: value for name, value in values.items() if name in names},
-        {name: value for name, value in values.items() if name not in names},
+def moving(of: Motions) -> Start:
+    """Return a function of accuracy and values that returns body and state of a motion, and the accuracy."""
+    return lambda accuracy, values: (*of.start(values), accuracy)
+
+
+def returning(of: Motions) -> Start:
+    """Return a function of accuracy and values that returns the return map of a section, and a place of it."""
+
+    def start(accuracy: Level, values: Mapping[str, Any]) -> tuple[Any, ...]:
+        assert of.section is not None
+        return ReturnMap(of.section(values), accuracy), tuple(values[one.name] for one in of.place)
+
+    return start
+
+
+def declare(
+    of: Motions,
+    start: Start,
+    name: str,
+    title: str,
+    function: Callable[..., Any],
+    call: Callable[..., Result],
+    parameters: tuple[Parameter, ...],
+    numbers: Mapping[str, Number],
+    kind: Kind,
+    error: Callable[[Any, Any], float],
+    **more: Any,
+) -> Computation:
+    """Return a computation of the motions of a system, from call(*start, **further parameters)."""
+    own = (*of.parameters, *of.place)
+    names = {one.name for one in own}
+
+    def run(accuracy: Level, **values: Any) -> Result:
+        rest = {name: value for name, value in values.items() if name not in names}
+        return call(*start(accuracy, values), **rest)
+
+    return Computation(
+        name,
+        f"{title}: {of.title}",
+        function,
+        run,
+        (*own, *parameters),
+        numbers,
+        kind,
+        error,
+        system=of.name,
+        source=of.source,
+        **more,
     )
 
 

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from hess_mechanics import parameters as known
-from hess_mechanics.catalogue.declared import Computation, Number, largest_difference
+from hess_mechanics.catalogue.declared import Computation, Number, declare, largest_difference, moving
 from hess_mechanics.dynamics.ensemble import complete
 from hess_mechanics.dynamics.lyapunov import Exponent, lyapunov_exponent
 from hess_mechanics.dynamics.megno import Megno, megno
@@ -58,12 +58,12 @@ _RIGHT_TO = Parameter(
 )
 
 
-def _limits(max_step: float, max_steps: float) -> dict[str, Any]:
-    return {"max_step": max_step or None, "max_steps": int(max_steps)}
+def _limits(max_step: float, max_steps: int) -> dict[str, Any]:
+    return {"max_step": max_step or None, "max_steps": max_steps}
 
 
-def _orbit(body: Body, state: State, accuracy: Level, t: float, samples: float, **steps: float) -> Orbit:
-    return solve(body, state, t, accuracy, int(samples), **_limits(**steps))
+def _orbit(body: Body, state: State, accuracy: Level, t: float, samples: int, **steps: Any) -> Orbit:
+    return solve(body, state, t, accuracy, samples, **_limits(**steps))
 
 
 def _crossings(
@@ -71,15 +71,15 @@ def _crossings(
     state: State,
     accuracy: Level,
     offset: float,
-    sense: float,
-    crossings: float,
+    sense: int,
+    crossings: int,
     t: float,
     max_step: float,
-    max_steps: float,
+    max_steps: int,
     **normal: float,
 ) -> SectionCrossings:
-    plane = Plane(tuple(normal[f"n_{i + 1}"] for i in range(len(normal))), offset, int(sense))
-    return section(body, state, plane, t, accuracy, int(crossings), **_limits(max_step, max_steps))
+    plane = Plane(tuple(normal[f"n_{i + 1}"] for i in range(len(normal))), offset, sense)
+    return section(body, state, plane, t, accuracy, crossings, **_limits(max_step, max_steps))
 
 
 def _exponent(body: Body, state: State, accuracy: Level, t: float) -> Exponent:
@@ -95,9 +95,9 @@ def _megno(body: Body, state: State, accuracy: Level, t: float) -> Megno:
     return complete(megno(body, [state], t, accuracy, threads=1))
 
 
-def _tube(body: Body, state: State, accuracy: Level, t: float, samples: float, digits: float, seconds: float) -> Tube:
-    times = np.linspace(0.0, t, int(samples))[1:]
-    return tube(body, state, times, int(digits), seconds * WORK_PER_SECOND)
+def _tube(body: Body, state: State, accuracy: Level, t: float, samples: int, digits: int, seconds: float) -> Tube:
+    times = np.linspace(0.0, t, samples)[1:]
+    return tube(body, state, times, digits, seconds * WORK_PER_SECOND)
 
 
 def _proved(
@@ -105,24 +105,24 @@ def _proved(
     state: State,
     accuracy: Level,
     t: float,
-    samples: float,
-    digits: float,
+    samples: int,
+    digits: int,
     seconds: float,
     right_to: float,
 ) -> ProvedOrbit:
-    times = np.linspace(0.0, t, int(samples))[1:]
-    return proved_orbit(body, state, times, accuracy, right_to, int(digits), seconds * WORK_PER_SECOND)
+    times = np.linspace(0.0, t, samples)[1:]
+    return proved_orbit(body, state, times, accuracy, right_to, digits, seconds * WORK_PER_SECOND)
 
 
 def _normal(of: Motions) -> tuple[Parameter, ...]:
-    """Return the components of the normal of a plane in the space of states; by default the last variable is 0."""
+    """Return the components of the normal of a plane among the states; by default the last variable but one is 0."""
     names = of.system.variables
     return tuple(
         Parameter(
             f"n_{i + 1}",
             f"n({name})",
             f"Normal, {name}",
-            float(i + 1 == len(names)),
+            float(i == max(0, len(names) - 2)),
             (-1.0, 1.0),
             0.1,
             (-1e3, 1e3),
@@ -146,55 +146,56 @@ def _times_differ(one: Any, exact: Any) -> float:
 
 def computations(of: Motions) -> Iterator[Computation]:
     """Yield the computations of the motions of a system."""
-    yield Computation.of_motion(
+    entry = partial(declare, of, moving(of))
+    yield entry(
         "orbit",
         "Orbit",
-        of,
         solve,
         _orbit,
         (*_TIMES, *_STEPS),
         {
             **{
-                name: Number(symbol, f"{symbol} at the last time", partial(_last, i), error=_error)
+                name: Number(symbol, f"{symbol} at the last time", partial(_last, i), error_reader="error_estimate")
                 for i, (name, symbol) in enumerate(zip(of.system.arguments, of.system.variables, strict=True))
             },
             "drift": Number("Δ", "largest drift of an integral", lambda r: max(r.drift.values(), default=0.0)),
-            "error": Number("ε", "estimated error", _error),
+            "error": Number("ε", "estimated error", "error_estimate"),
         },
         Kind.ORBIT,
         lambda r, exact: largest_difference(r.states, exact.states),
         example={"t": 10.0, "samples": 11.0},
     )
-    yield Computation.of_motion(
+    yield entry(
         "crossings",
         "Crossings of a plane",
-        of,
         section,
         _crossings,
         (*_normal(of), *_PLANE, *_STEPS),
-        {"count": Number("n", "how often the motion crosses the plane", lambda r: float(len(r.times)), error=_error)},
+        {
+            "count": Number(
+                "n", "how often the motion crosses the plane", lambda r: len(r.times), error_reader="error_estimate"
+            )
+        },
         Kind.SECTION,
         _times_differ,
         unit="time",
         example={"t": 20.0},
     )
-    yield Computation.of_motion(
+    yield entry(
         "lyapunov",
         "Largest Lyapunov exponent",
-        of,
         lyapunov_exponent,
         _exponent,
         (_LONG,),
-        {"exponent": Number("λ", "largest Lyapunov exponent", lambda r: r.value, "1/time", lambda r: r.spread)},
+        {"exponent": Number("λ", "largest Lyapunov exponent", "value", "1/time", "spread")},
         Kind.EXPONENT,
         lambda r, exact: abs(r.value - exact.value),
         unit="1/time",
         example={"t": 50.0},
     )
-    yield Computation.of_motion(
+    yield entry(
         "spectrum",
         "Lyapunov exponents",
-        of,
         lyapunov_spectrum,
         _spectrum,
         (_LONG,),
@@ -205,33 +206,28 @@ def computations(of: Motions) -> Iterator[Computation]:
                 )
                 for i in range(len(of.system.variables))
             },
-            "dimension": Number(
-                "D", "Kaplan–Yorke dimension", lambda r: r.dimension[0], error=lambda r: r.dimension[1]
-            ),
-            "divergence": Number(
-                "⟨div ẏ⟩", "mean divergence", lambda r: r.divergence, "1/time", lambda r: r.divergence_error
-            ),
+            "dimension": Number("D", "Kaplan–Yorke dimension", lambda r: r.dimension[0], "1", lambda r: r.dimension[1]),
+            "divergence": Number("⟨div ẏ⟩", "mean divergence", "divergence", "1/time", "divergence_error"),
         },
         Kind.EXPONENT,
         lambda r, exact: largest_difference(r.values, exact.values),
         unit="1/time",
         example={"t": 50.0},
     )
-    yield Computation.of_motion(
+    yield entry(
         "megno",
         "MEGNO",
-        of,
         megno,
         _megno,
         (usual(known.SPAN, 200.0),),
         {
-            "megno": Number("Ȳ", "MEGNO", lambda r: float(r.values[0])),
+            "megno": Number("Ȳ", "MEGNO", lambda r: r.values[0]),
             "divergence": Number(
                 "⟨div ẏ⟩",
                 "mean divergence",
-                lambda r: float(r.divergence[0]),
+                lambda r: r.divergence[0],
                 "1/time",
-                lambda r: float(r.divergence_error[0]),
+                lambda r: r.divergence_error[0],
             ),
         },
         Kind.INDICATOR,
@@ -239,35 +235,33 @@ def computations(of: Motions) -> Iterator[Computation]:
         example={"t": 50.0},
     )
     exact_times = (usual(known.TIME, 2.0), whole("samples", "n", 5, 2, MAX_SAMPLES, "Evenly spaced times, with 0."))
-    yield Computation.of_motion(
+    yield entry(
         "tube",
         "Proved intervals that contain the motion",
-        of,
         tube,
         _tube,
         (*exact_times, _DIGITS, _SECONDS),
         {
-            "width": Number("w", "largest width of an interval", lambda r: float(r.width)),
-            "end": Number("t", "last enclosed time", lambda r: float(r.times[-1]) if r.times.size else 0.0, "time"),
+            "width": Number("w", "largest width of an interval", "width"),
+            "end": Number("t", "last enclosed time", lambda r: r.times[-1] if r.times.size else 0.0, "time"),
         },
         Kind.ORBIT,
-        lambda r, exact: 0.0,
+        lambda r, exact: r.width,
         group="prove",
         example={"t": 1.0, "samples": 3.0},
     )
-    yield Computation.of_motion(
+    yield entry(
         "proved-orbit",
         "Orbit with a proved error",
-        of,
         proved_orbit,
         _proved,
         (*exact_times, _RIGHT_TO, _DIGITS, _SECONDS),
         {
-            "error": Number("ε", "upper end of the proved largest error", lambda r: float(r.largest)),
-            "right-until": Number("t", "last time at which the orbit is right", lambda r: float(r.right_until), "time"),
+            "error": Number("ε", "upper end of the proved largest error", "largest"),
+            "right-until": Number("t", "last time at which the orbit is right", "right_until", "time"),
         },
         Kind.ORBIT,
-        lambda r, exact: float(r.largest),
+        lambda r, exact: r.largest,
         group="prove",
         example={"t": 1.0, "samples": 3.0},
     )
@@ -283,7 +277,3 @@ def _rate(i: int, spectrum: Spectrum) -> float:
 
 def _rate_error(i: int, spectrum: Spectrum) -> float:
     return float(spectrum.errors[i])
-
-
-def _error(result: Any) -> float:
-    return float(result.error_estimate)

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 
@@ -39,6 +41,7 @@ __all__ = ["COMPUTATIONS"]
 
 # ---- Suslov–Hess: tori (a, h, f) --------------------------------------------------------------------------------
 
+_ANGLES = np.linspace(-math.pi, math.pi, 64, endpoint=False)
 _TORUS = (known.A_HESS, known.H_PLANE, known.F_HESS)
 
 
@@ -94,8 +97,8 @@ def _scattered(body: SuslovBody, accuracy: Level, arc: int, distance: float) -> 
     return scattering(body, accuracy, arc, distance or None)
 
 
-def _scattering(accuracy: Level, theta: float, phi: float, arc: float, distance: float, **tensor: float) -> Numbers:
-    found = _scattered(SuslovBody(**tensor), accuracy, int(arc), distance)
+def _scattering(accuracy: Level, theta: float, phi: float, arc: int, distance: float, **tensor: float) -> Numbers:
+    found = _scattered(SuslovBody(**tensor), accuracy, arc, distance)
     return Numbers(
         {"theta-plus": float(found.theta_plus(theta, phi)), "sin-chi": found.sin_chi},
         {"theta-plus": found.error_estimate},
@@ -131,17 +134,17 @@ _CLOUD = (
 
 
 def _cloud(
-    accuracy: Level, D: float, h: float, spread: float, patch: float, phi: float, count: float, t: float, **I: float
+    accuracy: Level, D: float, h: float, spread: float, patch: int, phi: float, count: int, t: float, **I: float
 ) -> Cloud:
     angle = phi if patch else None
-    return cloud(BallBody(**I, D=D), h, t, count=int(count), spread=spread, angle=angle, accuracy=accuracy)
+    return cloud(BallBody(**I, D=D), h, t, count=count, spread=spread, angle=angle, accuracy=accuracy)
 
 
-def _history(accuracy: Level, **values: float) -> CloudHistory:
+def _history(accuracy: Level, **values: Any) -> CloudHistory:
     return course(_cloud(accuracy, **values))
 
 
-def _density(accuracy: Level, **values: float) -> Density:
+def _density(accuracy: Level, **values: Any) -> Density:
     return density(_cloud(accuracy, **values))
 
 
@@ -189,17 +192,15 @@ COMPUTATIONS: tuple[Computation, ...] = (
         _circle_map,
         (*_TORUS, known.CIRCLE_PHASE),
         {
-            "rotation-number": Number(
-                "ρ", "rotation number", lambda r: r.rotation_number, "turns per return", turn=1.0
-            ),
-            "trace": Number("|t|", "|trace| of the map as a matrix of SU(1,1)", lambda r: r.trace),
+            "rotation-number": Number("ρ", "rotation number", "rotation_number", "turns per return", turn=1.0),
+            "trace": Number("|t|", "|trace| of the map as a matrix of SU(1,1)", "trace"),
             "locked": Number(
                 "locked",
                 "mode locking",
-                lambda r: float(len(r.fixed_points) == 2),
+                lambda r: len(r.fixed_points) == 2,
                 named={0: "no limit cycle", 1: "two limit cycles"},
             ),
-            "period": Number("T", "time of a return", lambda r: r.period, "time"),
+            "period": Number("T", "time of a return", "period", "time"),
             "stable": Number("φ*", "angle of the stable limit cycle", lambda r: _cycle(r, 0).phi, "rad"),
             "unstable": Number("φ*", "angle of the unstable limit cycle", lambda r: _cycle(r, 1).phi, "rad"),
             "log-multiplier": Number(
@@ -207,7 +208,7 @@ COMPUTATIONS: tuple[Computation, ...] = (
             ),
         },
         Kind.MAP,
-        lambda r, exact: largest_difference(r.graph[1], exact.graph[1]),
+        lambda r, exact: largest_difference(r.theta(_ANGLES), exact.theta(_ANGLES), 2.0 * math.pi),
         unit="rad",
         example={"a": 0.5, "h": 1.5, "f": 0.6},
         source="eq0003",
@@ -232,7 +233,7 @@ COMPUTATIONS: tuple[Computation, ...] = (
         (*_TENSOR, *_CIRCLE, _ARC, _START),
         {
             "theta-plus": number_of("theta-plus", "θ⁺", "angle of the circle that a motion joins", "rad", error=True),
-            "cos-chi": Number("cos χ", "angle of scattering, computed", lambda r: r.of.cos_chi),
+            "cos-chi": Number("cos χ", "angle of scattering, computed", "of.cos_chi"),
         },
         Kind.MAP,
         _apart("theta-plus"),
@@ -292,7 +293,7 @@ COMPUTATIONS: tuple[Computation, ...] = (
         cloud,
         _cloud,
         _CLOUD,
-        {"volume": Number("V", "volume relative to that at t = 0", lambda r: float(r.volume[-1]))},
+        {"volume": Number("V", "volume relative to that at t = 0", lambda r: r.volume[-1])},
         Kind.CLOUD,
         lambda r, exact: largest_difference(r.log_s, exact.log_s),
         example={"count": 50.0, "t": 2.0},
@@ -303,7 +304,7 @@ COMPUTATIONS: tuple[Computation, ...] = (
         course,
         _history,
         _CLOUD,
-        {"growth": Number("ln s/s₀", "mean growth of small volumes", lambda r: float(r.log_growth[0, -1]))},
+        {"growth": Number("ln s/s₀", "mean growth of small volumes", lambda r: r.log_growth[0, -1])},
         Kind.CLOUD,
         lambda r, exact: largest_difference(r.log_growth, exact.log_growth),
         example={"count": 50.0, "t": 2.0},
@@ -314,7 +315,7 @@ COMPUTATIONS: tuple[Computation, ...] = (
         density,
         _density,
         _CLOUD,
-        {"height": Number("h", "mean density in the bins that all points pass", lambda r: r.height)},
+        {"height": Number("h", "mean density in the bins that all points pass", "height")},
         Kind.CLOUD,
         lambda r, exact: abs(r.height - exact.height),
         example={"count": 50.0, "t": 2.0},

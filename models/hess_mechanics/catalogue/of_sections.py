@@ -4,12 +4,21 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping
+from functools import partial
 from typing import Any
 
 import numpy as np
 
 from hess_mechanics import parameters as known
-from hess_mechanics.catalogue.declared import Choice, Computation, NoValue, Number, Value, largest_difference
+from hess_mechanics.catalogue.declared import (
+    Choice,
+    Computation,
+    NoValue,
+    Number,
+    declare,
+    largest_difference,
+    returning,
+)
 from hess_mechanics.dynamics.continuation import Branch
 from hess_mechanics.dynamics.manifolds import Manifold
 from hess_mechanics.dynamics.motions import Motions, usual, whole
@@ -21,9 +30,11 @@ from hess_mechanics.numerics.accuracy import Kind
 from hess_mechanics.parameters import Parameter
 from hess_mechanics.return_maps import (
     Basins,
+    Hysteresis,
     PlanePoints,
     basins,
     continued_orbit,
+    hysteresis,
     manifold,
     orbit_diagram,
     period_doublings,
@@ -36,11 +47,11 @@ __all__ = ["computations"]
 Place = tuple[float, ...]
 
 _UNDECIDED = (MotionKind.UNDECIDED, MotionKind.SETTLING)
-_PERIOD = whole("period", "N", 0, 0, MAX_PERIOD, "Number of returns; 0: detected, up to 12.")
 _TRANSIENT = whole("transient", "N₀", 300, 0, 20_000, "Crossings skipped.")
 _KEPT = whole("kept", "N", 200, 8, 20_000, "Crossings analysed.")
 _SHOWN = whole("kept", "N", 64, 1, 20_000, "Crossings shown at each value.")
 _AVERAGED = usual(known.SPAN, 200.0, "Time of MEGNO and of the mean divergence.")
+_VALUES = whole("values", "n", 50, 2, 20_000, "Number of values of the parameter.")
 _MEASURED = _TRANSIENT, _KEPT, _AVERAGED
 _BACKWARD = whole("backward", "−t", 0, 0, 1, "1: backward in time, to repellers.")
 _REACH = Parameter(
@@ -64,21 +75,21 @@ def _followed(of: Motions) -> tuple[Choice, Parameter, Parameter]:
 # ---- computations -----------------------------------------------------------------------------------------------
 
 
-def _section(map_: ReturnMap, place: Place, orbits: float, crossings: float) -> PlanePoints:
+def _section(map_: ReturnMap, place: Place, orbits: int, crossings: int) -> PlanePoints:
     starts = () if orbits else (place,)
-    return section_orbits(map_, starts=starts, orbits=int(orbits) or 1, crossings=int(crossings))
+    return section_orbits(map_, starts=starts, orbits=orbits or 1, crossings=crossings)
 
 
-def _periodic(map_: ReturnMap, place: Place, period: float) -> PeriodicOrbit:
-    return periodic_orbit(map_, place, int(period) or None)
+def _periodic(map_: ReturnMap, place: Place, period: int) -> PeriodicOrbit:
+    return periodic_orbit(map_, place, period or None)
 
 
-def _branch(map_: ReturnMap, place: Place, period: float, over: str, to: float, points: float) -> Branch:
-    return continued_orbit(map_, _periodic(map_, place, period), over, to, int(points))
+def _branch(map_: ReturnMap, place: Place, period: int, over: str, to: float, points: int) -> Branch:
+    return continued_orbit(map_, _periodic(map_, place, period), over, to, points)
 
 
-def _manifold(map_: ReturnMap, place: Place, period: float, length: float, stable: float, side: float) -> Manifold:
-    return manifold(map_, _periodic(map_, place, period), length, stable=bool(stable), side=int(side) or 1)
+def _manifold(map_: ReturnMap, place: Place, period: int, length: float, stable: int, side: int) -> Manifold:
+    return manifold(map_, _periodic(map_, place, period), length, stable=bool(stable), side=side or 1)
 
 
 def _diagram(
@@ -87,39 +98,60 @@ def _diagram(
     over: str,
     low: float,
     to: float,
-    values: float,
-    transient: float,
-    kept: float,
-    follow: float,
-    backward: float,
+    values: int,
+    transient: int,
+    kept: int,
+    follow: int,
+    backward: int,
 ) -> Diagram:
     return orbit_diagram(
         map_.inverse() if backward else map_,
         over,
-        np.linspace(low, to, int(values)),
+        np.linspace(low, to, values),
         place,
-        transient=int(transient),
-        kept=int(kept),
+        transient=transient,
+        kept=kept,
         follow=bool(follow),
     )
 
 
-def _doublings(map_: ReturnMap, place: Place, period: float, over: str, to: float, most: float) -> Cascade:
-    return period_doublings(map_, _periodic(map_, place, period), over, to, int(most))
+def _hysteresis(
+    map_: ReturnMap,
+    place: Place,
+    over: str,
+    low: float,
+    to: float,
+    values: int,
+    transient: int,
+    kept: int,
+) -> Hysteresis:
+    return hysteresis(map_, over, np.linspace(low, to, values), place, transient=transient, kept=kept)
 
 
-def _regime(map_: ReturnMap, place: Place, transient: float, kept: float, t: float) -> Regime:
-    return regime(map_, place, int(transient), int(kept), t)
+def _doublings(map_: ReturnMap, place: Place, period: int, over: str, to: float, most: int) -> Cascade:
+    return period_doublings(map_, _periodic(map_, place, period), over, to, most)
 
 
-def _dynamics(map_: ReturnMap, place: Place, transient: float, kept: float, t: float) -> Dynamics:
-    return dynamics_of(map_, place, int(transient), int(kept), t)
+def _regime(map_: ReturnMap, place: Place, transient: int, kept: int, t: float) -> Regime:
+    return regime(map_, place, transient, kept, t)
+
+
+def _dynamics(map_: ReturnMap, place: Place, transient: int, kept: int, t: float) -> Dynamics:
+    return dynamics_of(map_, place, transient, kept, t)
 
 
 def _basins(
-    map_: ReturnMap, place: Place, across: float, up: float, x0: float, x1: float, y0: float, y1: float, t: float
+    map_: ReturnMap,
+    place: Place,
+    across: int,
+    up: int,
+    x0: float,
+    x1: float,
+    y0: float,
+    y1: float,
+    t: float,
 ) -> Basins:
-    return basins(map_, (int(across), int(up)), ((x0, y0), (x1, y1)), t)
+    return basins(map_, (across, up), ((x0, y0), (x1, y1)), t)
 
 
 # ---- numbers ----------------------------------------------------------------------------------------------------
@@ -152,104 +184,111 @@ _OF_MOTION: Mapping[str, Number] = {
     "kind": Number(
         "regime",
         "kind of the motion",
-        _decided(lambda r: float(r.kind)),
+        _decided(lambda r: r.kind),
         named={int(one): one.words for one in MotionKind if one not in _UNDECIDED},
     ),
-    "period": Number("N", "period, 0 where none is seen", _decided(lambda r: float(r.period))),
+    "period": Number("N", "period, 0 where none is seen", _decided(lambda r: r.period)),
     "volume": Number(
         "±",
         "change of phase volume about the motion",
-        _decided(lambda r: float(r.volume)),
+        _decided(lambda r: r.volume),
         named={0: "kept", -1: "shrinks", 1: "grows"},
     ),
-    "megno": Number("Ȳ", "MEGNO", lambda r: float(r.megno)),
+    "megno": Number("Ȳ", "MEGNO", "megno"),
 }
 
 
 def computations(of: Motions) -> Iterator[Computation]:
     """Yield the computations of the section of a system."""
     assert of.section is not None
+    entry = partial(declare, of, returning(of))
     over, low, to = _followed(of)
     example = of.section({one.name: one.default for one in of.parameters})
-    orbit: dict[str, Value] = {"period": 1.0}
-    yield Computation.of_section(
+    returns = whole("period", "N", of.period, 0, MAX_PERIOD, "Number of returns; 0: detected, up to 12.")
+    yield entry(
         "periodic-orbit",
         "Periodic orbit",
-        of,
         periodic_orbit,
         _periodic,
-        (_PERIOD,),
+        (returns,),
         {
-            "time": Number("T", "period in time", lambda r: r.time, "time", lambda r: r.time_error),
+            "time": Number("T", "period in time", "time", "time", "time_error"),
             "multiplier": Number(
                 "|μ|",
                 "largest size of a multiplier",
-                lambda r: float(np.abs(r.multipliers).max()),
-                error=lambda r: r.multiplier_error,
+                lambda r: np.abs(r.multipliers).max(),
+                error_reader="multiplier_error",
             ),
-            "period": Number("N", "number of returns", lambda r: float(r.period)),
+            "period": Number("N", "number of returns", "period"),
         },
         Kind.ORBIT,
         _away,
-        example=orbit,
     )
-    yield Computation.of_section(
+    yield entry(
         "branch",
         "Branch of periodic orbits over a parameter",
-        of,
         continued_orbit,
         _branch,
-        (_PERIOD, to, whole("points", "n", 200, 2, 2000, "Largest number of points of the branch.")),
+        (returns, to, whole("points", "n", 200, 2, 2000, "Largest number of points of the branch.")),
         {
-            "bifurcations": Number("n", "number of bifurcations", lambda r: float(len(r.bifurcations))),
-            "end": Number("λ", "value of the parameter at the end", lambda r: float(r.values[-1])),
+            "bifurcations": Number("n", "number of bifurcations", lambda r: len(r.bifurcations)),
+            "end": Number("λ", "value of the parameter at the end", lambda r: r.values[-1]),
         },
         Kind.ORBIT,
-        lambda r, exact: largest_difference(r.values[-1:], exact.values[-1:]),
+        lambda r, exact: largest_difference(r.places[-1], exact.places[-1]),
         choices=(over,),
-        example={**orbit, "points": 5.0},
+        example={"points": 5.0},
     )
-    yield Computation.of_section(
+    yield entry(
         "period-doublings",
         "Period doublings over a parameter",
-        of,
         period_doublings,
         _doublings,
-        (_PERIOD, to, whole("most", "n", 3, 1, 6, "Largest number of doublings.")),
+        (returns, to, whole("most", "n", 3, 1, 6, "Largest number of doublings.")),
         {
-            "count": Number("n", "number of doublings", lambda r: float(len(r.values))),
+            "count": Number("n", "number of doublings", lambda r: len(r.values)),
             "first": Number("λ₁", "value of the parameter at the first doubling", _first),
         },
         Kind.ORBIT,
         lambda r, exact: largest_difference(r.values, exact.values),
         choices=(over,),
-        example={**orbit, "most": 1.0},
+        example={"most": 1.0},
     )
-    yield Computation.of_section(
+    yield entry(
         "orbit-diagram",
         "Orbit diagram over a parameter",
-        of,
         orbit_diagram,
         _diagram,
         (
             low,
             to,
-            whole("values", "n", 50, 2, 20_000, "Number of values of the parameter."),
+            _VALUES,
             usual(_TRANSIENT, 200.0),
             _SHOWN,
             whole("follow", "f", 1, 0, 1, "1: each value starts where the one before ends; 0: at the place."),
             _BACKWARD,
         ),
-        {"period": Number("N", "period at the last value, 0 if none is seen", lambda r: float(r.periods[-1]))},
+        {"period": Number("N", "period at the last value, 0 if none is seen", lambda r: r.periods[-1])},
         Kind.SECTION,
         lambda r, exact: largest_difference(r.periods, exact.periods),
         choices=(over,),
         example={"values": 3.0, "transient": 30.0, "kept": 8.0},
     )
-    yield Computation.of_section(
+    yield entry(
+        "hysteresis",
+        "Orbit diagram there and back",
+        hysteresis,
+        _hysteresis,
+        (low, to, _VALUES, usual(_TRANSIENT, 200.0), usual(_KEPT, 64.0, "Crossings shown at each value, 16 or more.")),
+        {"intervals": Number("n", "number of intervals over which the ways differ", lambda r: len(r.intervals))},
+        Kind.SECTION,
+        lambda r, exact: float(r.intervals != exact.intervals),
+        choices=(over,),
+        example={"values": 3.0, "transient": 30.0, "kept": 16.0},
+    )
+    yield entry(
         "regime",
         "Kind of the motion",
-        of,
         regime,
         _regime,
         _MEASURED,
@@ -258,18 +297,15 @@ def computations(of: Motions) -> Iterator[Computation]:
         lambda r, exact: float(r.kind is not exact.kind),
         example={"transient": 50.0, "t": 50.0},
     )
-    yield Computation.of_section(
+    yield entry(
         "dynamics",
         "Limit sets forward and backward in time",
-        of,
         dynamics_of,
         _dynamics,
         _MEASURED,
         {
-            "distance": Number(
-                "d", "distance of attractor and repeller", lambda r: r.distance, error=lambda r: r.distance_error
-            ),
-            "shared": Number("s", "fraction of the places that both share", lambda r: r.shared),
+            "distance": Number("d", "distance of attractor and repeller", "distance", error_reader="distance_error"),
+            "shared": Number("s", "fraction of the places that both share", "shared"),
         },
         Kind.INDICATOR,
         lambda r, exact: abs(r.distance - exact.distance),
@@ -278,42 +314,39 @@ def computations(of: Motions) -> Iterator[Computation]:
     if len(example.names) != 2:
         return
     (x0, x1), (y0, y1) = example.window
-    yield Computation.of_section(
+    yield entry(
         "section",
         "Poincaré section",
-        of,
         section_orbits,
         _section,
         (
             whole("orbits", "n", 0, 0, 1000, "Orbits spread evenly over the section; 0: the one from the place."),
             whole("crossings", "N", 200, 1, 10_000, "Crossings of each orbit."),
         ),
-        {"points": Number("n", "number of points", lambda r: float(sum(map(len, r.orbits))))},
+        {"points": Number("n", "number of points", lambda r: sum(map(len, r.orbits)))},
         Kind.SECTION,
         _points_away,
         example={"crossings": 20.0},
     )
-    yield Computation.of_section(
+    yield entry(
         "manifold",
         "Stable or unstable manifold of a saddle",
-        of,
         manifold,
         _manifold,
         (
-            _PERIOD,
+            returns,
             _REACH,
             whole("stable", "W", 0, 0, 1, "1: the stable manifold, 0: the unstable one."),
             whole("side", "±", 1, -1, 1, "1: along the direction of the saddle, −1: against it."),
         ),
-        {"length": Number("s", "length of the branch", lambda r: float(r.length), error=lambda r: r.error_estimate)},
+        {"length": Number("s", "length of the branch", "length", error_reader="error_estimate")},
         Kind.ORBIT,
         lambda r, exact: largest_difference(r.points[-1], exact.points[-1]),
-        example={**orbit, "length": 0.1},
+        example={"length": 0.1},
     )
-    yield Computation.of_section(
+    yield entry(
         "basins",
         "Basins of attraction",
-        of,
         basins,
         _basins,
         (
@@ -330,7 +363,7 @@ def computations(of: Motions) -> Iterator[Computation]:
             ),
             usual(known.SPAN, 1000.0, "Time over which the divergence is averaged."),
         ),
-        {"attractors": Number("N", "number of attractors", lambda r: float(r.attractors))},
+        {"attractors": Number("N", "number of attractors", "attractors")},
         Kind.BASINS,
         lambda r, exact: float(np.mean(r.attractor != exact.attractor)) if _same(r, exact) else math.nan,
         unit="fraction of the cells",

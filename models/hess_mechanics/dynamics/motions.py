@@ -76,6 +76,7 @@ class Motions:
     start : returns body and state from the values of both.  Raises `ModelError`.
     section : returns the section from the values of the parameters; None for motions that start anywhere.
     source : label of the equations in the paper.
+    period : number of returns of the saddle near the place, for examples.
     """
 
     name: str
@@ -86,6 +87,7 @@ class Motions:
     start: Callable[[Values], tuple[Body, Start]]
     section: Callable[[Values], PoincareSection] | None = None
     source: str = ""
+    period: int = 1
 
 
 def _parameter(system: System, name: str, default: float) -> Parameter:
@@ -133,6 +135,7 @@ def on_section(
     section: Callable[[Values], PoincareSection],
     system: System,
     source: str = "",
+    period: int = 1,
 ) -> Motions:
     """Return the motions from the points of a section; the arguments are those of `Motions`."""
 
@@ -144,7 +147,7 @@ def on_section(
         state = ReturnMap(of, PRECISE).state_at(np.array([values[one.name] for one in place]))
         return of, tuple(state.tolist())
 
-    return Motions(name, title, system, parameters, place, start, section, source)
+    return Motions(name, title, system, parameters, place, start, section, source, period)
 
 
 def section_of(system: System) -> Motions | None:

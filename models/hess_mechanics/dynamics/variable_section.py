@@ -140,6 +140,8 @@ class VariableSection(PoincareSection):
         there = np.zeros(y.shape[1], bool)
         with np.errstate(all="ignore"):
             for start in (np.full(example.size, _FAR * size), np.full(example.size, -_FAR * size), example):
+                if there.all():
+                    break
                 tried = y.copy()
                 tried[unknown] = start[unknown][:, None]
                 solved = self._solve(tried, unknown)

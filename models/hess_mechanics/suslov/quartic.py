@@ -501,10 +501,11 @@ SECTION = on_section(
     "Suslov problem with b1 = b2 = 0, a point of a section",
     (usual(known.I11, 2.0), usual(known.I22, 1.0), usual(known.B3, 1.0), known.H_QUARTIC),
     (
-        Parameter("q", "q", "Start: q", 0.9, (-1.5, 1.5), 0.01, (-1e3, 1e3), "Coordinate along the major axis."),
-        Parameter("p", "p", "Start: p", 0.1, (-1.0, 1.0), 0.01, (-1.0, 1.0), "Its momentum."),
+        Parameter("q", "q", "Start: q", 0.8, (-1.5, 1.5), 0.01, (-1e3, 1e3), "Coordinate along the major axis."),
+        Parameter("p", "p", "Start: p", 0.0, (-1.0, 1.0), 0.01, (-1.0, 1.0), "Its momentum."),
     ),
     lambda values: QuarticSection(QuarticBody(*(values[name] for name in ("I11", "I22", "b3", "h")))),
     SYSTEM,
+    period=3,
 )
 """Motions from the section along the axis of the accessible region."""

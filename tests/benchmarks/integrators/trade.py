@@ -1,4 +1,4 @@
-"""Cost and error of every level, for every kind of computation of every scene, and for each kind in all of them."""
+"""Cost and error of every level: of the computations of the catalogue, and of the pictures of every scene by kind."""
 
 import math
 from dataclasses import dataclass
@@ -7,6 +7,8 @@ from hess_explorer.protocol.parameters import Choice
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.trial import bare
 from hess_explorer.views.text import digits
+from hess_mechanics.catalogue import find
+from hess_mechanics.catalogue.trade import trade as of_catalogue
 from hess_mechanics.dynamics.trade import LevelCost, enough, measure
 from hess_mechanics.errors import InvalidParameter, ModelError
 from hess_mechanics.numerics.accuracy import DRAFT, LEVELS, PLANS, REFERENCE, Kind
@@ -31,9 +33,9 @@ _COUNTED = {
 
 @dataclass(frozen=True)
 class Row:
-    """One kind of computation of a scene: a sample for each level; the first level whose error is not seen."""
+    """A computation of the catalogue or a scene: a sample for each level; the first level whose error is not seen."""
 
-    scene: str
+    name: str
     kind: str
     unit: str
     samples: tuple[LevelCost, ...]
@@ -54,7 +56,7 @@ def names():
 class Failed:
     """A kind of computation that could not be measured, and why."""
 
-    scene: str
+    name: str
     kind: str
     why: str
 
@@ -102,6 +104,17 @@ def trade(chosen, repeats, progress):
             yield _row(name, scene, trial, repeats)
 
 
+def trade_of_catalogue(keys, repeats, progress):
+    """A row for each computation of the catalogue, with its default values."""
+    for key in keys:
+        progress(key)
+        of = find(key)
+        try:
+            yield Row(key, str(of.kind), of.unit, of_catalogue(of, repeats=repeats), "–")
+        except ModelError as error:
+            yield Failed(key, str(of.kind), str(error))
+
+
 def costliest(rows, count):
     """Return the rows that take longest at `reference`, the longest first."""
     return sorted(rows, key=lambda row: -row.samples[-1].ms)[:count]
@@ -117,15 +130,15 @@ def _error(value):
 
 def heading():
     """The first lines of the table whose others are `line_of` each row."""
-    return table(["scene", "computation", *LEVELS, "ratio", "enough", "error in"], []) + "\n"
+    return table(["computation of", "kind", *LEVELS, "ratio", "enough", "error in"], []) + "\n"
 
 
 def line_of(row):
     """A line in Markdown: milliseconds and error of each level, and how many times as long the last one takes."""
     if isinstance(row, Failed):
-        return line([row.scene, row.kind, *["–"] * (len(LEVELS) + 2), row.why]) + "\n"
+        return line([row.name, row.kind, *["–"] * (len(LEVELS) + 2), row.why]) + "\n"
     cells = (f"{_round(one.ms)} ms, {_error(one.error)}" for one in row.samples)
-    return line([row.scene, row.kind, *cells, f"{_round(row.ratio)} ×", row.enough, row.unit]) + "\n"
+    return line([row.name, row.kind, *cells, f"{_round(row.ratio)} ×", row.enough, row.unit]) + "\n"
 
 
 def as_text(rows):
@@ -165,7 +178,7 @@ def as_json(rows):
     """An entry for each level of each row."""
     return [
         {
-            "scene": row.scene,
+            "computation": row.name,
             "kind": row.kind,
             "level": one.level,
             "ms": one.ms,
