@@ -39,7 +39,7 @@ def state_of(scene=TORI, *, known=True, **values):
 def cells_of(state):
     """Return the centres (m,) and (n,) of the cells, and their values (n, m)."""
     (x0, y0), (x1, y1) = state.charting.window
-    values = state.charting.cells[0][:, 0]
+    values = state.charting.cells.cells
     n, m = values.shape
     return centres(x0, x1, m), centres(y0, y1, n), values
 
@@ -64,15 +64,15 @@ def test_the_own_number_and_coarse_cells_come_first_and_are_the_middle_ones_of_t
     assert state.charting.cells is None
     for task in state.work.todo[:9]:
         state.work.get(task.function, *task.arguments)
-    coarse, left = state_of(known=False, a=0.35).charting.cells
+    coarse = state_of(known=False, a=0.35).charting.cells.cells
+    assert ", 0 rows known" in state_of(known=False, a=0.35).charting.caption.numbers
     assert state_of(known=False, a=0.35).charting.own is not None
-    fine, none_left = state_of(a=0.35).charting.cells
-    assert (left, none_left) == (len(fine), 0)
+    fine = state_of(a=0.35).charting.cells.cells
     step = COARSE**3
     middle = step // 2
     assert len(fine) == 8 * step
-    assert coarse[middle::step, :, middle::step] == approx(fine[middle::step, :, middle::step], rel=1e-9, nan_ok=True)
-    assert np.array_equal(coarse[:step, :, :step], np.broadcast_to(coarse[:1, :, :1], (step, 2, step)), equal_nan=True)
+    assert coarse[middle::step, middle::step] == approx(fine[middle::step, middle::step], rel=1e-9, nan_ok=True)
+    assert np.array_equal(coarse[:step, :step], np.full((step, step), coarse[0, 0]), equal_nan=True)
 
 
 def test_a_click_or_drag_sets_both_parameters_and_computes_no_cell_again():
@@ -80,7 +80,7 @@ def test_a_click_or_drag_sets_both_parameters_and_computes_no_cell_again():
     moved = TORI.admit({**TORI.defaults(), **OWN, **state.charting.choose(1.25, 0.5)})[0]
     assert (moved["h"], moved["f"]) == (1.25, 0.5)
     other = TORI.compute(moved, ["chart"], True)
-    assert other.charting.cells[1] == 0
+    assert "rows known" not in other.charting.caption.numbers
     assert other.charting.here() == [(1.25, 0.5)]
     # Another slider shows what is known, and plans nothing while it is held.
     held = TORI.compute({**moved, "a": 0.77}, ["chart"], True)
@@ -139,7 +139,7 @@ def test_an_error_belongs_to_its_number():
 
 def test_a_periodic_number_and_categories_have_their_own_colours():
     turns = state_of(chart="rotation-number")
-    assert turns.charting.ends == (-0.5, 0.5)
+    assert turns.charting.cells.ends == (-0.5, 0.5)
     assert np.nanmax(np.abs(turns.drawn["chart-turns"]["image"][0])) <= 0.5
     assert not turns.drawn["chart-numbers"]
     kinds = state_of(chart="locked", h=1.5, f=0.6)
@@ -173,7 +173,7 @@ def test_a_folded_chart_computes_nothing():
 @pytest.mark.parametrize("scene", [one for one in SCENES.values() if one.charted], ids=lambda one: one.name)
 def test_every_number_of_a_scene_depends_on_the_first_sides_and_exists(scene):
     for option, (charted, number) in scene.charted.numbers.items():
-        charted.computation.number(number)
+        find(charted.key).number(number)
         state = scene.of({**scene.defaults(), "chart": option})
         assert charted.values(state)
         if option == next(iter(scene.charted.numbers)):
@@ -231,7 +231,7 @@ def test_a_stored_sweep_is_shown_in_the_chart_of_a_scene():
         assert np.array_equal(state.drawn["chart-numbers"]["image"][0], stored().trace.values.T)
         assert state.charting.about(2.0, 0.5).endswith("|t| = 7.")
         # Another state has no such sweep.
-        assert TORI.of({**values, "a": 0.31}).charting.stored is None
+        assert TORI.of({**values, "a": 0.31}).charting.key not in STORED
     finally:
         STORED.clear()
     for found, at, said in (

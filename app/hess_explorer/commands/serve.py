@@ -6,6 +6,7 @@ import argparse
 import errno
 import gc
 import json
+import math
 import os
 import re
 import signal
@@ -124,7 +125,8 @@ def _shown(found: xr.Dataset, at: Mapping[str, float]) -> str:
 
     from hess_explorer.protocol.parameters import Number, encode
     from hess_explorer.scenes import scenes
-    from hess_explorer.scenes.framework.charted import STORED, Stored
+    from hess_explorer.scenes.framework.charted import STORED
+    from hess_mechanics.catalogue import find
     from hess_mechanics.errors import InvalidParameter
 
     fixed = json.loads(found.attrs["parameters"])
@@ -138,35 +140,47 @@ def _shown(found: xr.Dataset, at: Mapping[str, float]) -> str:
     names = tuple(map(str, found.status.dims))
     if len(names) != 2:
         raise InvalidParameter(
-            f"A chart has two sides, but this sweep is over {', '.join(names)}: choose a value of each further one with "
-            "--slice NAME=NUMBER, or open it in Python."
+            f"A chart has two sides, but this sweep is over {', '.join(names)}: choose a value of each further one "
+            "with --slice NAME=NUMBER, or open it in Python."
         )
     found = found.isel({name: slice(None, None, -(-found.sizes[name] // _MOST_CELLS)) for name in names})
-    x, y = sides = [found[name].values for name in names]
-    steps = [np.diff(side) for side in sides]
-    if not all(one.size and np.allclose(one, one[0], rtol=1e-6, atol=0.0) and one[0] > 0.0 for one in steps):
-        raise InvalidParameter("The sides of a chart are evenly spaced: sweep over ranges LO:HI:N, from low to high.")
-    dx, dy = (0.5 * float(one[0]) for one in steps)
+    ends = []
+    for name in names:
+        side = found[name].values
+        steps = np.diff(side)
+        if not (steps.size and steps[0] > 0.0 and np.allclose(steps, steps[0], rtol=1e-6, atol=0.0)):
+            raise InvalidParameter("The sides of a chart are evenly spaced: sweep over LO:HI:N, from low to high.")
+        ends.append((side[0] - steps[0] / 2.0, side[-1] + steps[0] / 2.0))
+    window = (ends[0][0], ends[1][0]), (ends[0][1], ends[1][1])
     cells = found.transpose(*names[::-1])
     for scene in scenes().values():
-        for option, (charted, number) in ({} if scene.charted is None else scene.charted.numbers).items():
-            variable, symbols = (
-                number.replace("-", "_"),
-                {one.name: one.symbol for one in scene.specs if isinstance(one, Number)},
-            )
-            if charted.key != found.attrs["computation"] or variable not in found or not {*names} <= {*symbols}:
+        symbols = {one.name: one.symbol for one in scene.specs if isinstance(one, Number)}
+        numbers = {} if scene.charted is None or not {*names} <= {*symbols} else scene.charted.numbers
+        for chart, (charted, name) in numbers.items():
+            variable = name.replace("-", "_")
+            if charted.key != found.attrs["computation"] or variable not in found:
                 continue
-            given = {name: value for name, value in fixed.items() if name in symbols}
-            choices = {"accuracy": found.attrs["level"], "chart": option}
-            chosen = {f"chart_{axis}": symbols[name] for axis, name in zip("xy", names, strict=True)}
-            values, _ = scene.admit({**scene.defaults(), **given, **choices, **chosen})
-            first, last = ({**fixed, **{name: float(found[name][i]) for name in names}} for i in (0, -1))
-            window = (x[0] - dx, y[0] - dy), (x[-1] + dx, y[-1] + dy)
-            status = cells.status.values.astype(float)
-            STORED[charted.key, number, *names] = Stored(cells[variable].values, status, window, first, last)
-            if scene.of(values).charting.stored is not None:
+            values, _ = scene.admit(
+                {
+                    **scene.defaults(),
+                    **{name: value for name, value in fixed.items() if name in symbols},
+                    "accuracy": found.attrs["level"],
+                    "chart": chart,
+                    "chart_x": symbols[names[0]],
+                    "chart_y": symbols[names[1]],
+                }
+            )
+            key = scene.of(values).charting.key
+            usual = {one.name: one.default for one in find(charted.key).parameters}
+            corners = [{**fixed, **{name: float(found[name][i]) for name in names}} for i in (0, -1)]
+            own = [{**usual, **key.arguments(*(corner[name] for name in names))} for corner in corners]
+            if all(
+                math.isclose(one[name], corner[name], rel_tol=1e-9, abs_tol=1e-12)
+                for one, corner in zip(own, corners, strict=True)
+                for name in corner
+            ):
+                STORED[key] = np.stack([cells[variable], cells.status], axis=1), window
                 return encode(scene.name, values)
-            del STORED[charted.key, number, *names]
     raise InvalidParameter(
         f"No scene shows {found.attrs['computation']} over {' and '.join(names)} with these parameters: open the sweep "
         "in Python with hess_explorer.sweep.read."

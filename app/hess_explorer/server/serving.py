@@ -30,7 +30,6 @@ from hess_explorer.server.capacity import Capacity
 from hess_explorer.server.export import Export
 from hess_explorer.server.garbage import GARBAGE
 from hess_explorer.server.handlers import replace_handlers
-from hess_explorer.server.headers import GuardedDocument
 from hess_explorer.server.hosts import Hosts
 from hess_explorer.server.limits import MESSAGE_LIMIT, OPEN_SOCKETS
 from hess_explorer.server.liveness import is_alive
