@@ -111,7 +111,7 @@ def _chart(path: Path | None, at: Mapping[str, float]) -> str:
     from hess_mechanics.errors import ModelError
 
     try:
-        return f"/?{_shown(read(path), at)}"
+        return f"/?{_shown(read(path), at)}&large=chart"
     except ModelError as error:
         raise CommandError(str(error)) from error
 

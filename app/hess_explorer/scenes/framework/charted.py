@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, make_dataclass
+from dataclasses import dataclass, field, make_dataclass
 from functools import cache, cached_property
 from typing import Any
 
@@ -31,6 +31,7 @@ from hess_explorer.views.picture import Corners
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits, ranging, with_error
 from hess_mechanics import catalogue
+from hess_mechanics.catalogue import Computation
 from hess_mechanics.dynamics.cells import centres
 from hess_mechanics.dynamics.system import Body, System
 from hess_mechanics.errors import InvalidParameter, ModelError
@@ -57,17 +58,23 @@ _KINDS = ("#DCDCDC", theme.ORBIT, theme.SHEET, theme.STABLE, theme.UNSTABLE, "#E
 class Charted:
     """Numbers of a computation that a scene charts.
 
-    key : of the computation in the catalogue; numbers : names of its numbers; arguments(state) : its arguments other
-    than the defaults, raises `ModelError`.
+    key : of the computation; numbers : names of its numbers; arguments(state) : its arguments other than the defaults,
+    raises `ModelError`; known : the computations by key, empty for the catalogue.
     """
 
     key: str
     numbers: tuple[str, ...]
     arguments: Callable[[Any], Arguments]
+    known: Mapping[str, Computation] = field(default_factory=dict)
+
+    @property
+    def computation(self) -> Computation:
+        """The computation."""
+        return self.known[self.key] if self.known else catalogue.find(self.key)
 
     def values(self, state: Any) -> Arguments:
         """Return the arguments of a state, within their bounds.  Raises `ModelError`."""
-        what = catalogue.find(self.key)
+        what = self.computation
         return {name: what.parameter(name).check(value) for name, value in self.arguments(state).items()}
 
 
@@ -125,7 +132,7 @@ class Cells:
                 status[i], why[i] = refused(error, dict(zip((self.x.name, self.y.name), place, strict=True)))
         if cells:
             # By the arguments, which not every parameter of the scene changes.
-            found = CACHE.get(_evaluated, self.charted.key, self.number, self.level, tuple(cells.values()))[0]
+            found = CACHE.get(_evaluated, self.charted, self.number, self.level, tuple(cells.values()))[0]
             there = [*cells]
             values[there], status[there] = found.values[self.number], found.status
             errors[there] = found.errors.get(self.number, np.nan)
@@ -133,9 +140,9 @@ class Cells:
         return CellResults({self.number: values}, {self.number: errors}, status, why)
 
 
-def _evaluated(key: str, number: str, chosen: Level, cells: tuple[Any, ...]) -> CellResults:
+def _evaluated(charted: Charted, number: str, chosen: Level, cells: tuple[Any, ...]) -> CellResults:
     columns = {name: np.array([cell[i][1] for cell in cells]) for i, (name, _) in enumerate(cells[0])}
-    return evaluate(catalogue.find(key), (number,), columns, chosen)
+    return evaluate(charted.computation, (number,), columns, chosen)
 
 
 def _row(cells: Cells, window: Window, count: int, row: int) -> Array:
@@ -184,7 +191,7 @@ class _Chart(Part[Any]):
     def number(self) -> catalogue.Number:
         """The number on show."""
         charted, number = self.numbers[self.host.chart]
-        return catalogue.find(charted.key).number(number)
+        return charted.computation.number(number)
 
     @cached_property
     def reason(self) -> str:
@@ -220,7 +227,7 @@ class _Chart(Part[Any]):
             return None
         # The number of this state comes first.
         _ = self.own
-        more = catalogue.find(self.key.charted.key).many is not None
+        more = self.key.charted.computation.many is not None
         counts = [_FIRST * COARSE**stage for stage in range(_STAGES + more)]
         rows = [[(self.key, self.window, count, row) for row in range(count)] for count in counts]
         found = found_by_rows(self.work, _row, rows)
@@ -368,7 +375,7 @@ class Charts:
 
     def picture(self) -> Plot[Any]:
         """Return the picture."""
-        named = [catalogue.find(one.key).number(name) for one, name in self.numbers.values()]
+        named = [one.computation.number(name) for one, name in self.numbers.values()]
         return Plot(
             name="chart",
             title=lambda s: f"{s.charting.number.symbol} over ({s.chart_x}, {s.chart_y})",
@@ -396,7 +403,7 @@ class Charts:
         for one in self.charted:
             values = one.values(state)
             short = {name: np.array([min(value, _SHORT) if name == "t" else value]) for name, value in values.items()}
-            evaluate(catalogue.find(one.key), one.numbers, short, DRAFT)
+            evaluate(one.computation, one.numbers, short, DRAFT)
 
 
 def _colours(name: str, palette: tuple[str, ...], label: str, shows: Callable[[catalogue.Number], bool]) -> Layer[Any]:
@@ -448,12 +455,16 @@ def parameters_of(body: Body) -> Arguments:
 
 
 def of_motion(
-    system: System, start: Callable[[Any], tuple[float, ...]], time: Callable[[Any], float] | None = None
+    system: System,
+    start: Callable[[Any], tuple[float, ...]],
+    time: Callable[[Any], float] | None = None,
+    known: Mapping[str, Computation] | None = None,
 ) -> tuple[Charted, ...]:
     """Return MEGNO, exponents and crossings of the chosen motion of a system.
 
-    start(state) : its initial state, raises `ModelError`; time(state) : the averaging time.
+    start(state) : its initial state, raises `ModelError`; time(state) : the averaging time; known : as in `Charted`.
     """
+    known = known or {}
 
     def motion(s: Any) -> Arguments:
         return {**parameters_of(s.body), **dict(zip(system.arguments, start(s), strict=True))}
@@ -463,8 +474,8 @@ def of_motion(
 
     spectrum = (*(f"exponent-{i + 1}" for i in range(len(system.variables))), "dimension", "divergence")
     return (
-        Charted(f"megno {system.name}", ("megno",), motion),
-        Charted(f"lyapunov {system.name}", ("exponent",), averaged),
-        Charted(f"spectrum {system.name}", spectrum, averaged),
-        Charted(f"crossings {system.name}", ("count",), motion),
+        Charted(f"megno {system.name}", ("megno",), motion, known),
+        Charted(f"lyapunov {system.name}", ("exponent",), averaged, known),
+        Charted(f"spectrum {system.name}", spectrum, averaged, known),
+        Charted(f"crossings {system.name}", ("count",), motion, known),
     )
