@@ -277,8 +277,8 @@ class _Chart(Part[Any]):
 
     def _says(self, value: float, error: float, status: float) -> str:
         outcome, number = Outcome(int(status)), self.number
-        if outcome >= Outcome.OUTSIDE_REGION:
-            return f"No number: {outcome.words}."
+        if not math.isfinite(value):
+            return f"No number: {(outcome if outcome >= Outcome.OUTSIDE_REGION else Outcome.NO_VALUE).words}."
         said = number.named.get(round(value)) or (with_error(value, error) if error > 0.0 else digits(value))
         unit = "" if number.unit == "1" else f" {number.unit}"
         return f"{number.symbol} = {said}{unit}{'' if outcome is Outcome.OK else f' ({outcome.words})'}."
@@ -304,7 +304,7 @@ class _Chart(Part[Any]):
             return Caption(verdict, self.reason or self.work.awaited("The chart is"))
         cells, coarse, _ = self._found
         rows, _, columns = cells.shape
-        said = [f"{self.number.title}: {columns} × {rows} cells" + f", {rows - coarse} rows known" * (coarse > 0)]
+        said = [f"{columns} × {rows} cells" + f", {rows - coarse} rows known" * (coarse > 0)]
         if self.cells.ends is not None:
             said.append(f"colours {ranging(*self.cells.ends, 3)}")
         missing = Counter(cells[:, 1][cells[:, 1] >= Outcome.OUTSIDE_REGION].tolist()).most_common(1)
@@ -378,7 +378,7 @@ class Charts:
         named = [one.computation.number(name) for one, name in self.numbers.values()]
         return Plot(
             name="chart",
-            title=lambda s: f"{s.charting.number.symbol} over ({s.chart_x}, {s.chart_y})",
+            title=lambda s: f"{s.chart.replace('-', ' ').capitalize()} over ({s.chart_x}, {s.chart_y})",
             caption=lambda s: s.charting.caption,
             axes=lambda s: (s.chart_x, s.chart_y),
             x=lambda s: tuple(corner[0] for corner in s.charting.window),
