@@ -28,6 +28,7 @@ _ITERATIONS = 100
 _FAR = 10.0
 """Start of Newton's method beyond the outermost root, in units of the example's size."""
 _ROUNDING = 1e-13
+_NEAR = 1e-12
 _TURN = 2.0 * math.pi
 
 
@@ -156,21 +157,26 @@ class VariableSection(PoincareSection):
         """Move the unknown variables of y (d, n) to the values of the integrals; return a mask of those that are."""
         if not unknown:
             return np.ones(y.shape[1], bool)
+        last = np.full((len(unknown), y.shape[1]), np.inf)
         for _ in range(_ITERATIONS):
-            off = self._off(y)
-            slopes = np.empty((y.shape[1], len(unknown), len(unknown)))
+            # All differences at once: one call of the integrals is dear, whatever its length.
+            step = _STEP * np.maximum(1.0, np.abs(y[unknown]))
+            moved = np.repeat(y[:, None], 2 * len(unknown) + 1, axis=1)
             for j, i in enumerate(unknown):
-                ahead, behind = y.copy(), y.copy()
-                step = _STEP * np.maximum(1.0, np.abs(y[i]))
-                ahead[i] += step
-                behind[i] -= step
-                slopes[:, :, j] = ((self._off(ahead) - self._off(behind)) / (2.0 * step)).T
+                moved[i, 2 * j + 1] += step[j]
+                moved[i, 2 * j + 2] -= step[j]
+            around = self._off(moved.reshape(len(y), -1)).reshape(len(unknown), -1, y.shape[1])
+            off, ahead, behind = around[:, 0], around[:, 1::2], around[:, 2::2]
+            slopes = np.moveaxis((ahead - behind) / (2.0 * step), 2, 0)
             singular = ~np.isfinite(slopes).all((1, 2)) | (np.abs(np.linalg.det(slopes)) < 1e-300)
             slopes[singular] = np.eye(len(unknown))
             change = np.linalg.solve(slopes, off.T[:, :, None])[:, :, 0].T
             y[unknown] -= change
-            if not np.any(np.abs(change) > 1e-15 * np.maximum(1.0, np.abs(y[unknown]))):
+            away, size = np.abs(change), np.maximum(1.0, np.abs(y[unknown]))
+            # Near a root the changes end as round-off, and no longer shrink.
+            if np.all((away <= 1e-15 * size) | ((away <= _NEAR * size) & (away >= 0.5 * last))):
                 break
+            last = away
         scale = np.array([max(1.0, abs(value)) for _, value in self.integrals])[:, None]
         return np.asarray(np.all(np.abs(self._off(y)) < _ROUNDING * scale, axis=0))
 

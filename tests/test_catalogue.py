@@ -1,0 +1,166 @@
+"""Everything in the catalogue, in each way in which it can be used: Python, command, sweep, chart and trade."""
+
+import json
+import math
+
+import numpy as np
+import pytest
+
+import hess_mechanics
+from hess_explorer.__main__ import main
+from hess_explorer.compute.cells import Outcome, evaluate
+from hess_explorer.sweep import sweep
+from hess_mechanics import LEVELS, System, level
+from hess_mechanics.catalogue import NoValue, catalogue, computations_of, find, motions
+from hess_mechanics.catalogue.trade import trade
+from hess_mechanics.dynamics.doubled import doubled
+from hess_mechanics.errors import InvalidParameter
+
+# The Hénon–Heiles system: a system of one's own, with a section.
+SWING = System(
+    "swing",
+    lambda y, p: (y[2], y[3], -y[0] - 2.0 * p[0] * y[0] * y[1], -y[1] - p[0] * (y[0] * y[0] - y[1] * y[1])),
+    "x y u v",
+    {"e": 1.0},
+    example=(0.0, 0.1, 0.35, 0.05),
+    integrals=lambda y, p: {
+        "E": (y[2] ** 2 + y[3] ** 2 + y[0] ** 2 + y[1] ** 2) / 2 + p[0] * (y[0] ** 2 * y[1] - y[1] ** 3 / 3)
+    },
+)
+OWN = dict(computations_of(SWING))
+# The periodic orbit near its example is elliptic.
+del OWN["manifold swing-section"]
+EVERY = {**catalogue(), **OWN}
+
+
+def values_of(of, result):
+    """The numbers of a result by name, None where it has none."""
+    found = {}
+    for name, number in of.numbers.items():
+        try:
+            found[name] = number.read(result)
+        except NoValue:
+            found[name] = None
+    return found
+
+
+@pytest.fixture(scope="module")
+def drafted():
+    """The result of the example of each computation at `draft`, computed once."""
+    known = {}
+
+    def result(key):
+        if key not in known:
+            known[key] = EVERY[key].compute(EVERY[key].example, "draft")
+        return known[key]
+
+    return result
+
+
+@pytest.mark.parametrize("key", EVERY)
+def test_in_python_it_returns_a_labelled_result_with_its_numbers(key, drafted):
+    of, found = EVERY[key], drafted(key)
+    labels = found.labels()
+    assert labels.variables or labels.facts
+    numbers = [value for value in values_of(of, found).values() if value is not None]
+    assert numbers
+    assert all(map(math.isfinite, numbers))
+    assert of.function.__doc__
+
+
+def test_every_function_is_public_and_documented():
+    names = {of.function.__name__ for of in catalogue().values()}
+    assert names <= set(hess_mechanics.__all__)
+    assert all(getattr(hess_mechanics, name).__doc__ for name in names)
+
+
+@pytest.mark.parametrize("key", catalogue())
+def test_the_command_prints_the_same_numbers(key, drafted, capsys):
+    of = find(key)
+    options = [word for name, value in of.example.items() for word in (f"--{name}={value}",)]
+    assert main([*key.split(), *options, "--accuracy", "draft", "--format", "json"]) == 0
+    data = json.loads(capsys.readouterr().out)
+    assert data["numbers"] == values_of(of, drafted(key))
+
+
+@pytest.mark.parametrize("key", catalogue())
+def test_a_sweep_and_the_cells_of_a_chart_hold_the_same_number(key, drafted):
+    of = find(key)
+    name, number = next(iter(of.numbers.items()))
+    exact = number.read(drafted(key))
+    given = {each: value for each, value in of.example.items() if not isinstance(value, str)}
+    last = of.parameters[-1].name
+    over = {last: [of.values(given)[last]]}
+    found = sweep(key, over, numbers=[name], level="draft", **{each: given[each] for each in given if each != last})
+    assert found[name.replace("-", "_")].values.item() == exact
+    # A chart is over two parameters, the first cell of this one is the example.
+    first, second = of.parameters[:2]
+    columns = {each: np.full(4, float(value)) for each, value in given.items()}
+    for side, at in ((first, [0, 0, 1, 1]), (second, [0, 1, 0, 1])):
+        columns[side.name] = np.array([of.values(given)[side.name], 1.01 * side.default + 0.01])[at]
+    cells = evaluate(of, [name], columns, level("draft"))
+    assert cells.values[name][0] == exact
+    assert Outcome.NOT_COMPUTED not in cells.status
+    assert Outcome.FAILED not in cells.status
+
+
+SLOW = "plane-potential-section"
+
+
+@pytest.mark.parametrize("key", [key for key in catalogue() if not key.endswith(SLOW)])
+def test_the_trade_has_cost_and_error_of_each_level(key):
+    of = find(key)
+    found = trade(of, of.example)
+    assert [one.level for one in found] == [*LEVELS]
+    assert all(one.ms > 0.0 for one in found)
+    errors = [one.error for one in found if one.is_measured]
+    assert all(error >= 0.0 for error in errors)
+
+
+def test_the_error_of_a_regular_motion_falls_from_level_to_level():
+    """The orbit's exact state is that of 31 digits."""
+    of = find("orbit suslov")
+    body, state = motions()["suslov"].start(of.values())
+    exact = doubled(body, state, np.linspace(0.0, 50.0, 500))
+    found = [one.error for one in trade(of)]
+    assert found == sorted(found, reverse=True)
+    for name, error in zip(LEVELS, found, strict=True):
+        away = np.abs(exact.away(of.compute(accuracy=name).states)).max()
+        assert error == pytest.approx(away, rel=0.01, abs=1e-14)
+
+
+# ---- what is refused ---------------------------------------------------------------------------------------------
+
+
+def test_a_name_that_is_not_there_is_answered_with_those_that_are_close():
+    with pytest.raises(InvalidParameter, match="choose from orbit ball, "):
+        find("orbit nowhere")
+    with pytest.raises(InvalidParameter, match="circle-map"):
+        find("circel-map")
+    of = find("circle-map")
+    with pytest.raises(InvalidParameter, match="has no parameter 'b'; choose from a, h, f"):
+        of.values({"b": 1.0})
+    with pytest.raises(InvalidParameter, match="has no number 'rho'; choose from rotation-number"):
+        of.number("rho")
+    with pytest.raises(InvalidParameter, match="a = 1e"):
+        of.compute({"a": 1e300})
+    with pytest.raises(InvalidParameter, match=r"over is one of I11, .* not 'I33'"):
+        find("branch suslov-section").values({"over": "I33"})
+
+
+def test_a_cell_says_why_it_has_no_number_and_the_others_stay():
+    of = find("circle-map")
+    columns = {
+        "a": np.full(5, 0.5),
+        "h": np.array([1.5, -2.0, 1.0, 1.5, 0.2]),
+        "f": np.array([0.6, 0.0, 0.0, 9.0, 0.6]),
+    }
+    both = evaluate(of, ["trace", "stable"], columns, level("draft"))
+    at_once = evaluate(of, ["trace"], columns, level("draft"))
+    assert at_once.status.tolist() == both.status.tolist()
+    assert [Outcome(one).words for one in both.status] == ["ok", "no such motion", "separatrix", "no such motion", "ok"]
+    assert np.isfinite(both.values["trace"]).tolist() == [True, False, False, False, True]
+    # The last torus has no limit cycle, but a trace: it is not without a value.
+    assert np.isnan(both.values["stable"]).tolist() == [False, True, True, True, True]
+    assert "it has no two limit cycles" in both.why[4]
+    assert at_once.values["trace"][0] == pytest.approx(both.values["trace"][0], rel=1e-9)
