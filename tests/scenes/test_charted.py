@@ -132,8 +132,8 @@ def test_an_error_belongs_to_its_number():
     found = find("lyapunov suslov").compute(
         SUSLOV.charted.numbers["lyapunov"][0].arguments(SUSLOV.of(values)), STANDARD
     )
-    assert state.charting.own.values["exponent"][0] == approx(found.value, rel=1e-9)
-    assert state.charting.own.errors["exponent"][0] == approx(found.spread, rel=1e-9)
+    assert state.charting.own[0, 0] == approx(found.value, rel=1e-9)
+    assert state.charting.own[1, 0] == approx(found.spread, rel=1e-9)
     assert " ± " in state.charting.caption.verdict
 
 

@@ -179,7 +179,8 @@ def _shown(found: xr.Dataset, at: Mapping[str, float]) -> str:
                 for one, corner in zip(own, corners, strict=True)
                 for name in corner
             ):
-                STORED[key] = np.stack([cells[variable], cells.status], axis=1), window
+                errors = cells.get(f"{variable}_error", np.full(cells.status.shape, np.nan))
+                STORED[key] = np.stack([cells[variable], errors, cells.status], axis=1), window
                 return encode(scene.name, values)
     raise InvalidParameter(
         f"No scene shows {found.attrs['computation']} over {' and '.join(names)} with these parameters: open the sweep "

@@ -17,7 +17,7 @@ import numpy as np
 from bokeh.palettes import Cividis256
 
 from hess_explorer.compute.cache import CACHE, Task
-from hess_explorer.compute.cells import CellResults, Outcome, evaluate, refused
+from hess_explorer.compute.cells import Outcome, evaluate, refused
 from hess_explorer.protocol.parameters import Choice, Number, Places, Spec, Values, places, written
 from hess_explorer.scenes.framework.cells import COARSE, found_by_rows
 from hess_explorer.scenes.framework.parameters import declared, specs_of
@@ -120,44 +120,40 @@ class Cells:
         """Return the arguments at a place.  Raises `ModelError`."""
         return self.charted.values(self.y.put(self.x.put(self.state, x), y))
 
-    def at(self, xs: Array, ys: Array) -> CellResults:
-        """Return the number at places (n,)."""
-        values, errors = np.full((2, xs.size), np.nan)
-        status, why, cells = np.zeros(xs.size, np.uint8), dict[int, str](), dict[int, tuple[tuple[str, float], ...]]()
+    def at(self, xs: Array, ys: Array) -> Array:
+        """Return values, estimated errors and status (3, n) at places (n,)."""
+        found, cells = np.full((3, xs.size), np.nan), dict[int, tuple[tuple[str, float], ...]]()
         for i, place in enumerate(zip(xs.tolist(), ys.tolist(), strict=True)):
             try:
                 cells[i] = tuple(self.arguments(*place).items())
             # An error in one cell must not stop the others.
             except Exception as error:
-                status[i], why[i] = refused(error, dict(zip((self.x.name, self.y.name), place, strict=True)))
+                found[2, i], _ = refused(error, dict(zip((self.x.name, self.y.name), place, strict=True)))
         if cells:
             # By the arguments, which not every parameter of the scene changes.
-            found = CACHE.get(_evaluated, self.charted, self.number, self.level, tuple(cells.values()))[0]
-            there = [*cells]
-            values[there], status[there] = found.values[self.number], found.status
-            errors[there] = found.errors.get(self.number, np.nan)
-            why |= {there[i]: reason for i, reason in found.why.items()}
-        return CellResults({self.number: values}, {self.number: errors}, status, why)
+            found[:, [*cells]] = CACHE.get(_evaluated, self.charted, self.number, self.level, tuple(cells.values()))[0]
+        return frozen(found)
 
 
-def _evaluated(charted: Charted, number: str, chosen: Level, cells: tuple[Any, ...]) -> CellResults:
+def _evaluated(charted: Charted, number: str, chosen: Level, cells: tuple[Any, ...]) -> Array:
     columns = {name: np.array([cell[i][1] for cell in cells]) for i, (name, _) in enumerate(cells[0])}
-    return evaluate(charted.computation, (number,), columns, chosen)
+    found = evaluate(charted.computation, (number,), columns, chosen)
+    errors = found.errors.get(number, np.full(len(cells), np.nan))
+    return frozen(np.stack([found.values[number], errors, found.status]))
 
 
 def _row(cells: Cells, window: Window, count: int, row: int) -> Array:
-    """Return values and status (2, count) of a row of cells."""
+    """Return a row of cells (3, count)."""
     (x0, y0), (x1, y1) = window
-    found = cells.at(centres(x0, x1, count), np.full(count, centres(y0, y1, count)[row]))
-    return frozen(np.stack([found.values[cells.number], found.status.astype(float)]))
+    return cells.at(centres(x0, x1, count), np.full(count, centres(y0, y1, count)[row]))
 
 
-def _one(cells: Cells, x: float, y: float) -> CellResults:
+def _one(cells: Cells, x: float, y: float) -> Array:
     return cells.at(np.array([x]), np.array([y]))
 
 
 STORED: dict[Cells, tuple[Array, Window]] = {}
-"""Values and status (n, 2, m) of stored sweeps on show, and their windows."""
+"""Values, errors and status (n, 3, m) of stored sweeps on show, and their windows."""
 
 
 @cache
@@ -220,7 +216,7 @@ class _Chart(Part[Any]):
 
     @cached_property
     def _found(self) -> tuple[Array, int, Window] | None:
-        """Values and status (n, 2, m), the number of rows that are still coarse, and the window of the cells."""
+        """Rows (n, 3, m), the number of those that are still coarse, and the window of the cells."""
         if self.key in STORED:
             return STORED[self.key][0], 0, STORED[self.key][1]
         if self.reason:
@@ -234,10 +230,10 @@ class _Chart(Part[Any]):
         return None if found is None else (*found, self.window)
 
     @cached_property
-    def own(self) -> CellResults | None:
-        """The number in this state; None until known."""
+    def own(self) -> Array | None:
+        """Value, error and status (3, 1) in this state; None until known."""
         task = Task(_one, (self.key, *(one.of(self.host) for one in self.axes)))
-        found: CellResults | None = None if self.reason else self.work.ask(task)
+        found: Array | None = None if self.reason else self.work.ask(task)
         return found
 
     @cached_property
@@ -291,15 +287,12 @@ class _Chart(Part[Any]):
         at = zip((x, y), *window, (cells.shape[2], cells.shape[0]), strict=True)
         column, row = (min(max(int((one - low) / (high - low) * n), 0), n - 1) for one, low, high, n in at)
         across, up = self.axes
-        said = self._says(cells[row, 0, column], math.nan, cells[row, 1, column])
-        return f"{across.symbol} = {digits(x)}, {up.symbol} = {digits(y)}: {said}"
+        return f"{across.symbol} = {digits(x)}, {up.symbol} = {digits(y)}: {self._says(*cells[row, :, column])}"
 
     @property
     def caption(self) -> Caption:
         """The number in this state, and what is known of the cells."""
-        own, name, verdict = self.own, self.key.number, ""
-        if own is not None:
-            verdict = self._says(own.values[name][0], own.errors[name][0], own.status[0])
+        verdict = "" if self.own is None else self._says(*self.own[:, 0])
         if self._found is None or self.cells is None:
             return Caption(verdict, self.reason or self.work.awaited("The chart is"))
         cells, coarse, _ = self._found
@@ -307,9 +300,9 @@ class _Chart(Part[Any]):
         said = [f"{columns} × {rows} cells" + f", {rows - coarse} rows known" * (coarse > 0)]
         if self.cells.ends is not None:
             said.append(f"colours {ranging(*self.cells.ends, 3)}")
-        missing = Counter(cells[:, 1][cells[:, 1] >= Outcome.OUTSIDE_REGION].tolist()).most_common(1)
+        missing = Counter(cells[:, 2][cells[:, 2] >= Outcome.OUTSIDE_REGION].tolist()).most_common(1)
         if missing:
-            share = float(np.mean(cells[:, 1] >= Outcome.OUTSIDE_REGION))
+            share = float(np.mean(cells[:, 2] >= Outcome.OUTSIDE_REGION))
             said.append(f"{digits(100.0 * share, 2)} % have none: {Outcome(int(missing[0][0])).words}")
         return Caption(verdict, f"{'; '.join(said)}.")
 
