@@ -19,7 +19,7 @@ interface BokehScale {
   invert(pixel: number): number
 }
 
-/** The part of a scale that a canvas over a plot or a chart uses. */
+/** The part of a scale that a canvas over a plot uses. */
 type Scale = Pick<BokehScale, "compute" | "invert">
 
 interface BokehSignal {
@@ -114,27 +114,6 @@ interface PictureDescription {
   [option: string]: any
 }
 
-interface ChartDescription {
-  quantity: string
-  symbol: string
-  title: string
-  units: string
-  turn: number
-  parts: string[]
-  /** For each part, [value, name] of the categories that its values stand for. */
-  names: CategoryName[][]
-  over: string[]
-  pictures: string[]
-}
-
-/** A parameter over which a chart can run; `place` is the first list of places where it is a coordinate of one. */
-interface SideDescription {
-  name: string
-  symbol: string
-  range: [number, number]
-  place?: string
-}
-
 interface AnimationDescription {
   name: string
   start: number
@@ -183,8 +162,6 @@ interface SceneDescription {
   opening: string
   groups: string[]
   drawn: boolean
-  charts: ChartDescription[]
-  sides: Required<SideDescription>[]
   presets: string[]
   legend: string
   words: string
@@ -224,45 +201,11 @@ interface StateAnswer {
   progress: Progress | null
 }
 
-type ChartSide = [name: string, low: number, high: number, count: number]
-
-/** A chart as the server takes it, see `Chart.read`. */
-interface ChartAsked {
-  state: string
-  quantity: string
-  part: number
-  x: ChartSide
-  y: ChartSide
-}
-
-/** `ChartCells`, `ChartEnded` or `CellExplained` of "protocol/messages.py". */
-interface ChartAnswer {
-  id: number | null
-  running: boolean
-  reason: string
-  cells: number
-  first: number
-  done: number
-  of?: number
-  left: number | null
-  level: string
-  error: number | null
-  version: string
-  x: ChartSide
-  y: ChartSide
-  at: [number, number]
-  why?: string
-}
-
-type ChartRequest =
-  { start: ChartAsked, id: number } | { more: number, id: number } | { stop: true } | { why: ChartAsked, at: number[] }
-
-/** `Answer` of "protocol/messages.py", without its blocks. */
+/** `Answer` of "protocol/messages.py", without its block. */
 interface Answer {
   state?: StateAnswer
   scene?: SceneDescription
   lesson?: Lesson
-  chart?: ChartAnswer
   show?: Followed
 }
 
@@ -299,48 +242,6 @@ interface StateRequest {
 }
 
 // ---- The page ----
-
-/** A chart on the page: what was asked for, and the cells that have come. */
-interface Chart {
-  scene: string
-  state: string
-  quantity: string
-  part: number
-  symbol: string
-  title: string
-  units: string
-  turn: number
-  /** Names of the values, if they stand for categories. */
-  names: CategoryName[]
-  x: ChartAxis
-  y: ChartAxis
-  level: string
-  error: number | null
-  version: string
-  values: Float64Array
-  status: Uint8Array
-  known: number
-  share: number
-  left: number | null
-  reason: string
-  id?: number
-}
-
-/** A value that stands for a category, and the name of the category. */
-type CategoryName = [value: number, name: string]
-
-interface ChartAxis {
-  name: string
-  symbol: string
-  low: number
-  high: number
-  count: number
-}
-
-/** [column, row] of a chart. */
-type Cell = number[]
-/** [low, high] on both sides of a chart. */
-interface ChartBox { x: number[], y: number[] }
 
 /** Columns of a data source by name. */
 type Data = Record<string, any>
@@ -452,8 +353,6 @@ interface ShowcaseRow {
   exhibits: { title: string, query: string, file: string }[]
 }
 
-interface Palettes { plain: string[], round: string[] }
-
 /** The model of the page's component, see "page/component.py". */
 interface PageModel {
   client: ClientKeys
@@ -461,7 +360,6 @@ interface PageModel {
   lessons: { name: string, title: string, minutes: number }[]
   scenes: SceneTile[]
   showcase: ShowcaseRow[]
-  palettes: Palettes
   files: ExportFiles
   sheets: Record<string, string>
 }
@@ -475,9 +373,8 @@ interface Host {
    * host gave one; `silent` hears that the host does not respond, or does again.
    */
   connect(
-    receive: (head: Answer, block: ArrayBuffer, cells: ArrayBuffer) => void, lost: (why: string) => void,
-    silent: (on: boolean) => void,
-  ): (message: StateRequest | { chart: ChartRequest }) => void
+    receive: (head: Answer, block: ArrayBuffer) => void, lost: (why: string) => void, silent: (on: boolean) => void,
+  ): (message: StateRequest) => void
   /** Wait until a lost host answers again. */
   answering(): Promise<void>
 }
@@ -508,7 +405,6 @@ interface PageEvents {
   "open-room": void
   "end-room": void
   export: void
-  chart: void
   pick: { pick: Picked, drag: boolean }
   hover: Picked
   /** Whether an animation moves a slider. */
@@ -519,7 +415,6 @@ interface PageEvents {
   lesson: string
   step: [lesson: string, number: number, revealed: boolean]
   "ask-client": (hear: ClientKeys) => void
-  "ask-chart": ChartRequest
   // From the client
   enter: SceneDescription
   texts: Texts
@@ -537,7 +432,6 @@ interface PageEvents {
   embedding: void
   "lesson-read": { lesson: Lesson, step: number | null }
   compared: Compared | null
-  charted: { head: ChartAnswer, cells: ArrayBuffer }
   // From the player
   time: { t: number, state: Record<string, number> | null }
   fold: string
@@ -550,8 +444,6 @@ interface PageEvents {
   // From the other page of two side by side
   follow: number
   "axes-beside": PageEvents["axes"]
-  // From a chart: the computed share of its cells
-  charting: number | null
   // From a room: of the lecturer (code is null when it has ended), the guesses of the audience, the step that is followed
   room: { code: string | null, address: string, followers: number, said: string }
   audience: string

@@ -33,8 +33,6 @@ const TOOLS = [
   [
     { name: "pin", title: "Compare other states with this one",
       icon: "M9 3h6v2l-1 1v5l3 3v2h-4v5h-2v-5H7v-2l3-3V6L9 5z" },
-    { name: "chart", asks: true, title: "A quantity over two parameters",
-      icon: "M3 3h2v16h16v2H3zm4 2h4v4H7zm5 0h4v4h-4zm5 0h4v4h-4zM7 10h4v4H7zm5 0h4v4h-4zm0 5h4v3h-4zm5-5h4v4h-4z" },
     { name: "share", asks: true, title: "Link, QR code, HTML to embed", isNear: true,
       icon: "M4 12a4 4 0 0 1 4-4h3v2H8a2 2 0 0 0 0 4h3v2H8a4 4 0 0 1-4-4zm5-1h6v2H9zm4-3h3a4 4 0 0 1 0 8h-3v-2h3a2 2 0 0 0 0-4h-3z" },
     { name: "invite", asks: true, title: "Let an audience follow on its phones: QR code, guesses",
@@ -87,14 +85,6 @@ export function render({ first, dialogs, el }) {
   }
   enable({ undo: 0, redo: 0 })
   listen({
-    // Progress of a chart whose panel may be closed.
-    charting(share) {
-      if (!tools.has("chart")) return
-      const [item, { title }] = tools.get("chart")
-      const said = share === null ? "" : ` ${Math.floor(100 * share)} %`
-      item.querySelector(".label").textContent = item.ariaLabel + said
-      item.title = share === null ? title : `Computing the chart:${said}`
-    },
     // The number of followers.
     room({ code, followers }) {
       if (!tools.has("invite")) return

@@ -6,6 +6,8 @@ import { button, element } from "../page/elements.js"
 import { listen, tell } from "../page/bus.js"
 import { sayDragMe } from "../page/handle.js"
 import { PHONE } from "../page/windows.js"
+import { gallery } from "../pictures/gallery.js"
+import { nameOf } from "../pictures/picture.js"
 import { menu, twice } from "./choice.js"
 import { comparison } from "./comparison.js"
 import { control as controlOf } from "./control.js"
@@ -44,6 +46,7 @@ export function render({ el }) {
     const group = element(`details.group.group-${name.toLowerCase()}`,
       element("summary", name), element("div.column", ...members))
     group.open = PHONE.matches || unfolded.has(name)
+    group.hidden = name === "Chart"
     group.addEventListener("toggle", () => {
       if (PHONE.matches) return
       if (group.open) unfolded.add(name)
@@ -90,6 +93,14 @@ export function render({ el }) {
   const show = (values) => {
     for (const [name, value] of Object.entries(values)) shows[name]?.(value)
   }
+  // The choices of the chart are there while it is.
+  function showCharts() {
+    const hidden = !gallery.openCells().some((cell) => nameOf(cell) === "chart")
+    for (const item of /** @type {NodeListOf<HTMLElement>} */ (el.querySelectorAll('.group-chart, [data-name^="chart"]'))) {
+      if (item instanceof HTMLDetailsElement && item.hidden && !hidden) item.open = true
+      item.hidden = hidden
+    }
+  }
   PHONE.addEventListener("change", () => {
     for (const group of /** @type {NodeListOf<HTMLDetailsElement>} */ (column.querySelectorAll(".group"))) {
       group.open = PHONE.matches || unfolded.has(group.firstChild.textContent)
@@ -110,6 +121,8 @@ export function render({ el }) {
     // Key "error-" and the name of a number or formula: the reason that it is refused.
     texts(texts) { for (const [key, text] of Object.entries(texts)) refusals[key]?.(text) },
     controls: show,
+    painted: showCharts,
+    folded: showCharts,
     // A lesson animates a number.
     change(values) {
       for (const [name, value] of Object.entries(values)) if (typeof value === "number") follows[name]?.(value)

@@ -103,7 +103,6 @@ export function startClient(model, host) {
       if (state !== null) address.write()
     },
     "ask-client": (hear) => hear(own),
-    "ask-chart": (chart) => send({ chart }),
   })
 
   /**
@@ -219,10 +218,9 @@ export function startClient(model, host) {
   }
 
   /** @type {Parameters<Host["connect"]>[0]} */
-  const onAnswer = ({ state: next = null, scene: described = null, lesson = null, chart = null }, block, cells) => {
+  const onAnswer = ({ state: next = null, scene: described = null, lesson = null }, block) => {
     if (lesson !== null) tell("lesson-read", { lesson, step: null })
     if (next !== null) onState(next, described, block)
-    if (chart !== null) tell("charted", { head: chart, cells })
   }
 
   /** @param {string} why */

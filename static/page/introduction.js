@@ -33,8 +33,8 @@ const STEPS = [
 
 /** Return whether the page is opened for the first time, by its bare address.  Programs that drive a browser get the whole page. */
 function isFirstVisit() {
-  // Without a store every visit would be the first.  A server with a chart opens that.
-  return location.search === "" && document.querySelector('meta[name="chart"]') === null && !navigator.webdriver && browserStore.works() && browserStore.get("introduced") === null
+  // Without a store every visit would be the first.  A link opens its state.
+  return location.search === "" && !navigator.webdriver && browserStore.works() && browserStore.get("introduced") === null
 }
 
 /** Render the introduction. @param {{el: HTMLElement}} part */

@@ -2,7 +2,6 @@
 // The page beside its server: with the tools that ask the server, rooms and the introduction.
 
 import { render as renderBar } from "../controls/bar.js"
-import { chartPanel } from "../controls/chart.js"
 import { exportDialog } from "../controls/export.js"
 import { inviteDialog } from "../controls/invite.js"
 import { sceneMenu } from "../controls/scenes.js"
@@ -34,10 +33,10 @@ let built = null
 export function render({ model, el }) {
   if (built !== null) return el.replaceWith(built)
   built = el
-  const { client, lessons: index, scenes, showcase, files, palettes, sheets } = model
+  const { client, lessons: index, scenes, showcase, files, sheets } = model
   const mount = createMount(sheets)
   const menu = sceneMenu(scenes, showcase)
-  const dialogs = { menu, share: shareDialog(), invite: inviteDialog(), export: exportDialog(files), chart: chartPanel(palettes) }
+  const dialogs = { menu, share: shareDialog(), invite: inviteDialog(), export: exportDialog(files) }
   const first = [button("tool.param-scenes", menu.open, { title: "Choose a scene", ariaHasPopup: "dialog", innerHTML: icon(MENU) },
     element("span", "Scenes"))]
   const { query } = buildPage(model, { mark: "?", connect: openWebsocket, answering }, {

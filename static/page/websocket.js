@@ -22,14 +22,13 @@ const decoder = new TextDecoder()
 /**
  * Return the parts of a frame.
  * @param {ArrayBuffer} data
- * @returns {{head: Answer, block: ArrayBuffer, cells: ArrayBuffer}}
+ * @returns {{head: Answer, block: ArrayBuffer}}
  */
 export function decode(data) {
   const lengths = new DataView(data, 0, LENGTHS)
   const block = LENGTHS + lengths.getUint32(0, true)
-  const cells = block + lengths.getUint32(4, true)
   const head = JSON.parse(decoder.decode(new Uint8Array(data, LENGTHS, block - LENGTHS)))
-  return { head, block: data.slice(block, cells), cells: data.slice(cells) }
+  return { head, block: data.slice(block, block + lengths.getUint32(4, true)) }
 }
 
 /** Return whether the server answers a new connection. */
@@ -82,8 +81,8 @@ export function openWebsocket(receive, lost, silent) {
   socket.addEventListener("message", ({ data }) => {
     // Only the answer to "alive" is a text.
     if (typeof data === "string") return
-    const { head, block, cells } = decode(data)
-    receive(head, block, cells)
+    const { head, block } = decode(data)
+    receive(head, block)
   })
   socket.addEventListener("close", ({ code, reason }) => lost(code === FULL ? reason : ""))
   watch(socket, silent, () => lost(""))

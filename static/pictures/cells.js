@@ -8,7 +8,6 @@
 import { element } from "../page/elements.js"
 import { bytesOf, onDark, shade } from "./looks.js"
 
-const UNKNOWN = "#808080"
 const MOST_PIXELS = 1200
 
 /** Return a colour as a 32-bit pixel: little endian, alpha last. @param {string} colour */
@@ -24,20 +23,19 @@ function packed(colour) {
  * @param {Colouring} colouring
  * @param {(row: number, column: number) => number} valueAt rows are counted from below
  */
-function sheetOf(columns, rows, { palette, low, high, smooth, kinds }, valueAt) {
+function sheetOf(columns, rows, { palette, low, high }, valueAt) {
   const sheet = element("canvas", { width: columns, height: rows })
   const paper = sheet.getContext("2d")
   const pixels = paper.createImageData(columns, rows)
   const out = new Uint32Array(pixels.data.buffer)
   const colours = Uint32Array.from(palette, (colour) => packed(shade(colour)))
-  // Interpolated pictures leave out places next to a cell without a number.
-  const unknown = smooth || kinds ? 0 : packed(UNKNOWN)
   const last = colours.length - 1
   const scale = colours.length / (high - low)
   for (let row = 0, i = 0; row < rows; row++) {
     for (let column = 0; column < columns; column++, i++) {
       const value = valueAt(rows - 1 - row, column)
-      out[i] = Number.isNaN(value) ? unknown : colours[Math.max(0, Math.min(last, Math.floor((value - low) * scale)))]
+      // Cells without a number are left out, in interpolated pictures also places next to them.
+      out[i] = Number.isNaN(value) ? 0 : colours[Math.max(0, Math.min(last, Math.floor((value - low) * scale)))]
     }
   }
   paper.putImageData(pixels, 0, 0)
@@ -120,7 +118,7 @@ export function cellsPainter(layers, source) {
   function sheetFor(layer, cells, width, height) {
     const mix = layer.smooth ? interpolation(layer) : layer.kinds ? majority : null
     const [wide, high] = mix === null ? [cells.columns, cells.rows] : [width, height].map((side) => Math.min(MOST_PIXELS, side))
-    const key = [onDark(), wide, high].join()
+    const key = [onDark(), wide, high, layer.low, layer.high].join()
     const before = sheets.get(layer.source)
     if (before?.cells === cells && before.key === key) return before.sheet
     const sheet = mix === null ? sheetOf(wide, high, layer, (row, column) => cells.numbers[row * cells.columns + column])
@@ -132,11 +130,13 @@ export function cellsPainter(layers, source) {
   return (ctx, xScale, yScale) => {
     const { a: ratio } = ctx.getTransform()
     for (const layer of layers) {
-      const { image: [cells] = [], x: [x] = [], y: [y] = [], dw: [wide] = [], dh: [high] = [] } = source(layer.source).data
+      const data = source(layer.source).data
+      const { image: [cells] = [], x: [x] = [], y: [y] = [], dw: [wide] = [], dh: [high] = [] } = data
       if (cells === undefined) continue
+      const { low: [least] = [layer.low], high: [most] = [layer.high] } = data
       const [left, right] = [xScale.compute(x), xScale.compute(x + wide)]
       const [bottom, top] = [yScale.compute(y), yScale.compute(y + high)]
-      const sheet = sheetFor(layer, cells, Math.round(ratio * (right - left)), Math.round(ratio * (bottom - top)))
+      const sheet = sheetFor({ ...layer, low: least, high: most }, cells, Math.round(ratio * (right - left)), Math.round(ratio * (bottom - top)))
       // Cells about as large as pixels are averaged, so that no curve is lost between two pixels.
       ctx.imageSmoothingEnabled = layer.fine === true
       ctx.imageSmoothingQuality = "high"

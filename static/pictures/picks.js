@@ -37,9 +37,9 @@ export function choose(model, x, y, drag) {
  * @param {string[]} picks Bokeh events that choose a point ("tap", "doubletap", "pan"), "box" for a drag that draws a box and
  *   chooses its corners, "hover" for the place of the mouse
  * @param {Source} box gets the box while it is drawn
- * @param {() => boolean} isDragging whether the current pointer may drag, see "touch.js"
+ * @param {{isDragging: () => boolean, isOnHandle: () => boolean}} touch see "touch.js"
  */
-export function connectPicks(model, picks, box, isDragging) {
+export function connectPicks(model, picks, box, { isDragging, isOnHandle }) {
   const { name } = model
   /** @type {Record<string, ((event: BokehEvent) => void)[]>} */
   const callbacks = {}
@@ -50,7 +50,11 @@ export function connectPicks(model, picks, box, isDragging) {
   }
   for (const pick of picks) {
     if (pick === "hover") callbacks.mousemove = [({ x, y }) => tell("hover", [name, x, y])]
-    else if (pick === "box") Object.assign(callbacks, boxCallbacks(name, box, isDragging))
+    else if (pick === "box") Object.assign(callbacks, boxCallbacks(name, box, isDragging, (event) => {
+      if (!picks.includes("pan") || !isOnHandle()) return false
+      if (event.event_name === "pan") point(event)
+      return true
+    }))
     else callbacks[pick] = [point]
   }
   model.setv({ js_event_callbacks: { ...model.js_event_callbacks, ...callbacks } }, { sync: false })
@@ -60,22 +64,26 @@ export function connectPicks(model, picks, box, isDragging) {
  * @param {string} name
  * @param {Source} box
  * @param {() => boolean} isDragging
+ * @param {(event: BokehEvent) => boolean} drag moves the handle; tells whether the drag is one of the handle
  * @returns {Record<string, ((event: BokehEvent) => void)[]>}
  */
-function boxCallbacks(name, box, isDragging) {
+function boxCallbacks(name, box, isDragging, drag) {
   /** @type {{x: number, y: number} | null} */
   let start = null
-  /** @param {{x: number, y: number}} place */
-  const draw = ({ x, y }) => { if (isDragging()) box.put({ left: [start.x], right: [x], top: [start.y], bottom: [y] }) }
+  /** @param {BokehEvent} event */
+  const draw = (event) => {
+    if (isDragging() && !drag(event)) box.put({ left: [start.x], right: [event.x], top: [start.y], bottom: [event.y] })
+  }
   return {
-    panstart: [({ x, y }) => {
-      start = { x, y }
-      draw(start)
+    panstart: [(event) => {
+      start = event
+      draw(event)
     }],
     pan: [draw],
-    panend: [({ x, y }) => {
+    panend: [(event) => {
+      const { x, y } = event
       box.put(NOTHING)
-      if (isDragging()) tell("pick", { pick: [name, start.x, start.y, x, y], drag: true })
+      if (isDragging() && !drag(event)) tell("pick", { pick: [name, start.x, start.y, x, y], drag: true })
     }],
   }
 }

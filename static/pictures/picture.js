@@ -8,6 +8,7 @@ import { unbroken } from "./unbroken.js"
 /** @type {Record<string, string>} */
 const HINTS = {
   drag: "Drag or click to choose values",
+  "drag box": "Drag the ring or click to choose values, drag a box to zoom in",
   box: "Click to choose values, drag a box to zoom in",
   click: "Click to choose values",
 }
@@ -16,6 +17,7 @@ const HINTS = {
 /** @type {Record<string, string>} */
 const KEYS = {
   drag: "arrow keys move the ring",
+  "drag box": "arrow keys move the ring",
   box: "arrow keys move a cross, Enter chooses",
   click: "arrow keys move a cross, Enter chooses",
 }
@@ -28,7 +30,7 @@ const KEYS = {
  * @returns {[HTMLElement, HTMLElement]}
  */
 export function createCell({ name, folded, hands }, corner, pointed) {
-  const host = element(`div.host.hands-${hands}`, { title: HINTS[hands] ?? "", dataset: { hands } })
+  const host = element(`div.host.hands-${hands.split(" ").at(-1)}`, { title: HINTS[hands] ?? "", dataset: { hands } })
   const under = element("output.text.hover", { hidden: true })
   const cell = element(`section.picture.picture-${name}`, {
     dataset: { name }, onpointerenter: pointed, onmouseleave: () => { under.hidden = true },

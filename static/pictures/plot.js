@@ -133,7 +133,7 @@ export async function buildPlot(host, picture, source) {
   if (picture.renamed) nameAxes(model, source(`${picture.name}-axes`))
   const { picks } = picture
   const touch = connectTouch(host, plot, { places: () => placesOf(plot, picture.handle, source), boxes: picks.includes("box") })
-  connectPicks(model, picks, source(`${picture.name}-box`), touch.isDragging)
+  connectPicks(model, picks, source(`${picture.name}-box`), touch)
   if (picture.hands !== "") {
     connectKeys(host, plot, { picks, places: picture.handle === null ? null : () => placesOf(plot, picture.handle, source) })
   }

@@ -1,44 +1,47 @@
 // @ts-check
-// Fingers on a plot.  One finger drags the handle when it begins near it; elsewhere it scrolls the page.  In a picture that takes
-// boxes it draws one.
+// Drags in a plot.  One finger drags the handle when it begins near it; elsewhere it scrolls the page.  In a picture that takes
+// boxes, a drag that does not begin near the handle draws one.
 //
 // A browser that scrolls cancels the pointer.  Preventing the default of "touchstart" is the only way to stop it near a handle, as
 // the style `touch-action` cannot depend on the place.  Elsewhere two fingers zoom the page.  Bokeh would take the events of a
 // second finger for those of the first: they are withheld, and the drag ends where it is.
 
-// A finger covers about 40 pixels.
-const REACH = 30
+// A finger covers about 40 pixels, and a ring 20.
+const [REACH, REACH_OF_MOUSE] = [30, 14]
 
 /**
- * Return whether a finger is near one of the places.
- * @param {number[]} finger
+ * Return whether a pointer is near one of the places.
+ * @param {number[]} pointer
  * @param {number[][]} places
+ * @param {number} reach
  */
-export const isNear = ([x, y], places) => places.some(([a, b]) => Math.hypot(a - x, b - y) <= REACH)
+export const isNear = ([x, y], places, reach = REACH) => places.some(([a, b]) => Math.hypot(a - x, b - y) <= reach)
 
 /**
- * Let fingers drag in a plot.  isDragging() tells whether the current pointer may drag; a cancelled pointer may not.
+ * Let fingers drag in a plot.  isDragging() tells whether the current pointer may drag, which a cancelled one may not, and
+ * isOnHandle() whether it began near the handle.
  * @param {HTMLElement} host holds the plot
  * @param {PlotView} plot
  * @param {{places: () => number[][], boxes: boolean}} handles places() returns the handles in pixels of the plot; `boxes` tells
  *   whether a drag draws a box
  */
 export function connectTouch(host, plot, { places, boxes }) {
-  let dragging = false
+  let [dragging, isOnHandle] = [false, false]
   /** The first finger on the plot. @type {number | null} */
   let finger = null
 
   /** @param {PointerEvent} event */
-  function grabs({ clientX, clientY }) {
+  function grabs(event) {
     const { left, top } = host.getBoundingClientRect()
-    const [x, y] = [clientX - left, clientY - top]
+    const [x, y] = [event.clientX - left, event.clientY - top]
     const { x0, x1, y0, y1 } = plot.frame.bbox
-    return boxes ? x0 <= x && x <= x1 && y0 <= y && y <= y1 : isNear([x, y], places())
+    isOnHandle = isNear([x, y], places(), event.pointerType === "touch" ? REACH : REACH_OF_MOUSE)
+    return event.pointerType !== "touch" || isOnHandle || (boxes && x0 <= x && x <= x1 && y0 <= y && y <= y1)
   }
 
   /** @param {PointerEvent} event */
   function onDown(event) {
-    if (event.pointerType !== "touch") dragging = true
+    if (event.pointerType !== "touch") dragging = grabs(event)
     else if (finger === null) {
       finger = event.pointerId
       dragging = grabs(event)
@@ -59,5 +62,5 @@ export function connectTouch(host, plot, { places, boxes }) {
   }
   if (boxes) host.style.touchAction = "pinch-zoom"
   else host.addEventListener("touchstart", (event) => { if (dragging) event.preventDefault() }, { passive: false })
-  return { isDragging: () => dragging }
+  return { isDragging: () => dragging, isOnHandle: () => isOnHandle }
 }

@@ -103,7 +103,7 @@ def test_several_lessons_are_served_in_their_order(served, free_port, tmp_path):
 def test_serve(served, free_port, capsys, words, changed):
     assert main(typed(f"serve --port {free_port} --no-browser {words}")) == 0
     assert f"http://localhost:{free_port}" in capsys.readouterr().out
-    usual = {"address": "127.0.0.1", "lessons": (), "chart": None, "embedders": ["*"], "workers": 1, "sessions": 1000}
+    usual = {"address": "127.0.0.1", "lessons": (), "embedders": ["*"], "workers": 1, "sessions": 1000}
     assert served == [{"port": free_port, "show": False, "origins": [], **usual, **changed}]
 
 

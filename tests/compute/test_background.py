@@ -450,13 +450,13 @@ def test_tasks_that_have_not_begun_can_be_stopped():
 def test_what_was_stopped_is_not_begun_again_by_a_picture_that_comes_into_sight(gate):
     browser = Browser(EP, SMALL)
     wait_until(lambda: len(gate.calls) == THREADS)
-    browser.ask(1, hidden=["sphere", "split"])
+    browser.ask(1, hidden=["sphere", "split", "chart"])
     browser.ask(2, stop=True)
     gate.let(1000)
     completed(browser, 2)
     begun = len(gate.calls)
     assert begun == THREADS
-    state = browser.ask(3, hidden=["split"])
+    state = browser.ask(3, hidden=["split", "chart"])
     time.sleep(0.03)
     assert state["progress"] is None
     assert browser.session.background.left == 0

@@ -8,8 +8,9 @@ from scipy.integrate import solve_ivp
 
 import hess_explorer as hess
 from hess_explorer.__main__ import main
+from hess_explorer.export.picture_data import complete
 from hess_explorer.scenes import add, scenes
-from hess_mechanics import System
+from hess_mechanics import System, lyapunov_exponent
 from hess_mechanics.errors import InvalidParameter
 from support.view import View
 
@@ -201,3 +202,16 @@ def test_a_file_without_a_scene_is_refused(tmp_path, capsys, text, message):
     assert main(["serve", "--no-browser", "--scene", str(path)]) == 2
     said = capsys.readouterr().err
     assert "brings no scene" in said and message in said
+
+
+def test_its_chart_is_a_number_of_the_motion_over_two_sliders():
+    scene = hess.scene(HENON, ["x y", "chart"])
+    assert scene.pictures == ("x-y", "chart")
+    values = {**scene.defaults(), "chart": "lyapunov", "long": 20.0, "chart_window": "0.5,0;1,0.1"}
+    state = complete(scene, values, ["chart"], lambda s: s.charting.caption)[0]
+    assert [side.name for side in state.charting.axes] == ["p_lam", "y_x"]
+    cells = state.charting.cells.cells
+    lam, x = (0.5 + 0.5 * 10.5 / 72, 0.1 * 20.5 / 72)
+    own = lyapunov_exponent(HENON.at([lam]), (x, *HENON.example[0][1:]), 20.0, "standard")
+    assert cells.shape == (72, 72)
+    assert cells[20, 10] == approx(own.value, rel=1e-9)

@@ -9,7 +9,7 @@ from hess_explorer.assets import STATIC
 from hess_explorer.bundle import bundle
 
 ENTRIES = ["page/served.js", "page/follow.js", "offline/file.js"]
-SERVER_ONLY = {"page/served.js", "page/websocket.js", "page/room.js", "controls/export.js", "controls/chart.js"}
+SERVER_ONLY = {"page/served.js", "page/websocket.js", "page/room.js", "controls/export.js"}
 
 
 def paths(entry):

@@ -51,7 +51,7 @@ def test_a_scene_of_ones_own_is_drawn_in_each_process(drawn, monkeypatch):
 
 
 def test_a_server_starts_without_what_only_some_pages_need():
-    seldom = {"holoviews", "matplotlib", "panel_material_ui", "hess_explorer.sweep", "hess_explorer.page.charts"}
+    seldom = {"holoviews", "matplotlib", "panel_material_ui", "hess_explorer.sweep"}
     code = f"import sys, hess_explorer.server.serving; print({seldom!r} & set(sys.modules))"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "set()"

@@ -474,7 +474,7 @@ def test_on_a_phone_tools_without_room_in_the_bar_are_in_a_menu(look_at):
     page.locator(".param-present").wait_for()
     assert page.locator(".param-more").is_hidden()
     labels = " · ".join(page.locator(".tools .label:visible").all_inner_texts())
-    assert labels == "Undo · Redo · Reset · Pin · Chart · Share · Invite · Export · Present · Full screen · Theme"
+    assert labels == "Undo · Redo · Clear · Reset · Pin · Share · Invite · Export · Present · Full screen · Theme"
     tab.resize(width, height)
 
 

@@ -9,17 +9,11 @@ from hypothesis import strategies as st
 
 from hess_explorer.protocol.messages import (
     Answer,
-    CellExplained,
-    ChartEnded,
-    ContinueChart,
-    ExplainCell,
     PictureBox,
     PicturePoint,
     Request,
-    StartChart,
     StateAnswer,
     StepChoice,
-    StopChart,
     parse,
 )
 from support.wire import read_frame
@@ -41,11 +35,11 @@ def numbers_of(request):
             yield from (point.x, point.y)
 
 
-@given(st.one_of(anything, st.dictionaries(st.sampled_from([*KEYS, "chart", "nobody"]), anything)))
+@given(st.one_of(anything, st.dictionaries(st.sampled_from([*KEYS, "nobody"]), anything)))
 def test_whatever_comes_is_parsed_into_its_types(message):
     request = parse(message)
     if not isinstance(request, Request):
-        assert not isinstance(message, dict) or "chart" in message
+        assert not isinstance(message, dict)
         return
     assert all(isinstance(one, float) and math.isfinite(one) for one in numbers_of(request))
     for value in (request.values or {}).values():
@@ -102,39 +96,13 @@ def test_each_field_of_a_request_is_read():
     assert parse({}) == Request()
 
 
-@pytest.mark.parametrize(
-    ("chart", "expected"),
-    [
-        ({"start": {"state": "h=1"}, "id": 7}, StartChart({"state": "h=1"}, 7)),
-        ({"start": {}, "id": "7"}, None),
-        ({"more": 3, "id": 7}, ContinueChart(3, 7)),
-        ({"more": 2.5, "id": 7}, None),
-        ({"stop": True}, StopChart()),
-        ({"stop": 1}, None),
-        ({"why": {}, "at": [1, 2.5]}, ExplainCell({}, 1.0, 2.5)),
-        ({"why": {}, "at": [1]}, None),
-        ({"why": {}, "at": [1, math.inf]}, None),
-        ({"why": {}, "at": [None, 10**400]}, None),
-        ({}, None),
-    ],
-)
-def test_a_request_about_a_chart_is_one_of_four(chart, expected):
-    assert parse({"chart": chart}) == expected
-
-
-@given(
-    st.binary(),
-    st.binary(),
-    st.booleans(),
-    st.sampled_from([None, ChartEnded(3, "Stopped."), CellExplained((1.0, 2.0), "none")]),
-)
-def test_a_frame_holds_what_is_told_and_nothing_else(block, cells, has_state, chart):
+@given(st.binary(), st.booleans())
+def test_a_frame_holds_what_is_told_and_nothing_else(block, has_state):
     state = StateAnswer(2, 1, "h=1", {"texts": {"status": "é"}}, "suslov", (1, 3)) if has_state else None
-    answer = Answer('{"name": "suslov"}', "", state, block, chart=chart, cells=cells)
-    told, read_block, read_cells = read_frame(answer.encode())
-    assert (read_block, read_cells) == (block, cells)
+    told, read_block = read_frame(Answer('{"name": "suslov"}', "", state, block).encode())
+    assert read_block == block
     assert told["scene"] == {"name": "suslov"}
-    assert told.keys() == {"scene", *(["state"] if state else []), *(["chart"] if chart else [])}
+    assert told.keys() == {"scene", *(["state"] if state else [])}
     if state:
         assert told["state"] == {**dataclasses.asdict(state), "progress": [1, 3]}
 

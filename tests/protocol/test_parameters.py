@@ -65,6 +65,9 @@ def understood(spec, text):
     """Parse a text as a value; None unless it is admissible without changes."""
     if isinstance(spec, Choice):
         return text if text in spec.options else None
+    if isinstance(spec, Places):
+        value, note = spec.read(text)
+        return None if note else value
     try:
         value = float(text)
     except ValueError:

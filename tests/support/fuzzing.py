@@ -13,28 +13,19 @@ from collections import Counter
 from contextlib import chdir, contextmanager, nullcontext, redirect_stderr, redirect_stdout
 from importlib import import_module
 from logging.handlers import BufferingHandler
-from threading import Barrier, Event
+from threading import Event
 from urllib.parse import quote, urlencode
-
-import numpy as np
 
 from hess_explorer.__main__ import main
 from hess_explorer.commands import COMMANDS
 from hess_explorer.commands.compute import command_of
 from hess_explorer.commands.output import PATIENCE
-from hess_explorer.compute.background import run_in_steps
 from hess_explorer.compute.budget import limited
-from hess_explorer.page.charts import Charts
 from hess_explorer.page.requested import linked
-from hess_explorer.protocol.messages import Answer, parse
 from hess_explorer.protocol.parameters import CLIENT, Choice, Formula, Link, Number, Places, written
 from hess_explorer.scenes import scenes
-from hess_explorer.sweep.chart import swept
-from hess_explorer.sweep.charting import FAILED
-from hess_explorer.sweep.quantity import Outcome
 from hess_mechanics.catalogue import catalogue
 from hess_mechanics.numerics.jit import seconds_compiling
-from hess_mechanics.numerics.parallel import THREADS
 from support.board import Browser
 
 STALL = 5.0
@@ -282,122 +273,16 @@ def message(random, scene):
     return given
 
 
-def _side(random, scene, names):
-    """Return one side of a chart, valid or malformed."""
-    if not names or random.random() < 0.05:
-        return random.choice([None, [], 3, "h", ["h", 0.0, 1.0], ["nobody", 0.0, 1.0, 5], [None] * 4])
-    name = random.choice(names)
-    spec = next((spec for spec in scene.specs if spec.name == name), None)
-    # A coordinate of the section is no parameter of the scene.
-    low, high = sorted(random.uniform(-4.0, 4.0) if spec is None else _number(random, spec) for _ in range(2))
-    if random.random() < 0.08:
-        ends = [
-            (high, low),
-            (low, low),
-            (-1e308, 1e308),
-            (low, "x"),
-            (low, 10**400),
-            (float("nan"), high),
-        ]
-        low, high = random.choice(ends)
-    return [name, low, high, random.choice([2, 3, 5, 8, 16, 48, 256, -1, 10**9, 2.5, None, True])]
-
-
-def chart_message(random, scene):
-    """Return a random chart message: start or refine a box, click a cell, request more, stop."""
-    charted = random.choice([*scene.charts] or [None])
-    names = [] if charted is None else swept(scene.name, charted.quantity)
-    given = {
-        "state": random.choice([link(random), urlencode({"scene": scene.name, **_some(random, scene.specs)})]),
-        "quantity": "nobody" if charted is None or random.random() < 0.03 else charted.quantity,
-        "part": random.choice([0, 0, 0, 0, 1, -1, 10**9, None, "0", True]),
-        "x": _side(random, scene, names),
-        "y": _side(random, scene, names),
-    }
-    if random.random() < 0.03:
-        given = random.choice([None, 3, [], {}, {"state": 3}, {**given, "state": "x" * 3000}])
-    kind = random.random()
-    if kind < 0.6:
-        return {"start": given, "id": random.choice([1, 1, 1, 1, -1, 10**30, "1", None])}
-    if kind < 0.8:
-        places = [random.uniform(-4.0, 4.0), random.uniform(-4.0, 4.0), 1e300, -1e300, float("inf"), None, "x", 10**400]
-        x, y = random.choices(places, k=2)
-        return {"why": given, "at": random.choice([[x, y], [x, y], [x, y], [x], None, x])}
-    if kind < 0.9:
-        return {"more": random.choice([0, 1, -5, 10**30, None, "0", 2.5]), "id": random.choice([1, 1, 2, None])}
-    return random.choice([{"stop": True}, {"stop": 1}, {}, {"start": {}}, [], None, 3, {"nobody": 1}])
-
-
-class _Chart:
-    """Client side of a chart."""
-
-    def __init__(self):
-        self.cells, self.told = b"", []
-        self.charts = Charts()
-
-    def _handle(self, asked):
-        request = parse({"chart": asked})
-        answer = self.charts.answer(request) if request is not None else Answer()
-        if answer.chart is not None:
-            self.told.append(json.loads(json.dumps(vars(answer.chart))))
-            self.cells = answer.cells
-
-    def ask(self, asked):
-        """Return all responses of the chart to this message; the chart is stopped after some pieces."""
-        self.told.clear()
-        self._handle(asked)
-        for pause in (0.01, 0.05, 0.1):
-            if not (self.told and self.told[-1].get("running")):
-                break
-            time.sleep(pause)
-            self._handle({"more": 0, "id": self.told[-1]["id"]})
-            yield self.told[-1], self.cells
-        self._handle({"stop": True})
-        # A piece that has begun comes to its end, or is cut off between two parts.
-        all_here = Barrier(THREADS + 1)
-        for _ in range(THREADS):
-            run_in_steps(lambda: all_here.wait() < 0)
-        all_here.wait()
-        for one in self.told:
-            yield one, b""
-
-
-def _checked_chart(head, cells, findings, given):
-    if head.get("reason") == FAILED:
-        findings.found("could not be computed", given, FAILED)
-    if _NO_NUMBER.search(f"{head.get('said', '')} {head.get('why', '')}") or "NaN" in json.dumps(head):
-        findings.found("no number in a sentence", given, json.dumps(head)[:300])
-    if cells:
-        count = head["cells"]
-        if len(cells) != 13 * count:
-            findings.found("cells", given, f"{len(cells)} bytes for {count}")
-            return
-        values, status = np.frombuffer(cells, "<f8", count), np.frombuffer(cells, np.uint8, count, 12 * count)
-        if not np.array_equal(np.isfinite(values), status < Outcome.OUTSIDE_REGION):
-            findings.found("cells", given, "a number that is none, or one where there is none")
-        if (status == Outcome.FAILED).any():
-            findings.found("could not be computed", given, Outcome.FAILED.words)
-
-
 def fuzz_messages(random, count, length=25):
     """Send this many messages, to sessions that are closed after `length` of them."""
-    findings, browser, chart, story = Findings(), None, None, []
+    findings, browser, story = Findings(), None, []
     for number in range(count):
         if findings.over:
             break
         if number % length == 0:
             _left(browser)
             scene = random.choice([*scenes().values()])
-            browser, chart, story = Browser(scene), _Chart(), [scene.name]
-        if random.random() < 0.1:
-            story = [*story, {"chart": chart_message(random, browser.scene)}]
-            # Pieces of the state on show are no part of what the chart costs.
-            _left(browser)
-            told = _told(story)
-            with _watched(findings, told):
-                for head, cells in chart.ask(story[-1]["chart"]):
-                    _checked_chart(head, cells, findings, told)
-            continue
+            browser, story = Browser(scene), [scene.name]
         given = message(random, browser.scene)
         story = [*story, given]
         told = _told(story)

@@ -114,7 +114,7 @@ class Follower(Member):
         """Read the next frame."""
         frame = await self.read(timeout)
         self.bytes += len(frame)
-        told, _, _ = read_frame(frame)
+        told, _ = read_frame(frame)
         self.scene = told.get("scene", self.scene)
         if "state" in told:
             self.state, self.told = told["state"], told["show"]

@@ -130,7 +130,7 @@ class Visitor:
 
     async def hear(self, timeout=60.0):
         """Return the next response, by name."""
-        told, _, _ = read_frame(await self._read(self._states, timeout))
+        told, _ = read_frame(await self._read(self._states, timeout))
         self.state = told.get("state", self.state)
         return told
 

@@ -11,15 +11,12 @@ def _refuse(name):
 
 
 def read_frame(frame):
-    """Decode a response as "websocket.js" does: its head, its block, the cells of a chart."""
+    """Decode a response as "websocket.js" does: its head and its block."""
     if not frame:
-        return {}, b"", b""
+        return {}, b""
     head, block = struct.unpack_from("<II", frame)
-    return (
-        json.loads(frame[8 : 8 + head], parse_constant=_refuse),
-        frame[8 + head : 8 + head + block],
-        frame[8 + head + block :],
-    )
+    assert len(frame) == 8 + head + block
+    return json.loads(frame[8 : 8 + head], parse_constant=_refuse), frame[8 + head :]
 
 
 def read(item, block):

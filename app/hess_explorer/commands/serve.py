@@ -6,6 +6,7 @@ import argparse
 import errno
 import gc
 import json
+import math
 import os
 import re
 import signal
@@ -22,9 +23,14 @@ from .arguments import assigned, number, run_file, shown
 from .command import Command, Options, option, whole
 
 if TYPE_CHECKING:
+    import xarray as xr
+
     from hess_explorer.lessons.lesson import Lesson
 
 __all__ = ["COMMAND"]
+
+_MOST_CELLS = 256
+"""Largest number of cells of a stored sweep along each side that the page shows."""
 
 
 def _origin(text: str) -> str:
@@ -42,7 +48,7 @@ def _embedder(text: str) -> str:
 def _run(options: Options) -> None:
     _add_scenes(options.scenes)
     lessons = _lessons(options.lessons)
-    chart, state = _chart(options.chart, dict(options.slice))
+    state = _chart(options.chart, dict(options.slice))
     _require_free(options.address, options.port)
     if options.workers > 1 and not hasattr(os, "fork"):
         raise CommandError("--workers needs an operating system with fork: run the command without it.")
@@ -75,7 +81,6 @@ def _run(options: Options) -> None:
                 origins=options.origins,
                 ready=ready,
                 lessons=lessons,
-                chart=chart,
                 embedders=embedders,
                 workers=options.workers,
                 sessions=options.sessions,
@@ -96,21 +101,91 @@ def _add_scenes(paths: Sequence[Path]) -> None:
             raise CommandError(f"{shown(str(path))} brings no scene: {error}") from error
 
 
-def _chart(path: Path | None, at: Mapping[str, float]) -> tuple[str | None, str]:
-    """Return the text of the chart of a store, and the address of its state behind that of the server."""
+def _chart(path: Path | None, at: Mapping[str, float]) -> str:
+    """Show a stored sweep as the chart of a scene, and return the address of its state behind that of the server."""
     if path is None:
         if at:
             raise CommandError("--slice belongs to a chart: add --chart FOLDER.")
-        return None, ""
+        return ""
     from hess_explorer.sweep import read
-    from hess_explorer.sweep.shown import chart_file
     from hess_mechanics.errors import ModelError
 
     try:
-        found = chart_file(read(path), at)
+        return f"/?{_shown(read(path), at)}&large=chart"
     except ModelError as error:
         raise CommandError(str(error)) from error
-    return json.dumps(found, ensure_ascii=False, allow_nan=False), f"/{found['link']}"
+
+
+def _shown(found: xr.Dataset, at: Mapping[str, float]) -> str:
+    """Put a sweep over two evenly spaced parameters into the chart of a scene, and return the link of its state.
+
+    at : values of its other parameters.  Raises `InvalidParameter`.
+    """
+    import numpy as np
+
+    from hess_explorer.protocol.parameters import Number, encode
+    from hess_explorer.scenes import scenes
+    from hess_explorer.scenes.framework.charted import STORED
+    from hess_mechanics.catalogue import find
+    from hess_mechanics.errors import InvalidParameter
+
+    fixed = json.loads(found.attrs["parameters"])
+    for name, value in at.items():
+        if name not in found.status.dims:
+            raise InvalidParameter(f"The sweep has no side {name!r}: choose among {', '.join(found.status.dims)}.")
+        found = found.sel({name: value}, method="nearest")
+        fixed[name] = float(found[name])
+        if not np.isclose(fixed[name], value, rtol=1e-9, atol=1e-12):
+            raise InvalidParameter(f"The sweep has no cells at {name} = {value:g}: the nearest are at {fixed[name]:g}.")
+    names = tuple(map(str, found.status.dims))
+    if len(names) != 2:
+        raise InvalidParameter(
+            f"A chart has two sides, but this sweep is over {', '.join(names)}: choose a value of each further one "
+            "with --slice NAME=NUMBER, or open it in Python."
+        )
+    found = found.isel({name: slice(None, None, -(-found.sizes[name] // _MOST_CELLS)) for name in names})
+    ends = []
+    for name in names:
+        side = found[name].values
+        steps = np.diff(side)
+        if not (steps.size and steps[0] > 0.0 and np.allclose(steps, steps[0], rtol=1e-6, atol=0.0)):
+            raise InvalidParameter("The sides of a chart are evenly spaced: sweep over LO:HI:N, from low to high.")
+        ends.append((side[0] - steps[0] / 2.0, side[-1] + steps[0] / 2.0))
+    window = (ends[0][0], ends[1][0]), (ends[0][1], ends[1][1])
+    cells = found.transpose(*names[::-1])
+    for scene in scenes().values():
+        symbols = {one.name: one.symbol for one in scene.specs if isinstance(one, Number)}
+        numbers = {} if scene.charted is None or not {*names} <= {*symbols} else scene.charted.numbers
+        for chart, (charted, name) in numbers.items():
+            variable = name.replace("-", "_")
+            if charted.key != found.attrs["computation"] or variable not in found:
+                continue
+            values, _ = scene.admit(
+                {
+                    **scene.defaults(),
+                    **{name: value for name, value in fixed.items() if name in symbols},
+                    "accuracy": found.attrs["level"],
+                    "chart": chart,
+                    "chart_x": symbols[names[0]],
+                    "chart_y": symbols[names[1]],
+                }
+            )
+            key = scene.of(values).charting.key
+            usual = {one.name: one.default for one in find(charted.key).parameters}
+            corners = [{**fixed, **{name: float(found[name][i]) for name in names}} for i in (0, -1)]
+            own = [{**usual, **key.arguments(*(corner[name] for name in names))} for corner in corners]
+            if all(
+                math.isclose(one[name], corner[name], rel_tol=1e-9, abs_tol=1e-12)
+                for one, corner in zip(own, corners, strict=True)
+                for name in corner
+            ):
+                errors = cells.get(f"{variable}_error", np.full(cells.status.shape, np.nan))
+                STORED[key] = np.stack([cells[variable], errors, cells.status], axis=1), window
+                return encode(scene.name, values)
+    raise InvalidParameter(
+        f"No scene shows {found.attrs['computation']} over {' and '.join(names)} with these parameters: open the sweep "
+        "in Python with hess_explorer.sweep.read."
+    )
 
 
 def _lessons(paths: Sequence[Path]) -> tuple[Lesson, ...]:

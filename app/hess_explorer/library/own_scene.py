@@ -14,6 +14,7 @@ from hess_explorer.library.own_state import LevelState, OwnState
 from hess_explorer.protocol.expressions import NotANumber
 from hess_explorer.protocol.expressions import evaluate as number_of
 from hess_explorer.protocol.parameters import Value, written
+from hess_explorer.scenes.framework.charted import Charts, of_motion
 from hess_explorer.scenes.framework.parameters import number, places
 from hess_explorer.scenes.framework.part import part
 from hess_explorer.scenes.framework.scene import Preset, Scene
@@ -32,6 +33,7 @@ from hess_explorer.scenes.parts.section import first_place, section_picture
 from hess_explorer.views.layers import Columns
 from hess_explorer.views.picture import Picture
 from hess_explorer.views.poisson_sphere import Sphere, gamma_columns
+from hess_mechanics.catalogue import computations_of
 from hess_mechanics.dynamics.cells import evenly
 from hess_mechanics.dynamics.system import System
 from hess_mechanics.dynamics.variable_section import VariableSection, variable_section
@@ -41,7 +43,7 @@ from hess_mechanics.parameters import Group
 
 __all__ = ["OwnScene", "scene"]
 
-_EXPONENT, _BRANCH = "exponent", "branch"
+_EXPONENT, _BRANCH, _CHART = "exponent", "branch", "chart"
 _SECTION = re.compile(r"section(?: (?!on )(\S+) (\S+))?(?: at (\S+) *= *(\S+))?(?: on (.+))?")
 _FARTHEST = 1e6
 _TRIED = 200
@@ -99,8 +101,9 @@ def scene(
         time, three names for the direction of a vector on a sphere, "exponent" for the largest Lyapunov exponent, and
         "section", "section x px" or "section x px at y = 0" for a Poincaré section, in which a click chooses the
         motion and a box a window; cells of MEGNO can lie under the points.  "section x px at y = 0 on E, L" lies at
-        levels of these integrals.  "branch" continues a periodic orbit of that section over a parameter or a level.
-        By default the plane of the first two variables, or the graph of a single one.
+        levels of these integrals.  "branch" continues a periodic orbit of that section over a parameter or a level,
+        "chart" shows MEGNO or an exponent over two of the sliders.  By default the plane of the first two variables,
+        or the graph of a single one.
     sliders : mapping of str to (float, float), optional
         Ends of the sliders, by the names of parameters, variables and integrals.  Those of a coordinate are also the
         range of the section.
@@ -137,7 +140,8 @@ def scene(
     ends = dict(sliders or {})
     for name in ends:
         _require(system, name, tuple(dict.fromkeys((*fields, *system.variables))))
-    views = [_picture(system, one, "integrals" in section) for one in pictures or [_first_picture(system)]]
+    drawn = [one for one in pictures if one != _CHART] or [_first_picture(system)]
+    views = [_picture(system, one, "integrals" in section) for one in drawn]
     names = [view.name for view in views]
     if len(set(names)) < len(names) or sum(isinstance(view, Sphere) for view in views) > 1:
         raise InvalidParameter(f"{system.title}: each picture may occur once, and one of them may be a sphere.")
@@ -188,10 +192,18 @@ def scene(
         place=1000,
         presets=tuple(Preset(title, **values) for title, values in chosen.items()),
         views=tuple(views),
+        charts=_charts(system, [field for field, _ in fields.values()]) if _CHART in pictures else None,
         tracks={"orbit": track},
         essential=tuple(field for field, _ in fields.values())[:_ESSENTIAL],
         text=text or f"### {system.title}\n\n{_summary(system)}\n",
     )
+
+
+def _charts(system: System, fields: Sequence[str]) -> Charts:
+    """Return the chart over the sliders, the first two at first."""
+    motions = of_motion(system, lambda s: s.given, lambda s: s.long, computations_of(system))
+    first, second = [*fields, "long"][:2]
+    return Charts(motions, over=(first, second))
 
 
 def _section_of(system: System, pictures: Sequence[str]) -> dict[str, Any]:

@@ -177,10 +177,8 @@ class Recording:
         found["controls"] = [
             {**one, "range": list(varied[one["name"]])} for one in found["controls"] if one["name"] in varied
         ]
-        for key in ("tries", "charts", "sides"):
-            found[key] = []
         found["presets"] = [one["example"] for one in self._families if one["scene"] == name and one["example"]]
-        return {**found, "essential": [*varied], "drawn": False, "handle": None}
+        return {**found, "tries": [], "essential": [*varied], "drawn": False, "handle": None}
 
     def packed(self) -> tuple[dict[str, Any], list[str]]:
         """Return the index of the states and the strips in base 64."""

@@ -37,7 +37,6 @@ class Explorer(JSComponent):
     lessons = param.List(default=[], doc="{name, title, minutes} of each lesson.")
     scenes = param.List(default=[], doc="{name, title, summary, picture, origin, group} of each scene.")
     showcase = param.List(default=[], doc="{idea, exhibits: {title, query, file} each} of each row of the gallery.")
-    palettes = param.Dict(default={}, doc="Colours of a chart, for numbers and for angles.")
     files = param.Dict(
         default={},
         doc="formats: [kind, words, category] of each export format; width, seconds: [minimum, maximum, default].",

@@ -4,16 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from functools import cached_property, partial
-from typing import TYPE_CHECKING
 
 from hess_explorer.compute.scheduler import RequestQueue
 from hess_explorer.lessons.lesson import Lesson
 from hess_explorer.page.opening import opening
 from hess_explorer.page.session import Session
-from hess_explorer.protocol.messages import Answer, ChartRequest, Request, parse
-
-if TYPE_CHECKING:
-    from hess_explorer.page.charts import Charts
+from hess_explorer.protocol.messages import Answer, Request, parse
 
 __all__ = ["Connection"]
 
@@ -52,31 +48,21 @@ class Connection:
             self._queue.put(partial(self._answer, request))
 
     def end(self) -> None:
-        """Drop the waiting requests and stop the running one, because the page has closed."""
+        """Drop the waiting requests, stop the running one and the background work, because the page has closed."""
         self._queue.end()
-        if "_charts" in self.__dict__:
-            self._charts.end()
+        if "_session" in vars(self):
+            self._session.background.stop()
 
     @cached_property
     def _session(self) -> Session:
         opened = opening(self._query, self._lessons)
         return Session(opened.scene, opened.values, opened.notes, opened.lessons, opened.pictures)
 
-    @cached_property
-    def _charts(self) -> Charts:
-        # Not at the start, because no first page needs the modules of charts.
-        from hess_explorer.page.charts import Charts
-
-        return Charts()
-
-    def _answer(self, request: Request | ChartRequest) -> None:
-        if isinstance(request, Request):
-            self._tell(self._session.answer(request))
-            # A page needs the cores to paint a new state, and asks again when it has.
-            if not self._session.is_new:
-                self._session.start_tasks()
-        else:
-            self._tell(self._charts.answer(request))
+    def _answer(self, request: Request) -> None:
+        self._tell(self._session.answer(request))
+        # A page needs the cores to paint a new state, and asks again when it has.
+        if not self._session.is_new:
+            self._session.start_tasks()
 
     def _tell(self, answer: Answer) -> None:
         if answer.state is not None and self._follow is not None:

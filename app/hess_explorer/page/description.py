@@ -16,10 +16,7 @@ from hess_explorer.page.glossary import explained
 from hess_explorer.page.lesson_description import steps
 from hess_explorer.protocol.parameters import Choice, Controlled, Number
 from hess_explorer.scenes import scenes
-from hess_explorer.scenes.framework.charted import Charted
 from hess_explorer.scenes.framework.scene import Scene
-from hess_explorer.sweep.chart import sides_of_places, swept
-from hess_explorer.sweep.quantities import quantity
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import with_formulas
 from hess_explorer.views.theme import SHADES
@@ -41,10 +38,8 @@ def description(name: str) -> str:
             "handle": _handle(scene),
             "moves": scene.moves,
             "opening": scene.opening or scene.open_pictures[0],
-            "groups": list(GROUPS),
+            "groups": [*GROUPS, "Chart"],
             "drawn": not all(isinstance(spec, Controlled) for spec in scene.specs),
-            "charts": [_chart(scene, charted) for charted in scene.charts],
-            "sides": sides_of_places(scene),
             "presets": [preset.name for preset in scene.presets],
             "legend": scene.legend,
             "words": _html(scene),
@@ -68,23 +63,6 @@ def _handle(scene: Scene[Any]) -> dict[str, Any] | None:
     view = next(view for view in scene.views if view.name == picture and isinstance(view, Plot))
     found = next(one for one in view.layers if one.name == layer)
     return {"picture": picture, "source": view.source_of(found), "columns": list(found.columns)}
-
-
-def _chart(scene: Scene[Any], charted: Charted[Any]) -> dict[str, Any]:
-    """Return the description of a quantity that can be charted, with its parameters and pictures."""
-    what = quantity(charted.quantity)
-    return {
-        "quantity": what.name,
-        "symbol": what.symbol,
-        "title": what.title,
-        "units": what.units,
-        "help": what.doc,
-        "turn": what.turn,
-        "parts": list(what.parts),
-        "names": [list(what.named.get(part, {}).items()) for part in what.parts or ("",)],
-        "over": list(swept(scene.name, what.name)),
-        "pictures": list(charted.pictures),
-    }
 
 
 def _html(scene: Scene[Any]) -> str:

@@ -10,7 +10,6 @@ from collections.abc import Sequence
 from typing import Any
 
 import panel as pn
-from bokeh.palettes import Cividis256
 
 from hess_explorer.export.formats import FORMATS, SERVED_SECONDS, WIDTHS, FileRequest
 from hess_explorer.lessons.lesson import Lesson
@@ -20,7 +19,6 @@ from hess_explorer.page.lesson_description import describe_lesson
 from hess_explorer.page.opening import opening, query_of
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Scene
-from hess_explorer.views import theme
 
 __all__ = ["page"]
 
@@ -31,8 +29,6 @@ _FILES = {
     "width": [*WIDTHS, FileRequest.width],
     "seconds": [*SERVED_SECONDS, FileRequest.seconds],
 }
-# Colours of charts, the same as in other maps.
-_PALETTES = {"plain": [*Cividis256], "round": [*theme.TURN_MAP]}
 
 
 def page(own: Sequence[Lesson] = ()) -> Any:
@@ -60,7 +56,6 @@ def _page(query: str, own: Sequence[Lesson]) -> Explorer:
         lessons=[{"name": one.name, "title": one.title, "minutes": one.minutes} for one in opened.lessons.values()],
         scenes=[_entry(one) for one in scenes().values()],
         showcase=showcase.rows(),
-        palettes=_PALETTES,
         files=_FILES,
         sheets=styles(),
         sizing_mode="stretch_both",

@@ -12,13 +12,10 @@ A request is a text frame of JSON.  The key "requested": n asks for the state af
 - "reset", "clear", "stop": true if that button was pressed; "held": true while a slider is held;
 - "hidden": [picture outside of the viewport, …].
 
-A chart request has the single key "chart".  Its value is one of {"start": argument of `Chart.read`, "id": number},
-{"more": number of known cells, "id": number}, {"stop": true}, {"why": argument of `Chart.read`, "at": [x, y]}.
-
 The request `ALIVE` is answered with an empty text frame, even while a state is being computed.
 
 Any other response is one binary frame: the lengths of head and block (32 bits each, little endian), the head, the
-block, the cells.  The head is the JSON of an `Answer`.  "page/websocket.js" decodes the frame.
+block.  The head is the JSON of an `Answer`.  "page/websocket.js" decodes the frame.
 """
 
 from __future__ import annotations
@@ -35,19 +32,11 @@ from hess_explorer.protocol.parameters import Value
 __all__ = [
     "ALIVE",
     "Answer",
-    "CellExplained",
-    "ChartCells",
-    "ChartEnded",
-    "ChartRequest",
-    "ContinueChart",
-    "ExplainCell",
     "PictureBox",
     "PicturePoint",
     "Request",
-    "StartChart",
     "StateAnswer",
     "StepChoice",
-    "StopChart",
     "parse",
 ]
 
@@ -103,46 +92,10 @@ class Request:
     held: bool = False
 
 
-@dataclass(frozen=True)
-class StartChart:
-    """Start a chart, which replaces the previous one; chart : argument of `Chart.read`."""
-
-    chart: Mapping[str, object]
-    id: int
-
-
-@dataclass(frozen=True)
-class ContinueChart:
-    """Send the cells after the first `known` ones."""
-
-    known: int
-    id: int
-
-
-@dataclass(frozen=True)
-class StopChart:
-    """Stop the chart."""
-
-
-@dataclass(frozen=True)
-class ExplainCell:
-    """Explain the status of the cell at (x, y); chart : argument of `Chart.read`."""
-
-    chart: Mapping[str, object]
-    x: float
-    y: float
-
-
-ChartRequest = StartChart | ContinueChart | StopChart | ExplainCell
-
-
-def parse(message: Any) -> Request | ChartRequest | None:
+def parse(message: Any) -> Request | None:
     """Return the request in decoded JSON, or None if there is none."""
     if not isinstance(message, dict):
         return None
-    chart = message.get("chart")
-    if isinstance(chart, dict):
-        return _chart(chart)
 
     def text(key: str) -> str | None:
         value = message.get(key)
@@ -172,19 +125,6 @@ def parse(message: Any) -> Request | ChartRequest | None:
         stop=message.get("stop") is True,
         held=message.get("held") is True,
     )
-
-
-def _chart(given: Mapping[str, Any]) -> ChartRequest | None:
-    match given:
-        case {"start": dict(chart), "id": int(number)}:
-            return StartChart(chart, number)
-        case {"more": int(known), "id": int(number)}:
-            return ContinueChart(known, number)
-        case {"stop": True}:
-            return StopChart()
-        case {"why": dict(chart), "at": [x, y]} if all(map(math.isfinite, place := (_number(x), _number(y)))):
-            return ExplainCell(chart, *place)
-    return None
 
 
 def _picked(given: Any) -> PicturePoint | PictureBox | None:
@@ -236,51 +176,13 @@ class StateAnswer:
 
 
 @dataclass(frozen=True)
-class ChartCells:
-    """New cells of a chart and its progress; x, y : its axes (name, low, high, count), clamped."""
-
-    id: int | None
-    cells: int
-    first: int
-    running: bool
-    reason: str
-    done: int
-    of: int
-    left: float | None
-    level: str
-    error: float | None
-    version: str
-    x: tuple[str, float, float, int]
-    y: tuple[str, float, float, int]
-
-
-@dataclass(frozen=True)
-class ChartEnded:
-    """The chart has ended."""
-
-    id: int | None
-    reason: str
-    running: bool = False
-    cells: int = 0
-
-
-@dataclass(frozen=True)
-class CellExplained:
-    """Explanation of the status of the cell at (x, y)."""
-
-    at: tuple[float, float]
-    why: str
-
-
-@dataclass(frozen=True)
 class Answer:
     """A response to the page.
 
     Attributes
     ----------
     scene, lesson : descriptions as JSON, empty for none; block : the numbers of the state; show : what the followers of
-    a room read beside the state, as JSON; cells : of the chart, the values (double precision), indices (32 bits) and
-    status (8 bits).
+    a room read beside the state, as JSON.
     """
 
     scene: str = ""
@@ -288,8 +190,6 @@ class Answer:
     state: StateAnswer | None = None
     block: bytes = b""
     show: str = ""
-    chart: ChartCells | ChartEnded | CellExplained | None = None
-    cells: bytes = b""
 
     def encode(self) -> bytes:
         """Return the binary frame; empty if the response has no content."""
@@ -298,13 +198,12 @@ class Answer:
             "lesson": self.lesson,
             "state": _json(self.state),
             "show": self.show,
-            "chart": _json(self.chart),
         }
         fields = ", ".join(f'"{name}": {text}' for name, text in parts.items() if text)
         head = f"{{{fields}}}".encode()
-        return struct.pack("<II", len(head), len(self.block)) + head + self.block + self.cells if fields else b""
+        return struct.pack("<II", len(head), len(self.block)) + head + self.block if fields else b""
 
 
-def _json(part: StateAnswer | ChartCells | ChartEnded | CellExplained | None) -> str:
+def _json(part: StateAnswer | None) -> str:
     # Not `asdict`, which makes a deep copy.
     return json.dumps(vars(part)) if part is not None else ""

@@ -10,6 +10,7 @@ import math
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Literal
 from urllib.parse import parse_qsl, urlencode, urlsplit
 
 from hess_explorer.protocol.formulas import polynomial
@@ -82,7 +83,7 @@ class Choice:
     options: tuple[str, ...]
     default: str
     doc: str = ""
-    group: Group = "Computation"
+    group: Group | Literal["Chart"] = "Computation"
 
     def read(self, text: str) -> tuple[str, str | None]:
         """Return the option of that name; otherwise the default and a note, which does not quote the text."""
@@ -129,7 +130,7 @@ class Places:
         """Return the last `most` points as a text, and a note if the text had to be changed."""
         try:
             pairs = [tuple(map(float, pair.split(","))) for pair in text.split(";") if pair]
-            inside = all(
+            inside = bool(pairs) == bool(text) and all(
                 low <= value <= high
                 for pair in pairs
                 for value, low, high in zip(pair, self.low, self.high, strict=True)

@@ -25,7 +25,7 @@ __all__ = ["Drawing", "Frames", "step_of"]
 _LEFT_OUT: dict[str, Any] = {
     "handle": None,
     "words": "",
-    **{key: [] for key in ("controls", "essential", "groups", "charts", "sides", "presets", "tries")},
+    **{key: [] for key in ("controls", "essential", "groups", "presets", "tries")},
 }
 """Parts of a description that need a session of one's own."""
 

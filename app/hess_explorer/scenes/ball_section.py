@@ -13,7 +13,7 @@ from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.parameters import Values
 from hess_explorer.scenes.framework import ball_parameters as ball
 from hess_explorer.scenes.framework.cells import DENSITY
-from hess_explorer.scenes.framework.charted import exponents
+from hess_explorer.scenes.framework.charted import Charts, of_motion
 from hess_explorer.scenes.framework.parameters import accuracy_level, choice, number, parameter, time_span
 from hess_explorer.scenes.framework.part import part
 from hess_explorer.scenes.framework.periodic_search import Closed
@@ -360,7 +360,7 @@ SCENE = Scene(
     place=10,
     presets=PRESETS,
     measures=(section_trial(lambda s: s.section), indicator_trial(lambda s: s.megno)),
-    charts=exponents(SYSTEM.name, lambda s: s.given, ("section",)),
+    charts=Charts(of_motion(SYSTEM, lambda s: s.given), over=("psi", "delta")),
     group="Ball",
     essential=("h", "I13", "D", "psi"),
     handle="psi",

@@ -10,7 +10,7 @@ from functools import cached_property
 import numpy as np
 
 from hess_explorer.scenes.framework import hess_case
-from hess_explorer.scenes.framework.charted import of_torus
+from hess_explorer.scenes.framework.charted import Charts, of_torus
 from hess_explorer.scenes.framework.hess_case import HeavyHess
 from hess_explorer.scenes.framework.parameters import Slider, accuracy_level, choice, number, parameter, slider_within
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
@@ -319,7 +319,7 @@ SCENE = Scene(
     __file__,
     place=13,
     presets=PRESETS,
-    charts=of_torus(lambda s: (s.bridge.hess.a, s.turning.h, s.turning.f), trace=("circle",)),
+    charts=Charts(of_torus(lambda s: (s.bridge.hess.a, s.turning.h, s.turning.f)), over=("h", "f")),
     group="Euler–Poisson",
     essential=("h", "f", "phi0"),
     title="Bridge: Suslov and Euler–Poisson",

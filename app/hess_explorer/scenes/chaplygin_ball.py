@@ -10,7 +10,7 @@ from functools import cached_property
 import numpy as np
 
 from hess_explorer.compute.cache import Task
-from hess_explorer.scenes.framework.charted import Charted, exponents, tensor_of
+from hess_explorer.scenes.framework.charted import Charted, Charts, of_motion, tensor_of
 from hess_explorer.scenes.framework.circle_left import DIGITS, PHI, sphere
 from hess_explorer.scenes.framework.parameters import accuracy_level, parameter, time_span
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
@@ -266,12 +266,16 @@ SCENE = Scene(
     place=9,
     presets=PRESETS,
     measures=_MEASURES,
-    charts=(
-        Charted(
-            "ball-theta-plus",
-            lambda s: {**tensor_of(s.body), "D": s.D, "theta": s.theta, "phi": s.phi, "distance": s.distance},
+    charts=Charts(
+        (
+            Charted(
+                "ball-scattering",
+                ("theta-plus",),
+                lambda s: {**tensor_of(s.body), "D": s.D, "theta": s.theta, "phi": s.phi, "distance": s.distance},
+            ),
+            *of_motion(SYSTEM, lambda s: s.start),
         ),
-        *exponents(SYSTEM.name, lambda s: s.start),
+        over=("phi", "theta"),
     ),
     group="Ball",
     essential=("D", "h", "theta", "phi"),

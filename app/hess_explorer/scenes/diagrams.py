@@ -12,7 +12,7 @@ from typing import ClassVar, Protocol, TypeVar
 import numpy as np
 
 from hess_explorer.protocol.parameters import Values, written
-from hess_explorer.scenes.framework.charted import Charted
+from hess_explorer.scenes.framework.charted import Charted, Charts, parameters_of
 from hess_explorer.scenes.framework.parameters import (
     accuracy_level,
     choice,
@@ -299,20 +299,14 @@ class DiagramState(State, ABC):
 S = TypeVar("S", bound=DiagramState)
 
 
-def charts(state: type[S], quantity: str, **more: float) -> tuple[Charted[S]]:
-    """Return the chartable quantity of such states: the regime of the motion."""
+def charts(section: str, **more: float) -> Charts:
+    """Return the chart of such states: the regime of the motion."""
 
-    def arguments(s: S) -> Mapping[str, float]:
+    def arguments(s: DiagramState) -> Mapping[str, float]:
         psi, delta = s.diagram.place
-        return {
-            **dict(zip(s.body.system.parameters, s.body.parameters, strict=True)),
-            "h": s.h,
-            "psi": psi,
-            "delta": delta,
-            **more,
-        }
+        return {**parameters_of(s.body), "h": s.h, "psi": psi, "delta": delta, **more}
 
-    return (Charted(quantity, arguments, pictures=("diagram", "section")),)
+    return Charts((Charted(f"regime {section}", ("kind",), arguments),), over=("h", "I13"))
 
 
 def pictures(state: type[S], ball: bool = False) -> tuple[Picture[S], ...]:

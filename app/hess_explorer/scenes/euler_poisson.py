@@ -13,7 +13,7 @@ import numpy as np
 from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.parameters import Value, Values, written
 from hess_explorer.scenes.framework.cells import DENSITY
-from hess_explorer.scenes.framework.charted import Placed, exponents
+from hess_explorer.scenes.framework.charted import Charts, of_motion
 from hess_explorer.scenes.framework.hess_case import HeavyHess
 from hess_explorer.scenes.framework.inertia import limits_of_moments
 from hess_explorer.scenes.framework.orbit_batches import OrbitBatch
@@ -429,8 +429,11 @@ SCENE = Scene(
         exponent_trial(lambda s: s.exponent),
         rotation_trial(lambda s: s.rotation),
     ),
-    charts=exponents(SYSTEM.name, lambda s: s.section.asked_start, ("section",), time=lambda s: s.long),
-    placed=Placed("starts", _NAMES),
+    charts=Charts(
+        of_motion(SYSTEM, lambda s: s.section.asked_start, time=lambda s: s.long),
+        over=_NAMES,
+        placed=("starts", _NAMES),
+    ),
     group="Euler–Poisson",
     essential=("away", "h", "f"),
     title="Euler–Poisson: sections",

@@ -11,7 +11,7 @@ import numpy as np
 
 from hess_explorer.protocol.parameters import Values
 from hess_explorer.scenes.framework import free_body
-from hess_explorer.scenes.framework.charted import Charted, tensor_of
+from hess_explorer.scenes.framework.charted import Charted, Charts, tensor_of
 from hess_explorer.scenes.framework.parameters import ONE_TURN, Slider, accuracy_level, choice, parameter, time_span
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
 from hess_explorer.scenes.framework.solid_body import Solid, constrained_solid, solid_body
@@ -284,7 +284,7 @@ SCENE = Scene(
     __file__,
     place=2,
     presets=PRESETS,
-    charts=(Charted("cos-chi", lambda s: tensor_of(s.body)),),
+    charts=Charts((Charted("cos-chi", ("cos-chi",), lambda s: tensor_of(s.body)),), over=("k", "I23")),
     group="Free body",
     essential=("k", "I23", "Gamma", "phi"),
     title="Free Suslov problem",

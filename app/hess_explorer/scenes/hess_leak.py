@@ -9,7 +9,7 @@ from functools import cached_property
 
 import numpy as np
 
-from hess_explorer.scenes.framework.charted import of_torus
+from hess_explorer.scenes.framework.charted import Charts, of_torus
 from hess_explorer.scenes.framework.hess_case import BY_THE_UNSTABLE_CYCLE, PHI0, RIS, UNSURE, HeavyHess, reduced_motion
 from hess_explorer.scenes.framework.parameters import Slider, accuracy_level, number, parameter
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
@@ -244,7 +244,7 @@ SCENE = Scene(
     __file__,
     place=12,
     presets=PRESETS,
-    charts=of_torus(lambda s: (s.bridge.hess.a, s.hess.turning.h, s.hess.turning.f)),
+    charts=Charts(of_torus(lambda s: (s.bridge.hess.a, s.hess.turning.h, s.hess.turning.f)), over=("h", "f")),
     group="Euler–Poisson",
     essential=("h", "f", "phi0", "returns"),
     title="Leak off the Hess manifold",

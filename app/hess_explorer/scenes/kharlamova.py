@@ -9,7 +9,7 @@ from functools import cached_property
 
 import numpy as np
 
-from hess_explorer.scenes.framework.charted import Charted
+from hess_explorer.scenes.framework.charted import Charted, Charts
 from hess_explorer.scenes.framework.parameters import (
     ONE_TURN,
     Slider,
@@ -319,17 +319,21 @@ SCENE = Scene(
     __file__,
     place=6,
     presets=PRESETS,
-    charts=(
-        Charted(
-            "period",
-            lambda s: {
-                "I11": s.I11,
-                "I22": s.I22,
-                "b1": s.b1,
-                "b2": s.b2,
-                **dict(zip(SYSTEM.arguments, s.start, strict=True)),
-            },
+    charts=Charts(
+        (
+            Charted(
+                "period",
+                ("period",),
+                lambda s: {
+                    "I11": s.I11,
+                    "I22": s.I22,
+                    "b1": s.b1,
+                    "b2": s.b2,
+                    **dict(zip(SYSTEM.arguments, s.start, strict=True)),
+                },
+            ),
         ),
+        over=("p", "alpha"),
     ),
     group="Heavy body",
     essential=("q1", "q2", "p", "alpha"),

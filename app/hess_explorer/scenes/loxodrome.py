@@ -9,7 +9,7 @@ from functools import cached_property
 
 import numpy as np
 
-from hess_explorer.scenes.framework.charted import of_torus
+from hess_explorer.scenes.framework.charted import Charts, of_torus
 from hess_explorer.scenes.framework.inertia import limits_of_moments
 from hess_explorer.scenes.framework.parameters import Slider, accuracy_level, parameter, time_span
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
@@ -183,7 +183,7 @@ SCENE = Scene(
     __file__,
     place=14,
     presets=PRESETS,
-    charts=of_torus(lambda s: (s.pendulum.a, s.pendulum.h, 0.0))[:-1],
+    charts=Charts(of_torus(lambda s: (s.pendulum.a, s.pendulum.h, 0.0)), over=("energy", "I2")),
     group="Euler–Poisson",
     essential=("energy", "l", "I2"),
     title="Loxodromic pendulum",

@@ -127,7 +127,7 @@ SCENE = Scene(
     place=15,
     presets=PRESETS,
     group="Heavy body",
-    charts=charts(SuslovDiagram, "regime-suslov-section", k=3.0),
+    charts=charts("suslov-section", k=3.0),
     essential=("h", "first", "last", "I13"),
     handle="h",
     title="Orbit diagram",

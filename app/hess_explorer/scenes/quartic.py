@@ -12,7 +12,7 @@ import numpy as np
 from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.parameters import Values
 from hess_explorer.scenes.framework.cells import DENSITY
-from hess_explorer.scenes.framework.charted import exponents
+from hess_explorer.scenes.framework.charted import Charts, of_motion
 from hess_explorer.scenes.framework.parameters import (
     Slider,
     accuracy_level,
@@ -307,7 +307,7 @@ SCENE = Scene(
     place=7,
     presets=PRESETS,
     measures=(section_trial(lambda s: s.section), indicator_trial(lambda s: s.megno)),
-    charts=exponents(SYSTEM.name, lambda s: s.given),
+    charts=Charts(of_motion(SYSTEM, lambda s: s.given), over=("h", "beta")),
     group="Heavy body",
     essential=("ratio", "h", "Q1", "Q2"),
     opening="section",

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from hess_explorer.compute.cache import Task
-from hess_explorer.scenes.framework.charted import of_torus
+from hess_explorer.scenes.framework.charted import Charts, of_torus
 from hess_explorer.scenes.framework.hess_case import map_or_none, possible_f
 from hess_explorer.scenes.framework.parameters import accuracy_level, choice, number, parameter, places
 from hess_explorer.scenes.framework.scene import Preset, Scene, State
@@ -392,7 +392,7 @@ SCENE = Scene(
     place=8,
     presets=PRESETS,
     measures=_MEASURES,
-    charts=of_torus(lambda s: (s.a, s.h, s.f), trace=("trace", "circle")),
+    charts=Charts(of_torus(lambda s: (s.a, s.h, s.f)), over=("h", "f")),
     group="Heavy body",
     essential=("a", "h", "f"),
     title="Rotation number",

@@ -10,7 +10,7 @@ from functools import cached_property
 import numpy as np
 
 from hess_explorer.scenes.framework import free_body
-from hess_explorer.scenes.framework.charted import Charted, tensor_of
+from hess_explorer.scenes.framework.charted import Charted, Charts, tensor_of
 from hess_explorer.scenes.framework.circle_left import CIRCLES, DIGITS, PHI, sphere
 from hess_explorer.scenes.framework.parameters import Slider, accuracy_level, parameter
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
@@ -223,9 +223,12 @@ SCENE = Scene(
     place=4,
     presets=PRESETS,
     measures=(_MAP,),
-    charts=(
-        Charted("theta-plus", lambda s: {**tensor_of(s.body), "theta": s.theta, "phi": s.phi}),
-        Charted("cos-chi", lambda s: tensor_of(s.body), ("chi",)),
+    charts=Charts(
+        (
+            Charted("scattering", ("theta-plus",), lambda s: {**tensor_of(s.body), "theta": s.theta, "phi": s.phi}),
+            Charted("cos-chi", ("cos-chi",), lambda s: tensor_of(s.body)),
+        ),
+        over=("k", "I23"),
     ),
     group="Free body",
     essential=("k", "I23", "theta", "phi"),

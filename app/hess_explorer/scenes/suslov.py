@@ -12,7 +12,7 @@ import numpy as np
 from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.parameters import Value
 from hess_explorer.scenes.framework.cells import DENSITY
-from hess_explorer.scenes.framework.charted import Charted, Placed, exponents, motion_of
+from hess_explorer.scenes.framework.charted import Charted, Charts, of_motion, parameters_of
 from hess_explorer.scenes.framework.orbit_batches import OrbitBatch
 from hess_explorer.scenes.framework.parameters import (
     TURN,
@@ -396,15 +396,19 @@ SCENE = Scene(
         exponent_trial(lambda s: s.exponent),
         basins_trial(lambda s: s.basins),
     ),
-    charts=(
-        *exponents(SYSTEM.name, lambda s: s.section.asked_start, ("section",), time=lambda s: s.long),
-        Charted("divergence-suslov", lambda s: {**motion_of(s.body, s.section.asked_start), "t": s.long}),
-        Charted(
-            "attractors",
-            lambda s: {**dict(zip(SYSTEM.parameters, s.body.parameters, strict=True)), "h": s.h, "k": s.poincare.k},
+    charts=Charts(
+        (
+            *of_motion(SYSTEM, lambda s: s.section.asked_start, time=lambda s: s.long),
+            Charted(
+                "basins suslov-section",
+                ("attractors",),
+                # Attractors belong to the whole section: one cell is enough.
+                lambda s: {**parameters_of(s.body), "h": s.h, "k": s.poincare.k, "across": 1.0, "up": 1.0},
+            ),
         ),
+        over=_NAMES,
+        placed=("starts", _NAMES),
     ),
-    placed=Placed("starts", _NAMES),
     group="Heavy body",
     essential=("h", "I13", "I23", "b3"),
     title="Suslov problem with gravity",

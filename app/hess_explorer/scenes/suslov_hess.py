@@ -11,7 +11,7 @@ import numpy as np
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework import hess_case
-from hess_explorer.scenes.framework.charted import of_torus
+from hess_explorer.scenes.framework.charted import Charts, of_torus
 from hess_explorer.scenes.framework.hess_case import Proved, limit_cycles, map_or_none, possible_f, possible_I23, proved
 from hess_explorer.scenes.framework.parameters import Slider, accuracy_level, number, parameter, slider_within
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
@@ -299,7 +299,7 @@ SCENE = Scene(
     place=1,
     presets=PRESETS,
     measures=_MEASURES,
-    charts=of_torus(lambda s: (s.body.a, s.h, s.f), trace=("circle",)),
+    charts=Charts(of_torus(lambda s: (s.body.a, s.h, s.f)), over=("h", "f")),
     group="Heavy body",
     essential=("h", "f", "I23", "phi0"),
     handle="bifurcation/here",

@@ -67,8 +67,6 @@ class GuardedDocument(DocHandler):
 
     embedders: ClassVar[tuple[str, ...]] = ("*",)
     """Sites that may embed a part of the page (`embed=1`)."""
-    head_elements: ClassVar[str] = ""
-    """Further elements of the head, the same in every response."""
 
     # A default, because Tornado may send an error before `prepare`.
     _nonce = ""
@@ -101,7 +99,7 @@ class GuardedDocument(DocHandler):
         """
         if isinstance(chunk, str):
             if _END in chunk:
-                head = _BASE + _schemes(self.request.query) + self.head_elements
+                head = _BASE + _schemes(self.request.query)
                 chunk = chunk.replace(_END, head + _END, 1)
             chunk = chunk.replace("<script", f'<script nonce="{self._nonce}"')
         super().write(chunk)

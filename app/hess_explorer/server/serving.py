@@ -30,7 +30,6 @@ from hess_explorer.server.capacity import Capacity
 from hess_explorer.server.export import Export
 from hess_explorer.server.garbage import GARBAGE
 from hess_explorer.server.handlers import replace_handlers
-from hess_explorer.server.headers import GuardedDocument
 from hess_explorer.server.hosts import Hosts
 from hess_explorer.server.limits import MESSAGE_LIMIT, OPEN_SOCKETS
 from hess_explorer.server.liveness import is_alive
@@ -38,7 +37,6 @@ from hess_explorer.server.modules import module_routes
 from hess_explorer.server.qr_code import QrCode
 from hess_explorer.server.room_page import RoomPage
 from hess_explorer.server.room_socket import RoomSocket
-from hess_explorer.server.served_chart import ServedChart
 from hess_explorer.server.shutdown import Workers, end_on_signals, leave
 from hess_explorer.server.warm import warm
 from hess_explorer.server.websockets import StateSocket
@@ -123,7 +121,6 @@ def create_server(
     sessions: int,
     follow: Callable[[str], None] | None = None,
     workers: int = 1,
-    chart: str | None = None,
     **changed: Any,
 ) -> Server:
     """Return a server that listens but is not started; the parameters are those of `serve`.
@@ -139,7 +136,6 @@ def create_server(
         ("/qr.svg", QrCode),
         ("/export", Export),
         *module_routes(),
-        *([] if chart is None else [("/chart.json", ServedChart, {"content": chart})]),
     ]
     options = {
         "title": "Hess Explorer",
@@ -176,7 +172,6 @@ def serve(
     *,
     sessions: int,
     follow: Callable[[str], None] | None = None,
-    chart: str | None = None,
 ) -> NoReturn:
     """Serve the explorer until Ctrl-C or SIGTERM, then end the process with exit status 0.
 
@@ -202,8 +197,6 @@ def serve(
         Maximum number of sessions per worker.
     follow : callable or None
         Called with the query of every state that a page shows.
-    chart : str or None
-        Text of a chart, as the page saves it, which every page opens.
     """
     # Bokeh's, because its logger has a handler without times.
     basicConfig(format="%(asctime)s %(name)s %(message)s", datefmt="%Y-%m-%dT%H:%M:%S%z")
@@ -214,8 +207,6 @@ def serve(
     sys.setswitchinterval(0.001)
     pn.extension()
     replace_handlers(embedders)
-    if chart is not None:
-        GuardedDocument.head_elements = ServedChart.HEAD
     together = Workers() if workers > 1 else None
     server = create_server(
         port,
@@ -225,7 +216,6 @@ def serve(
         sessions=sessions,
         follow=follow,
         workers=workers,
-        chart=chart,
         show=show and workers == 1,
     )
     end_on_signals(server.io_loop)

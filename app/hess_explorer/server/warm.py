@@ -41,12 +41,10 @@ def compute(scene: Scene[Any], folded: bool = True) -> None:
     try:
         state = scene.compute(scene.defaults(), scene.pictures if folded else scene.open_pictures, False)
         todo = Stage(scene, Wire()).show(state, hold_axes=False).todo
-        for task in {task.function: task for task in todo}.values():
+        for task in {task.function: task for task in reversed(todo)}.values():
             CACHE.get(task.function, *task.arguments)
-        if folded:
-            from hess_explorer.sweep.chart import at_first
-
-            list(at_first(scene))
+        if folded and scene.charted is not None:
+            scene.charted.load(state)
     except ModelError as error:
         # A scene that fails must not stop the others.
         logger.warning("%s: %s", scene.name, error)

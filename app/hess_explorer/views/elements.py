@@ -105,7 +105,9 @@ def _exchanged(style: Style, colour: Colour) -> Options:
 def _element(layer: Layer[Any], columns: Columns, colour: Colour) -> hv.Element:
     kind = _KINDS[layer.glyph]
     element = kind.element(layer.name.replace("-", " "), *(columns[name] for name in layer.columns))
-    style = _exchanged(layer.style, colour)
+    # The ends of the colours of cells may depend on the state.
+    ends = {name: columns[name][0] for name in ("low", "high") if layer.glyph == "image" and name in columns}
+    style = _exchanged({**layer.style, **ends}, colour)
     hooks = {} if kind.hook is None else {"hooks": [kind.hook(style)]}
     return with_options(element, {"bokeh": kind.bokeh(style), "matplotlib": {**kind.matplotlib(style), **hooks}})
 

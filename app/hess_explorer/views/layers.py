@@ -72,11 +72,15 @@ class Axes:
 
 @dataclass(frozen=True)
 class CellGrid:
-    """Numbers at the centres of cells (m, n) that fill the rectangle x × y; rows of equal y."""
+    """Numbers at the centres of cells (m, n) that fill the rectangle x × y; rows of equal y.
+
+    ends : numbers of the first and the last colour, if they depend on the state.
+    """
 
     cells: Array
     x: Range
     y: Range
+    ends: Range | None = None
 
 
 @dataclass(frozen=True)
@@ -177,7 +181,8 @@ def _cells(value: CellGrid | None) -> Columns:
     if value is None:
         return {}
     (x0, x1), (y0, y1) = value.x, value.y
-    return {"image": [column(value.cells)], "x": [x0], "y": [y0], "dw": [x1 - x0], "dh": [y1 - y0]}
+    ends = {} if value.ends is None else {"low": [value.ends[0]], "high": [value.ends[1]]}
+    return {"image": [column(value.cells)], "x": [x0], "y": [y0], "dw": [x1 - x0], "dh": [y1 - y0], **ends}
 
 
 def _layer(

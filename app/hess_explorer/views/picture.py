@@ -86,10 +86,10 @@ class Picture(ABC, Generic[S]):
 
     @property
     def hands(self) -> str:
-        """The mouse gesture that sets values: "drag", "box", "click" or none."""
+        """The mouse gestures that set values: "drag", "box", "drag box", "click" or none."""
         if self.on_click is None:
             return ""
-        return "drag" if self.on_drag else "box" if self.on_box is not None else "click"
+        return " ".join(["drag"] * bool(self.on_drag) + ["box"] * (self.on_box is not None)) or "click"
 
     def describe(self) -> dict[str, Any]:
         """Return the description of the picture, sent to the browser before the first data."""

@@ -1,4 +1,4 @@
-"""Cells of a section, computed row by row: first coarse cells all over it, then finer ones."""
+"""Cells of a picture, computed row by row: first coarse cells all over it, then finer ones."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.windows import Window, frame_of
 from hess_explorer.scenes.framework.work import Work
 from hess_explorer.views.comparison import Cells
@@ -28,27 +29,32 @@ Arguments = tuple[Any, ...]
 def found_by_rows(
     work: Work,
     row_of: Callable[..., Array],
-    coarse: Sequence[Arguments],
-    fine: Sequence[Arguments],
-    sooner: Callable[[], object],
+    stages: Sequence[Sequence[Arguments]],
+    sooner: Callable[[], object] = lambda: None,
 ) -> tuple[Array, int] | None:
-    """Return the cells (n, …, m), and the number of rows that are still coarse; None until all coarse ones are known.
+    """Return the finest cells (n, …, m), and the number of rows that are still coarse.
 
-    row_of : computes a coarse or fine row of cells (…, m) from its arguments; sooner : requests results that are
-    computed between the coarse and the fine cells.  Each coarse cell is the middle one of `COARSE`² fine cells.
+    None until all rows of the first stage are known.
+
+    row_of : computes a row of cells (…, m) from its arguments; stages : the arguments of the rows, the coarsest first;
+    sooner : requests results that are computed after the first stage.  Each cell is the middle one of `COARSE`² cells
+    of the next stage.
     """
-    first = [work.later(row_of, *row) for row in coarse]
-    sooner()
-    # Every third row first, so that the whole window becomes finer.
-    found = {i: work.later(row_of, *fine[i]) for begun in range(COARSE) for i in range(begun, len(fine), COARSE)}
-    known = [row for row in first if row is not None]
-    if len(known) < len(first):
-        return None
-    cells = np.repeat(np.repeat(np.stack(known), COARSE, axis=0), COARSE, axis=-1)
-    for i, row in found.items():
-        if row is not None:
-            cells[i] = row
-    return cells, sum(row is None for row in found.values())
+    cells: Array | None = None
+    left = 0
+    for stage, rows in enumerate(stages):
+        # Every third row first, so that the whole window becomes finer.
+        order = [i for begun in range(COARSE) for i in range(begun, len(rows), COARSE)]
+        found = {i: row for i in order if (row := work.ask(Task(row_of, rows[i]))) is not None}
+        left = len(rows) - len(found)
+        if stage == 0:
+            sooner()
+            cells = None if left else np.stack([found[i] for i in range(len(rows))])
+        elif cells is not None:
+            cells = np.repeat(np.repeat(cells, COARSE, axis=0), COARSE, axis=-1)
+            for i, row in found.items():
+                cells[i] = row
+    return None if cells is None else (cells, left)
 
 
 def changed(cells: Array, truth: Array) -> float:

@@ -18,6 +18,7 @@ __all__ = [
     "Slider",
     "accuracy_level",
     "choice",
+    "declared",
     "exponent_time",
     "formula",
     "like",
@@ -40,8 +41,9 @@ TURN = 3.14159
 _SPEC = "spec"
 
 
-def _field(spec: Spec) -> Any:
-    return field(default=spec.default, metadata={_SPEC: spec})
+def declared(spec: Spec, compare: bool = True) -> Any:
+    """Return the field of a parameter; compare : whether results of the state can depend on it."""
+    return field(default=spec.default, metadata={_SPEC: spec}, compare=compare)
 
 
 def parameter(known: Parameter, default: float | None = None, **changes: Any) -> Any:
@@ -53,7 +55,7 @@ def parameter(known: Parameter, default: float | None = None, **changes: Any) ->
     default : another default.
     changes : other fields of `Parameter`, such as softbounds, step or doc.  State a reason beside other bounds.
     """
-    return _field(Number(**known.changed(default=known.default if default is None else default, **changes)))
+    return declared(Number(**known.changed(default=known.default if default is None else default, **changes)))
 
 
 def number(
@@ -69,22 +71,22 @@ def number(
     means: str = "",
 ) -> Any:
     """Declare a number: its slider covers `softbounds` in steps; typed values and links are limited to `bounds`."""
-    return _field(Number("", symbol, label, default, softbounds, step, bounds, doc, group, means=means))
+    return declared(Number("", symbol, label, default, softbounds, step, bounds, doc, group, means=means))
 
 
 def choice(label: str, options: tuple[str, ...], default: str, *, doc: str, group: Group = "Computation") -> Any:
     """Declare a choice from a fixed list of names."""
-    return _field(Choice("", label, options, default, doc, group))
+    return declared(Choice("", label, options, default, doc, group))
 
 
 def formula(label: str, default: str, reads: Callable[[str], object], *, doc: str) -> Any:
     """Declare a formula; reads : raises `InvalidParameter` for texts that are none."""
-    return _field(Formula("", label, default, doc, reads=reads))
+    return declared(Formula("", label, default, doc, reads=reads))
 
 
 def places(label: str, most: int, low: tuple[float, float], high: tuple[float, float], default: str = "") -> Any:
     """Declare points set with the mouse, at most `most`, between two corners; they have no control."""
-    return _field(Places("", label, most, low, high, default))
+    return declared(Places("", label, most, low, high, default))
 
 
 def accuracy_level() -> Any:
@@ -133,7 +135,7 @@ def time_span(default: float, longest: float, *, step: float = 1.0, most: float 
 def like(state: type[Any], name: str, default: Value | None = None, **changes: Any) -> Any:
     """Declare a parameter like that of another state, with another default or other arguments of `number` if given."""
     spec: Any = next(one for one in specs_of(state) if one.name == name)
-    return _field(replace(spec, default=spec.default if default is None else default, **changes))
+    return declared(replace(spec, default=spec.default if default is None else default, **changes))
 
 
 def slider_within(largest: float) -> Slider:

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import InitVar, dataclass, field, replace
 from functools import cached_property
 from html import escape
 from pathlib import Path
-from typing import Any, Generic, Self, TypeVar, cast
+from typing import Any, ClassVar, Generic, Self, TypeVar, cast
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.parameters import Choice, Number, Spec, Value, Values
-from hess_explorer.scenes.framework.charted import Charted, Placed
+from hess_explorer.scenes.framework.charted import Charts
 from hess_explorer.scenes.framework.parameters import Slider, specs_of
 from hess_explorer.scenes.framework.part import Host, Part, part
 from hess_explorer.scenes.framework.trial import Trial, bare, needed, orbit_trial
@@ -141,7 +141,7 @@ class State:
         """Return the meanings, as `Number.means`, of the numbers whose meaning depends on a choice."""
         return {name: meaning for one in self.parts() for name, meaning in one.means().items()}
 
-    def carried(self, before: Self) -> Mapping[str, float]:
+    def carried(self, before: Self) -> Values:
         """Return the parameter changes that keep the motion continuous after a different choice in the state before.
 
         Raises `ModelError` if they cannot be determined.
@@ -183,7 +183,7 @@ class Scene(Generic[S]):
     tracks : columns shared by several pictures and the player; the player follows the column t of "orbit".
     angles : the columns of "orbit" that are angles.
     measures : computations besides the motion whose cost and error are measured at each level.
-    charts : quantities that can be charted over its parameters; placed : coordinates over which they can be charted.
+    charts : the numbers that it charts over its parameters.
     place : its position in the menu, the first scene opens the page; group : its heading there.
     essential : the parameters whose controls are open; the others are folded into their groups.
     handle : the control that a new visitor should drag: an essential parameter (the first by default) or
@@ -200,13 +200,20 @@ class Scene(Generic[S]):
     tracks: Mapping[str, Callable[[S], Columns | None]] = field(default_factory=dict)
     angles: tuple[str, ...] = ()
     measures: tuple[Trial[S], ...] = ()
-    charts: tuple[Charted[S], ...] = ()
-    placed: Placed | None = None
+    charts: InitVar[Charts | None] = None
     place: int = 0
     group: str = ""
     essential: tuple[str, ...] = ()
     handle: str = ""
     opening: str = ""
+    charted: ClassVar[Charts | None] = None
+
+    def __post_init__(self, charts: Charts | None) -> None:
+        """Add the chart to states and pictures."""
+        object.__setattr__(self, "charted", charts)
+        if charts is not None:
+            object.__setattr__(self, "state", charts.added(self.state))
+            object.__setattr__(self, "views", (*self.views, charts.picture()))
 
     @cached_property
     def name(self) -> str:
@@ -345,7 +352,7 @@ class Scene(Generic[S]):
         """Return the numbers without effect in the state of admitted values, with what their controls show."""
         return _or_nothing(lambda: self.of(values).idle())
 
-    def carried(self, before: Values, values: Values) -> Mapping[str, float]:
+    def carried(self, before: Values, values: Values) -> Values:
         """Return the parameter changes that keep the motion of the values before continuous after other choices."""
         return _or_nothing(lambda: self.of(values).carried(self.of(self.admit(before)[0])))
 

@@ -86,7 +86,7 @@ class Indicator(Part[_Host]):
         if not self.wanted or self.work.dragging:
             return None
         plan = self.work.plan(Kind.INDICATOR)
-        return found_by_rows(self.work, row_of_cells, self.rows(plan, COARSE), self.rows(plan), self.sooner)
+        return found_by_rows(self.work, row_of_cells, (self.rows(plan, COARSE), self.rows(plan)), self.sooner)
 
     @property
     def kinds(self) -> Array | None:

@@ -1,0 +1,251 @@
+"""The chart of a scene: its cells, its window, its parameters and its words."""
+
+import json
+
+import numpy as np
+import pytest
+from pytest import approx
+
+from hess_explorer.commands.serve import _shown
+from hess_explorer.compute.cells import Outcome
+from hess_explorer.export.picture_data import complete, picture_data
+from hess_explorer.lessons.reading import read
+from hess_explorer.page.requested import RequestedState
+from hess_explorer.protocol.parameters import decode, encode
+from hess_explorer.scenes import scenes
+from hess_explorer.scenes.framework.cells import COARSE
+from hess_explorer.scenes.framework.charted import STORED
+from hess_mechanics.catalogue import find
+from hess_mechanics.dynamics.cells import centres
+from hess_mechanics.errors import ModelError
+from hess_mechanics.numerics.accuracy import STANDARD
+from support.board import SCENES, Browser
+
+TORI = SCENES["rotation-number"]
+SUSLOV = SCENES["suslov"]
+OWN = {"chart": "trace", "chart_x": "h", "chart_y": "f", "a": 0.3}
+
+
+def state_of(scene=TORI, *, known=True, **values):
+    """Return the state with the chart in sight, complete if `known`."""
+    admitted = scene.admit({**scene.defaults(), **OWN, **values} if scene is TORI else {**scene.defaults(), **values})[
+        0
+    ]
+    if known:
+        return complete(scene, admitted, ["chart"], lambda state: state.charting.caption)[0]
+    return scene.compute(admitted, ["chart"], False)
+
+
+def cells_of(state):
+    """Return the centres (m,) and (n,) of the cells, and their values (n, m)."""
+    (x0, y0), (x1, y1) = state.charting.window
+    values = state.charting.cells.cells
+    n, m = values.shape
+    return centres(x0, x1, m), centres(y0, y1, n), values
+
+
+@pytest.mark.parametrize("window", ["", "0.5,-0.5;1.5,0.25"])
+def test_each_cell_is_the_number_at_its_centre(window):
+    state = state_of(chart_window=window)
+    x, y, values = cells_of(state)
+    if window:
+        assert state.charting.window == ((0.5, -0.5), (1.5, 0.25))
+    circle_map = find("circle-map")
+    for i, j in [(0, 0), (40, 150), (108, 108), (107, 10), (215, 215)]:
+        try:
+            expected = circle_map.compute({"a": 0.3, "h": x[j], "f": y[i]}, STANDARD).trace
+        except ModelError:
+            expected = np.nan
+        assert values[i, j] == approx(expected, rel=1e-9, nan_ok=True)
+
+
+def test_the_own_number_and_coarse_cells_come_first_and_are_the_middle_ones_of_the_finer():
+    state = state_of(known=False, a=0.35)
+    assert state.charting.cells is None
+    for task in state.work.todo[:9]:
+        state.work.get(task.function, *task.arguments)
+    coarse = state_of(known=False, a=0.35).charting.cells.cells
+    assert ", 0 rows known" in state_of(known=False, a=0.35).charting.caption.numbers
+    assert state_of(known=False, a=0.35).charting.own is not None
+    fine = state_of(a=0.35).charting.cells.cells
+    step = COARSE**3
+    middle = step // 2
+    assert len(fine) == 8 * step
+    assert coarse[middle::step, middle::step] == approx(fine[middle::step, middle::step], rel=1e-9, nan_ok=True)
+    assert np.array_equal(coarse[:step, :step], np.full((step, step), coarse[0, 0]), equal_nan=True)
+
+
+def test_a_click_or_drag_sets_both_parameters_and_computes_no_cell_again():
+    state = state_of()
+    moved = TORI.admit({**TORI.defaults(), **OWN, **state.charting.choose(1.25, 0.5)})[0]
+    assert (moved["h"], moved["f"]) == (1.25, 0.5)
+    other = TORI.compute(moved, ["chart"], True)
+    assert "rows known" not in other.charting.caption.numbers
+    assert other.charting.here() == [(1.25, 0.5)]
+    # Another slider shows what is known, and plans nothing while it is held.
+    held = TORI.compute({**moved, "a": 0.77}, ["chart"], True)
+    assert (held.charting.cells, held.work.todo) == (None, [])
+
+
+def test_the_start_of_a_motion_in_a_section_is_a_place_of_the_chart():
+    state = state_of(SUSLOV, known=False)
+    assert [side.symbol for side in state.charting.axes] == ["ψ", "δ"]
+    assert state.charting.here() == [(1.0, 1.0)]
+    assert state.charting.choose(0.5, 1.5) == {"starts": "0.5,1.5"}
+    with pytest.raises(ModelError, match="no motion has this energy"):
+        state.charting.choose(-2.5, 1.0)
+
+
+def test_a_box_zooms_in_and_other_sides_show_the_whole_range_again():
+    state = state_of(known=False)
+    assert state.charting.look_closer((1.0, 0.5, 0.0, -0.5)) == {"chart_window": "0,-0.5;1,0.5"}
+    requested = RequestedState(TORI, {**TORI.defaults(), "chart_window": "0,-0.5;1,0.5"}, [])
+    requested.change({"chart": "trace"})
+    assert requested.values["chart_window"]
+    requested.change({"chart_x": "a"})
+    assert requested.values["chart_window"] == ""
+
+
+def test_what_the_chart_shows_is_in_the_link():
+    values = {**TORI.defaults(), **OWN, "chart": "locked", "chart_window": "0,-0.5;1,0.5"}
+    assert decode(encode(TORI.name, values), TORI.specs) == (values, [])
+
+
+def test_the_caption_says_the_own_number_and_why_cells_have_none():
+    state = state_of(h=1.5, f=0.6)
+    own = find("circle-map").compute({"a": 0.3, "h": 1.5, "f": 0.6}, STANDARD).trace
+    caption = state.charting.caption
+    assert caption.verdict == f"|t| = {own:.4g}."
+    share = 100.0 * np.mean(~np.isfinite(cells_of(state)[2]))
+    assert "216 × 216 cells; colours from" in caption.numbers
+    assert caption.numbers.endswith(f"{share:.2g} % have none: no such motion.")
+    assert state.charting.about(-0.9, 2.9) == "h = −0.9, f = 2.9: No number: no such motion."
+    assert state.charting.about(1.5, 0.6).startswith("h = 1.5, f = 0.6: |t| = 2.")
+
+
+def test_an_error_belongs_to_its_number():
+    state = state_of(SUSLOV, known=False, chart="lyapunov", long=20.0, chart_window="1,1;1.1,1.1")
+    own = next(task for task in state.work.todo if task.function.__name__ == "_one")
+    state.work.get(own.function, *own.arguments)
+    state = state_of(SUSLOV, known=False, chart="lyapunov", long=20.0, chart_window="1,1;1.1,1.1")
+    values = {**SUSLOV.defaults(), "long": 20.0}
+    found = find("lyapunov suslov").compute(
+        SUSLOV.charted.numbers["lyapunov"][0].arguments(SUSLOV.of(values)), STANDARD
+    )
+    assert state.charting.own[0, 0] == approx(found.value, rel=1e-9)
+    assert state.charting.own[1, 0] == approx(found.spread, rel=1e-9)
+    assert " ± " in state.charting.caption.verdict
+
+
+def test_a_periodic_number_and_categories_have_their_own_colours():
+    turns = state_of(chart="rotation-number")
+    assert turns.charting.cells.ends == (-0.5, 0.5)
+    assert np.nanmax(np.abs(turns.drawn["chart-turns"]["image"][0])) <= 0.5
+    assert not turns.drawn["chart-numbers"]
+    kinds = state_of(chart="locked", h=1.5, f=0.6)
+    (name,) = (name for name, columns in kinds.drawn.items() if "image" in columns)
+    assert name.startswith("chart-kinds")
+    values = kinds.drawn[name]["image"][0]
+    assert {*values[np.isfinite(values)]} == {0.0, 1.0}
+    assert kinds.charting.caption.verdict == "locked = two limit cycles."
+
+
+@pytest.mark.parametrize(
+    ("values", "said"),
+    [
+        ({"chart_y": "h"}, "Both axes are h"),
+        ({"chart": "critical-a", "chart_x": "a"}, "critical-a does not depend on a"),
+    ],
+)
+def test_a_chart_that_is_none_says_why(values, said):
+    state = state_of(**values)
+    assert state.charting.reason.startswith(said)
+    assert [*state.drawn["chart-numbers"]] == []
+    with pytest.raises(ModelError, match=said):
+        state.charting.choose(0.5, 0.5)
+
+
+def test_a_folded_chart_computes_nothing():
+    state = TORI.compute(TORI.defaults(), TORI.open_pictures, False)
+    assert "charting" not in vars(state)
+
+
+@pytest.mark.parametrize("scene", [one for one in SCENES.values() if one.charted], ids=lambda one: one.name)
+def test_every_number_of_a_scene_depends_on_the_first_sides_and_exists(scene):
+    for option, (charted, number) in scene.charted.numbers.items():
+        find(charted.key).number(number)
+        state = scene.of({**scene.defaults(), "chart": option})
+        assert charted.values(state)
+        if option == next(iter(scene.charted.numbers)):
+            assert state.charting.reason == ""
+
+
+def test_a_step_of_a_lesson_shows_a_chart():
+    link = "?" + encode(TORI.name, {**TORI.defaults(), **OWN})
+    lesson = read(
+        f'---\ntitle: Charts\nminutes: 1\n---\n## One\n```step\nstate: "{link}"\nlook: chart\n```\nText.\n', "own"
+    )
+    (step,) = lesson.steps
+    assert (step.look, step.at.values["chart"]) == ("chart", "trace")
+
+
+def test_a_session_draws_the_chart_zooms_picks_and_undoes():
+    browser = Browser(TORI, {**TORI.defaults(), **OWN})
+    hidden = [name for name in TORI.pictures if name not in ("chart", "map")]
+    before = browser.ask(1, hidden=hidden)["query"]
+    browser.ask(2, hidden=hidden, picked=["chart", 0.0, -0.5, 1.0, 0.5])
+    assert browser.session.values["chart_window"] == "0,-0.5;1,0.5"
+    browser.ask(3, hidden=hidden, picked=["chart", 0.25, 0.125])
+    assert (browser.session.values["h"], browser.session.values["f"]) == (0.25, 0.125)
+    browser.ask(4, hidden=hidden, clear=True)
+    assert browser.session.values["chart_window"] == ""
+    assert browser.ask(5, hidden=hidden, restore=before)["query"] == before
+    browser.session.background.stop()
+
+
+def test_the_file_of_a_chart_holds_its_numbers():
+    data = picture_data(encode(TORI.name, {**TORI.defaults(), **OWN}), "chart")
+    _, _, values = cells_of(state_of())
+    columns = data.columns["chart-numbers"]
+    assert np.array_equal(columns["image"][0], values, equal_nan=True)
+    assert (columns["low"][0], columns["high"][0]) == approx(np.nanquantile(values, (0.01, 0.99)))
+
+
+def stored(**changed):
+    """Return a Dataset like that of a stored sweep of |t| over (h, f)."""
+    xarray = pytest.importorskip("xarray")
+    h, f = np.linspace(0.0, 2.0, 5), np.linspace(-0.5, 0.5, 3)
+    values = np.add.outer(h, 10.0 * f)
+    fixed = {one.name: one.default for one in find("circle-map").parameters if one.name not in "hf"} | {"a": 0.3}
+    facts = {"computation": "circle-map", "level": "precise", "parameters": json.dumps({**fixed, **changed})}
+    status = np.full(values.shape, Outcome.OK, np.uint8)
+    return xarray.Dataset({"trace": (("h", "f"), values), "status": (("h", "f"), status)}, {"h": h, "f": f}, facts)
+
+
+def test_a_stored_sweep_is_shown_in_the_chart_of_a_scene():
+    try:
+        values, _ = decode(_shown(stored(), {}), TORI.specs)
+        state = TORI.compute(values, ["chart"], False)
+        assert (values["accuracy"], values["a"]) == ("precise", 0.3)
+        assert state.charting.window == ((-0.25, -0.75), (2.25, 0.75))
+        assert np.array_equal(state.drawn["chart-numbers"]["image"][0], stored().trace.values.T)
+        assert state.charting.about(2.0, 0.5).endswith("|t| = 7.")
+        # Another state has no such sweep.
+        assert TORI.of({**values, "a": 0.31}).charting.key not in STORED
+    finally:
+        STORED.clear()
+    for found, at, said in (
+        (stored().isel(f=0), {}, "A chart has two sides"),
+        (stored().isel(h=[0, 1, 3]), {}, "evenly spaced"),
+        (stored(), {"f": 0.1}, "no cells at f = 0.1"),
+        (stored(), {"a": 0.1}, "no side 'a'"),
+        (stored(phi=0.3), {}, "No scene shows circle-map"),
+    ):
+        with pytest.raises(ModelError, match=said):
+            _shown(found, at)
+
+
+def test_derived_scenes_share_the_choices_of_the_chart_but_not_its_picture():
+    scene = scenes()["rotation-number-accuracy"]
+    assert "chart" not in scene.pictures
+    assert {"chart", "chart_x", "chart_window"} <= {spec.name for spec in scene.specs}
