@@ -14,7 +14,7 @@ from hess_mechanics import check_body, lyapunov_spectrum
 from hess_mechanics.dynamics.point_sets import set_distance
 from hess_mechanics.suslov.section import SuslovSection
 from support.deviations import deviations
-from support.diagrams import complete, crossings, distance_of_most, settled
+from support.diagrams import complete, crossings, settled
 from support.suslov import field
 from support.thorough import sample
 from support.view import View
@@ -65,18 +65,11 @@ def test_attractors_and_repellers_are_what_their_examples_say(name, verdict):
     known = state.regime.kind.dynamics
     div, error = known.motion.divergence, known.motion.divergence_error
     assert f"div = {digits(div, 2)} ± " in captions["section"]
-    assert known.motion.volume == -1
-    # One trajectory proves nothing.
-    starts = [state.poincare.state_at(*place) for place in settled(state.poincare, 16, 1, 500)[:, 0]]
-    found = [lyapunov_spectrum(state.body, start, 8000.0) for start in starts]
-    rates, dimensions = [one.values[0] for one in found], [one.dimension[0] for one in found]
-    assert deviations(rates, 0.02) > 5.0
-    assert abs(deviations([one.divergence for one in found], div, error)) < 5.0
-    # λ1 + λ3 is the divergence: D = 2 + λ1/|λ3| = 3 + div/|λ3| of the means.
-    third = np.mean(rates) - div
-    assert abs(deviations(dimensions, 3.0 + div / third, error / third)) < 5.0
     assert div + 3.0 * error < 0.0
+    # One trajectory proves nothing.
     both = [settled(state.poincare, 32, 1500, 500, forward) for forward in (True, False)]
+    starts = state.poincare.states_at(*both[0][:16, 0].T)[0]
+    assert abs(deviations([lyapunov_spectrum(state.body, y, 8000.0).divergence for y in starts], div, error)) < 5.0
     shared = np.array([set_distance(state.poincare.turns, *pair).shared for pair in zip(*both, strict=True)])
     if name == "Touching":
         assert deviations(np.log(shared), log(0.005)) > 5.0
@@ -84,8 +77,6 @@ def test_attractors_and_repellers_are_what_their_examples_say(name, verdict):
         assert not shared.any()
     else:
         assert deviations(shared, 0.8) > 5.0
-    distances = [distance_of_most(*(one[::3] for one in pair)) for pair in zip(both[0][:8], both[1][:8], strict=True)]
-    assert abs(deviations(distances, known.distance, known.distance_error)) < 5.0
 
 
 LIGHT = {
