@@ -77,16 +77,14 @@ def test_an_example_shows_what_its_name_and_its_captions_promise(preset):
 @pytest.mark.parametrize("preset", sample([EP.presets[i] for i in (1, 5, 10, 15)], 2), ids=lambda one: one.name)
 def test_rotation_numbers_are_those_of_3000_points(preset):
     view = EulerPoisson({**preset.values, "orbits": 0.0}, seen={"rotation", "section"})
-    low, high = view.numbers("rotation", "rom # to #")
     along, rho = view.curve("rotation-rho")
-    assert (np.min(rho), np.max(rho)) == (approx(low, abs=6e-5), approx(high, abs=6e-5))
+    assert view.numbers("rotation", "rom # to #") == approx([np.min(rho), np.max(rho)], abs=6e-5)
     turning = view.values["turns"] == "about the middle"
     ends = view.columns("section-line", "x", "y")
-    for i in np.linspace(0, len(rho) - 1, 5).astype(int):
+    for i in (0, len(rho) // 2, -1):
         place = (along[i], ends[0, 1]) if turning else (ends[0, 0], along[i])
         exact, spread = rotation_number(places_from(view, place), tuple(ends[0]) if turning else None)
-        if spread < 1e-6:
-            assert remainder(rho[i] - exact, 1.0) == approx(0.0, abs=3e-4)
+        assert spread > 1e-6 or remainder(rho[i] - exact, 1.0) == approx(0.0, abs=3e-4)
 
 
 def test_at_the_meandering_torus_the_rotation_number_turns_round_at_an_eighth():

@@ -94,11 +94,6 @@ class View:
         """Columns of a source side by side, (n, k)."""
         return np.column_stack([self.data[source][name] for name in names]).astype(float)
 
-    def track(self, times):
-        """The drawn orbit (n, 5) at these times, straight between its samples."""
-        drawn = self.data["data-orbit"]
-        return np.column_stack([np.interp(times, drawn["t"], drawn[name]) for name in STATE])
-
     def points(self, layer):
         """The points of a layer of the section, (n, 2)."""
         columns = self.data.get(f"section-{layer}", {"x": [], "y": []})
