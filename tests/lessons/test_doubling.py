@@ -72,14 +72,13 @@ def test_the_saddle_goes_on_between_the_branches():
     values = STEPS["Where has the old motion gone?"].prediction.then.values
     few = {"ways": "there and back", "steps": 20.0}
     found = View(scenes()["orbit-diagram"], values | few, seen={"diagram"})
-    columns = found.data["diagram-branch-repels"]
     # It begins where the period doubles, and goes on beyond the next doubling.
-    xs, ys = (np.concatenate([np.asarray(part, float) for part in columns[key]]) for key in ("xs", "ys"))
+    xs, ys = found.curve("diagram-branch-repels")
     assert xs.min() == pytest.approx(cascade().values[0], abs=1e-4)
     assert xs.max() > cascade().values[1]
     drawn = found.result.diagram.points("rising")
     between = np.unique(drawn[0][(drawn[0] > 0.0) & (drawn[0] < 0.07)])
     assert len(between) > 2
     for x in between:
-        lower, upper = drawn[1][drawn[0] == x].min(), drawn[1][drawn[0] == x].max()
-        assert lower + 0.01 < np.interp(x, xs, ys) < upper - 0.01
+        there = drawn[1][drawn[0] == x]
+        assert there.min() + 0.01 < np.interp(x, xs, ys) < there.max() - 0.01

@@ -17,6 +17,7 @@ from hess_explorer.scenes.framework.stage import Stage
 from hess_explorer.scenes.framework.trial import Trial, bare, needed, section_error
 from hess_explorer.scenes.framework.work import AUTO
 from hess_explorer.scenes.parts.costs import Costs
+from hess_mechanics.dynamics.cells import centres
 from hess_mechanics.dynamics.trade import LevelCost, beyond
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.accuracy import LEVELS, PLANS, REFERENCE, Kind
@@ -208,12 +209,7 @@ def test_the_cells_that_change_are_those_of_the_finer_grid_with_another_colour()
     axes = scene.of(scene.defaults()).window
     found = {}
     for name, (m, n) in (("draft", (150, 100)), ("standard", (300, 200))):
-        h, f = np.meshgrid(
-            *(
-                low + (high - low) * (np.arange(count) + 0.5) / count
-                for (low, high), count in zip(axes, (m, n), strict=True)
-            )
-        )
+        h, f = np.meshgrid(*(centres(*axis, count) for axis, count in zip(axes, (m, n), strict=True)))
         values = values_at(0.5, h.ravel(), f.ravel(), LEVELS[name])
         # Locked tori have one tone, whatever ρ.
         shown = np.where(values.possible, np.where(values.locked, 9.0, values.rho), np.nan)
