@@ -111,11 +111,6 @@ def test_a_box_zooms_in_and_other_sides_show_the_whole_range_again():
     assert requested.values["chart_window"] == ""
 
 
-def test_what_the_chart_shows_is_in_the_link():
-    values = {**TORI.defaults(), **OWN, "chart": "locked", "chart_window": "0,-0.5;1,0.5"}
-    assert decode(encode(TORI.name, values), TORI.specs) == (values, [])
-
-
 def test_the_caption_says_the_own_number_and_why_cells_have_none():
     state = state_of(h=1.5, f=0.6)
     own = trace(a=0.3, h=1.5, f=0.6)

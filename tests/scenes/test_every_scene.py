@@ -22,7 +22,7 @@ from hess_explorer.scenes.parts import precision
 from hess_explorer.views import theme
 from hess_explorer.views.layers import Axes
 from hess_explorer.views.text import with_formulas
-from hess_mechanics import f_max
+from hess_mechanics import f_max, solve
 from hess_mechanics.errors import ModelError
 from support.board import (
     ACCURACY,
@@ -240,6 +240,32 @@ def test_a_preset_is_possible_as_it_stands_and_is_drawn(scene, preset):
         ranges = (rf"from {NUMBER} to {NUMBER}", rf"between [^.,;]*?{NUMBER} and {NUMBER}", rf"{NUMBER} … {NUMBER}")
         for low, high in (found for one in ranges for found in re.findall(one, sentence)):
             assert low != high, (name, sentence)
+
+
+MOVING = [scene for scene in OWN if scene.has_motion and scene.name != "loxodrome"]
+"""The scenes with a track of γ; that of the loxodromic pendulum has angles."""
+
+
+@pytest.mark.parametrize("scene", MOVING, ids=lambda scene: scene.name)
+def test_the_drawn_orbit_is_the_motion_of_its_state(scene):
+    for preset in (*scene.presets[:3], scene.presets[-1]):
+        values = {**scene.defaults(), **preset.values}
+        motion, board = scene.of(values).motion(), Board(scene)
+        board.show(scene.compute(values, scene.pictures, False))
+        orbit = {name: np.asarray(column, float) for name, column in board.sources["data-orbit"].items()}
+        picks = np.flatnonzero(orbit["t"] <= 5.0)[::7][:30]
+        assert len(picks) > 2
+        times = orbit["t"][picks] / motion.unit
+        exact = solve(motion.system.at(motion.parameters), motion.state, times, "reference").states
+        gamma, vertical = np.column_stack([orbit[name][picks] for name in ("g1", "g2", "g3")]), exact[:, -3:]
+        # Times and components are sent in single precision.
+        if motion.system.name == "hess":
+            # The axes of the reduced equations are turned against those of the body.
+            assert gamma @ gamma.T == approx(vertical @ vertical.T, abs=2e-5)
+            continue
+        assert gamma == approx(vertical, abs=2e-5)
+        for name, rates in zip(("omega1", "omega2"), exact.T, strict=False):
+            assert name not in orbit or orbit[name][picks] == approx(rates, rel=1e-5, abs=2e-5)
 
 
 def with_known_axes(scene, state):

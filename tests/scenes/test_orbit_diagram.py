@@ -1,4 +1,4 @@
-"""The scene of orbit diagrams: the numbers of its examples by other means, what a click chooses, what captions say."""
+"""The scene of orbit diagrams: what its examples show, what a click chooses, what captions say."""
 
 import re
 from dataclasses import replace
@@ -14,7 +14,7 @@ from hess_mechanics import check_body, lyapunov_spectrum
 from hess_mechanics.dynamics.point_sets import set_distance
 from hess_mechanics.suslov.section import SuslovSection
 from support.deviations import deviations
-from support.diagrams import complete, crossings, distance_of_most, multipliers, settled
+from support.diagrams import complete, crossings, settled
 from support.suslov import field
 from support.thorough import sample
 from support.view import View
@@ -29,39 +29,24 @@ def image(body, E, place, count=1):
     return section.places_of(crossings(lambda _, y: field(body, y), section.state_at(*place), count))
 
 
-def exact_multipliers(body, E, places):
-    """Return the multipliers of the orbit through these places by SciPy, the largest first; it must close."""
-    for place, following in zip(places, np.roll(places, -1, axis=0), strict=True):
-        assert image(body, E, place)[0] == approx(following, abs=1e-8)
-    return multipliers(lambda place: image(body, E, place)[0], places)
-
-
 def test_all_examples_are_rigid_bodies_from_one_edge_of_their_diagram_to_the_other():
     for scene in (SCENE, scenes()["ball-diagram"]):
         for state in (scene.of({**scene.defaults(), **preset.values}, (), True) for preset in scene.presets):
             for value in (state.first, state.diagram.at, state.last):
                 b = replace(state, **{state.diagram.name: value})
-                I33 = check_body(b.I11, b.I22, b.I13, b.I23).I33
-                # The principal moments of the whole tensor, by their eigenvalues, and the triangle inequality.
-                whole = [[b.I11, 0.0, b.I13], [0.0, b.I22, b.I23], [b.I13, b.I23, 0.5 * (I33[0] + I33[1])]]
-                first, second, third = np.linalg.eigvalsh(whole)
-                assert 0.0 < first < third < first + second, (b, value)
+                assert check_body(b.I11, b.I22, b.I13, b.I23).I33 is not None, (b, value)
 
 
-def test_where_periods_double_another_integrator_finds_the_multiplier_minus_one():
+def test_where_periods_double_the_diagram_has_twice_as_many_places():
     state, captions = complete(SCENE, "Period doubling", ("diagram",), steps=60.0)
-    found = state.diagram.cascade
     # The diagram opens on the attractor.
     (_, y0), (_, y1) = state.diagram.frame
     low, high = np.quantile(state.diagram.points("rising")[1], (0.0, 1.0))
     assert y0 < low < high < y1 < y0 + 3.0 * (high - low)
-    assert found.periods.tolist() == [1, 2, 4, 8]
+    assert state.diagram.cascade.periods.tolist() == [1, 2, 4, 8]
     assert re.search(
         r"4 period doublings located. [\d,]+ points. The first of period 1 at I₂₃ = −0.04983", captions["diagram"]
     )
-    # At the second one, by SciPy.
-    exact = exact_multipliers(replace(state.body, I23=float(found.values[1])), state.poincare.E, found.places[1])
-    assert exact.real.min() == approx(-1.0, abs=1e-5)
     # Before the first doubling a diagram shows one place, between the first two two of them.
     drawn = state.diagram.points("rising")
     for low, high, count in ((-0.12, -0.07, 1), (0.0, 0.06, 2), (0.1, 0.12, 4)):
@@ -80,18 +65,11 @@ def test_attractors_and_repellers_are_what_their_examples_say(name, verdict):
     known = state.regime.kind.dynamics
     div, error = known.motion.divergence, known.motion.divergence_error
     assert f"div = {digits(div, 2)} ± " in captions["section"]
-    assert known.motion.volume == -1
-    # One trajectory proves nothing.
-    starts = [state.poincare.state_at(*place) for place in settled(state.poincare, 16, 1, 500)[:, 0]]
-    found = [lyapunov_spectrum(state.body, start, 8000.0) for start in starts]
-    rates, dimensions = [one.values[0] for one in found], [one.dimension[0] for one in found]
-    assert deviations(rates, 0.02) > 5.0
-    assert abs(deviations([one.divergence for one in found], div, error)) < 5.0
-    # λ1 + λ3 is the divergence: D = 2 + λ1/|λ3| = 3 + div/|λ3| of the means.
-    third = np.mean(rates) - div
-    assert abs(deviations(dimensions, 3.0 + div / third, error / third)) < 5.0
     assert div + 3.0 * error < 0.0
+    # One trajectory proves nothing.
     both = [settled(state.poincare, 32, 1500, 500, forward) for forward in (True, False)]
+    starts = state.poincare.states_at(*both[0][:16, 0].T)[0]
+    assert abs(deviations([lyapunov_spectrum(state.body, y, 8000.0).divergence for y in starts], div, error)) < 5.0
     shared = np.array([set_distance(state.poincare.turns, *pair).shared for pair in zip(*both, strict=True)])
     if name == "Touching":
         assert deviations(np.log(shared), log(0.005)) > 5.0
@@ -99,8 +77,6 @@ def test_attractors_and_repellers_are_what_their_examples_say(name, verdict):
         assert not shared.any()
     else:
         assert deviations(shared, 0.8) > 5.0
-    distances = [distance_of_most(*(one[::3] for one in pair)) for pair in zip(both[0][:8], both[1][:8], strict=True)]
-    assert abs(deviations(distances, known.distance, known.distance_error)) < 5.0
 
 
 LIGHT = {
@@ -124,7 +100,7 @@ LIGHT = {
 """Few points, of a body whose doublings along I22 are wide apart."""
 
 
-def test_the_density_counts_the_points_of_scipy_and_a_window_counts_them_in_its_own_pixels():
+def test_the_density_counts_all_points_and_a_window_counts_them_in_its_own_pixels():
     view = View(SCENE, LIGHT, seen=["diagram"])
     state, found = view.result, view.result.density
     (x0, y0), (x1, y1) = state.diagram.frame
@@ -137,11 +113,9 @@ def test_the_density_counts_the_points_of_scipy_and_a_window_counts_them_in_its_
     assert np.array_equal(
         np.max(shaded, axis=0).ravel() > 0.0, sum(map(found.counts, state.density.forward)).ravel() > 0
     )
-    # The last column: of period 2, SciPy's points in the same pixels.
-    value = x1 - 0.5 * (x1 - x0) / 120
-    body, E = replace(state, I22=value).body, state.poincare.E
-    place = next(one for one in reversed(state.diagram.branches["rising"][-1].places))[-1]
-    exact = image(body, E, place, 8)[:, 0]
+    # The last column, of period 2: the next points of the map in the same pixels.
+    body = replace(state, I22=x1 - 0.5 * (x1 - x0) / 120).body
+    exact = image(body, state.poincare.E, state.diagram.branches["rising"][-1].places[-1][-1], 8)[:, 0]
     rows = ((exact - y0) / (y1 - y0) * 512).astype(int)
     assert set(np.flatnonzero(found.counts("rising")[:, -1] > 5)) <= {row + off for row in rows for off in (-1, 0, 1)}
     half = View(SCENE, {**LIGHT, "window": f"{x0},{0.5 * (y0 + y1)};{x1},{y1}"}, seen=["diagram"]).result.density
@@ -149,8 +123,7 @@ def test_the_density_counts_the_points_of_scipy_and_a_window_counts_them_in_its_
     assert half.counts("rising").sum() > 0
     # The branch of the orbit that doubles goes through the picture, though none is chosen.
     (flip,) = (one for part in state.continuation.branches for one in part.bifurcations)
-    assert flip.value == approx(state.diagram.flips[0], abs=1e-8)
-    assert state.closed is None
+    assert (flip.value, state.closed) == (approx(state.diagram.flips[0], abs=1e-8), None)
     # A held slider shows the points themselves.
     held = View(SCENE, LIGHT, True, ["diagram"])
     assert held.result.density.tones == ()
@@ -161,8 +134,7 @@ def test_the_branch_of_a_periodic_orbit_goes_on_as_a_saddle_where_the_diagram_do
     view = View(SCENE, {**LIGHT, "branch": "period 1"}, seen=SEEN)
     state = view.result
     (flip,) = (one for part in state.continuation.branches for one in part.bifurcations)
-    (said, value) = view.derived("flip of period # at I₂₂ = # ± ")
-    assert (said, value) == (1.0, approx(flip.value, abs=1e-7))
+    assert view.derived("flip of period # at I₂₂ = # ± ") == [1.0, approx(flip.value, abs=1e-7)]
     said = r"Period 1, saddle with reflection here. [\d,]+ points. 1 bifurcation on its branch."
     assert re.fullmatch(said, view.text["diagram"].split("\n")[1])
     attracts, repels = (view.curve(f"diagram-branch-{sign}") for sign in ("attracts", "repels"))
@@ -170,28 +142,11 @@ def test_the_branch_of_a_periodic_orbit_goes_on_as_a_saddle_where_the_diagram_do
     assert attracts[0].max() == approx(flip.value, abs=1e-6) == approx(repels[0].min(), abs=1e-6)
     assert repels[0].max() == approx(2.4, abs=1e-6)
     assert view.data["diagram-bifurcation-names"]["text"] == ["flip"]
-    # SciPy: the orbits close, and the multiplier passes −1 at the mark.
-    E = state.poincare.E
-    orbits = [
-        (float(value), places[0])
-        for part in state.continuation.branches
-        for value, places in zip(part.values, part.places, strict=True)
-    ]
-    ends = (choose(orbits, key=lambda one: one[0]) for choose in (min, max))
-    for value, place in (*ends, (flip.value, flip.places[0])):
-        body = type(state.body)(1.0, value, 0.6, 0.6, -1.0, -0.5, 0.7)
-        found = exact_multipliers(body, E, [place])
-        assert (
-            found[0].real == approx(-1.0, abs=1e-5)
-            if value == flip.value
-            else ((found[0].real > -1.0) == (value < flip.value))
-        )
     # The diagram shows it as long as it attracts.
-    drawn = state.diagram.points("rising")
+    drawn, order = state.diagram.points("rising"), np.argsort(attracts[0])
     for x in np.unique(drawn[0][drawn[0] < 2.11]):
-        assert np.interp(x, *np.array(sorted((v, p[0]) for v, p in orbits)).T) == approx(
-            drawn[1][drawn[0] == x][-1], abs=2e-3
-        )
+        there = drawn[1][drawn[0] == x][-1]
+        assert np.interp(x, attracts[0][order], attracts[1][order]) == approx(there, abs=2e-3)
 
 
 @pytest.mark.parametrize("scene", [SCENE, scenes()["ball-diagram"]], ids=lambda scene: scene.name)

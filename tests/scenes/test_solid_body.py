@@ -38,12 +38,9 @@ def test_every_example_of_a_constrained_body_is_drawn_as_it_lies(name):
             sagitta = 0.03 if preset.name.startswith("Started 1e-300") else 6e-3
             for k in (1, 2, 3):
                 assert np.interp(body["t"], orbit["t"], orbit[f"g{k}"]) == approx(body[f"g{k}"], abs=sagitta)
-        # A wheel rolls along e: a velocity ω × at with ω across e has no part along its axle at × e.
+        # A wheel rolls along e.
         at, axis = np.array(body["wheels"][:3]), np.array(body["wheels"][3:6])
         assert (at @ at, axis @ axis, at @ axis) == approx((1.0, 1.0, 0.0), abs=1e-12)
-        for omega in np.random.default_rng(1).normal(size=(5, 3)):
-            sideways = np.cross(omega, at) @ np.cross(at, axis)
-            assert sideways == approx(-(omega @ axis) * (at @ at), abs=1e-12)
         assert axis == approx([0.0, 0.0, 1.0])
         # The arc is the path of the contact point in space, between samples a little longer than its chord.
         contact = np.stack([g @ at, e @ at, np.cross(g, e) @ at], axis=1)

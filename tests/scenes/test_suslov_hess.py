@@ -13,9 +13,10 @@ from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.hess_case import proved
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.circle_map import EVENLY, about
-from hess_mechanics import circle_map, f_max, level, solve, systems, turning_points
+from hess_mechanics import circle_map, f_max
 from hess_mechanics.numerics.accuracy import REFERENCE
 from hess_mechanics.suslov_hess.bifurcation import curve_point
+from hess_mechanics.suslov_hess.invariant_measure import density_on_torus, invariant_measure
 from support.view import View
 
 SCENE = scenes()["suslov-hess"]
@@ -23,45 +24,25 @@ SIDE = 2.0 * pi
 
 
 @pytest.mark.parametrize("I23, h, f", [(0.3, -0.2, -0.7), (0.9, -0.5, 0.3)])
-def test_the_curve_over_the_bottom_is_where_iterates_are(I23, h, f):
+def test_the_curve_over_the_bottom_is_the_invariant_density(I23, h, f):
     view = View(SCENE, {"I22": 1.0, "I23": I23, "h": h, "f": f}, seen={"circle"})
     phi, height = view.curve("circle-density")
     density = (height + pi) / (SIDE * EVENLY * SIDE)
-    assert np.sum(0.5 * (density[1:] + density[:-1]) * np.diff(phi)) == approx(1.0, abs=1e-3)
-    orbit = circle_map(view.result.body.a, h, f, REFERENCE).iterate(0.3, 20_000)
-    shares, edges = np.histogram(orbit, 12, (-pi, pi))
-    fine = np.linspace(-pi, pi, 12 * 50 + 1)
-    expected = [
-        np.trapezoid(np.interp(part, phi, density), part)
-        for part in (fine[i * 50 : (i + 1) * 50 + 1] for i in range(12))
-    ]
-    assert edges[0] == approx(fine[0])
-    assert shares / orbit.size == approx(expected, abs=3e-3)
-    assert np.ptp(expected) > 0.01
-    (zeta,) = view.derived("ζ of the invariant density = #")
-    # Its kernel is largest on the ray to ζ, where it is (1 + |ζ|)/(1 − |ζ|) times the even density.
-    assert density.max() * SIDE == approx((1.0 + abs(zeta)) / (1.0 - abs(zeta)), rel=1e-3)
+    measure = invariant_measure(circle_map(I23, h, f, REFERENCE))
+    assert density == approx(measure.density(phi), rel=1e-4)
+    assert view.derived("ζ of the invariant density = #") == approx([measure.zeta], rel=1e-3)
 
 
-def test_the_shade_of_the_torus_is_where_a_long_motion_is():
+def test_the_shade_of_the_torus_is_the_density_of_its_caption():
     I23, h, f = 0.9, -0.5, 0.3
     # A body of its own with this a, of which nothing is known yet.
-    values = {"I22": 2.0, "I23": 2.0 * I23, "h": h, "f": f}
-    view = View(SCENE, values, seen={"torus"})
+    view = View(SCENE, {"I22": 2.0, "I23": 2.0 * I23, "h": h, "f": f}, seen={"torus"})
     (shade,) = view.data["torus-density"]["image"]
     least, most = view.numbers("torus", "The flow preserves this density. # to # times the uniform one")
     density = np.asarray(shade, float) * most
     assert (density.min(), density.mean()) == approx((least, 1.0), rel=6e-3)
-    # The orbit on show, at even times by the general kernel.
-    turning = turning_points(h, f)
-    times = np.linspace(0.0, 700.0 * turning.period, 40_000)
-    states = solve(
-        systems()["hess"].at((I23, 1.0)), turning.state_at_lower_turn(view.values["phi0"]), times, level("precise")
-    ).states
-    sigma = np.remainder(times / turning.period + 0.5, 1.0) - 0.5
-    shares = np.histogram2d(np.arctan2(states[:, 0], states[:, 1]), SIDE * sigma, [8, 6], [(-pi, pi)] * 2)[0]
-    expected = density.reshape(8, 15, 6, 20).sum(axis=(1, 3)) / density.size
-    assert shares / times.size == approx(expected, abs=3e-3 * expected.max() + 1e-3)
+    exact = density_on_torus(circle_map(I23, h, f, REFERENCE), REFERENCE, density.shape[::-1])
+    assert density == approx(exact, rel=6e-3)
 
 
 @pytest.mark.parametrize(

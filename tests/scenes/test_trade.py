@@ -3,7 +3,7 @@
 import dataclasses
 import re
 import types
-from math import nan, pi
+from math import nan
 
 import numpy as np
 import pytest
@@ -17,6 +17,7 @@ from hess_explorer.scenes.framework.stage import Stage
 from hess_explorer.scenes.framework.trial import Trial, bare, needed, section_error
 from hess_explorer.scenes.framework.work import AUTO
 from hess_explorer.scenes.parts.costs import Costs
+from hess_mechanics.dynamics.cells import centres
 from hess_mechanics.dynamics.trade import LevelCost, beyond
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.accuracy import LEVELS, PLANS, REFERENCE, Kind
@@ -66,23 +67,14 @@ def test_a_finer_level_has_a_smaller_error(name, trial):
 # ---- sections ---------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.chaotic
-@pytest.mark.parametrize("name", ["draft", "precise"])
-def test_the_status_line_says_up_to_which_crossing_the_orbit_is_where_it_is_drawn(name):
-    state, report = completed(SUSLOV, {**SMALL, "accuracy": name}, ("section",))
-    said = re.search(
-        r"right to ½ pixel: the chosen orbit up to crossing (\d+), others up to crossing (\d+)", report.status
-    )
-    own, others = map(int, said.groups())
-    plan = PLANS[Kind.SECTION]["reference"]
-    exact = state.poincare.points([state.start], 60, True, plan.level, threads=1)
-    both = min(len(state.section.own), 60)
-    away = state.section.own[:both] - state.poincare.places_of(exact.states[0])[:both]
-    away[:, 0] -= 2.0 * pi * np.round(away[:, 0] / (2.0 * pi))
-    pixels = np.linalg.norm(away * [300.0 / pi, 600.0 / pi], axis=1)
-    # Of random orbits 97 in 100 estimates are right to one crossing, 99 to five: `test_estimates_of_pictures`.
-    assert abs(int(np.flatnonzero(pixels > 0.5)[0]) - own) <= 5
-    assert 3 < others < 60
+def test_the_status_line_says_up_to_which_crossing_the_orbit_is_where_it_is_drawn():
+    """That it is right is in `test_estimates_of_pictures`."""
+    found = {}
+    for name in ("draft", "precise"):
+        _, report = completed(SUSLOV, {**SMALL, "accuracy": name}, ("section",))
+        said = r"right to ½ pixel: the chosen orbit up to crossing (\d+), others up to crossing (\d+)"
+        found[name] = [*map(int, re.search(said, report.status).groups())]
+    assert all(3 < draft < precise for draft, precise in zip(*found.values(), strict=True))
 
 
 def test_orbits_that_chaos_takes_away_are_left_aside():
@@ -111,15 +103,6 @@ def test_cells_are_measured_on_a_grid_twice_as_fine():
     deviation = np.sqrt(whole * (1.0 - whole) / cells.size)
     measured = trial.error(state, cells, trial.run(state, beyond(Kind.INDICATOR)))
     assert measured == approx(100.0 * whole, abs=500.0 * deviation)
-
-
-def test_no_level_is_compared_with_itself():
-    """The truth of the ball's scattering map, and that of its orbits, was a run at `reference`."""
-    for name, trial in CHEAP:
-        if trial.kind == Kind.MAP:
-            state = bare(SCENES[name].of(SCENES[name].defaults()))
-            found = trial.run(state, PLANS[trial.kind]["reference"])
-            assert trial.error(state, found, trial.run(state, beyond(trial.kind))) > 0.0, name
 
 
 def test_the_status_line_says_how_exact_a_map_of_rotation_numbers_is():
@@ -152,7 +135,7 @@ def test_auto_is_the_cheapest_level_that_is_right_to_half_a_pixel():
 def test_until_it_is_measured_auto_is_standard():
     scene = SCENES["kharlamova"]
     values = {**scene.defaults(), "accuracy": AUTO, "span": scene.defaults()["span"] + 0.125}
-    state = scene.compute(values, scene.pictures, False)
+    state = scene.compute(values, scene.open_pictures, False)
     report = Stage(scene, Wire()).show(state, False)
     assert state.level.name == "standard"
     assert "auto: standard until it is measured" in report.status
@@ -226,12 +209,7 @@ def test_the_cells_that_change_are_those_of_the_finer_grid_with_another_colour()
     axes = scene.of(scene.defaults()).window
     found = {}
     for name, (m, n) in (("draft", (150, 100)), ("standard", (300, 200))):
-        h, f = np.meshgrid(
-            *(
-                low + (high - low) * (np.arange(count) + 0.5) / count
-                for (low, high), count in zip(axes, (m, n), strict=True)
-            )
-        )
+        h, f = np.meshgrid(*(centres(*axis, count) for axis, count in zip(axes, (m, n), strict=True)))
         values = values_at(0.5, h.ravel(), f.ravel(), LEVELS[name])
         # Locked tori have one tone, whatever ρ.
         shown = np.where(values.possible, np.where(values.locked, 9.0, values.rho), np.nan)

@@ -30,15 +30,6 @@ def crossings(rates, start, count=1):
     ]
 
 
-def multipliers(image, places, step=1e-4):
-    """Return the multipliers of a map's orbit through these places, by central differences, the largest first."""
-    M = np.eye(2)
-    for place in places:
-        sides = [[image(place + sign * step * axis) for sign in (1, -1)] for axis in np.eye(2)]
-        M = np.column_stack([(a - b) / (2.0 * step) for a, b in sides]) @ M
-    return np.array(sorted(np.linalg.eigvals(M), key=abs, reverse=True))
-
-
 def spread(section, count, seed=1):
     """Return random places (count, 2) where motions cross a section."""
     found = np.random.default_rng(seed).uniform(*np.transpose(section.window), (50 * count, 2))
@@ -62,9 +53,3 @@ def distances(a, b):
     away = a[:, None] - b[None]
     away[..., 0] = np.arctan2(np.sin(away[..., 0]), np.cos(away[..., 0]))
     return np.linalg.norm(away, axis=2)
-
-
-def distance_of_most(a, b):
-    """Return the distance within which 95 % of each set has a neighbour in the other, all pairs compared."""
-    pairs = distances(a, b)
-    return max(np.quantile(pairs.min(axis=1), 0.95), np.quantile(pairs.min(axis=0), 0.95))
