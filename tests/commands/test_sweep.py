@@ -41,7 +41,7 @@ def test_a_store_is_kept_read_back_and_refused_to_others(answer, refusal, tmp_pa
     store = str(tmp_path / "rho.zarr")
     facts = answer(*SWEEP, "--store", store)
     assert "rotation_number" not in facts
-    assert answer("sweep", "--status", store)["status_counts"] == facts["status_counts"]
+    assert answer("sweep", "--read", store)["status_counts"] == facts["status_counts"]
     assert main([*SWEEP, "--format", "csv"]) == 0
     wanted = capsys.readouterr().out
     for words in ([*SWEEP, "--store", store], ["sweep", "--read", store]):
@@ -50,9 +50,11 @@ def test_a_store_is_kept_read_back_and_refused_to_others(answer, refusal, tmp_pa
         assert [line for line in said.splitlines() if "# store" not in line] == wanted.splitlines()
     assert main(["sweep", "--read", store, "--out", str(tmp_path / "rho.csv"), "--format", "csv"]) == 0
     assert (tmp_path / "rho.csv").read_text() == wanted
-    assert "another sweep: it has a = 0.5, not 0.6" in refusal(*replaced(SWEEP, "--set", "a=0.6"), "--store", store)
+    assert 'another sweep: it has parameters = {"a": 0.5, ' in refusal(
+        *replaced(SWEEP, "--set", "a=0.6"), "--store", store
+    )
     assert "does not contain a sweep" in refusal("sweep", "--read", str(tmp_path))
-    assert "--read and --status take only --format and --out" in refusal(*SWEEP, "--read", store)
+    assert "--read takes only --format and --out" in refusal(*SWEEP, "--read", store)
 
 
 def test_a_function_of_a_file_is_swept_and_written_as_a_table(answer, refusal, tmp_path):
@@ -99,17 +101,6 @@ def test_a_log_gets_lines_of_progress(monkeypatch, capsys):
     lines = capsys.readouterr().err.splitlines()
     assert lines[0] == "0 of 6 cells after 0 s"
     assert re.fullmatch(r"6 of 6 cells after \d+ s, about 0 s left", lines[-1])
-
-
-def test_computations_their_numbers_and_parameters_are_listed(capsys):
-    assert main(["sweep", "--list"]) == 0
-    said = capsys.readouterr().out
-    assert "circle-map\n    Circle map" in said
-    assert "lyapunov euler-poisson\n" in said
-    assert main(["sweep", "--list", "lyapunov", "suslov"]) == 0
-    said = capsys.readouterr().out
-    assert "exponent: λ, largest Lyapunov exponent (1/time)" in said
-    assert "t = 500: Time over which to average. (0.001 … 1e+06)" in said
 
 
 LAMBDA = typed("sweep lyapunov suslov --over w1=0.2:1.4:40 --over I22=1:2:30 --set t=100 --accuracy draft")
@@ -187,14 +178,10 @@ def test_the_snippet_for_dask_jobqueue_computes_a_sweep(tmp_path, monkeypatch):
 @pytest.mark.parametrize(
     "words, said",
     [
-        (["sweep"], "run hess-explorer sweep --list to see all of them"),
-        (["sweep", "circel-map", "--over", "h=0:1:3"], "There is no computation 'circel-map': choose from circle-map"),
+        (["sweep"], "Name a computation after sweep: "),
         (replaced(SWEEP, "--set", "a"), "is not a parameter; write it like h=1.5"),
-        ([*SWEEP, "--set", "a=0.6"], "--set names a parameter twice"),
-        ([*SWEEP, "--numbers", "speed"], "has no number 'speed'; choose from rotation-number"),
         (replaced(SWEEP, "--over", "h=0:1"), "is not a range"),
-        (replaced(SWEEP, "--over", "h=0:1:1000000"), "at most 1000000 rows: use --store FOLDER"),
-        ([*SWEEP, "--scheduler", "host"], "write its address like tcp://host:8786"),
+        (replaced(SWEEP, "--over", "h=0:1:10000000"), "at most 10000000 are allowed"),
         ([*SWEEP, "--store", "/proc/nowhere/at/all"], "cannot be written"),
         ([*SWEEP, "--store", "1" * 300], "cannot be read (File name too long)"),
         (["sweep", "--read", "1" * 300], "does not contain a sweep"),

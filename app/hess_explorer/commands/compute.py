@@ -14,7 +14,7 @@ from hess_mechanics.dynamics.system import System
 from hess_mechanics.parameters import Parameter, plain
 
 from . import COMMANDS, CommandError
-from .arguments import number, run_file, shown
+from .arguments import defined, number, shown
 from .command import OUTPUT, Command, Option, Options, Parser, option
 from .output import computing, require_file, write
 
@@ -65,10 +65,7 @@ def _unknown(kind: str, name: str, known: list[str]) -> CommandError:
 
 def _own(name: str, text: str) -> Computation:
     """Return the computation of the system FILE.py:NAME."""
-    path, _, variable = text.rpartition(":")
-    system = run_file(path).get(variable)
-    if not isinstance(system, (System, Motions)):
-        raise CommandError(f"{shown(path)} defines no System {shown(variable)}: write it like mine.py:SYSTEM.")
+    system = defined(text, "System", lambda found: isinstance(found, (System, Motions)))
     of = [one for one in computations_of(system).values() if one.name == name]
     if not of:
         raise CommandError(f"The system {system.name} has no section, which {name} needs: choose another computation.")

@@ -15,6 +15,7 @@ from contextlib import contextmanager
 from importlib.util import find_spec
 from itertools import islice
 from pathlib import Path
+from textwrap import shorten
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -22,7 +23,7 @@ import numpy as np
 from hess_explorer.compute.cells import Outcome
 from hess_explorer.sweep.errors import OtherSweep, StoreError
 from hess_explorer.sweep.piece import PieceResult
-from hess_explorer.sweep.plan import MAX_CELLS, Plan, Region, version
+from hess_explorer.sweep.plan import Plan, Region, version
 from hess_mechanics.errors import MissingLibrary
 
 if TYPE_CHECKING:
@@ -130,12 +131,9 @@ def exists(path: Path, plan: Plan) -> bool:
 
 def _difference(stored: xr.Dataset, plan: Plan) -> str:
     """Return what distinguishes the sweep of a store, as the end of a sentence; empty for the same sweep."""
-    held, own = ({**facts, **json.loads(facts["parameters"])} for facts in (stored.attrs, _facts(plan)))
-    for name in [name for name in own if name not in ("parameters", "source")]:
-        if held.get(name) != own[name]:
-            return f"has {name} = {held.get(name)}, not {own[name]}"
-    if held["source"] != plan.source:
-        return f"has another text of the function {plan.computation.key}"
+    for name, value in _facts(plan).items():
+        if (held := str(stored.attrs.get(name))) != value:
+            return f"has {name} = {shorten(held, 80)}, not {shorten(value, 80)}"
     for name, values in plan.axes.items():
         if name not in stored.dims or not np.array_equal(stored[name], values):
             return f"is not over the same values of {name}"
@@ -209,7 +207,7 @@ def load(place: Path | MemoryStore) -> xr.Dataset:
     """Return the results of a store; unfinished cells have the status 0.  Raises `StoreError`."""
     found = _open(place)
     with _reading(place, "has a part that cannot be read: run the same sweep again to recompute it."):
-        return found.load().drop_encoding() if found.status.size <= MAX_CELLS else found
+        return found.load().drop_encoding()
 
 
 def read(path: str | Path) -> xr.Dataset:
@@ -223,7 +221,7 @@ def read(path: str | Path) -> xr.Dataset:
     Returns
     -------
     xarray.Dataset
-        The results, loaded into memory up to ten million cells and lazily above that.
+        The results.
 
     Raises
     ------
