@@ -235,10 +235,10 @@ def test_a_stored_sweep_is_shown_in_the_chart_of_a_scene():
     finally:
         STORED.clear()
     for found, at, said in (
-        (stored().isel(f=0), {}, "A chart has two sides"),
-        (stored().isel(h=[0, 1, 3]), {}, "evenly spaced"),
+        (stored(), {"f": 0.5}, "this sweep is over h: choose"),
+        (stored().isel(h=[0, 1, 3]), {}, "over two parameters LO:HI:N"),
         (stored(), {"f": 0.1}, "no cells at f = 0.1"),
-        (stored(), {"a": 0.1}, "no side 'a'"),
+        (stored(), {"a": 0.1}, "no cells at a = 0.1"),
         (stored(phi=0.3), {}, "No scene shows circle-map"),
     ):
         with pytest.raises(ModelError, match=said):

@@ -114,7 +114,7 @@ def test_the_store_of_another_function_is_refused(tmp_path):
     def own(x):
         return 2.0 * x
 
-    with pytest.raises(OtherSweep, match="has source = def own.*not def own"):
+    with pytest.raises(OtherSweep, match=r"has source = def own.*not def own"):
         sweep(own, {"x": [1.0, 2.0]}, store=tmp_path / "own.zarr")
     with pytest.raises(OtherSweep, match="has computation = own, not product_of"):
         sweep(product_of, {"x": [1.0, 2.0]}, y=1.0, store=tmp_path / "own.zarr")
