@@ -123,7 +123,9 @@ def test_without_a_browser_the_server_goes_on(served, free_port, monkeypatch, ca
 def test_taken_port(refusal, served):
     with socket.create_server(("127.0.0.1", 0)) as other:
         port = other.getsockname()[1]
-        assert f"already in use (while attempting to bind on address ('127.0.0.1', {port}))" in refusal("serve", "--port", str(port), "--no-browser")
+        assert f"already in use (while attempting to bind on address ('127.0.0.1', {port}))" in refusal(
+            "serve", "--port", str(port), "--no-browser"
+        )
     assert not served
 
 

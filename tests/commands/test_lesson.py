@@ -22,7 +22,7 @@ def test_the_example_is_a_lesson_with_all_settings_but_one_and_is_not_written_ov
     assert "exists: choose another name" in capsys.readouterr().err
     assert path.read_text() == "mine"
     assert main(["lesson", "new", str(tmp_path / "nowhere/first.md")]) == 2
-    assert "cannot be written" in capsys.readouterr().err
+    assert "Cannot write" in capsys.readouterr().err
 
 
 def test_all_mistakes_are_printed_by_file_and_line(tmp_path, capsys):

@@ -50,10 +50,11 @@ def test_each_cell_is_the_number_at_its_centre(window):
     x, y, values = cells_of(state)
     if window:
         assert state.charting.window == ((0.5, -0.5), (1.5, 0.25))
-    circle_map = find("circle-map")
+    of = find("circle-map")
+    trace = of.number("trace")
     for i, j in [(0, 0), (40, 150), (108, 108), (107, 10), (215, 215)]:
         try:
-            expected = circle_map.compute({"a": 0.3, "h": x[j], "f": y[i]}, STANDARD).trace
+            expected = trace.read(of.compute({"a": 0.3, "h": x[j], "f": y[i]}, STANDARD))
         except ModelError:
             expected = np.nan
         assert values[i, j] == approx(expected, rel=1e-9, nan_ok=True)
@@ -113,7 +114,8 @@ def test_what_the_chart_shows_is_in_the_link():
 
 def test_the_caption_says_the_own_number_and_why_cells_have_none():
     state = state_of(h=1.5, f=0.6)
-    own = find("circle-map").compute({"a": 0.3, "h": 1.5, "f": 0.6}, STANDARD).trace
+    of = find("circle-map")
+    own = of.number("trace").read(of.compute({"a": 0.3, "h": 1.5, "f": 0.6}, STANDARD))
     caption = state.charting.caption
     assert caption.verdict == f"|t| = {own:.4g}."
     share = 100.0 * np.mean(~np.isfinite(cells_of(state)[2]))
@@ -125,7 +127,7 @@ def test_the_caption_says_the_own_number_and_why_cells_have_none():
 
 def test_an_error_belongs_to_its_number():
     state = state_of(SUSLOV, known=False, chart="lyapunov", long=20.0, chart_window="1,1;1.1,1.1")
-    own = next(task for task in state.work.todo if task.function.__name__ == "_one")
+    own = next(task for task in state.work.todo if task.arguments[2] == 1)
     state.work.get(own.function, *own.arguments)
     state = state_of(SUSLOV, known=False, chart="lyapunov", long=20.0, chart_window="1,1;1.1,1.1")
     values = {**SUSLOV.defaults(), "long": 20.0}

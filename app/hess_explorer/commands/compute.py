@@ -50,8 +50,8 @@ def parser(name: str, rest: list[str]) -> tuple[Parser, list[str]]:
     overview = Parser(
         prog, "SYSTEM [OPTIONS]", f"{title_of(next(iter(of.values())))}.  SYSTEM --help shows the options."
     )
-    overview.list_words("systems", {system: motions()[system].title for system in of})
-    overview.list_words("or one of your own", {"FILE.py:NAME": "a System that a Python file defines"})
+    own = {"FILE.py:NAME": "a System that a Python file of yours defines"}
+    overview.list_words("systems", {system: motions()[system].title for system in of} | own)
     if not {"-h", "--help"} & {*rest}:
         overview.error(f"name a system after {name}: {', '.join(of)}")
     return overview, ["--help"]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import gc
 import json
+import math
 import os
 import re
 import signal
@@ -14,7 +15,7 @@ import webbrowser
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext, suppress
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from . import CommandError
 from .arguments import assigned, number, run_file, shown
@@ -123,7 +124,6 @@ def _shown(found: xr.Dataset, at: Mapping[str, float]) -> str:
     from hess_explorer.protocol.parameters import Number, encode
     from hess_explorer.scenes import scenes
     from hess_explorer.scenes.framework.charted import STORED
-    from hess_mechanics.catalogue import find
     from hess_mechanics.errors import InvalidParameter
 
     fixed = json.loads(found.attrs["parameters"])
@@ -145,7 +145,8 @@ def _shown(found: xr.Dataset, at: Mapping[str, float]) -> str:
     (x0, x1), (y0, y1) = (
         (side[0] - one[0] / 2.0, side[-1] + one[0] / 2.0) for side, one in zip(sides, steps, strict=True)
     )
-    cells = found.transpose(*names[::-1])
+    x, y = names
+    cells = found.transpose(y, x)
     for scene in scenes().values():
         symbols = {one.name: one.symbol for one in scene.specs if isinstance(one, Number)}
         numbers = {} if scene.charted is None or not {*names} <= {*symbols} else scene.charted.numbers
@@ -153,21 +154,23 @@ def _shown(found: xr.Dataset, at: Mapping[str, float]) -> str:
             variable = name.replace("-", "_")
             if charted.key != found.attrs["computation"] or variable not in found:
                 continue
-            chosen = {"chart": chart, "chart_x": symbols[names[0]], "chart_y": symbols[names[1]]}
+            chosen = {"chart": chart, "chart_x": symbols[x], "chart_y": symbols[y]}
             own = {name: value for name, value in fixed.items() if name in symbols}
             values, _ = scene.admit({**scene.defaults(), **own, **chosen, "accuracy": found.attrs["level"]})
             key = scene.of(values).charting.key
-            corners = [[side[i] for side in sides] for i in (0, -1)]
-            arguments = [find(charted.key).values(key.arguments(*corner)) for corner in corners]
-            swept = [{**fixed, **dict(zip(names, corner, strict=True))} for corner in corners]
-            if np.allclose(*([[one[name] for name in swept[0]] for one in both] for both in (arguments, swept)), 1e-9):
+            corners = ({**fixed, **{name: float(found[name][i]) for name in names}} for i in (0, -1))
+            if all(_same(charted.computation.values(key.arguments(one[x], one[y])), one) for one in corners):
                 errors = cells.get(f"{variable}_error", np.full(cells.status.shape, np.nan))
                 STORED[key] = np.stack([cells[variable], errors, cells.status], axis=1), ((x0, y0), (x1, y1))
                 return encode(scene.name, values)
     raise InvalidParameter(
-        f"No scene shows {found.attrs['computation']} over {' and '.join(names)} with these parameters: open the sweep "
+        f"No scene shows {found.attrs['computation']} over {x} and {y} with these parameters: open the sweep "
         "in Python with hess_explorer.sweep.read."
     )
+
+
+def _same(arguments: Mapping[str, Any], cell: Mapping[str, float]) -> bool:
+    return all(math.isclose(arguments[name], value, rel_tol=1e-9, abs_tol=1e-12) for name, value in cell.items())
 
 
 def _lessons(paths: Sequence[Path]) -> tuple[Lesson, ...]:

@@ -113,7 +113,8 @@ def _axis(one: Parameter, values: Axis) -> Array:
     if isinstance(values, tuple) and len(values) == 3 and isinstance(values[2], (int, np.integer)):
         if not 2 <= values[2] <= MAX_CELLS:
             raise InvalidParameter(f"The range of {one.name} has {values[2]} values: choose 2 to {MAX_CELLS}.")
-        return np.linspace(*(one.check(as_number(one.name, end)) for end in values[:2]), int(values[2]))
+        low, high = (one.check(as_number(one.name, end)) for end in values[:2])
+        return np.linspace(low, high, int(values[2]))
     found = np.array([one.check(as_number(one.name, value)) for value in as_parts(one.name, values)])
     if np.unique(found).size < max(found.size, 1):
         raise InvalidParameter(f"The values of {one.name} must be one or more different numbers.")
