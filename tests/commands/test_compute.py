@@ -10,7 +10,6 @@ import pytest
 import xarray as xr
 from pytest import approx
 
-import hess_mechanics
 from hess_explorer.__main__ import main
 from hess_explorer.commands.compute import command_of
 from hess_mechanics import SuslovBody, basins, return_map
@@ -159,11 +158,6 @@ def test_a_system_of_ones_own(answer, refusal, tmp_path):
     assert "has two options --out: rename one" in refusal("orbit", f"{file}:SYSTEM")
     file.write_text("1 / 0")
     assert "stops with ZeroDivisionError" in refusal("orbit", f"{file}:SYSTEM")
-
-
-def test_every_function_of_the_catalogue_is_in_the_package():
-    names = {one.function.__name__ for one in catalogue().values()}
-    assert names <= set(hess_mechanics.__all__) == set(dir(hess_mechanics))
 
 
 @pytest.mark.parametrize(

@@ -19,7 +19,7 @@ from hess_mechanics.catalogue import find
 from hess_mechanics.dynamics.cells import centres
 from hess_mechanics.errors import ModelError
 from hess_mechanics.numerics.accuracy import STANDARD
-from support.board import SCENES, Browser
+from support.board import SCENES
 
 TORI = SCENES["rotation-number"]
 SUSLOV = SCENES["suslov"]
@@ -107,11 +107,6 @@ def test_a_box_zooms_in_and_other_sides_show_the_whole_range_again():
     assert requested.values["chart_window"] == ""
 
 
-def test_what_the_chart_shows_is_in_the_link():
-    values = {**TORI.defaults(), **OWN, "chart": "locked", "chart_window": "0,-0.5;1,0.5"}
-    assert decode(encode(TORI.name, values), TORI.specs) == (values, [])
-
-
 def test_the_caption_says_the_own_number_and_why_cells_have_none():
     state = state_of(h=1.5, f=0.6)
     of = find("circle-map")
@@ -189,20 +184,6 @@ def test_a_step_of_a_lesson_shows_a_chart():
     )
     (step,) = lesson.steps
     assert (step.look, step.at.values["chart"]) == ("chart", "trace")
-
-
-def test_a_session_draws_the_chart_zooms_picks_and_undoes():
-    browser = Browser(TORI, {**TORI.defaults(), **OWN})
-    hidden = [name for name in TORI.pictures if name not in ("chart", "map")]
-    before = browser.ask(1, hidden=hidden)["query"]
-    browser.ask(2, hidden=hidden, picked=["chart", 0.0, -0.5, 1.0, 0.5])
-    assert browser.session.values["chart_window"] == "0,-0.5;1,0.5"
-    browser.ask(3, hidden=hidden, picked=["chart", 0.25, 0.125])
-    assert (browser.session.values["h"], browser.session.values["f"]) == (0.25, 0.125)
-    browser.ask(4, hidden=hidden, clear=True)
-    assert browser.session.values["chart_window"] == ""
-    assert browser.ask(5, hidden=hidden, restore=before)["query"] == before
-    browser.session.background.stop()
 
 
 def test_the_file_of_a_chart_holds_its_numbers():
