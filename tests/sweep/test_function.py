@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 
-from hess_explorer.sweep import Interrupted, OtherSweep, Outcome, explain, read, sweep
+from hess_explorer.sweep import OtherSweep, Outcome, explain, sweep
 from hess_mechanics import circle_map
 from hess_mechanics.errors import InvalidParameter, NoField
 
@@ -86,23 +86,6 @@ def test_a_cell_without_a_number_has_a_status():
     assert found.partial.values[-1] == 1.0 / 6.0
     with pytest.raises(InvalidParameter, match="a function of your own: call it"):
         explain(found, x=1.0)
-
-
-def test_a_closure_runs_in_processes_and_a_run_that_was_stopped_goes_on(tmp_path, in_pieces, interrupt):
-    in_pieces(2)
-    scale = 3.0
-
-    def scaled(x, y):
-        return Both(scale * x, math.hypot(x, y))
-
-    whole = sweep(scaled, OVER)
-    options = {"workers": 2, "store": tmp_path / "own.zarr"}
-    with pytest.raises(Interrupted):
-        sweep(scaled, OVER, progress=interrupt(5), **options)
-    assert 0 < (read(tmp_path / "own.zarr").status == 0).sum() < 21
-    seen = []
-    assert sweep(scaled, OVER, progress=seen.append, **options).identical(whole)
-    assert seen[0].done >= 5
 
 
 def test_the_store_of_another_function_is_refused(tmp_path):
