@@ -176,7 +176,7 @@ def test_the_snippet_for_dask_jobqueue_computes_a_sweep(tmp_path, monkeypatch):
         (replaced(SWEEP, "--over", "h=0:1"), "is not a range"),
         (replaced(SWEEP, "--over", "h=0:1:10000000"), "at most 10000000 are allowed"),
         ([*SWEEP, "--store", "/proc/nowhere/at/all"], "cannot be written"),
-        ([*SWEEP, "--store", "1" * 300], "cannot be read (File name too long)"),
+        ([*SWEEP, "--store", "1" * 300], "cannot be used: File name too long"),
         (["sweep", "--read", "1" * 300], "does not contain a sweep"),
     ],
 )

@@ -110,7 +110,7 @@ def _run(what: Computation, options: Options) -> None:
     with computing():
         given = what.values({name: vars(options)[_typed(name)] for name in what.values()})
         result = what.compute(given, options.accuracy)
-        notes = _notes_on_body(given) if what.key in catalogue() else []
+        notes = _notes_on_body(given)
         numbers: dict[str, float | None] = {}
         errors = {}
         for name, of in what.numbers.items():

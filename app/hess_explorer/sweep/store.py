@@ -117,11 +117,8 @@ def _facts(plan: Plan) -> dict[str, str]:
 
 def exists(path: Path, plan: Plan) -> bool:
     """Return True if the path has a store of this sweep, False if it is free.  Raises `OtherSweep`, `StoreError`."""
-    try:
-        if not path.exists() or (path.is_dir() and not any(path.iterdir())):
-            return False
-    except OSError as error:
-        raise StoreError(f"{str(path)!r} cannot be read ({error.strerror}); choose another folder.") from error
+    if not path.exists() or (path.is_dir() and not any(path.iterdir())):
+        return False
     if why := _difference(_open(path), plan):
         raise OtherSweep(
             f"{str(path)!r} contains another sweep: it {why}.  Choose another folder, or repeat that sweep."
