@@ -98,7 +98,7 @@ def test_a_store_is_plain_zarr_that_says_what_it_is(tori, tmp_path):
     [
         ({"numbers": ["trace"]}, "has numbers = rotation-number, not trace"),
         ({"level": "draft"}, "has level = precise, not draft"),
-        ({"over": {"h": (-1.2, 2.0, 13), "f": (0.0, 1.2, 9)}}, "is not over the same values of h"),
+        ({"over": {"h": (-1.2, 2.0, 13), "f": (0.0, 1.2, 9)}}, "has other values of h"),
         ({"a": 0.25}, 'has parameters = {"a": 0.5, .* not {"a": 0.25, '),
     ],
 )

@@ -119,22 +119,20 @@ def exists(path: Path, plan: Plan) -> bool:
     """Return True if the path has a store of this sweep, False if it is free.  Raises `OtherSweep`, `StoreError`."""
     if not path.exists() or (path.is_dir() and not any(path.iterdir())):
         return False
-    if why := _difference(_open(path), plan):
+    stored = _open(path)
+    held = {name: str(stored.attrs.get(name)) for name in _facts(plan)}
+    other = [
+        f"{name} = {shorten(held[name], 80)}, not {shorten(value, 80)}"
+        for name, value in _facts(plan).items()
+        if held[name] != value
+    ]
+    axes = plan.axes.items()
+    other += [f"other values of {name}" for name, values in axes if not np.array_equal(stored.get(name, ()), values)]
+    if other:
         raise OtherSweep(
-            f"{str(path)!r} contains another sweep: it {why}.  Choose another folder, or repeat that sweep."
+            f"{str(path)!r} contains another sweep: it has {other[0]}.  Choose another folder, or repeat that sweep."
         )
     return True
-
-
-def _difference(stored: xr.Dataset, plan: Plan) -> str:
-    """Return what distinguishes the sweep of a store, as the end of a sentence; empty for the same sweep."""
-    for name, value in _facts(plan).items():
-        if (held := str(stored.attrs.get(name))) != value:
-            return f"has {name} = {shorten(held, 80)}, not {shorten(value, 80)}"
-    for name, values in plan.axes.items():
-        if name not in stored.dims or not np.array_equal(stored[name], values):
-            return f"is not over the same values of {name}"
-    return ""
 
 
 def missing(place: Path | MemoryStore, plan: Plan) -> list[Region]:
