@@ -176,6 +176,11 @@ class _Chart(Part[Any]):
         return self.sides[self.host.chart_x], self.sides[self.host.chart_y]
 
     @property
+    def place(self) -> tuple[float, float]:
+        """The place of this state."""
+        return self.axes[0].of(self.host), self.axes[1].of(self.host)
+
+    @property
     def number(self) -> catalogue.Number:
         """The number on show."""
         charted, number = self.numbers[self.host.chart]
@@ -227,8 +232,7 @@ class _Chart(Part[Any]):
         """Value, error and status (3, 1) in this state; None until known."""
         if self.reason:
             return None
-        here = self.axes[0].of(self.host), self.axes[1].of(self.host)
-        found: Array | None = self.work.ask(Task(_row, (self.key, (here, here), 1, 0)))
+        found: Array | None = self.work.ask(Task(_row, (self.key, (self.place, self.place), 1, 0)))
         return found
 
     @cached_property
@@ -249,8 +253,7 @@ class _Chart(Part[Any]):
 
     def here(self) -> Positions:
         """Return the place of the state, if it is in sight."""
-        x, y = self.axes
-        return inside([(x.of(self.host), y.of(self.host))], self.window)
+        return inside([self.place], self.window)
 
     def choose(self, x: float, y: float) -> Values:
         """Return the parameters at a place.  Raises `ModelError` if no number is possible there."""
