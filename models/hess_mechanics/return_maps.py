@@ -760,7 +760,7 @@ def basins(
         (across, up),
         frozen(x),
         frozen(y),
-        frozen(number),
+        frozen(number.astype(int)),
         frozen(crossings),
         there.contractions,
         there.count,

@@ -1,4 +1,4 @@
-"""`python tests/benchmarks/benchmark_textbook.py`: thirty textbook systems beside heyoka, into the README about it.
+"""`python tests/benchmarks/benchmark_textbook.py`: twelve textbook systems beside heyoka, into the README about it.
 
 Both integrate to the end of the time span, with several orders and tolerances.  The time of a code is that of its
 fastest setting with an error of at most `TARGET`, measured in turns; the truth is heyoka's at its smallest tolerance.

@@ -309,3 +309,5 @@ def test_the_error_estimates_of_circle_maps_are_right(maps, name):
         np.abs(np.array([m.trace for m in found]) - trace) / np.maximum(1.0, trace),
     )
     check(true, np.array([m.error_estimate for m in found]), 1.0)
+    # It says OK exactly where its estimate keeps the promise.
+    assert all((m.status == "ok") == (m.error_estimate <= LEVELS[name].promise) for m in found)

@@ -15,12 +15,8 @@ from hess_mechanics import (
     megno_map,
     regime,
     return_map,
-    section,
     section_points,
-    sections,
-    solve,
     systems,
-    transition_matrix,
 )
 from hess_mechanics.dynamics.basins import mean_divergence
 from hess_mechanics.dynamics.system import Problem
@@ -50,20 +46,14 @@ def test_every_component_moves_by_a_few_ulps_and_0_stays_0():
 
 
 ENTRIES = {
-    "solve": lambda: solve(BODY, START, TIMES).states,
     "ensemble": lambda: ensemble(BODY, [START], TIMES, "draft").states,
-    "section": lambda: section(BODY, START, EQUATOR, 20.0, "draft").states,
-    "sections": lambda: sections(BODY, [START], EQUATOR, 20.0, "draft")[0].states,
     "section_points": lambda: section_points(BODY, [START], EQUATOR, 20.0, "draft", 5).states[0],
     "lyapunov_exponent": lambda: lyapunov_exponent(BODY, START, 20.0).rates,
     "lyapunov_spectrum": lambda: lyapunov_spectrum(BODY, START, 20.0).values,
     "megno": lambda: megno(BODY, [START], 20.0).values,
     "megno_map": lambda: megno_map(MAP, cells=(2, 2), t=20.0).values,
-    "transition_matrix": lambda: transition_matrix(BODY, START, 20.0, "draft").matrices,
     "mean_divergence": lambda: mean_divergence(SuslovBody(*BODY.parameters), START, 20.0).mean,
-    "return map": lambda: MAP.image(POINT),
     "orbit of a return map": lambda: MAP.orbit(np.array(POINT), 5),
-    "derivative of a return map": lambda: MAP.with_derivative(np.array(POINT))[1],
     "regime": lambda: regime(MAP, POINT, 10, 20, 20.0).places,
 }
 

@@ -34,6 +34,12 @@ def state_of(scene=TORI, *, known=True, **values):
     return scene.compute(admitted, ["chart"], False)
 
 
+def trace(**torus):
+    """Return |t| of a torus, as the catalogue computes it alone."""
+    of = find("circle-map")
+    return of.number("trace").read(of.compute(torus, STANDARD))
+
+
 def cells_of(state):
     """Return the centres (m,) and (n,) of the cells, and their values (n, m)."""
     (x0, y0), (x1, y1) = state.charting.window
@@ -48,11 +54,9 @@ def test_each_cell_is_the_number_at_its_centre(window):
     x, y, values = cells_of(state)
     if window:
         assert state.charting.window == ((0.5, -0.5), (1.5, 0.25))
-    of = find("circle-map")
-    trace = of.number("trace")
     for i, j in [(0, 0), (40, 150), (108, 108), (107, 10), (215, 215)]:
         try:
-            expected = trace.read(of.compute({"a": 0.3, "h": x[j], "f": y[i]}, STANDARD))
+            expected = trace(a=0.3, h=x[j], f=y[i])
         except ModelError:
             expected = np.nan
         assert values[i, j] == approx(expected, rel=1e-9, nan_ok=True)
@@ -105,8 +109,7 @@ def test_a_box_zooms_in_and_other_sides_show_the_whole_range_again():
 
 def test_the_caption_says_the_own_number_and_why_cells_have_none():
     state = state_of(h=1.5, f=0.6)
-    of = find("circle-map")
-    own = of.number("trace").read(of.compute({"a": 0.3, "h": 1.5, "f": 0.6}, STANDARD))
+    own = trace(a=0.3, h=1.5, f=0.6)
     caption = state.charting.caption
     assert caption.verdict == f"|t| = {own:.4g}."
     share = 100.0 * np.mean(~np.isfinite(cells_of(state)[2]))

@@ -5,7 +5,6 @@ from math import cos, sin, sqrt
 
 import numpy as np
 from scipy.integrate import solve_ivp
-from scipy.optimize import brentq
 
 from hess_mechanics.euler_poisson.equations import HeavyBody
 
@@ -63,17 +62,6 @@ def energies_at(body, f, l, x, G):
 def dense(body, f, l, x, top, count=4000):
     G = np.linspace(max(abs(f), 1e-9), max(top, 1.01 * abs(f)), count)
     return G, energies_at(body, f, l, x, G)
-
-
-def start_by_hand(body, h, f, l, x):
-    """The state at (l, x) with the largest G: a dense search from above, then Brent's method."""
-    top = sqrt(2.0 * (h + body.strength) / min(body.a))
-    G, energies = dense(body, f, l, x, top)
-    i = np.flatnonzero(energies <= h)[-1]
-    largest = brentq(lambda G: energies_at(body, f, l, x, G)[0] - h, G[i], G[i + 1], xtol=1e-14)
-    s, c = sqrt(1.0 - x * x), f / largest
-    along = np.array([s * sin(l), s * cos(l), x])
-    return np.concatenate([largest * along, c * along + sqrt(1.0 - c * c) * np.array([cos(l), -sin(l), 0.0])])
 
 
 def crossings_by_scipy(body, state, end):

@@ -1,6 +1,4 @@
-"""Thirty systems of textbooks, each with a time span over which errors stay small."""
-
-import numpy as np
+"""Twelve systems of textbooks, each with a time span over which errors stay small."""
 
 from hess_mechanics import System
 from hess_mechanics.numerics.functions import cos, exp, log, sin, sqrt
@@ -31,62 +29,10 @@ def kepler(y, p):
     return u, v, -p[0] * x / cube, -p[0] * y_ / cube
 
 
-def restricted(y, p):
-    x, y_, u, v = y
-    mu = p[0]
-    one, two = ((x + mu) ** 2 + y_**2) ** 1.5, ((x - 1 + mu) ** 2 + y_**2) ** 1.5
-    return (
-        u,
-        v,
-        2 * v + x - (1 - mu) * (x + mu) / one - mu * (x - 1 + mu) / two,
-        -2 * u + y_ - (1 - mu) * y_ / one - mu * y_ / two,
-    )
-
-
-def jacobi(y, p):
-    x, y_, u, v = y
-    one, two = sqrt((x + p[0]) ** 2 + y_**2), sqrt((x - 1 + p[0]) ** 2 + y_**2)
-    return {"C": (u**2 + v**2) / 2 - (x**2 + y_**2) / 2 - (1 - p[0]) / one - p[0] / two}
-
-
 def sleigh(y, p):
     v, w, theta, _, _ = y
     m, I, a = p
     return a * w**2, -m * a * v * w / (I + m * a**2), w, v * cos(theta), v * sin(theta)
-
-
-A, C = 0.25, 0.5
-
-
-def rolling_disk(y, p):
-    """A disk of mass and radius 1: its inclination, two angles, their rates, the spin, and the point of contact."""
-    theta, psi, _, u, v, w, _, _ = y
-    s, c = sin(theta), cos(theta)
-    turn = w - v * c
-    return (
-        u,
-        v,
-        turn,
-        (A * v**2 * s * c - (C + 1) * w * v * s - p[0] * c) / (A + 1),
-        (C * w * u - 2 * A * u * v * c) / (A * s),
-        u * v * s / (C + 1),
-        turn * cos(psi),
-        turn * sin(psi),
-    )
-
-
-def disk_energy(y, p):
-    s = sin(y[0])
-    return {"E": ((A + 1) * y[3] ** 2 + A * (y[4] * s) ** 2 + (C + 1) * y[5] ** 2) / 2 + p[0] * s}
-
-
-def suslov(w1, w2, g1, g2, g3, third, p):
-    momentum = p[2] * w1 + p[3] * w2 + third
-    return -w2 * momentum / p[0], w1 * momentum / p[1], -g3 * w2, g3 * w1, g1 * w2 - g2 * w1
-
-
-def suslov_integrals(y, p):
-    return {"E": (p[0] * y[0] ** 2 + p[1] * y[1] ** 2) / 2, "γ²": y[2] ** 2 + y[3] ** 2 + y[4] ** 2}
 
 
 def cross(a, b):
@@ -135,14 +81,6 @@ def rattleback_integrals(y, p):
     return {"E": dot(y[:3], turning(y[:3], r, p)) / 2 - dot(r, y[3:]), "γ²": dot(y[3:], y[3:])}
 
 
-def lagrange_top(y, p):
-    theta, _, _, v = y
-    a, b, third, g = p
-    s, c = sin(theta), cos(theta)
-    turn = (a - b * c) / s**2
-    return v, turn, b / third - c * turn, g * s - turn * (b - a * c) / s
-
-
 def stoermer(y, p):
     x, z, u, v = y
     square = x**2 + z**2
@@ -170,34 +108,12 @@ def fpu_energy(y, p):
     return {"E": sum(x**2 / 2 + p[0] * x**4 / 4 for x in d) + sum(v**2 for v in y[5:]) / 2}
 
 
-def swinging(y, p):
-    r, theta, u, w = y
-    mu = p[0]
-    return u, w, (r * w**2 + cos(theta) - mu) / (1 + mu), -(2 * u * w + sin(theta)) / r
-
-
-def elastic(y, p):
-    r, theta, u, w = y
-    return u, w, r * w**2 + cos(theta) - p[0] * (r - 1), -(2 * u * w + sin(theta)) / r
-
-
 def energy(potential, d):
     """A sum of squares of the last d variables over 2, and a potential."""
     return lambda y, p: {"E": sum(v**2 for v in y[-d:]) / 2 + potential(y, p)}
 
 
 SYSTEMS = [
-    (
-        System(
-            "pendulum",
-            lambda y, p: (y[1], -p[0] * sin(y[0])),
-            "θ w",
-            {"g": 1.0},
-            (2.5, 0.1),
-            integrals=energy(lambda y, p: -p[0] * cos(y[0]), 1),
-        ),
-        40.0,
-    ),
     (
         System(
             "double pendulum",
@@ -238,17 +154,6 @@ SYSTEMS = [
     ),
     (
         System(
-            "Kepler, polar",
-            lambda y, p: (y[2], p[1] / y[0] ** 2, p[1] ** 2 / y[0] ** 3 - p[0] / y[0] ** 2),
-            "r φ u",
-            {"k": 1.0, "L": 0.85},
-            (0.5, 0.0, 0.0),
-            integrals=lambda y, p: {"E": y[2] ** 2 / 2 + p[1] ** 2 / (2 * y[0] ** 2) - p[0] / y[0]},
-        ),
-        30.0,
-    ),
-    (
-        System(
             "Lorenz",
             lambda y, p: (p[0] * (y[1] - y[0]), y[0] * (p[1] - y[2]) - y[1], y[0] * y[1] - p[2] * y[2]),
             "x y z",
@@ -259,16 +164,6 @@ SYSTEMS = [
     ),
     (
         System(
-            "Rössler",
-            lambda y, p: (-y[1] - y[2], y[0] + p[0] * y[1], p[1] + y[2] * (y[0] - p[2])),
-            "x y z",
-            {"a": 0.2, "b": 0.2, "c": 5.7},
-            (1.0, 2.0, 0.5),
-        ),
-        30.0,
-    ),
-    (
-        System(
             "Duffing, driven",
             lambda y, p: (y[1], -p[0] * y[1] + y[0] - y[0] ** 3 + p[1] * cos(y[2]), p[2]),
             "x v τ",
@@ -276,24 +171,6 @@ SYSTEMS = [
             (0.5, 0.1, 0.0),
         ),
         30.0,
-    ),
-    (
-        System("Van der Pol", lambda y, p: (y[1], p[0] * (1 - y[0] ** 2) * y[1] - y[0]), "x v", {"μ": 2.0}, (0.5, 0.1)),
-        20.0,
-    ),
-    (
-        System(
-            "Hénon–Heiles",
-            lambda y, p: (y[2], y[3], -y[0] - 2 * y[0] * y[1], -y[1] - y[0] ** 2 + y[1] ** 2),
-            "x y px py",
-            example=(0.1, 0.2, 0.3, 0.4),
-            integrals=energy(lambda y, p: (y[0] ** 2 + y[1] ** 2) / 2 + y[0] ** 2 * y[1] - y[1] ** 3 / 3, 2),
-        ),
-        40.0,
-    ),
-    (
-        System("restricted three bodies", restricted, "x y u v", {"μ": 0.0121}, (0.5, 0.1, 0.2, 0.8), integrals=jacobi),
-        10.0,
     ),
     (
         System(
@@ -308,50 +185,6 @@ SYSTEMS = [
     ),
     (
         System(
-            "rolling disk",
-            rolling_disk,
-            "θ ψ φ u v w x y",
-            {"g": 1.0},
-            (1.2, 0.0, 0.0, 0.1, 0.3, 1.5, 0.0, 0.0),
-            integrals=disk_energy,
-        ),
-        20.0,
-    ),
-    (
-        System(
-            "Suslov gyrostat",
-            lambda y, p: suslov(*y, p[4], p),
-            "w1 w2 γ1 γ2 γ3",
-            {"I11": 2.0, "I22": 1.0, "I13": 0.3, "I23": 0.5, "k": 0.7},
-            (0.8, -0.4, 0.6, 0.0, 0.8),
-            integrals=suslov_integrals,
-        ),
-        30.0,
-    ),
-    (
-        System(
-            "Suslov body, driven",
-            lambda y, p: (*suslov(*y[:5], p[4] * sin(y[5]), p), p[5]),
-            "w1 w2 γ1 γ2 γ3 τ",
-            {"I11": 2.0, "I22": 1.0, "I13": 0.3, "I23": 0.5, "k": 0.7, "ω": 1.3},
-            (0.8, -0.4, 0.6, 0.0, 0.8, 0.0),
-            integrals=suslov_integrals,
-        ),
-        30.0,
-    ),
-    (
-        System(
-            "Euler top",
-            lambda y, p: ((p[2] - p[1]) * y[1] * y[2], (p[0] - p[2]) * y[2] * y[0], (p[1] - p[0]) * y[0] * y[1]),
-            "M1 M2 M3",
-            {"a1": 1.0, "a2": 0.6, "a3": 0.3},
-            (0.1, 1.0, 0.2),
-            integrals=lambda y, p: {"M²": dot(y, y), "E": (p[0] * y[0] ** 2 + p[1] * y[1] ** 2 + p[2] * y[2] ** 2) / 2},
-        ),
-        50.0,
-    ),
-    (
-        System(
             "rattleback",
             rattleback,
             "M1 M2 M3 γ1 γ2 γ3",
@@ -363,59 +196,12 @@ SYSTEMS = [
     ),
     (
         System(
-            "Lagrange top",
-            lagrange_top,
-            "θ φ ψ v",
-            {"a": 1.2, "b": 1.5, "C": 0.5, "g": 1.0},
-            (0.9, 0.0, 0.0, 0.2),
-            integrals=lambda y, p: {
-                "E": y[3] ** 2 / 2 + (p[0] - p[1] * cos(y[0])) ** 2 / (2 * sin(y[0]) ** 2) + p[3] * cos(y[0])
-            },
-        ),
-        30.0,
-    ),
-    (
-        System(
             "Lotka–Volterra",
             lambda y, p: (y[0] * (p[0] - p[1] * y[1]), y[1] * (p[3] * y[0] - p[2])),
             "x y",
             {"a": 1.0, "b": 0.5, "c": 1.2, "d": 0.4},
             (1.0, 2.0),
             integrals=lambda y, p: {"V": p[3] * y[0] - p[2] * log(y[0]) + p[1] * y[1] - p[0] * log(y[1])},
-        ),
-        30.0,
-    ),
-    (
-        System(
-            "Brusselator",
-            lambda y, p: (p[0] + y[0] ** 2 * y[1] - (p[1] + 1) * y[0], p[1] * y[0] - y[0] ** 2 * y[1]),
-            "x y",
-            {"A": 1.0, "B": 3.0},
-            (1.0, 1.5),
-        ),
-        20.0,
-    ),
-    (
-        System(
-            "Chua, cubic",
-            lambda y, p: (p[0] * (y[1] - y[0] ** 3 - p[2] * y[0]), y[0] - y[1] + y[2], -p[1] * y[1]),
-            "x y z",
-            {"α": 10.0, "β": 16.0, "c": -0.143},
-            (0.3, 0.1, -0.2),
-        ),
-        10.0,
-    ),
-    (
-        System(
-            "Arnold–Beltrami–Childress",
-            lambda y, p: (
-                p[0] * sin(y[2]) + p[2] * cos(y[1]),
-                p[1] * sin(y[0]) + p[0] * cos(y[2]),
-                p[2] * sin(y[1]) + p[1] * cos(y[0]),
-            ),
-            "x y z",
-            {"A": 1.0, "B": 0.8165, "C": 0.5774},
-            (0.1, 0.2, 0.3),
         ),
         30.0,
     ),
@@ -453,30 +239,6 @@ SYSTEMS = [
     ),
     (
         System(
-            "swinging Atwood machine",
-            swinging,
-            "r θ u w",
-            {"μ": 3.0},
-            (1.0, 1.5, 0.0, 0.0),
-            integrals=lambda y, p: {"E": ((1 + p[0]) * y[2] ** 2 + (y[0] * y[3]) ** 2) / 2 + y[0] * (p[0] - cos(y[1]))},
-        ),
-        10.0,
-    ),
-    (
-        System(
-            "elastic pendulum",
-            elastic,
-            "r θ u w",
-            {"k": 5.0},
-            (1.2, 1.0, 0.0, 0.2),
-            integrals=lambda y, p: {
-                "E": (y[2] ** 2 + (y[0] * y[3]) ** 2 + p[0] * (y[0] - 1) ** 2) / 2 - y[0] * cos(y[1])
-            },
-        ),
-        20.0,
-    ),
-    (
-        System(
             "Nosé–Hoover",
             lambda y, p: (y[1], -y[0] - y[2] * y[1], (y[1] ** 2 - p[0]) / p[1], y[2]),
             "q p ζ η",
@@ -486,31 +248,7 @@ SYSTEMS = [
         ),
         20.0,
     ),
-    (
-        System(
-            "Thomas",
-            lambda y, p: (sin(y[1]) - p[0] * y[0], sin(y[2]) - p[0] * y[1], sin(y[0]) - p[0] * y[2]),
-            "x y z",
-            {"b": 0.19},
-            (1.0, 0.2, -0.5),
-        ),
-        30.0,
-    ),
-    (
-        System("Sprott B", lambda y, p: (y[1] * y[2], y[0] - y[1], 1 - y[0] * y[1]), "x y z", example=(0.5, 0.2, 0.1)),
-        20.0,
-    ),
 ]
 """Each system with a time span."""
 
 TEXTBOOK = {system.name: (system, span) for system, span in SYSTEMS}
-
-
-def states_of(system, span, samples=9):
-    """Times, and states from SciPy's DOP853."""
-    from scipy.integrate import solve_ivp
-
-    state, p = system.example
-    times = np.linspace(0.0, span, samples)
-    found = solve_ivp(lambda _, y: system.field(y, p), (0.0, span), state, "DOP853", times, rtol=1e-13, atol=1e-13)
-    return times, found.y.T

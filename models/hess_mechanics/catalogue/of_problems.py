@@ -191,7 +191,7 @@ COMPUTATIONS: tuple[Computation, ...] = (
         "Circle map Θ(φ) of a Suslov–Hess torus",
         circle_map,
         _circle_map,
-        (*_TORUS, known.CIRCLE_PHASE),
+        (*_TORUS, usual(known.CIRCLE_PHASE, 0.5, "Angle φ whose image is computed, in radians.")),
         {
             "rotation-number": Number("ρ", "rotation number", "of.rotation_number", "turns per return", turn=1.0),
             "trace": Number("|t|", "|trace| of the map as a matrix of SU(1,1)", "of.trace"),

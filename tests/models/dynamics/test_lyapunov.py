@@ -1,4 +1,4 @@
-"""Lyapunov exponents against the variational equations, rotation numbers against rotations that are known."""
+"""Lyapunov exponents against differences of motions, rotation numbers against rotations that are known."""
 
 import numpy as np
 from pytest import approx, mark, raises
@@ -28,7 +28,7 @@ def state_of(case):
 
 @mark.parametrize("case", [(GESS1, 50.0, 5.0, 0.0, 0.2), (RIS, 2.0, 1.0, 1.0, 0.1), CHAOTIC, *REGULAR])
 @mark.parametrize("span", [5.0, -4.0])
-def test_the_growth_up_to_a_time_is_that_of_the_variational_equations(case, span):
+def test_the_growth_up_to_a_time_is_that_of_differences(case, span):
     body, state = state_of(case)
     found = lyapunov_exponent(body, state, span)
     assert found.times[-1] == approx(abs(span))

@@ -17,7 +17,7 @@ from hess_mechanics.dynamics.orbit import MAX_SAMPLES
 from hess_mechanics.dynamics.system import in_units_of_time
 from hess_mechanics.errors import InvalidParameter, ModelError, NotPositiveDefinite, WorkLimit, WrongScaling
 from hess_mechanics.numerics.taylor_kernels import columns_of, workspace
-from support.mechanics import ROOT, SYSTEMS, assert_same_without_jit, every_system, scipy_states
+from support.mechanics import ROOT, SYSTEMS, assert_same_without_jit, every_system
 from support.refusals import refused
 from support.thorough import examples, sample
 
@@ -87,13 +87,6 @@ def test_the_kernels_taylor_series_is_that_of_the_plain_field(system, data):
     scale = 1.0 + np.max(np.abs(expected), axis=0)
     assert found[:, 1] == approx(np.array(system.field(y, p)), abs=1e-14 * scale[1])
     assert np.max(np.abs(found - expected) / scale) < 1e-12
-
-
-@every_system
-def test_solve_agrees_with_an_integrator_of_another_family(system):
-    times = np.linspace(0.0, 10.0, 21)
-    orbit = solve(*system.example_motion, times, "reference")
-    assert np.max(np.abs(orbit.states - scipy_states(system, *system.example, times))) < 1e-9
 
 
 WITHOUT_JIT = """

@@ -18,10 +18,8 @@ from hess_mechanics import (
     periodic_orbit,
     return_map,
     section,
-    section_orbits,
     section_points,
     transition_matrix,
-    tube,
 )  # fmt: skip
 from hess_mechanics.dynamics.ensemble import complete
 from hess_mechanics.dynamics.megno_map import ENDED, NOWHERE
@@ -31,6 +29,7 @@ from hess_mechanics.dynamics.section import AnglePlane
 from hess_mechanics.dynamics.variable_section import variable_section
 from hess_mechanics.errors import InvalidParameter, NoReturn, OutsideRegion, WorkLimit
 from hess_mechanics.numerics.accuracy import STANDARD
+from support.mechanics import scipy_crossings
 
 E = 1 / 12
 SYSTEM = System(
@@ -76,14 +75,10 @@ def test_a_section_has_defaults(returns):
 def test_the_image_of_a_place_is_the_next_crossing_by_another_integrator(returns):
     start = returns.state_at(np.array([0.1, 0.05]))
 
-    def height(_, y):
-        return y[0]
-
-    height.direction = 1
-    found = solve_ivp(
-        lambda _, y: SYSTEM.field(y, (1.0,)), (0.0, 20.0), start, "DOP853", events=height, rtol=1e-13, atol=1e-13
+    times, states = scipy_crossings(
+        lambda y: SYSTEM.field(y, (1.0,)), start, lambda y: y[0], 20.0, 1, rtol=1e-13, atol=1e-13
     )
-    crossing = next(y for t, y in zip(found.t_events[0], found.y_events[0], strict=True) if t > 1.0)
+    crossing = states[times > 1.0][0]
     assert returns.image((0.1, 0.05)) == approx(crossing[[1, 3]], abs=1e-10)
 
 
@@ -98,19 +93,10 @@ def test_a_straight_orbit_is_found_and_continued(returns):
         assert place == approx([0.0, np.sqrt(value / 2)], abs=1e-9)
 
 
-def test_tools_take_a_system_of_ones_own(returns):
-    for points in section_orbits(returns, orbits=3, crossings=10).orbits:
-        y, py = points.T
-        assert np.all(py**2 + y**2 - 2 * y**3 / 3 <= 2 * E + 1e-9)
-    diagram = orbit_diagram(returns, "E", [0.08, 0.09], (0.1, 0.05), transient=5, kept=5)
-    assert [len(places) for places in diagram.places] == [5, 5]
+def test_a_saddle_has_manifolds(returns):
     saddle = periodic_orbit(returns, (-0.12, 0.0), 1)
     assert saddle.kind == "saddle"
     assert manifold(returns, saddle, 0.2).length >= 0.2
-    spectrum = lyapunov_spectrum(*SYSTEM.example_motion, 100.0)
-    assert (spectrum.values.size, spectrum.divergence) == (4, 0.0)
-    assert spectrum.values.sum() == approx(0.0, abs=1e-9)
-    assert tube(*SYSTEM.example_motion, [1.0]).width < 1e-18
 
 
 @mark.parametrize("start", [(0.2, 0.5), (-3.0, -2.0)])
@@ -140,14 +126,14 @@ def test_an_angle_passes_its_value_up_to_full_turns():
     assert return_map(pendulum, surface=("theta", 0.0)).image((0.1, 0.0))[0] == approx(0.1, abs=1e-9)
 
 
-@mark.parametrize(("sense", "end"), [(1, 30.0), (-1, -30.0), (0, 30.0), (0, -30.0)])
+@mark.parametrize(("sense", "end"), [(1, 300.0), (-1, -300.0), (0, 300.0), (0, -300.0)])
 def test_a_uniform_rotation_passes_an_angle_once_a_turn(sense, end):
     """A single step of its series would take it round many times."""
     turning = DRIVEN.at(friction=0.0, force=0.0, W=-2.0)
     found = section(turning, (0.0, 0.0, 0.5), AnglePlane(2, 1.0, sense), end, "precise")
     # As time grows the angle falls.
-    expected = np.arange(1, 10) * np.pi - 0.25 if end > 0 else -np.arange(10) * np.pi - 0.25
-    assert found.times == approx([] if sense > 0 else expected[np.abs(expected) < 30.0], abs=1e-9)
+    expected = np.arange(1, 100) * np.pi - 0.25 if end > 0 else -np.arange(100) * np.pi - 0.25
+    assert found.times == approx([] if sense > 0 else expected[np.abs(expected) < 300.0], abs=1e-9)
 
 
 @mark.parametrize(

@@ -3,7 +3,6 @@
 import dataclasses
 import math
 import re
-import sys
 
 import numpy as np
 from pytest import approx, mark, raises
@@ -23,7 +22,7 @@ from hess_mechanics.dynamics.work_precision import (
     measure_others,
     others_take_long,
 )
-from hess_mechanics.errors import InvalidParameter, WorkLimit
+from hess_mechanics.errors import WorkLimit
 from hess_mechanics.numerics.accuracy import DRAFT, LEVELS
 from hess_mechanics.numerics.patience import limited_by
 from support.board import ACCURACY, HESS, Board, flat
@@ -124,17 +123,6 @@ def test_every_system_can_be_looked_into(name):
         assert set(found.drifts[level.name]) == set(initial)
     assert [point.setting for point in measure_levels(*arguments, SAMPLES)] == list(LEVELS)
     assert all(point.error < 1.0 for point in measure_others(*arguments, SAMPLES))
-
-
-@mark.parametrize("measure", [growth, measure_levels])
-def test_what_cannot_be_computed_is_refused_with_a_sentence(measure, monkeypatch):
-    monkeypatch.setattr(sys.modules["hess_mechanics.dynamics.doubled"], "_MOST_STEPS", 1000)
-    state, parameters = systems()["hess"].example
-    weights = ((1.0,) * 5,) if measure is growth else ()
-    with raises(WorkLimit, match="choose"):
-        measure("hess", tuple(state), tuple(parameters), 1e9, *weights, SAMPLES)
-    with raises(InvalidParameter, match="finite"):
-        measure("hess", (math.nan, *state[1:]), tuple(parameters), 1.0, *weights, SAMPLES)
 
 
 # --- Cost ------------------------------------------------------------------------------------------------------

@@ -31,12 +31,6 @@ def rho_of(a, h, f, level=PRECISE):
 # ---- ρ and where it locks ----------------------------------------------------------------------------------------
 
 
-@mark.parametrize("torus", ELLIPTIC + HYPERBOLIC)
-def test_the_rotation_number_is_that_of_ten_thousand_iterations(torus):
-    # Counting N returns loses less than one turn.
-    assert rho_of(*torus) == approx(iterated(*torus), abs=1e-4)
-
-
 def test_values_agree_whatever_their_shape_and_order():
     rng = np.random.default_rng(1)
     a, h, f = rng.choice([0.1, 0.5, 1.0], 20), rng.uniform(-0.9, 3.0, 20), rng.uniform(-2.0, 2.0, 20)

@@ -42,7 +42,7 @@ def off_the_line(I23, small, times):
     return np.vstack([np.reshape(early, (-1, 5)), passage.astype(float)])
 
 
-def rows(Row, an_orbit, drift):
+def rows(an_orbit):
     """The rows."""
 
     def ball(name, state, parameters, times, **options):
@@ -69,5 +69,4 @@ def rows(Row, an_orbit, drift):
         ball("I22 = 1e-6, 𝒟 = 1e-6", (0.1, 1.0, *GAMMA), with_field(1e-6, 1.0, (1.0, 1e-6, 0.5, 1e-3)), [1e-3, 0.02]),
         ball("ω = 0", (0.0, 0.0, *GAMMA), with_field(2.0), [1.0, 5.0, 20.0]),
         ball("b = 1e6", (800.0, -400.0, *GAMMA), with_field(2.0, 1e6), [0.001, 0.02]),
-        drift("t = 3e4", SYSTEM, START, with_field(2.0), 3e4, floor=1e-11),
     ]

@@ -81,7 +81,7 @@ def a_state(Row, name, body, h, f, place, **options):
     return Row(f"state on g = π/2: {name}", "its integrals, 40 digits", error, **options)
 
 
-def rows(Row, drift):
+def rows(Row):
     """The rows."""
 
     def orbit(name, body, state, times, **options):
@@ -118,13 +118,4 @@ def rows(Row, drift):
         a_state(Row, "h at the bottom", UPRIGHT, -0.7 + 1e-9, 1e-10, (0.3, 1.0 - 1e-9), levels=("any",)),
         a_state(Row, "x = 1", GESS1, 50.0, 5.0, (-2.0, 1.0), levels=("any",)),
         a_state(Row, "moments 1e6, 1, 1e-6", hess(1e6, 1.0, 1e-6), 50.0, 1e-3, (0.82, 0.0236), levels=("any",)),
-        drift("gess1, t = 1e4", SYSTEM, near[0], GESS1.parameters, 1e4, floor=1e-9),
-        drift(
-            "moments 1, 1e-3, 1e-6",
-            SYSTEM,
-            (1.0, 1e-3, 1e-6, *GAMMA),
-            hess(1.0, 1e-3, 1e-6).parameters,
-            1.0,
-            floor=1e-9,
-        ),
     ]
