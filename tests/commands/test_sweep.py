@@ -171,7 +171,7 @@ def test_the_snippet_for_dask_jobqueue_computes_a_sweep(tmp_path, monkeypatch):
 @pytest.mark.parametrize(
     "words, said",
     [
-        (["sweep"], "Name a computation after sweep: "),
+        (["sweep"], "hess-explorer --help lists all"),
         (replaced(SWEEP, "--set", "a"), "is not a parameter; write it like h=1.5"),
         (replaced(SWEEP, "--over", "h=0:1"), "is not a range"),
         (replaced(SWEEP, "--over", "h=0:1:10000000"), "at most 10000000 are allowed"),

@@ -50,11 +50,10 @@ def _run(options: Options) -> None:
 
 def _swept(options: Options) -> xr.Dataset:
     from hess_explorer.sweep import Interrupted, sweep
-    from hess_mechanics.catalogue import catalogue
 
     name, fixed = " ".join(options.computation), dict(options.set)
     if not name:
-        raise CommandError(f"Name a computation after sweep: {', '.join(catalogue())}.")
+        raise CommandError("Name a computation after sweep, such as lyapunov suslov: hess-explorer --help lists all.")
     if wrong := fixed.keys() & inspect.signature(sweep).parameters:
         raise CommandError(f"{name} has no parameter {min(wrong)!r} that --set can give: rename it.")
     try:

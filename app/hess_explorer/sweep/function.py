@@ -77,7 +77,7 @@ def plan_of(
     except (TypeError, ValueError):
         signature = {}
     call = _Call(name, function, signature.pop(_LEVEL, None) is not None)
-    defaults = {each: one.default for each, one in signature.items() if isinstance(one.default, (int, float))}
+    defaults = {each: one.default for each, one in signature.items() if type(one.default) in (int, float)}
     parameters = (
         Parameter(each, each, each, float(value), (0.0, 1.0), 0.1, _BOUNDS)
         for each, value in {**defaults, **dict.fromkeys((*over, *fixed), 0.0)}.items()

@@ -68,7 +68,7 @@ class Plan:
     ) -> Plan:
         """Return the checked plan.  Raises `InvalidParameter`, `WorkLimit`."""
         if not isinstance(over, Mapping) or not 1 <= len(over) <= _MOST_AXES:
-            raise InvalidParameter(f"A sweep is over one to {_MOST_AXES} parameters, such as {{'h': (1.2, 1.6, 3)}}.")
+            raise InvalidParameter(f"A sweep is over one to {_MOST_AXES} parameters: name them with their values.")
         if both := over.keys() & fixed:
             raise InvalidParameter(f"{min(both)} is both swept and fixed: give it only once.")
         for name in as_parts("numbers", numbers):
