@@ -143,7 +143,7 @@ def test_a_name_that_is_not_there_is_answered_with_those_that_are_close():
     with pytest.raises(InvalidParameter, match="has no number 'rho'; choose from rotation-number"):
         of.number("rho")
     with pytest.raises(InvalidParameter, match="a = 1e"):
-        of.compute({"a": 1e300})
+        of.values({"a": 1e300})
     with pytest.raises(InvalidParameter, match=r"over is one of I11, .* not 'I33'"):
         find("branch suslov-section").values({"over": "I33"})
 
