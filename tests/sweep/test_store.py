@@ -6,6 +6,7 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 import pytest
 import xarray as xr
+import zarr
 
 from hess_explorer.sweep import Interrupted, OtherSweep, StoreError, read
 from hess_explorer.sweep import workers as working
@@ -62,6 +63,15 @@ def test_damaged_pieces_are_computed_again(tori, tmp_path, computed):
     (status[0].parent / "0.5e1f.partial").write_bytes(b"\x28\xb5")
     assert tori(store=store).identical(whole)
     assert len(computed) == pieces + 4
+
+
+def test_a_piece_that_lacks_the_status_of_one_cell_is_computed_again(tori, tmp_path, computed):
+    """As the writer of another program could leave it."""
+    whole = tori(store=tmp_path / "rho.zarr")
+    pieces = len(computed)
+    zarr.open_group(tmp_path / "rho.zarr", mode="r+")["status"][3, 4] = 0
+    assert tori(store=tmp_path / "rho.zarr").identical(whole)
+    assert len(computed) == pieces + 1
 
 
 def test_what_is_left_of_a_store_that_was_killed_when_it_was_made_does_no_harm(tori, tmp_path):
