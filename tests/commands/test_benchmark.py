@@ -18,11 +18,9 @@ from benchmarks.integrators.peers import PEERS
 from benchmarks.integrators.works import works
 from hess_explorer.__main__ import main
 from hess_explorer.commands import bench as bench_of_the_wheel
-from hess_mechanics import LEVELS, level, solve, systems
-from hess_mechanics.catalogue import find
+from hess_mechanics import level, solve, systems
 from support import thorough
 from support.command_line import typed
-from support.mechanics import scipy_states
 
 # References
 
@@ -123,24 +121,6 @@ def test_without_the_sources_the_command_says_what_to_do(monkeypatch, tmp_path, 
         "hess-explorer: The benchmark measures with scripts of the source tree, which an installed package does not "
         "contain: in a source checkout, run pip install -e '.[bench]', then hess-explorer bench.\n"
     )
-
-
-def test_the_trade_of_a_computation_is_measured_and_printed(capsys):
-    """Errors are compared with SciPy's orbit; times are not checked."""
-    assert main(["bench", "--trade", "--quick", "--computations", "orbit suslov", "--format", "json"]) == 0
-    said = capsys.readouterr()
-    assert said.err.splitlines() == ["orbit suslov …"]
-    data = json.loads(said.out)
-    assert [(one["computation"], one["kind"], one["level"]) for one in data] == [
-        ("orbit suslov", "orbit", name) for name in LEVELS
-    ]
-    of = find("orbit suslov")
-    drafted = of.compute(accuracy="draft")
-    body, state = systems()["suslov"].example_motion
-    exact = scipy_states(body.system, state, body.parameters, drafted.times)
-    assert data[0]["error"] == approx(np.abs(drafted.states - exact).max(), rel=1e-3)
-    assert data[0]["error"] > data[1]["error"] > data[2]["error"] > data[3]["error"]
-    assert all(one["ms"] > 0.0 for one in data)
 
 
 @pytest.mark.parametrize("name", sorted(one.stem for one in Path(bench_command.__file__).parent.glob("*.py")))

@@ -10,7 +10,6 @@ import pytest
 import xarray as xr
 from pytest import approx
 
-import hess_mechanics
 from hess_explorer.__main__ import main
 from hess_explorer.commands.compute import command_of
 from hess_mechanics import SuslovBody, basins, return_map
@@ -61,8 +60,7 @@ def test_circle_map(answer):
     assert found["Θ"][found["φ"].index(0.0)] == approx(THETA_0, abs=1e-12)
     assert (numbers["trace"], numbers["period"]) == approx((TRACE, PERIOD), rel=1e-12)
     # The multipliers are the squares of the eigenvalues of a matrix with determinant 1.
-    root = math.exp(numbers["log-multiplier"] / 2.0)
-    assert root + 1.0 / root == approx(TRACE, rel=1e-12)
+    assert 2.0 * math.cosh(numbers["log-multiplier"] / 2.0) == approx(TRACE, rel=1e-12)
     assert (facts["kind"], numbers["locked"], found["notes"]) == ("hyperbolic", 1, [])
     assert 0 < facts["error_estimate"] < 1e-12
 
@@ -72,7 +70,6 @@ def test_orbit(answer):
     assert [found["numbers"][name] for name in ("w1", "w2", "g1", "g2", "g3")] == approx(STATE, abs=1e-11)
     assert found["t"] == [0.0, 5.0, 10.0]
     assert 0 < found["errors"]["w1"] == found["facts"]["error_estimate"] < 1e-10
-    assert answer(*replaced(SUSLOV, "--t", "-10"))["t"][-1] == -10.0
 
 
 def test_what_double_precision_cannot_hold_is_null_with_a_note(answer, as_table):
@@ -138,9 +135,8 @@ def test_the_help_lists_commands_systems_options_and_numbers(capsys):
         return capsys.readouterr().out
 
     lines = told().splitlines()
-    for heading, command in (("page", "serve"), ("compute", "orbit"), ("prove", "tube"), ("files", "sweep")):
-        below = lines[lines.index(f"{heading}:") :]
-        assert [line.split()[0] for line in below[: below.index("")] if line.startswith("  ")].count(command) == 1
+    below = lines[lines.index("compute:") :]
+    assert [line.split()[0] for line in below[: below.index("")] if line.startswith("  ")].count("orbit") == 1
     assert all(one.system in told(one.name) for one in catalogue().values())
     text = told("circle-map")
     for part in ("--phi PHI", "between -1000 and 1000", "rotation number (ρ, turns per return)", "eq0003"):
@@ -157,13 +153,6 @@ def test_a_system_of_ones_own(answer, refusal, tmp_path):
     assert "defines no System 'other'" in refusal("orbit", f"{file}:other")
     file.write_text(OWN.replace("k", "out"))
     assert "has two options --out: rename one" in refusal("orbit", f"{file}:SYSTEM")
-    file.write_text("1 / 0")
-    assert "stops with ZeroDivisionError" in refusal("orbit", f"{file}:SYSTEM")
-
-
-def test_every_function_of_the_catalogue_is_in_the_package():
-    names = {one.function.__name__ for one in catalogue().values()}
-    assert names <= set(hess_mechanics.__all__) == set(dir(hess_mechanics))
 
 
 @pytest.mark.parametrize(
@@ -198,15 +187,11 @@ def test_nothing_is_imported_that_is_not_used(script):
         (replaced(CIRCLE_MAP, "--h", "nan"), "--h: 'nan' is not a finite number"),
         (replaced(CIRCLE_MAP, "--h", "x" * 5000), "x…' is not a number; write it like 1.5"),
         (replaced(CIRCLE_MAP, "--f", "9"), "choose |f| ≤ 1.81"),
-        (replaced(CIRCLE_MAP, "--accuracy", "best"), "choose one of draft, "),
-        (typed("circle-map --h 1 --f 0"), "separatrix"),
         (replaced(SUSLOV, "--I11", "0"), "I11 = 0 is not between 0.001 and 1000"),
-        (replaced(SUSLOV, "--samples", "2.5"), "samples = 2.5 is not a whole number"),
         (replaced(SUSLOV, "--t", "1e9"), "shorter"),
         # Abbreviated, this was `--help`.
         ([*SUSLOV, "--he", "1"], "unrecognized arguments: --he 1"),
         ([*SUSLOV, "--format", "netcdf"], "name a file with --out FILE"),
-        (["orbit", "nowhere.py:SYSTEM"], "'nowhere.py' cannot be read (No such file"),
     ],
 )
 def test_refusals(refusal, words, part):

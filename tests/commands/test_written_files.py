@@ -63,7 +63,7 @@ def test_a_new_lesson_is_whole_or_not_there(tmp_path, capsys):
     file = tmp_path / "first.md"
     with full_disk():
         assert main(["lesson", "new", str(file)]) == 2
-    assert "cannot be written: File too large." in capsys.readouterr().err
+    assert "(File too large): choose another file." in capsys.readouterr().err
     assert names(tmp_path) == []
     assert main(["lesson", "new", str(file)]) == 0
     assert file.stat().st_size > 1000

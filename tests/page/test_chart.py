@@ -3,7 +3,7 @@
 import pytest
 from pytest import approx
 
-from support.pointer import Finger, at, click_on, frame
+from support.pointer import at, click_on
 
 TORI = "rotation-number"
 
@@ -55,28 +55,3 @@ def test_its_choices_are_there_while_it_is(page):
     assert group.evaluate("group => group.open")
     page.fold("chart")
     group.wait_for(state="hidden")
-
-
-def test_arrow_keys_move_its_ring(page):
-    h, f = page.shown("h")[0], page.shown("f")[0]
-    _, (dx, dy) = at(page, "chart", h, f)
-    # A click has left the arrow keys to the player.
-    page.picture("chart").locator(".host").evaluate("host => { host.focus(); host.blur(); host.focus() }")
-    page.change(page.page.keyboard.press, "Shift+ArrowRight")
-    page.change(page.page.keyboard.press, "ArrowDown")
-    assert page.shown("h")[0] == approx(h + 10 * dx, abs=dx)
-    assert page.shown("f")[0] == approx(f - dy, abs=dy)
-
-
-def test_a_finger_drags_the_ring_or_draws_a_box(phone_tab):
-    phone = phone_tab
-    phone.open(f"scene={TORI}&chart=trace&large=chart&h=1.5&f=0.5")
-    finger = Finger(phone.page)
-    start, end = (at(phone, "chart", *place)[0] for place in ((1.5, 0.5), (2.5, -0.5)))
-    phone.change(finger.draw, start, end)
-    _, (dx, dy) = at(phone, "chart", 0.0, 0.0)
-    here = [phone.data("chart-here")[name][0] for name in "xy"]
-    assert here == [approx(2.5, abs=2 * dx), approx(-0.5, abs=2 * dy)]
-    left, top, right, bottom = frame(phone, "chart")
-    phone.change(finger.draw, (left + 10, top + 10), ((left + right) / 2, (top + bottom) / 2))
-    assert phone.axes("chart")[1] == approx((-1 + 4) / 2, abs=0.2)

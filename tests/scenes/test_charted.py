@@ -19,7 +19,7 @@ from hess_mechanics.catalogue import find
 from hess_mechanics.dynamics.cells import centres
 from hess_mechanics.errors import ModelError
 from hess_mechanics.numerics.accuracy import STANDARD
-from support.board import SCENES, Browser
+from support.board import SCENES
 
 TORI = SCENES["rotation-number"]
 SUSLOV = SCENES["suslov"]
@@ -28,9 +28,7 @@ OWN = {"chart": "trace", "chart_x": "h", "chart_y": "f", "a": 0.3}
 
 def state_of(scene=TORI, *, known=True, **values):
     """Return the state with the chart in sight, complete if `known`."""
-    admitted = scene.admit({**scene.defaults(), **OWN, **values} if scene is TORI else {**scene.defaults(), **values})[
-        0
-    ]
+    admitted, _ = scene.admit({**scene.defaults(), **(OWN if scene is TORI else {}), **values})
     if known:
         return complete(scene, admitted, ["chart"], lambda state: state.charting.caption)[0]
     return scene.compute(admitted, ["chart"], False)
@@ -105,8 +103,6 @@ def test_a_box_zooms_in_and_other_sides_show_the_whole_range_again():
     state = state_of(known=False)
     assert state.charting.look_closer((1.0, 0.5, 0.0, -0.5)) == {"chart_window": "0,-0.5;1,0.5"}
     requested = RequestedState(TORI, {**TORI.defaults(), "chart_window": "0,-0.5;1,0.5"}, [])
-    requested.change({"chart": "trace"})
-    assert requested.values["chart_window"]
     requested.change({"chart_x": "a"})
     assert requested.values["chart_window"] == ""
 
@@ -124,16 +120,13 @@ def test_the_caption_says_the_own_number_and_why_cells_have_none():
 
 
 def test_an_error_belongs_to_its_number():
-    state = state_of(SUSLOV, known=False, chart="lyapunov", long=20.0, chart_window="1,1;1.1,1.1")
-    own = next(task for task in state.work.todo if task.function.__name__ == "_one")
+    values = {"chart": "lyapunov", "long": 20.0, "chart_window": "1,1;1.1,1.1"}
+    state = state_of(SUSLOV, known=False, **values)
+    own = next(task for task in state.work.todo if task.arguments[2] == 1)
     state.work.get(own.function, *own.arguments)
-    state = state_of(SUSLOV, known=False, chart="lyapunov", long=20.0, chart_window="1,1;1.1,1.1")
-    values = {**SUSLOV.defaults(), "long": 20.0}
-    found = find("lyapunov suslov").compute(
-        SUSLOV.charted.numbers["lyapunov"][0].arguments(SUSLOV.of(values)), STANDARD
-    )
-    assert state.charting.own[0, 0] == approx(found.value, rel=1e-9)
-    assert state.charting.own[1, 0] == approx(found.spread, rel=1e-9)
+    state = state_of(SUSLOV, known=False, **values)
+    found = find("lyapunov suslov").compute(SUSLOV.charted.numbers["lyapunov"][0].arguments(state), STANDARD)
+    assert state.charting.own[:2, 0] == approx([found.value, found.spread], rel=1e-9)
     assert " ± " in state.charting.caption.verdict
 
 
@@ -189,20 +182,6 @@ def test_a_step_of_a_lesson_shows_a_chart():
     assert (step.look, step.at.values["chart"]) == ("chart", "trace")
 
 
-def test_a_session_draws_the_chart_zooms_picks_and_undoes():
-    browser = Browser(TORI, {**TORI.defaults(), **OWN})
-    hidden = [name for name in TORI.pictures if name not in ("chart", "map")]
-    before = browser.ask(1, hidden=hidden)["query"]
-    browser.ask(2, hidden=hidden, picked=["chart", 0.0, -0.5, 1.0, 0.5])
-    assert browser.session.values["chart_window"] == "0,-0.5;1,0.5"
-    browser.ask(3, hidden=hidden, picked=["chart", 0.25, 0.125])
-    assert (browser.session.values["h"], browser.session.values["f"]) == (0.25, 0.125)
-    browser.ask(4, hidden=hidden, clear=True)
-    assert browser.session.values["chart_window"] == ""
-    assert browser.ask(5, hidden=hidden, restore=before)["query"] == before
-    browser.session.background.stop()
-
-
 def test_the_file_of_a_chart_holds_its_numbers():
     data = picture_data(encode(TORI.name, {**TORI.defaults(), **OWN}), "chart")
     _, _, values = cells_of(state_of())
@@ -235,10 +214,10 @@ def test_a_stored_sweep_is_shown_in_the_chart_of_a_scene():
     finally:
         STORED.clear()
     for found, at, said in (
-        (stored().isel(f=0), {}, "A chart has two sides"),
-        (stored().isel(h=[0, 1, 3]), {}, "evenly spaced"),
+        (stored(), {"f": 0.5}, "this sweep is over h: choose"),
+        (stored().isel(h=[0, 1, 3]), {}, "over two parameters LO:HI:N"),
         (stored(), {"f": 0.1}, "no cells at f = 0.1"),
-        (stored(), {"a": 0.1}, "no side 'a'"),
+        (stored(), {"a": 0.1}, "no cells at a = 0.1"),
         (stored(phi=0.3), {}, "No scene shows circle-map"),
     ):
         with pytest.raises(ModelError, match=said):

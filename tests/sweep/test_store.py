@@ -35,7 +35,6 @@ def test_a_second_run_goes_on_where_the_first_ended(tori, tmp_path, computed, in
     assert len(computed) == 2 * pieces
     assert seen[0].done == done.sum()
     assert found.identical(in_memory)
-    assert found.rotation_number.values.tobytes() == in_memory.rotation_number.values.tobytes()
     # No piece is left.
     assert tori(store=store).identical(in_memory)
     assert len(computed) == 2 * pieces
@@ -109,8 +108,8 @@ def test_a_store_is_plain_zarr_that_says_what_it_is(tori, tmp_path):
     [
         ({"numbers": ["trace"]}, "has numbers = rotation-number, not trace"),
         ({"level": "draft"}, "has level = precise, not draft"),
-        ({"over": {"h": (-1.2, 2.0, 13), "f": (0.0, 1.2, 9)}}, "is not over the same values of h"),
-        ({"a": 0.25}, "has a = 0.5, not 0.25"),
+        ({"over": {"h": (-1.2, 2.0, 13), "f": (0.0, 1.2, 9)}}, "has other values of h"),
+        ({"a": 0.25}, 'has parameters = {"a": 0.5, .* not {"a": 0.25, '),
     ],
 )
 def test_the_store_of_another_sweep_is_refused_and_not_touched(tori, tmp_path, interrupt, change, said):
@@ -124,19 +123,15 @@ def test_the_store_of_another_sweep_is_refused_and_not_touched(tori, tmp_path, i
 
 
 def test_what_is_no_store_is_refused(tori, tmp_path):
-    (tmp_path / "file").write_text("a letter")
-    (tmp_path / "folder").mkdir()
-    (tmp_path / "folder" / "letter").write_text("a letter")
-    for place in ("file", "folder"):
-        with pytest.raises(StoreError, match="does not contain a sweep: choose another folder"):
-            tori(store=tmp_path / place)
-        with pytest.raises(StoreError, match="does not contain a sweep: choose another folder"):
-            read(tmp_path / place)
-    assert (tmp_path / "folder" / "letter").read_text() == "a letter"
-    with pytest.raises(StoreError, match="does not contain a sweep"):
-        read(tmp_path / "nothing")
+    file = tmp_path / "letter"
+    file.write_text("a letter")
+    for call in (lambda place: tori(store=place), read):
+        for place in (file, tmp_path):
+            with pytest.raises(StoreError, match="does not contain a sweep: choose another folder"):
+                call(place)
+    assert file.read_text() == "a letter"
     with pytest.raises(StoreError, match="cannot be written"):
-        tori(store=tmp_path / "file" / "below")
+        tori(store=file / "below")
 
 
 def test_a_disk_that_is_full_is_said_and_the_rest_is_kept(tori, tmp_path, monkeypatch):

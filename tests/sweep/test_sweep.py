@@ -5,7 +5,7 @@ import sys
 import numpy as np
 import pytest
 
-from hess_explorer.sweep import MissingLibrary, Outcome, StoreError, explain, sweep
+from hess_explorer.sweep import MissingLibrary, Outcome, explain, sweep
 from hess_mechanics.catalogue import find
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 
@@ -38,10 +38,8 @@ def test_a_cell_without_a_number_says_why():
     assert (explain(found, h=-2.0, f=0.0), explain(found, h=1.5, f=0.0)) == ("no such motion.", "ok.")
     cycles = sweep("circle-map", {"h": [0.2]}, numbers=["stable"], a=0.5, f=0.0)
     assert "it has no two limit cycles" in explain(cycles, h=0.2)
-    with pytest.raises(InvalidParameter, match="the coordinates h: give all"):
+    with pytest.raises(InvalidParameter, match="all coordinates of one of its cells"):
         explain(cycles, f=0.0)
-    with pytest.raises(StoreError, match="not the result of a sweep"):
-        explain(cycles.drop_attrs(), h=1.0)
 
 
 def test_a_trace_beyond_double_range_is_no_silent_number():
@@ -63,39 +61,28 @@ def test_progress_says_what_is_left(tori, in_pieces):
 WRONG = [
     ({"computation": "speed"}, "There is no computation 'speed'"),
     ({"numbers": ("speed",)}, "circle-map has no number 'speed'; choose from rotation-number"),
-    ({"numbers": "trace"}, "is not a list of names"),
+    ({"numbers": "trace"}, "numbers = 'trace' is not a sequence"),
     ({"over": {"h": [1.0], "g": [0.1]}}, "circle-map has no parameter 'g'; choose from a, h, f"),
     ({"h": 1.0}, "h is both swept and fixed"),
-    ({"over": {"h": (0.0, 1.0, 1)}}, "has 1 values: choose 2 or more"),
-    ({"over": {}}, "one to 3 parameters, not 0"),
-    ({"over": None}, "over = None is not a mapping"),
-    ({"over": {"h": ["x"]}}, "must all be numbers"),
-    ({"over": {"h": [10**400]}}, "must all be numbers"),
-    ({"over": {"h": 1.0}}, "must be a list of numbers"),
-    ({"over": {"h": [1.0, 1.0]}}, "occurs twice"),
-    ({"over": {"h": [np.nan]}}, "h = nan is not between"),
+    ({"over": {"h": (0.0, 1.0, 1)}}, "has 1 values: choose 2 to 10000000"),
+    ({"over": {}}, "over one to 3 parameters"),
+    ({"over": None}, "over one to 3 parameters"),
+    ({"over": {"h": ["x"]}}, "h = 'x' is not a number"),
+    ({"over": {"h": [10**400]}}, "h is not a finite number"),
+    ({"over": {"h": 1.0}}, "h = 1.0 is not a sequence"),
+    ({"over": {"h": [1.0, 1.0]}}, "one or more different numbers"),
     ({"over": {"h": (1, 10**400, 3)}}, "h is not a finite number"),
     ({"a": 1e9}, "a = 1e9 is not between -1000 and 1000"),
     ({"workers": "many"}, "choose all or 1 to"),
     ({"scheduler": "many"}, "'many' is not a Dask scheduler: write its address like tcp://host:8786"),
-    ({"store": 3}, "3 is not the name of a folder"),
-    ({"most_cells": "all"}, "most_cells = 'all' is not a number"),
-    ({"progress": "yes"}, "progress = 'yes' is not a function"),
+    ({"over": {"h": (0.0, 1.0, 10**6), "f": (0.0, 1.0, 10**6)}}, "1000000000000 cells, but at most 10000000"),
 ]
 
 
 @pytest.mark.parametrize("change, said", WRONG, ids=[said[:30] for _, said in WRONG])
 def test_what_is_wrong_is_one_sentence(tori, change, said):
-    with pytest.raises(InvalidParameter, match=said):
+    with pytest.raises((InvalidParameter, WorkLimit), match=said):
         tori(**change)
-
-
-def test_work_is_capped_before_anything_is_made(tori):
-    huge = {"h": (0.0, 1.0, 10**6), "f": (0.0, 1.0, 10**6)}
-    with pytest.raises(WorkLimit, match=r"1000000000000 cells; at most 10000000 are allowed.*most_cells"):
-        tori(over=huge)
-    with pytest.raises(WorkLimit, match="most_cells must lie between 1 and 1e\\+10"):
-        tori(over=huge, most_cells=10**13)
 
 
 @pytest.mark.parametrize("library", ["xarray", "zarr", "distributed"])

@@ -12,7 +12,7 @@ from urllib.parse import parse_qsl, urlencode
 
 from . import CommandError
 
-__all__ = ["assigned", "ends", "integer", "listed", "number", "run_file", "shown", "state_of"]
+__all__ = ["assigned", "defined", "ends", "integer", "listed", "number", "run_file", "shown", "state_of"]
 
 T = TypeVar("T")
 _SHOWN, _MAX_STATE = 60, 2000
@@ -27,6 +27,18 @@ def run_file(path: str | Path) -> dict[str, Any]:
     # Whatever the user's code raises.
     except Exception as error:
         raise CommandError(f"{shown(str(path))} stops with {type(error).__name__}: {error}.") from error
+
+
+def defined(text: str, kind: str, fits: Callable[[Any], bool]) -> Any:
+    """Return the object FILE.py:NAME of a Python file of the user.
+
+    kind : its kind in words; fits(object) : whether it is one.  Raises `CommandError`.
+    """
+    path, _, name = text.rpartition(":")
+    found = run_file(path).get(name)
+    if not fits(found):
+        raise CommandError(f"{shown(path)} defines no {kind} {shown(name)}: write it like mine.py:{name}.")
+    return found
 
 
 def shown(text: str) -> str:
@@ -85,17 +97,14 @@ def state_of(text: str) -> str:
         _refuse(text, "is not a state; write it like 'h=1.2&f=0.3'")
 
 
-def ends(text: str, most: int) -> tuple[float, float, int]:
-    """Return the numbers of lo:hi:n, with n at most `most`."""
+def ends(text: str) -> tuple[float, float, int]:
+    """Return the numbers of lo:hi:n."""
     parts = text.split(":")
     if len(parts) != 3:
         _refuse(text, "is not a range; write it lo:hi:n, like 0:10:101")
-    return number(parts[0]), number(parts[1]), integer(2, most)(parts[2])
+    return number(parts[0]), number(parts[1]), integer(2, 9_999_999_999)(parts[2])
 
 
-def listed(text: str, most: int) -> list[float]:
-    """Return the numbers of a comma-separated list, at most `most`."""
-    parts = text.split(",")
-    if len(parts) > most:
-        _refuse(text, f"has {len(parts)} numbers; at most {most} are allowed in a list, use lo:hi:n")
-    return [number(part) for part in parts]
+def listed(text: str) -> list[float]:
+    """Return the numbers of a comma-separated list."""
+    return [number(part) for part in text.split(",")]

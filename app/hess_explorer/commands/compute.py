@@ -14,7 +14,7 @@ from hess_mechanics.dynamics.system import System
 from hess_mechanics.parameters import Parameter, plain
 
 from . import COMMANDS, CommandError
-from .arguments import number, run_file, shown
+from .arguments import defined, number, shown
 from .command import OUTPUT, Command, Option, Options, Parser, option
 from .output import computing, require_file, write
 
@@ -50,8 +50,8 @@ def parser(name: str, rest: list[str]) -> tuple[Parser, list[str]]:
     overview = Parser(
         prog, "SYSTEM [OPTIONS]", f"{title_of(next(iter(of.values())))}.  SYSTEM --help shows the options."
     )
-    overview.list_words("systems", {system: motions()[system].title for system in of})
-    overview.list_words("or one of your own", {"FILE.py:NAME": "a System that a Python file defines"})
+    own = {"FILE.py:NAME": "a System that a Python file of yours defines"}
+    overview.list_words("systems", {system: motions()[system].title for system in of} | own)
     if not {"-h", "--help"} & {*rest}:
         overview.error(f"name a system after {name}: {', '.join(of)}")
     return overview, ["--help"]
@@ -65,10 +65,7 @@ def _unknown(kind: str, name: str, known: list[str]) -> CommandError:
 
 def _own(name: str, text: str) -> Computation:
     """Return the computation of the system FILE.py:NAME."""
-    path, _, variable = text.rpartition(":")
-    system = run_file(path).get(variable)
-    if not isinstance(system, (System, Motions)):
-        raise CommandError(f"{shown(path)} defines no System {shown(variable)}: write it like mine.py:SYSTEM.")
+    system = defined(text, "System", lambda found: isinstance(found, (System, Motions)))
     of = [one for one in computations_of(system).values() if one.name == name]
     if not of:
         raise CommandError(f"The system {system.name} has no section, which {name} needs: choose another computation.")
@@ -113,7 +110,7 @@ def _run(what: Computation, options: Options) -> None:
     with computing():
         given = what.values({name: vars(options)[_typed(name)] for name in what.values()})
         result = what.compute(given, options.accuracy)
-        notes = _notes_on_body(given) if what.key in catalogue() else []
+        notes = _notes_on_body(given)
         numbers: dict[str, float | None] = {}
         errors = {}
         for name, of in what.numbers.items():

@@ -19,33 +19,26 @@ _LARGE = 20e6
 """Size of a page in bytes beyond which a warning is printed, as on the page."""
 
 
-def _progress_printer(lines: bool, what: str) -> Callable[[int, int], None]:
-    """Return a function that prints the progress: as lines, or as one changing line in a terminal."""
-    seen = sys.stderr.isatty()
+def _printer(lines: bool, what: str) -> Callable[..., None]:
+    """Return a function that prints the progress: as lines, or as one changing line in a terminal.
 
-    def report(done: int, of: int) -> None:
+    It takes the number of finished parts, that of all, and of a page the size of its states at first, which it prints.
+    """
+
+    def report(done: int, of: int, size: int = 0) -> None:
         if lines:
             print(f"{done}/{of}", file=sys.stderr, flush=True)
-        elif seen:
-            print(f"\r{what} {done} of {of}", end="" if done < of else "\n", file=sys.stderr, flush=True)
+            return
+        if size and done == 1 < of:
+            from hess_explorer.offline.html import frame_size
 
-    return report
-
-
-def _states_printer(lines: bool) -> Callable[[int, int, int], None]:
-    """Return a function that prints the progress of a page, and its number of states and size at first."""
-    from hess_explorer.offline.html import frame_size
-
-    report = _progress_printer(lines, "state")
-
-    def tell(done: int, of: int, size: int) -> None:
-        if done == 1 and of > 1 and not lines:
             whole = frame_size() + size
             warning = ": too large for most mail, slow on phones" if whole > _LARGE else ""
             print(f"{of} states, about {whole / 1e6:.1f} MB{warning}.", file=sys.stderr, flush=True)
-        report(done, of)
+        if sys.stderr.isatty():
+            print(f"\r{what} {done} of {of}", end="" if done < of else "\n", file=sys.stderr, flush=True)
 
-    return tell
+    return report
 
 
 def _page(options: Options) -> bytes:
@@ -60,7 +53,7 @@ def _page(options: Options) -> bytes:
         grid=options.grid,
         home=options.page or HOME,
         lenient=options.lenient,
-        report=_states_printer(options.progress),
+        report=_printer(options.progress, "state"),
     )[1]
 
 
@@ -80,7 +73,7 @@ def _lesson(options: Options) -> bytes:
         raise CommandError(
             f"There is no lesson {shown(options.lesson)}: name a Markdown file or one of {', '.join(shipped())}."
         )
-    report = _states_printer(options.progress)
+    report = _printer(options.progress, "state")
     return lesson_page(lesson, options.values, home=options.page or HOME, report=report)
 
 
@@ -91,7 +84,7 @@ def _picture(options: Options) -> bytes:
     found = picture_data(options.state, options.picture, lenient=options.lenient)
     loop = Loop(options.loop == "dark", options.page) if options.loop else None
     request = FileRequest(options.format, options.width, options.black, options.seconds, loop)
-    return content(found, request, _progress_printer(options.progress, "frame"))
+    return content(found, request, _printer(options.progress, "frame"))
 
 
 def _run(options: Options) -> None:

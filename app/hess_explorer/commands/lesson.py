@@ -7,6 +7,7 @@ from pathlib import Path
 
 from . import CommandError
 from .command import Command, Options, option
+from .output import write_file
 
 __all__ = ["COMMAND"]
 
@@ -38,21 +39,11 @@ def _check(files: list[Path]) -> None:
 
 def _new(files: list[Path]) -> None:
     from hess_explorer.lessons.example import EXAMPLE
-    from hess_mechanics.numerics.files import write_whole
 
     (file,) = files
-    try:
-        # Fails if the file exists, even if it was created a moment ago.
-        file.touch(exist_ok=False)
-        try:
-            write_whole(file, EXAMPLE.encode())
-        except BaseException:
-            file.unlink()
-            raise
-    except FileExistsError as error:
-        raise CommandError(f"{str(file)!r} exists: choose another name.") from error
-    except OSError as error:
-        raise CommandError(f"{str(file)!r} cannot be written: {error.strerror or error}.") from error
+    if file.exists():
+        raise CommandError(f"{str(file)!r} exists: choose another name.")
+    write_file(file, EXAMPLE.encode())
     print(f"Wrote {file}.  Look at it: hess-explorer serve --lesson {file}")
 
 

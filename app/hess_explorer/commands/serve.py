@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import errno
 import gc
 import json
 import math
@@ -13,10 +12,10 @@ import signal
 import socket
 import sys
 import webbrowser
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext, suppress
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from . import CommandError
 from .arguments import assigned, number, run_file, shown
@@ -33,16 +32,15 @@ _MOST_CELLS = 256
 """Largest number of cells of a stored sweep along each side that the page shows."""
 
 
-def _origin(text: str) -> str:
-    if not re.fullmatch(r"([A-Za-z0-9._-]{1,253}|\[[0-9A-Fa-f:.]{2,45}\])(:\d{1,5})?", text):
-        raise argparse.ArgumentTypeError(f"{shown(text)} is not a host; write it like example.org or localhost:8080")
-    return text
+def _host(before: str) -> Callable[[str], str]:
+    """Return the argument type of a host with a port; before : pattern of the text that may come before it."""
 
+    def parse(text: str) -> str:
+        if not re.fullmatch(before + r"([A-Za-z0-9._-]{1,253}|\[[0-9A-Fa-f:.]{2,45}\])(:\d{1,5})?", text):
+            raise argparse.ArgumentTypeError(f"{shown(text)} is not a host; write it like example.org:8080")
+        return text
 
-def _embedder(text: str) -> str:
-    if text != "none" and not re.fullmatch(r"(https?://)?(\*\.)?[A-Za-z0-9._-]{1,253}(:\d{1,5})?", text):
-        raise argparse.ArgumentTypeError(f"{shown(text)} is not a host; write it like example.org, or none")
-    return text
+    return parse
 
 
 def _run(options: Options) -> None:
@@ -126,33 +124,29 @@ def _shown(found: xr.Dataset, at: Mapping[str, float]) -> str:
     from hess_explorer.protocol.parameters import Number, encode
     from hess_explorer.scenes import scenes
     from hess_explorer.scenes.framework.charted import STORED
-    from hess_mechanics.catalogue import find
     from hess_mechanics.errors import InvalidParameter
 
     fixed = json.loads(found.attrs["parameters"])
     for name, value in at.items():
-        if name not in found.status.dims:
-            raise InvalidParameter(f"The sweep has no side {name!r}: choose among {', '.join(found.status.dims)}.")
-        found = found.sel({name: value}, method="nearest")
+        try:
+            found = found.sel({name: value}, method="nearest", tolerance=1e-9)
+        except KeyError as error:
+            raise InvalidParameter(f"The sweep has no cells at {name} = {value:g} for --slice.") from error
         fixed[name] = float(found[name])
-        if not np.isclose(fixed[name], value, rtol=1e-9, atol=1e-12):
-            raise InvalidParameter(f"The sweep has no cells at {name} = {value:g}: the nearest are at {fixed[name]:g}.")
     names = tuple(map(str, found.status.dims))
-    if len(names) != 2:
-        raise InvalidParameter(
-            f"A chart has two sides, but this sweep is over {', '.join(names)}: choose a value of each further one "
-            "with --slice NAME=NUMBER, or open it in Python."
-        )
     found = found.isel({name: slice(None, None, -(-found.sizes[name] // _MOST_CELLS)) for name in names})
-    ends = []
-    for name in names:
-        side = found[name].values
-        steps = np.diff(side)
-        if not (steps.size and steps[0] > 0.0 and np.allclose(steps, steps[0], rtol=1e-6, atol=0.0)):
-            raise InvalidParameter("The sides of a chart are evenly spaced: sweep over LO:HI:N, from low to high.")
-        ends.append((side[0] - steps[0] / 2.0, side[-1] + steps[0] / 2.0))
-    window = (ends[0][0], ends[1][0]), (ends[0][1], ends[1][1])
-    cells = found.transpose(*names[::-1])
+    sides = [found[name].values for name in names]
+    steps = [np.diff(side) for side in sides]
+    if len(names) != 2 or not all(one.size and one[0] > 0.0 and np.allclose(one, one[0], atol=0.0) for one in steps):
+        raise InvalidParameter(
+            f"A chart is over two parameters LO:HI:N, but this sweep is over {', '.join(names)}: choose a value of "
+            "each further one with --slice NAME=NUMBER, or open it in Python."
+        )
+    (x0, x1), (y0, y1) = (
+        (side[0] - one[0] / 2.0, side[-1] + one[0] / 2.0) for side, one in zip(sides, steps, strict=True)
+    )
+    x, y = names
+    cells = found.transpose(y, x)
     for scene in scenes().values():
         symbols = {one.name: one.symbol for one in scene.specs if isinstance(one, Number)}
         numbers = {} if scene.charted is None or not {*names} <= {*symbols} else scene.charted.numbers
@@ -160,32 +154,23 @@ def _shown(found: xr.Dataset, at: Mapping[str, float]) -> str:
             variable = name.replace("-", "_")
             if charted.key != found.attrs["computation"] or variable not in found:
                 continue
-            values, _ = scene.admit(
-                {
-                    **scene.defaults(),
-                    **{name: value for name, value in fixed.items() if name in symbols},
-                    "accuracy": found.attrs["level"],
-                    "chart": chart,
-                    "chart_x": symbols[names[0]],
-                    "chart_y": symbols[names[1]],
-                }
-            )
+            chosen = {"chart": chart, "chart_x": symbols[x], "chart_y": symbols[y]}
+            own = {name: value for name, value in fixed.items() if name in symbols}
+            values, _ = scene.admit({**scene.defaults(), **own, **chosen, "accuracy": found.attrs["level"]})
             key = scene.of(values).charting.key
-            usual = {one.name: one.default for one in find(charted.key).parameters}
-            corners = [{**fixed, **{name: float(found[name][i]) for name in names}} for i in (0, -1)]
-            own = [{**usual, **key.arguments(*(corner[name] for name in names))} for corner in corners]
-            if all(
-                math.isclose(one[name], corner[name], rel_tol=1e-9, abs_tol=1e-12)
-                for one, corner in zip(own, corners, strict=True)
-                for name in corner
-            ):
+            corners = ({**fixed, **{name: float(found[name][i]) for name in names}} for i in (0, -1))
+            if all(_same(charted.computation.values(key.arguments(one[x], one[y])), one) for one in corners):
                 errors = cells.get(f"{variable}_error", np.full(cells.status.shape, np.nan))
-                STORED[key] = np.stack([cells[variable], errors, cells.status], axis=1), window
+                STORED[key] = np.stack([cells[variable], errors, cells.status], axis=1), ((x0, y0), (x1, y1))
                 return encode(scene.name, values)
     raise InvalidParameter(
-        f"No scene shows {found.attrs['computation']} over {' and '.join(names)} with these parameters: open the sweep "
+        f"No scene shows {found.attrs['computation']} over {x} and {y} with these parameters: open the sweep "
         "in Python with hess_explorer.sweep.read."
     )
+
+
+def _same(arguments: Mapping[str, Any], cell: Mapping[str, float]) -> bool:
+    return all(math.isclose(arguments[name], value, rel_tol=1e-9, abs_tol=1e-12) for name, value in cell.items())
 
 
 def _lessons(paths: Sequence[Path]) -> tuple[Lesson, ...]:
@@ -237,23 +222,12 @@ circle_map(0.5, 1.5, 0.6, "draft").theta([0.0])
 def _require_free(address: str, port: int) -> None:
     """Raise `CommandError` unless the port can be listened on."""
     try:
-        family, kind, protocol, _, target = socket.getaddrinfo(
-            address, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE
-        )[0]
-        with socket.socket(family, kind, protocol) as probe:
-            if os.name == "posix":
-                # Like the server, accept a port whose last connections are still closing.
-                probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-            probe.bind(target)
+        socket.create_server((address, port), family=socket.AF_INET6 if ":" in address else socket.AF_INET).close()
     except (OSError, UnicodeError) as error:
-        code = getattr(error, "errno", None)
-        if code == errno.EADDRINUSE:
-            why = f"Port {port} is in use by another program: choose another, like --port {port % 65535 + 1}."
-        elif code == errno.EACCES:
-            why = f"Port {port} needs administrator rights: choose one above 1023, like --port 5006."
-        else:
-            why = f"{shown(address)} is not an address of this machine: choose --address 127.0.0.1 or 0.0.0.0."
-        raise CommandError(why) from error
+        why = getattr(error, "strerror", None) or error
+        raise CommandError(
+            f"{why}: choose another port, like --port {port % 65535 + 1}, or --address 127.0.0.1 or 0.0.0.0."
+        ) from error
 
 
 def _has_browser() -> bool:
@@ -281,7 +255,7 @@ COMMAND = Command(
             "--allow-origin",
             "further hosts by which browsers reach the page, as in the address bar, for example of a proxy",
             dest="origins",
-            type=_origin,
+            type=_host(""),
             default=[],
             metavar="HOST:PORT",
             **_SEVERAL,
@@ -291,7 +265,7 @@ COMMAND = Command(
             "hosts that may embed parts of the page (embed=1), like example.org or *.example.org; none for no host "
             "(default: any)",
             dest="embedders",
-            type=_embedder,
+            type=_host(r"(https?://)?(\*\.)?"),
             metavar="HOST",
             **_SEVERAL,
         ),

@@ -26,22 +26,18 @@ def _size(text: str) -> tuple[int, int]:
     return int(match[1]), int(match[2])
 
 
-def _require_right(query: str) -> None:
-    """Raise `CommandError` for a query that the page would have to correct."""
-    with computing():
-        from hess_explorer.export.picture_data import address
-        from hess_explorer.page.opening import opening
-
-        address(query)
-        opening(query, lenient=False)
-
-
 def _run(options: Options) -> None:
     from hess_explorer.headless.browser import BrowserError
     from hess_explorer.headless.screenshot import ServerError, screenshot
 
     if not options.lenient:
-        _require_right(options.state)
+        # A state that the page would have to correct is an error.
+        with computing():
+            from hess_explorer.export.picture_data import address
+            from hess_explorer.page.opening import opening
+
+            address(options.state)
+            opening(options.state, lenient=False)
     given = dict(parse_qsl(options.state, keep_blank_values=True))
     query = urlencode({**given, "theme": "dark"} if options.dark else given)
     try:

@@ -6,10 +6,9 @@ import sys
 import time
 from pathlib import Path
 
-from . import CommandError
 from .arguments import integer
 from .command import Command, Options, option, whole
-from .output import show
+from .output import computing, show
 
 __all__ = ["COMMAND"]
 
@@ -17,7 +16,6 @@ __all__ = ["COMMAND"]
 def _run(options: Options) -> None:
     from hess_explorer.offline.html import HOME
     from hess_explorer.offline.site import build
-    from hess_mechanics.errors import ModelError
     from hess_mechanics.numerics.parallel import THREADS
 
     begun = time.monotonic()
@@ -25,7 +23,7 @@ def _run(options: Options) -> None:
     def report(name: str, done: int, of: int) -> None:
         print(f"{done}/{of} {name}, {time.monotonic() - begun:.0f} s", file=sys.stderr, flush=True)
 
-    try:
+    with computing(own_progress=True):
         sizes = build(
             options.folder,
             options.names,
@@ -34,10 +32,6 @@ def _run(options: Options) -> None:
             workers=options.workers or THREADS,
             report=report,
         )
-    except ModelError as error:
-        raise CommandError(str(error)) from error
-    except OSError as error:
-        raise CommandError(f"{str(options.folder)!r} cannot be written: {error.strerror or error}.") from error
     lines = [f"{size:>12,} bytes  {path}" for path, size in sorted(sizes.items())]
     total = (
         f"{sum(sizes.values()):>12,} bytes in {time.monotonic() - begun:.0f} s: open {options.folder / 'index.html'}"

@@ -1,4 +1,4 @@
-"""A function of the user as a computation, with the parameters of its signature and the fields of its results."""
+"""A function of the user as a computation, with the parameters of its calls and the fields of its results."""
 
 from __future__ import annotations
 
@@ -6,10 +6,9 @@ import inspect
 import math
 import sys
 import textwrap
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from numbers import Real
 from typing import Any
 
 import numpy as np
@@ -27,7 +26,6 @@ __all__ = ["plan_of"]
 _LEVEL = "level"
 """A parameter of this name receives the level of the sweep."""
 _BOUNDS = (-sys.float_info.max, sys.float_info.max)
-_BY_NAME = (inspect.Parameter.POSITIONAL_OR_KEYWORD, inspect.Parameter.KEYWORD_ONLY)
 _TRIALS = 16
 """Maximum number of cells at which a function is called to learn its fields."""
 
@@ -35,117 +33,80 @@ Function = Callable[..., Any]
 
 
 @dataclass(frozen=True)
-class _Calls:
-    """`Computation.call` of a function; fields : those of its named tuples, empty for a number."""
+class _Call:
+    """`Computation.call` of a function: returns its numbers by name."""
 
+    name: str
     function: Function
     takes_level: bool
-    fields: tuple[str, ...] | None = None
 
     def __call__(self, accuracy: Level, **cell: float) -> Any:
         try:
             found = self.function(**cell, **({_LEVEL: accuracy} if self.takes_level else {}))
-            fields = tuple(getattr(found, "_fields", ()))
-            if self.fields not in (None, fields):
-                raise TypeError("returns other fields than at the first cell")
-            for each in found if fields else (found,):
-                if not isinstance(each, (Real, np.bool_)) and not (isinstance(each, np.ndarray) and each.shape == ()):
-                    name = type(each).__name__
-                    raise TypeError(f"returns {name}: let it return a number or a named tuple of numbers")
+            named = found._asdict() if hasattr(found, "_asdict") else {self.name: found}
+            return {name: float(value) for name, value in named.items()}
         except (ModelError, ArithmeticError):
             raise
         except Exception as error:
             raise UserError(f"{type(error).__name__}: {error}") from error
-        return found
 
 
-def _number(name: str, title: str, field: str | None) -> Number:
-    def read(found: Any) -> float:
-        value = float(found if field is None else getattr(found, field))
+def _number(name: str, title: str) -> Number:
+    def read(found: Mapping[str, float]) -> float:
+        value = found.get(name, math.nan)
         if math.isnan(value):
-            raise NoValue(f"{name} is NaN.")
+            raise NoValue(f"{name} is missing or NaN.")
         return value
 
     return Number(name, title, read)
 
 
 def plan_of(
-    function: Function, over: Mapping[str, Axis], fixed: Mapping[str, float], level: str, most_cells: float
+    function: Function, numbers: Sequence[str] | None, over: Mapping[str, Axis], fixed: Mapping[str, float], level: str
 ) -> Plan:
     """Return the plan of a function, which is called at one cell, or at a few until one has a result.
 
-    Raises `InvalidParameter`, `WorkLimit`.
+    Its parameters are those that the sweep gives, and those with a number as default.  Raises `InvalidParameter`,
+    `WorkLimit`.
     """
-    name = _name(function)
-    defaults = _defaults(function, (*over, *fixed))
-    calls = _Calls(function, _LEVEL in defaults)
-    defaults.pop(_LEVEL, None)
-    parameters = (Parameter(each, each, each, value, (0.0, 1.0), 0.1, _BOUNDS) for each, value in defaults.items())
-    what = Computation(name, name, function, calls, tuple(parameters), {}, Kind.MAP, lambda found, exact: math.nan)
-    plan = Plan.of(what, (), level, over, fixed, most_cells, _source(function))
-    fields = _fields(calls, plan)
-    title = (inspect.getdoc(_inner(function)) or name).partition("\n")[0]
-    if taken := {*fields, *(() if fields else (name,))} & {*defaults, "status"}:
-        raise InvalidParameter(f"{name} returns {min(taken)!r}, the name of another variable: choose another name.")
-    numbers = {each: _number(each, title, each) for each in fields} or {name: _number(name, title, None)}
-    what = replace(what, numbers=numbers, call=replace(calls, fields=fields))
-    return replace(plan, computation=what, numbers=tuple(numbers))
-
-
-def _fields(calls: _Calls, plan: Plan) -> tuple[str, ...]:
-    """Return the fields of a function's results, none for numbers, from the first cell that has one."""
-    failed: Exception | None = None
-    for cell in sorted(set(np.linspace(0, plan.cells - 1, _TRIALS).astype(int).tolist())):
-        try:
-            columns = plan.columns(np.array([cell]))
-            found = calls(as_level(plan.level), **{name: column.item() for name, column in columns.items()})
-            return tuple(getattr(found, "_fields", ()))
-        except Exception as error:
-            failed = failed or error
-    raise InvalidParameter(f"{plan.computation.key} failed at all cells that were tried; first: {failed}.")
-
-
-def _defaults(function: Function, given: tuple[str, ...]) -> dict[str, float]:
-    """Return the parameters of a function that a sweep can give, with their numbers, NaN without one.
-
-    given : names of the sweep, for functions with `**kwargs` or with defaults that are no numbers.
-    """
+    inner = function.func if isinstance(function, partial) else function
+    name = str(getattr(inner, "__name__", ""))
+    name = name if name.isidentifier() else "value"
     try:
         signature = dict(inspect.signature(function).parameters)
     except (TypeError, ValueError):
         signature = {}
-    kinds = {one.kind for one in signature.values()}
-    if not signature or inspect.Parameter.POSITIONAL_ONLY in kinds:
-        name = _name(function)
-        raise InvalidParameter(f"{name} has no named parameters: wrap it, as in `def f(x): return {name}(x)`.")
-    found: dict[str, float] = {}
-    for each, one in signature.items():
-        if one.kind in _BY_NAME:
-            if isinstance(one.default, Real) and not isinstance(one.default, bool):
-                found[each] = float(one.default)
-            elif one.default is inspect.Parameter.empty or each in (*given, _LEVEL):
-                found[each] = math.nan
-    if inspect.Parameter.VAR_KEYWORD in kinds:
-        found = dict.fromkeys(given, math.nan) | found
-    return found
+    call = _Call(name, function, signature.pop(_LEVEL, None) is not None)
+    defaults = {each: one.default for each, one in signature.items() if type(one.default) in (int, float)}
+    parameters = (
+        Parameter(each, each, each, float(value), (0.0, 1.0), 0.1, _BOUNDS)
+        for each, value in {**defaults, **dict.fromkeys((*over, *fixed), 0.0)}.items()
+    )
+    what = Computation(name, name, function, call, tuple(parameters), {}, Kind.MAP, lambda found, exact: math.nan)
+    fields = _fields(call, Plan.of(what, (), level, over, fixed))
+    title = (inspect.getdoc(inner) or name).partition("\n")[0]
+    what = replace(what, numbers={each: _number(each, title) for each in fields})
+    return Plan.of(what, numbers or fields, level, over, fixed, _source(inner, name))
 
 
-def _inner(function: Function) -> Function:
-    """Return the function inside `functools.partial`."""
-    while isinstance(function, partial):
-        function = function.func
-    return function
+def _fields(call: _Call, plan: Plan) -> tuple[str, ...]:
+    """Return the names of a function's numbers, from the first cell that has a result."""
+    failed: Exception | None = None
+    for cell in np.unique(np.linspace(0, plan.cells - 1, _TRIALS).astype(int)):
+        columns = plan.columns(np.array([cell]))
+        try:
+            return (*call(as_level(plan.level), **{name: column.item() for name, column in columns.items()}),)
+        except (ModelError, ArithmeticError, UserError) as error:
+            failed = failed or error
+    raise InvalidParameter(
+        f"{call.name} failed at all cells that were tried (first: {failed}): let it take its parameters by name, and "
+        "return a number or a named tuple of numbers."
+    )
 
 
-def _name(function: Function) -> str:
-    inner = _inner(function)
-    name = str(getattr(inner, "__name__", type(inner).__name__))
-    return name if name.isidentifier() else "value"
-
-
-def _source(function: Function) -> str:
+def _source(function: Function, name: str) -> str:
     """Return the text of a function, or its name where there is none."""
     try:
-        return textwrap.dedent(inspect.getsource(_inner(function)))
+        return textwrap.dedent(inspect.getsource(function))
     except (OSError, TypeError):
-        return _name(function)
+        return name

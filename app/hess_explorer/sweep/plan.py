@@ -13,15 +13,14 @@ from numpy.typing import NDArray
 
 from hess_mechanics.catalogue import Computation
 from hess_mechanics.errors import InvalidParameter, WorkLimit
-from hess_mechanics.numerics.arguments import as_number
+from hess_mechanics.numerics.arguments import as_number, as_parts
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.parameters import Parameter
 
 __all__ = ["MAX_CELLS", "Axis", "Plan", "Region", "version"]
 
 MAX_CELLS = 10_000_000
-"""Default limit of the number of cells of a sweep."""
-_HARD_LIMIT = 10_000_000_000
+"""Maximum number of cells of a sweep."""
 _MOST_AXES = 3
 
 Axis = tuple[float, float, int] | Sequence[float] | Array
@@ -65,34 +64,28 @@ class Plan:
         level: str,
         over: Mapping[str, Axis],
         fixed: Mapping[str, float],
-        most_cells: float,
         source: str = "",
     ) -> Plan:
         """Return the checked plan.  Raises `InvalidParameter`, `WorkLimit`."""
-        if not 1 <= len(over) <= _MOST_AXES:
-            raise InvalidParameter(f"A sweep takes one to {_MOST_AXES} parameters, not {len(over)}.")
-        if both := sorted(over.keys() & fixed):
-            raise InvalidParameter(f"{both[0]} is both swept and fixed: give it only once.")
-        known = {name: what.parameter(name) for name in (*over, *fixed)}
-        for name in numbers:
+        if not isinstance(over, Mapping) or not 1 <= len(over) <= _MOST_AXES:
+            raise InvalidParameter(f"A sweep is over one to {_MOST_AXES} parameters: name them with their values.")
+        if both := over.keys() & fixed:
+            raise InvalidParameter(f"{min(both)} is both swept and fixed: give it only once.")
+        for name in as_parts("numbers", numbers):
             what.number(name)
-        if not 1 <= (most := as_number("most_cells", most_cells)) <= _HARD_LIMIT:
-            raise WorkLimit(f"most_cells must lie between 1 and {_HARD_LIMIT:g}, not be {most:g}.")
-        # Before any value is created.
-        cells = math.prod(int(values[2]) if _is_range(values) else np.size(values) for values in over.values())
-        if cells > most:
-            raise WorkLimit(
-                f"The sweep has {cells} cells; at most {most:.0f} are allowed: choose fewer values, or raise "
-                f"most_cells (on the command line --most-cells), up to {_HARD_LIMIT:g}."
-            )
-        axes = {name: _axis(known[name], values) for name, values in over.items()}
-        others = {one.name: _value(what, one, fixed) for one in what.parameters if one.name not in over}
-        return cls(what, tuple(numbers), level, axes, others, source)
+        axes = {name: _axis(what.parameter(name), values) for name, values in over.items()}
+        given = what.values(fixed)
+        others = {one.name: float(given[one.name]) for one in what.parameters if one.name not in over}
+        plan = cls(what, tuple(numbers), level, axes, others, source)
+        if plan.cells > MAX_CELLS:
+            raise WorkLimit(f"The sweep has {plan.cells} cells, but at most {MAX_CELLS} are allowed: divide it.")
+        return plan
 
     @property
     def variables(self) -> dict[str, str]:
         """The names of the numbers by that of their variable in a Dataset."""
-        return {f"{name.replace('-', '_')}{'_value' if name in self.axes else ''}": name for name in self.numbers}
+        taken = (*self.axes, "status")
+        return {f"{name.replace('-', '_')}{'_value' if name in taken else ''}": name for name in self.numbers}
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -116,32 +109,13 @@ class Plan:
         return {name: values[i] for (name, values), i in at} | fixed
 
 
-def _is_range(values: Axis) -> bool:
-    return isinstance(values, tuple) and len(values) == 3 and isinstance(values[2], (int, np.integer))
-
-
 def _axis(one: Parameter, values: Axis) -> Array:
-    if _is_range(values):
+    if isinstance(values, tuple) and len(values) == 3 and isinstance(values[2], (int, np.integer)):
+        if not 2 <= values[2] <= MAX_CELLS:
+            raise InvalidParameter(f"The range of {one.name} has {values[2]} values: choose 2 to {MAX_CELLS}.")
         low, high = (one.check(as_number(one.name, end)) for end in values[:2])
-        if values[2] < 2:
-            raise InvalidParameter(f"The range of {one.name} has {values[2]} values: choose 2 or more.")
         return np.linspace(low, high, int(values[2]))
-    try:
-        found = np.array(values, float)
-    except (TypeError, ValueError, OverflowError):
-        raise InvalidParameter(f"The values of {one.name} must all be numbers.") from None
-    if found.ndim != 1 or not found.size:
-        raise InvalidParameter(f"The values of {one.name} must be a list of numbers or (low, high, count).")
-    for value in found.tolist():
-        one.check(value)
-    if np.unique(found).size < found.size:
-        raise InvalidParameter(f"A value of {one.name} occurs twice: give each value once.")
+    found = np.array([one.check(as_number(one.name, value)) for value in as_parts(one.name, values)])
+    if np.unique(found).size < max(found.size, 1):
+        raise InvalidParameter(f"The values of {one.name} must be one or more different numbers.")
     return found
-
-
-def _value(what: Computation, one: Parameter, fixed: Mapping[str, float]) -> float:
-    value = fixed.get(one.name, one.default)
-    # Parameters of the user's functions may have no default.
-    if one.name not in fixed and math.isnan(value):
-        raise InvalidParameter(f"{what.key} needs {one.name}: sweep over it, or give it a value.")
-    return one.check(as_number(one.name, value))

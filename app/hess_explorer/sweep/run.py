@@ -14,7 +14,7 @@ from hess_explorer.compute.cells import Outcome, evaluate
 from hess_explorer.sweep.errors import Interrupted, StoreError, WorkersLost
 from hess_explorer.sweep.function import plan_of
 from hess_explorer.sweep.piece import cells_of_a_piece, named
-from hess_explorer.sweep.plan import MAX_CELLS, Axis, Plan
+from hess_explorer.sweep.plan import Axis, Plan
 from hess_explorer.sweep.progress import Report, reporting
 from hess_explorer.sweep.store import create, exists, load, missing, require_libraries, write
 from hess_explorer.sweep.workers import connected, results, size
@@ -36,19 +36,12 @@ def _planned(
     over: Mapping[str, Axis],
     fixed: Mapping[str, float],
     level: str,
-    most_cells: float,
 ) -> Plan:
     """Return the checked plan of a sweep.  Raises `InvalidParameter`, `WorkLimit`."""
-    if not isinstance(over, Mapping):
-        raise InvalidParameter(f"over = {over!r} is not a mapping: write it like {{'h': (1.2, 1.6, 3)}}.")
     if callable(computation):
-        if numbers is not None:
-            raise InvalidParameter("A function has the numbers that it returns: leave out numbers.")
-        return plan_of(computation, over, fixed, level, most_cells)
+        return plan_of(computation, numbers, over, fixed, level)
     what = computation if isinstance(computation, Computation) else find(computation)
-    if isinstance(numbers, str) or (numbers is not None and not numbers):
-        raise InvalidParameter(f"numbers = {numbers!r} is not a list of names: write it like ('trace',).")
-    return Plan.of(what, numbers or [*what.numbers][:1], level, over, fixed, most_cells)
+    return Plan.of(what, numbers or [*what.numbers][:1], level, over, fixed)
 
 
 def sweep(
@@ -61,7 +54,6 @@ def sweep(
     workers: str | int | None = None,
     scheduler: str | Client | None = None,
     progress: bool | Report | None = None,
-    most_cells: int = MAX_CELLS,
     **fixed: float,
 ) -> xr.Dataset:
     """Compute numbers of a computation over one to three of its parameters.
@@ -76,7 +68,8 @@ def sweep(
     over : mapping of str
         The swept parameters: (low, high, count) for evenly spaced values with both ends, or a list of values.
     numbers : sequence of str, optional
-        Numbers of the computation, by default the first.  Each is a variable, with `_` for `-` in its name.
+        Numbers of the computation, by default the first, or all of a function.  Each is a variable, with `_` for `-` in
+        its name.
     level : str or Level
         "draft", "standard", "precise" or "reference".
     store : str or Path, optional
@@ -91,8 +84,6 @@ def sweep(
     progress : bool or callable, optional
         True shows a progress bar, or prints a line every 30 seconds if standard error is not a terminal; a function is
         called with a `Progress`.
-    most_cells : int
-        Maximum number of cells.
     **fixed : float
         Values of the other parameters that differ from their defaults.
 
@@ -108,7 +99,7 @@ def sweep(
     InvalidParameter
         If a name or a value is not allowed.
     WorkLimit
-        If the sweep has too many cells.
+        If the sweep has more than ten million cells.
     MissingLibrary
         If a required library is not installed.
     StoreError
@@ -132,13 +123,8 @@ def sweep(
     [2.0, 6.0]
     """
     require_libraries()
-    if not (progress is None or isinstance(progress, bool) or callable(progress)):
-        raise InvalidParameter(f"progress = {progress!r} is not a function: give True for a bar or a log.")
-    plan = _planned(computation, numbers, over, fixed, as_level_name(level), most_cells)
-    try:
-        path = None if store is None else Path(store)
-    except TypeError:
-        raise InvalidParameter(f"{store!r} is not the name of a folder: write it like 'rho.zarr'.") from None
+    plan = _planned(computation, numbers, over, fixed, as_level_name(level))
+    path = None if store is None else Path(store)
     place: Any = path if path is not None and exists(path, plan) else None
     todo = None if place is None else missing(place, plan)
     hint = "" if path is None else f"  Finished cells are saved in {str(path)!r}: run the same sweep again to continue."
@@ -182,22 +168,18 @@ def explain(found: xr.Dataset, **cell: float) -> str:
     Raises
     ------
     InvalidParameter
-        If the coordinates do not match the sweep, or the sweep is one of a function of your own.
-    StoreError
-        If the Dataset is not a result of `sweep`.
+        If the coordinates do not match the sweep, or the sweep is one of a function of your own and the cell has not
+        failed.
     """
-    facts = getattr(found, "attrs", {})
-    if "computation" not in facts:
-        raise StoreError("This Dataset is not the result of a sweep: pass one returned by `sweep` or `read`.")
-    axes = tuple(map(str, found.status.dims))
-    if set(cell) != set(axes):
-        raise InvalidParameter(f"A cell of this sweep has the coordinates {', '.join(axes)}: give all of them.")
-    cell = {name: as_number(name, cell[name]) for name in axes}
+    facts = found.attrs
+    if "computation" not in facts or {*cell} != {*found.status.dims}:
+        raise InvalidParameter("Pass a result of `sweep` or `read`, and all coordinates of one of its cells.")
+    cell = {str(name): as_number(str(name), cell[str(name)]) for name in found.status.dims}
     if (failure := json.loads(facts.get("failures", "{}")).get(named(cell))) is not None:
         return str(failure)
     if facts["source"]:
         raise InvalidParameter(f"{facts['title']} is a function of your own: call it at the cell for the reason.")
     over, fixed = {name: [value] for name, value in cell.items()}, json.loads(facts["parameters"])
-    plan = _planned(facts["computation"], facts["numbers"].split(", "), over, fixed, facts["level"], 1)
+    plan = _planned(facts["computation"], facts["numbers"].split(", "), over, fixed, facts["level"])
     outcome = evaluate(plan.computation, plan.numbers, plan.columns(), as_level(plan.level))
     return outcome.why.get(0, f"{Outcome(int(outcome.status[0])).words}.")

@@ -15,6 +15,7 @@ from contextlib import contextmanager
 from importlib.util import find_spec
 from itertools import islice
 from pathlib import Path
+from textwrap import shorten
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -22,7 +23,7 @@ import numpy as np
 from hess_explorer.compute.cells import Outcome
 from hess_explorer.sweep.errors import OtherSweep, StoreError
 from hess_explorer.sweep.piece import PieceResult
-from hess_explorer.sweep.plan import MAX_CELLS, Plan, Region, version
+from hess_explorer.sweep.plan import Plan, Region, version
 from hess_mechanics.errors import MissingLibrary
 
 if TYPE_CHECKING:
@@ -116,30 +117,22 @@ def _facts(plan: Plan) -> dict[str, str]:
 
 def exists(path: Path, plan: Plan) -> bool:
     """Return True if the path has a store of this sweep, False if it is free.  Raises `OtherSweep`, `StoreError`."""
-    try:
-        if not path.exists() or (path.is_dir() and not any(path.iterdir())):
-            return False
-    except OSError as error:
-        raise StoreError(f"{str(path)!r} cannot be read ({error.strerror}); choose another folder.") from error
-    if why := _difference(_open(path), plan):
+    if not path.exists() or (path.is_dir() and not any(path.iterdir())):
+        return False
+    stored = _open(path)
+    held = {name: str(stored.attrs.get(name)) for name in _facts(plan)}
+    other = [
+        f"{name} = {shorten(held[name], 80)}, not {shorten(value, 80)}"
+        for name, value in _facts(plan).items()
+        if held[name] != value
+    ]
+    axes = plan.axes.items()
+    other += [f"other values of {name}" for name, values in axes if not np.array_equal(stored.get(name, ()), values)]
+    if other:
         raise OtherSweep(
-            f"{str(path)!r} contains another sweep: it {why}.  Choose another folder, or repeat that sweep."
+            f"{str(path)!r} contains another sweep: it has {other[0]}.  Choose another folder, or repeat that sweep."
         )
     return True
-
-
-def _difference(stored: xr.Dataset, plan: Plan) -> str:
-    """Return what distinguishes the sweep of a store, as the end of a sentence; empty for the same sweep."""
-    held, own = ({**facts, **json.loads(facts["parameters"])} for facts in (stored.attrs, _facts(plan)))
-    for name in [name for name in own if name not in ("parameters", "source")]:
-        if held.get(name) != own[name]:
-            return f"has {name} = {held.get(name)}, not {own[name]}"
-    if held["source"] != plan.source:
-        return f"has another text of the function {plan.computation.key}"
-    for name, values in plan.axes.items():
-        if name not in stored.dims or not np.array_equal(stored[name], values):
-            return f"is not over the same values of {name}"
-    return ""
 
 
 def missing(place: Path | MemoryStore, plan: Plan) -> list[Region]:
@@ -209,7 +202,7 @@ def load(place: Path | MemoryStore) -> xr.Dataset:
     """Return the results of a store; unfinished cells have the status 0.  Raises `StoreError`."""
     found = _open(place)
     with _reading(place, "has a part that cannot be read: run the same sweep again to recompute it."):
-        return found.load().drop_encoding() if found.status.size <= MAX_CELLS else found
+        return found.load().drop_encoding()
 
 
 def read(path: str | Path) -> xr.Dataset:
@@ -223,7 +216,7 @@ def read(path: str | Path) -> xr.Dataset:
     Returns
     -------
     xarray.Dataset
-        The results, loaded into memory up to ten million cells and lazily above that.
+        The results.
 
     Raises
     ------

@@ -7,7 +7,6 @@ to the parameters of its states, and the picture to its pictures.
 from __future__ import annotations
 
 import math
-from collections import Counter
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, make_dataclass
 from functools import cache, cached_property
@@ -120,20 +119,6 @@ class Cells:
         """Return the arguments at a place.  Raises `ModelError`."""
         return self.charted.values(self.y.put(self.x.put(self.state, x), y))
 
-    def at(self, xs: Array, ys: Array) -> Array:
-        """Return values, estimated errors and status (3, n) at places (n,)."""
-        found, cells = np.full((3, xs.size), np.nan), dict[int, tuple[tuple[str, float], ...]]()
-        for i, place in enumerate(zip(xs.tolist(), ys.tolist(), strict=True)):
-            try:
-                cells[i] = tuple(self.arguments(*place).items())
-            # An error in one cell must not stop the others.
-            except Exception as error:
-                found[2, i], _ = refused(error, dict(zip((self.x.name, self.y.name), place, strict=True)))
-        if cells:
-            # By the arguments, which not every parameter of the scene changes.
-            found[:, [*cells]] = CACHE.get(_evaluated, self.charted, self.number, self.level, tuple(cells.values()))[0]
-        return frozen(found)
-
 
 def _evaluated(charted: Charted, number: str, chosen: Level, cells: tuple[Any, ...]) -> Array:
     columns = {name: np.array([cell[i][1] for cell in cells]) for i, (name, _) in enumerate(cells[0])}
@@ -143,13 +128,20 @@ def _evaluated(charted: Charted, number: str, chosen: Level, cells: tuple[Any, .
 
 
 def _row(cells: Cells, window: Window, count: int, row: int) -> Array:
-    """Return a row of cells (3, count)."""
+    """Return values, estimated errors and status (3, count) of a row of `count` × `count` cells."""
     (x0, y0), (x1, y1) = window
-    return cells.at(centres(x0, x1, count), np.full(count, centres(y0, y1, count)[row]))
-
-
-def _one(cells: Cells, x: float, y: float) -> Array:
-    return cells.at(np.array([x]), np.array([y]))
+    y = float(centres(y0, y1, count)[row])
+    found, known = np.full((3, count), np.nan), dict[int, tuple[tuple[str, float], ...]]()
+    for i, x in enumerate(centres(x0, x1, count).tolist()):
+        try:
+            known[i] = tuple(cells.arguments(x, y).items())
+        # An error in one cell must not stop the others.
+        except Exception as error:
+            found[2, i], _ = refused(error, {cells.x.name: x, cells.y.name: y})
+    if known:
+        # By the arguments, which not every parameter of the scene changes.
+        found[:, [*known]] = CACHE.get(_evaluated, cells.charted, cells.number, cells.level, tuple(known.values()))[0]
+    return frozen(found)
 
 
 STORED: dict[Cells, tuple[Array, Window]] = {}
@@ -182,6 +174,11 @@ class _Chart(Part[Any]):
     def axes(self) -> tuple[Side, Side]:
         """Both sides."""
         return self.sides[self.host.chart_x], self.sides[self.host.chart_y]
+
+    @property
+    def place(self) -> tuple[float, float]:
+        """The place of this state."""
+        return self.axes[0].of(self.host), self.axes[1].of(self.host)
 
     @property
     def number(self) -> catalogue.Number:
@@ -218,7 +215,8 @@ class _Chart(Part[Any]):
     def _found(self) -> tuple[Array, int, Window] | None:
         """Rows (n, 3, m), the number of those that are still coarse, and the window of the cells."""
         if self.key in STORED:
-            return STORED[self.key][0], 0, STORED[self.key][1]
+            cells, window = STORED[self.key]
+            return cells, 0, window
         if self.reason:
             return None
         # The number of this state comes first.
@@ -232,8 +230,9 @@ class _Chart(Part[Any]):
     @cached_property
     def own(self) -> Array | None:
         """Value, error and status (3, 1) in this state; None until known."""
-        task = Task(_one, (self.key, *(one.of(self.host) for one in self.axes)))
-        found: Array | None = None if self.reason else self.work.ask(task)
+        if self.reason:
+            return None
+        found: Array | None = self.work.ask(Task(_row, (self.key, (self.place, self.place), 1, 0)))
         return found
 
     @cached_property
@@ -254,8 +253,7 @@ class _Chart(Part[Any]):
 
     def here(self) -> Positions:
         """Return the place of the state, if it is in sight."""
-        x, y = self.axes
-        return inside([(x.of(self.host), y.of(self.host))], self.window)
+        return inside([self.place], self.window)
 
     def choose(self, x: float, y: float) -> Values:
         """Return the parameters at a place.  Raises `ModelError` if no number is possible there."""
@@ -300,10 +298,10 @@ class _Chart(Part[Any]):
         said = [f"{columns} × {rows} cells" + f", {rows - coarse} rows known" * (coarse > 0)]
         if self.cells.ends is not None:
             said.append(f"colours {ranging(*self.cells.ends, 3)}")
-        missing = Counter(cells[:, 2][cells[:, 2] >= Outcome.OUTSIDE_REGION].tolist()).most_common(1)
-        if missing:
-            share = float(np.mean(cells[:, 2] >= Outcome.OUTSIDE_REGION))
-            said.append(f"{digits(100.0 * share, 2)} % have none: {Outcome(int(missing[0][0])).words}")
+        missing = cells[:, 2][cells[:, 2] >= Outcome.OUTSIDE_REGION].astype(int)
+        if missing.size:
+            most = Outcome(int(np.bincount(missing).argmax()))
+            said.append(f"{digits(100.0 * missing.size / (rows * columns), 2)} % have none: {most.words}")
         return Caption(verdict, f"{'; '.join(said)}.")
 
 
