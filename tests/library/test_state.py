@@ -66,7 +66,7 @@ def test_a_formula_is_refused_with_the_whole_sentence_of_the_page():
         (
             {"height": 1.0},
             "has no parameter 'height': choose one of I22, I23, b3, h, f, phi0, span, certain, shade, accuracy, "
-            "t, az, el.",
+            "chart, chart_x, chart_y, chart_window, t, az, el.",
         ),
         ({"h": "high"}, "'high' is not a number: h (Energy h) must be a number between -1 and 1e6."),
         ({"h": True}, "True is not a number"),

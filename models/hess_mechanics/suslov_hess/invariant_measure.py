@@ -32,6 +32,7 @@ from hess_mechanics.dynamics.orbit import solve
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.accuracy import Accuracy
 from hess_mechanics.numerics.results import Array, Complex, frozen
+from hess_mechanics.parameters import plain
 from hess_mechanics.suslov_hess.bifurcation import turning_points
 from hess_mechanics.suslov_hess.circle_map import CircleMap, discriminants
 from hess_mechanics.suslov_hess.equations import SYSTEM
@@ -168,6 +169,12 @@ class TorusMeasure:
 _CUBE_ROOTS = np.exp(2j * math.pi * np.arange(3) / 3.0)
 
 
+def _jumps(f: float) -> InvalidParameter:
+    return InvalidParameter(
+        f"f = {plain(f)}: w vanishes at the lower turning point, and φ jumps there. Choose another f."
+    )
+
+
 def on_torus(measure: InvariantMeasure, times: Sequence[float] | Array, level: Accuracy) -> TorusMeasure:
     """Return ζ_s and δ(s) at the times s ≥ 0 (m,), in units b = 1.
 
@@ -176,14 +183,17 @@ def on_torus(measure: InvariantMeasure, times: Sequence[float] | Array, level: A
     Raises `InvalidParameter` (f = 0, where w vanishes at the return), `WorkLimit`.
     """
     if measure.f == 0.0:
-        raise InvalidParameter("f = 0: w vanishes at the lower turning point, and φ jumps there. Choose another f.")
+        raise _jumps(measure.f)
     turning = turning_points(measure.h, measure.f)
     starts = np.angle((_CUBE_ROOTS + measure.zeta) / (1.0 + measure.zeta * _CUBE_ROOTS))
     found = [
         solve(SYSTEM.at((measure.a, 1.0)), turning.state_at_lower_turn(phi), times, level) for phi in starts.tolist()
     ]
     w1, w2 = np.stack([orbit.states[:, :2] for orbit in found]).transpose(2, 0, 1)
-    z1, z2, z3 = (w2 + 1j * w1) / np.hypot(w1, w2)
+    size = np.hypot(w1, w2)
+    if not size.all():
+        raise _jumps(measure.f)
+    z1, z2, z3 = (w2 + 1j * w1) / size
     one, two, three = _CUBE_ROOTS
     ratio = one * (two - three) / (three * (two - one)) * (z2 - z1) / (z2 - z3)
     zeta = (z1 - ratio * z3) / (1.0 - ratio)
