@@ -85,6 +85,7 @@ def connected(plan: Plan, workers: str | int | None, scheduler: str | Client | N
     if scheduler is None and count == 1:
         yield None
         return
+    import dask.config
     from distributed import Client, LocalCluster, fire_and_forget
 
     if isinstance(scheduler, Client):
@@ -95,6 +96,8 @@ def connected(plan: Plan, workers: str | int | None, scheduler: str | Client | N
     # No dashboard: its port may be in use.
     quiet = {"dashboard": False, "dashboard_address": "127.0.0.1:0"}
     with ExitStack() as stack:
+        # Dask's profiler looks at each worker a hundred times a second.
+        stack.enter_context(dask.config.set({"distributed.worker.profile.enabled": False}))
         try:
             at = scheduler or stack.enter_context(
                 LocalCluster(
