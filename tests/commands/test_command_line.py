@@ -24,7 +24,7 @@ from support.command_line import strict_json, table, typed
 from support.mechanics import ROOT
 from support.processes import UNWARMED, interruptible
 
-# What is wrong
+# Errors
 
 
 @pytest.mark.parametrize(

@@ -174,7 +174,7 @@ def test_nothing_is_imported_that_is_not_used(script):
     assert (done.returncode, without_patience(done.stderr)) == (0, b"")
 
 
-# What is wrong
+# Errors
 
 
 @pytest.mark.parametrize(

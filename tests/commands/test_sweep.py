@@ -174,6 +174,8 @@ def test_the_snippet_for_dask_jobqueue_computes_a_sweep(tmp_path, monkeypatch):
         (["sweep"], "hess-explorer --help lists all"),
         (replaced(SWEEP, "--set", "a"), "is not a parameter; write it like h=1.5"),
         (replaced(SWEEP, "--over", "h=0:1"), "is not a range"),
+        ([*SWEEP, "--set", "a=0.6"], "--set names a parameter twice"),
+        ([*SWEEP, "--over", "h=0:1:3"], "--over names a parameter twice"),
         (replaced(SWEEP, "--over", "h=0:1:10000000"), "at most 10000000 are allowed"),
         ([*SWEEP, "--store", "/proc/nowhere/at/all"], "cannot be written"),
         ([*SWEEP, "--store", "1" * 300], "cannot be used: File name too long"),

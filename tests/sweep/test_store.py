@@ -59,7 +59,7 @@ def test_damaged_pieces_are_computed_again(tori, tmp_path, computed):
     content[6] ^= 1
     flipped.write_bytes(bytes(content))
     status[0].write_bytes(status[0].read_bytes()[:5])
-    # What a killed writer leaves.
+    # A file as it is after a kill during its write.
     (status[0].parent / "0.5e1f.partial").write_bytes(b"\x28\xb5")
     assert tori(store=store).identical(whole)
     assert len(computed) == pieces + 4

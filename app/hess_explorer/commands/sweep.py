@@ -54,6 +54,9 @@ def _swept(options: Options) -> xr.Dataset:
     name, fixed = " ".join(options.computation), dict(options.set)
     if not name:
         raise CommandError("Name a computation after sweep, such as lyapunov suslov: hess-explorer --help lists all.")
+    for flag, pairs in (("--over", options.over), ("--set", options.set)):
+        if len(dict(pairs)) < len(pairs):
+            raise CommandError(f"{flag} names a parameter twice: name each only once.")
     if wrong := fixed.keys() & inspect.signature(sweep).parameters:
         raise CommandError(f"{name} has no parameter {min(wrong)!r} that --set can give: rename it.")
     try:

@@ -24,7 +24,7 @@ from hess_mechanics.dynamics.manifolds import Manifold
 from hess_mechanics.dynamics.motions import Motions, usual, whole
 from hess_mechanics.dynamics.orbit_diagram import Cascade, Diagram
 from hess_mechanics.dynamics.periodic import MAX_PERIOD, PeriodicOrbit
-from hess_mechanics.dynamics.regime import Dynamics, MotionKind, Regime, dynamics_of, regime
+from hess_mechanics.dynamics.regime import MotionKind, Regime, dynamics_of, regime
 from hess_mechanics.dynamics.return_map import ReturnMap
 from hess_mechanics.numerics.accuracy import Kind
 from hess_mechanics.parameters import Parameter
@@ -130,14 +130,6 @@ def _hysteresis(
 
 def _doublings(map_: ReturnMap, place: Place, period: int, over: str, to: float, most: int) -> Cascade:
     return period_doublings(map_, _periodic(map_, place, period), over, to, most)
-
-
-def _regime(map_: ReturnMap, place: Place, transient: int, kept: int, t: float) -> Regime:
-    return regime(map_, place, transient, kept, t)
-
-
-def _dynamics(map_: ReturnMap, place: Place, transient: int, kept: int, t: float) -> Dynamics:
-    return dynamics_of(map_, place, transient, kept, t)
 
 
 def _basins(
@@ -290,7 +282,7 @@ def computations(of: Motions) -> Iterator[Computation]:
         "regime",
         "Kind of the motion",
         regime,
-        _regime,
+        regime,
         _MEASURED,
         _OF_MOTION,
         Kind.INDICATOR,
@@ -301,7 +293,7 @@ def computations(of: Motions) -> Iterator[Computation]:
         "dynamics",
         "Limit sets forward and backward in time",
         dynamics_of,
-        _dynamics,
+        dynamics_of,
         _MEASURED,
         {
             "distance": Number("d", "distance of attractor and repeller", "distance", error_reader="distance_error"),
