@@ -170,7 +170,8 @@ def write(place: Path | MemoryStore, region: Region, done: PieceResult) -> None:
         if failures:
             facts = zarr.open_group(place, mode="r+", use_consolidated=False).attrs
             both = json.loads(str(facts.get("failures", "{}"))) | failures
-            facts["failures"] = json.dumps(dict(islice(both.items(), _MOST_FAILURES)), ensure_ascii=False)
+            # In an order that does not depend on which worker was first.
+            facts["failures"] = json.dumps(dict(islice(sorted(both.items()), _MOST_FAILURES)), ensure_ascii=False)
         for variables in (parts, status):
             xr.Dataset(variables).to_zarr(place, region=region, consolidated=False)
     except (OSError, ValueError) as error:
