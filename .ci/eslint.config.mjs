@@ -2,6 +2,20 @@
 import js from "@eslint/js"
 import globals from "globals"
 
+// The folders of static/ from the ground up; none imports from one above it.
+const FLOORS = ["base", "pictures", "controls", "page", "offline"]
+const floors = FLOORS.slice(0, -1).map((floor, i) => ({
+    files: [`static/${floor}/**`],
+    rules: {
+        "no-restricted-imports": ["error", {
+            patterns: [{
+                group: FLOORS.slice(i + 1).map((above) => `../${above}/*`),
+                message: "Pass a function or tell an event: imports go down.",
+            }],
+        }],
+    },
+}))
+
 export default [
     js.configs.recommended,
     {
@@ -23,4 +37,5 @@ export default [
             "prefer-const": "error",
         },
     },
+    ...floors,
 ]

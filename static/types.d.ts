@@ -379,7 +379,7 @@ interface Host {
   answering(): Promise<void>
 }
 
-/** The events of "page/bus.js", by name, with their details. */
+/** The events of "base/bus.js", by name, with their details. */
 interface PageEvents {
   introduce: string[] | null
   // To the client

@@ -1,8 +1,8 @@
 // @ts-check
 // Moves a slider to and fro, one slider at a time.  Touching the slider, Escape, or choosing another state stops it.
 
-import { button, element, icon, relabel } from "../page/elements.js"
-import { listen, tell } from "../page/bus.js"
+import { button, element, icon, relabel } from "../base/elements.js"
+import { listen, tell } from "../base/bus.js"
 
 // Milliseconds from one end to the other at pace 1.
 const SWEEP = 8000

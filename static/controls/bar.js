@@ -1,9 +1,9 @@
 // @ts-check
 // The bar: the title of the scene on show and the tools of the page.
 
-import { button, element, icon } from "../page/elements.js"
-import { listen, tell } from "../page/bus.js"
-import { isPresenting } from "../page/presenting.js"
+import { button, element, icon } from "../base/elements.js"
+import { listen, tell } from "../base/bus.js"
+import { isPresenting } from "../base/presenting.js"
 import { moreMenu } from "./more.js"
 
 const MORE = "M5 10a2 2 0 1 0 0 4 2 2 0 0 0 0-4zm7 0a2 2 0 1 0 0 4 2 2 0 0 0 0-4zm7 0a2 2 0 1 0 0 4 2 2 0 0 0 0-4z"

@@ -3,10 +3,10 @@
 //
 // Each half is a page, not a second drawing in this page, so pictures, player and requests exist once per page.
 
-import { linkTo } from "../page/embedding.js"
-import { HALF } from "../page/side_by_side.js"
-import { element } from "../page/elements.js"
-import { PHONE } from "../page/windows.js"
+import { linkTo } from "../base/embedding.js"
+import { HALF } from "./side_by_side.js"
+import { element } from "../base/elements.js"
+import { PHONE } from "../base/windows.js"
 import { gallery } from "../pictures/gallery.js"
 import { nameOf } from "../pictures/picture.js"
 import { dialogOf, section } from "./dialog.js"

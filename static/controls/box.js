@@ -2,8 +2,8 @@
 // The text box of a number.  It takes exact values, and expressions that the server evaluates; arrow keys change the value by
 // one step, with Shift by ten.
 
-import { tell } from "../page/bus.js"
-import { element } from "../page/elements.js"
+import { tell } from "../base/bus.js"
+import { element } from "../base/elements.js"
 
 const TYPE = "Type a value or an expression such as pi/3, then press Enter."
 /** @type {Record<string, number>} */

@@ -1,8 +1,8 @@
 // @ts-check
 // The control of a choice: a menu of its options.
 
-import { element } from "../page/elements.js"
-import { tell } from "../page/bus.js"
+import { element } from "../base/elements.js"
+import { tell } from "../base/bus.js"
 import { optionsOf } from "./dialog.js"
 
 /** @typedef {(value: any) => void} Show shows the value of a control */

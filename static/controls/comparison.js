@@ -1,8 +1,8 @@
 // @ts-check
 // The table of differences between the pinned state and the state on show.
 
-import { button, element } from "../page/elements.js"
-import { listen, tell } from "../page/bus.js"
+import { button, element } from "../base/elements.js"
+import { listen, tell } from "../base/bus.js"
 import { besideDialog } from "./beside.js"
 
 /** Return the table's section, which is hidden while no state is pinned. */

@@ -1,8 +1,8 @@
 // @ts-check
 // The control of a parameter: a slider with a box, a menu, or a line for a formula.
 
-import { tell } from "../page/bus.js"
-import { element } from "../page/elements.js"
+import { tell } from "../base/bus.js"
+import { element } from "../base/elements.js"
 import { choice } from "./choice.js"
 import { number } from "./number.js"
 

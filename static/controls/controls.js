@@ -2,10 +2,10 @@
 // The controls of the scene on show: a slider and a box for each number, a menu for each choice, and a menu of examples.
 // Essential controls come first, the others in groups that unfold.  A phone shows one control at a time, chosen by its symbol.
 
-import { button, element } from "../page/elements.js"
-import { listen, tell } from "../page/bus.js"
-import { sayDragMe } from "../page/handle.js"
-import { PHONE } from "../page/windows.js"
+import { button, element } from "../base/elements.js"
+import { listen, tell } from "../base/bus.js"
+import { sayDragMe } from "../base/handle.js"
+import { PHONE } from "../base/windows.js"
 import { gallery } from "../pictures/gallery.js"
 import { nameOf } from "../pictures/picture.js"
 import { menu, twice } from "./choice.js"

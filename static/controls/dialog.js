@@ -1,7 +1,7 @@
 // @ts-check
 // Dialogs over the page and their common parts: snippets to copy, menus, saving of files.
 
-import { button, element } from "../page/elements.js"
+import { button, element } from "../base/elements.js"
 
 /**
  * Return a dialog with a title, tools and a Close button; a click outside closes it too.

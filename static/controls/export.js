@@ -2,9 +2,9 @@
 // The dialog Export: data, figure or film of a picture, or the whole state in one file, made by the server; the command that
 // makes the file, and the Python code that computes the same.
 
-import { button, element } from "../page/elements.js"
-import { listen, tell } from "../page/bus.js"
-import { linkTo } from "../page/embedding.js"
+import { button, element } from "../base/elements.js"
+import { listen, tell } from "../base/bus.js"
+import { linkTo } from "../base/embedding.js"
 import { gallery } from "../pictures/gallery.js"
 import { nameOf, titleOf } from "../pictures/picture.js"
 import { choices, dialogOf, optionsOf, saveFile, section, snippet } from "./dialog.js"

@@ -1,9 +1,9 @@
 // @ts-check
 // The dialog Invite: QR code and address by which an audience follows, and how many do.
 
-import { button, element } from "../page/elements.js"
-import { listen, tell } from "../page/bus.js"
-import { qrCode } from "../page/qr.js"
+import { button, element } from "../base/elements.js"
+import { listen, tell } from "../base/bus.js"
+import { qrCode } from "./qr.js"
 import { dialogOf } from "./dialog.js"
 
 /** Return the dialog and the function that opens it, and with it the room. */

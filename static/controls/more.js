@@ -1,8 +1,8 @@
 // @ts-check
 // The overflow menu of the bar: on a phone it holds the tools that do not fit.
 
-import { button, element } from "../page/elements.js"
-import { PHONE } from "../page/windows.js"
+import { button, element } from "../base/elements.js"
+import { PHONE } from "../base/windows.js"
 
 /**
  * Return the menu and its button, for the end of the bar.

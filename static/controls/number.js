@@ -2,10 +2,10 @@
 // The control of a number: a slider, a box for exact values ("box.js"), a label that can be dragged, and a button that moves
 // the slider to and fro ("animation.js").
 
-import { tell } from "../page/bus.js"
-import { onDrag } from "../page/drag.js"
-import { arrowOf } from "../page/keys.js"
-import { element, update } from "../page/elements.js"
+import { tell } from "../base/bus.js"
+import { onDrag } from "../base/drag.js"
+import { arrowOf } from "../base/keys.js"
+import { element, update } from "../base/elements.js"
 import { animation } from "./animation.js"
 import { exactBox } from "./box.js"
 

@@ -3,9 +3,9 @@
 //
 // It does not play if the user prefers reduced motion, in an embedded page, or in a lesson.
 
-import { listen } from "../page/bus.js"
-import { isEmbedded } from "../page/embedding.js"
-import { CALM } from "../page/windows.js"
+import { listen } from "../base/bus.js"
+import { isEmbedded } from "../base/embedding.js"
+import { CALM } from "../base/windows.js"
 
 const TOUCHES = ["pointerdown", "keydown", "wheel"]
 

@@ -2,12 +2,12 @@
 // The player: play, pause, step, speed, and the time slider.  It interpolates the moving point from the samples of the orbit
 // on the page, so playing sends no requests.  It tells "time" and fills the sources of single points.
 
-import { button, element, icon, relabel } from "../page/elements.js"
-import { listen, tell } from "../page/bus.js"
-import { arrowOf, isTaken } from "../page/keys.js"
+import { button, element, icon, relabel } from "../base/elements.js"
+import { listen, tell } from "../base/bus.js"
+import { arrowOf, isTaken } from "../base/keys.js"
 import { gallery } from "../pictures/gallery.js"
 import { stateAt } from "../pictures/moment.js"
-import { CALM } from "../page/windows.js"
+import { CALM } from "../base/windows.js"
 import { isFolded } from "../pictures/picture.js"
 import { opening } from "./opening.js"
 

@@ -2,8 +2,8 @@
 // The menu of scenes: a dialog with a gallery, all scenes in groups, and a search.  It tells "scene" for a choice and "near" for
 // the scene under the mouse or focus, so that its pictures are built in advance.
 
-import { button, element } from "../page/elements.js"
-import { tell } from "../page/bus.js"
+import { button, element } from "../base/elements.js"
+import { tell } from "../base/bus.js"
 import { dialogOf, section } from "./dialog.js"
 import { showcaseOf } from "./showcase.js"
 

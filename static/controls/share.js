@@ -1,10 +1,10 @@
 // @ts-check
 // The dialog Share: the link, its QR code, and HTML that embeds parts of the page in another page.
 
-import { button, element } from "../page/elements.js"
-import { listen, tell } from "../page/bus.js"
-import { linkTo } from "../page/embedding.js"
-import { qrCode } from "../page/qr.js"
+import { button, element } from "../base/elements.js"
+import { listen, tell } from "../base/bus.js"
+import { linkTo } from "../base/embedding.js"
+import { qrCode } from "./qr.js"
 import { gallery } from "../pictures/gallery.js"
 import { isFolded, labelOf, nameOf } from "../pictures/picture.js"
 import { choices, dialogOf, section, snippet } from "./dialog.js"

@@ -1,8 +1,8 @@
 // @ts-check
 // The gallery of the menu of scenes: pictures of examples, one row per idea.
 
-import { tell } from "../page/bus.js"
-import { button, element } from "../page/elements.js"
+import { tell } from "../base/bus.js"
+import { button, element } from "../base/elements.js"
 import { section } from "./dialog.js"
 
 /**

@@ -2,11 +2,11 @@
 // The controls that a step of a lesson names, beside its text.  They are the components of the column of controls: both hear
 // the same events, so that each follows the other.
 
-import { listen } from "../page/bus.js"
-import { isEmbedded } from "../page/embedding.js"
-import { element } from "../page/elements.js"
-import { isPresenting } from "../page/presenting.js"
-import { NARROW, PHONE } from "../page/windows.js"
+import { listen } from "../base/bus.js"
+import { isEmbedded } from "../base/embedding.js"
+import { element } from "../base/elements.js"
+import { isPresenting } from "../base/presenting.js"
+import { NARROW, PHONE } from "../base/windows.js"
 import { control as controlOf } from "./control.js"
 
 // Where the column of controls is beside the text, it is enough.

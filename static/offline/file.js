@@ -3,7 +3,7 @@
 // the file holds.
 
 import { render as renderBar } from "../controls/bar.js"
-import { element } from "../page/elements.js"
+import { element } from "../base/elements.js"
 import { createMount, FRAME, stylesOf } from "../page/mount.js"
 import { buildPage, opener } from "../page/shell.js"
 import { createRecorded } from "./recorded.js"

@@ -1,7 +1,7 @@
 // @ts-check
 // The animation of a lesson step: it moves a parameter of the scene, or the time of the player.
 
-import { tell } from "./bus.js"
+import { tell } from "../base/bus.js"
 
 const TIME = "time"
 /** Round to as many digits as a box can show. @param {number} value */

@@ -3,8 +3,8 @@
 
 import { gallery } from "../pictures/gallery.js"
 import { captionOf, nameOf } from "../pictures/picture.js"
-import { element } from "./elements.js"
-import { listen } from "./bus.js"
+import { element } from "../base/elements.js"
+import { listen } from "../base/bus.js"
 
 // Milliseconds without a new state until the hand rests.
 const REST = 700

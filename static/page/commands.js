@@ -1,8 +1,8 @@
 // @ts-check
 // Commands that concern the page and not the state: link, theme, full screen, present mode.
 
-import { listen, tell } from "./bus.js"
-import { isPresenting, present } from "./presenting.js"
+import { listen, tell } from "../base/bus.js"
+import { isPresenting, present } from "../base/presenting.js"
 
 /**
  * Copy a text and return the message for the user.

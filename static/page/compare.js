@@ -1,8 +1,8 @@
 // @ts-check
 // Comparison of two states in the same pictures: the state before a drag, and a pinned state with a table of differences.
 import { gallery } from "../pictures/gallery.js"
-import { listen, tell } from "./bus.js"
-import { onKeys } from "./keys.js"
+import { listen, tell } from "../base/bus.js"
+import { onKeys } from "../base/keys.js"
 
 /** @typedef {{query: string, scene: SceneDescription, derived: string}} Shown a state on show */
 /** @typedef {Shown & {ghost: ReturnType<typeof gallery.takeGhost>}} Kept a state that was kept, and its picture */

@@ -1,8 +1,8 @@
 // @ts-check
 // How much of a scene's text is shown: the idea, what a student needs, or all that the paper has.  Kept in the browser.
 
-import { element } from "./elements.js"
-import { browserStore } from "./stores.js"
+import { element } from "../base/elements.js"
+import { browserStore } from "../base/stores.js"
 
 /** @type {[value: string, text: string][]} */
 const DEPTHS = [["idea", "Idea"], ["student", "What you see"], ["paper", "With equations"]]

@@ -5,8 +5,8 @@
 // takes one request, which the server reads like a link.  A step to another scene or to an example gets a history entry of
 // the browser; any other step replaces the current entry.
 
-import { listen, tell } from "./bus.js"
-import { isTyped } from "./keys.js"
+import { listen, tell } from "../base/bus.js"
+import { isTyped } from "../base/keys.js"
 
 const MOST = 100
 /** @type {(keyof PageEvents)[]} */

@@ -3,10 +3,10 @@
 // pictures come in one at a time, until the whole page stands.  It is shown once, and never for a link with a state.
 
 import { stepControls } from "../controls/step_controls.js"
-import { listen, tell } from "./bus.js"
-import { button, element } from "./elements.js"
-import { onKeys } from "./keys.js"
-import { browserStore } from "./stores.js"
+import { listen, tell } from "../base/bus.js"
+import { button, element } from "../base/elements.js"
+import { onKeys } from "../base/keys.js"
+import { browserStore } from "../base/stores.js"
 
 // One turn of a wheel brings one picture.
 const PAUSE = 700

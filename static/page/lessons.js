@@ -9,11 +9,11 @@ import { gallery } from "../pictures/gallery.js"
 import { createGuess } from "../pictures/guess.js"
 import { createVeil } from "../pictures/veil.js"
 import { createAnimation } from "./animation.js"
-import { listen, tell } from "./bus.js"
-import { isEmbedded } from "./embedding.js"
-import { onKeys } from "./keys.js"
-import { button, element } from "./elements.js"
-import { CALM } from "./windows.js"
+import { listen, tell } from "../base/bus.js"
+import { isEmbedded } from "../base/embedding.js"
+import { onKeys } from "../base/keys.js"
+import { button, element } from "../base/elements.js"
+import { CALM } from "../base/windows.js"
 
 const SECOND = 1000
 

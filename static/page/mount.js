@@ -1,13 +1,13 @@
 // @ts-check
 // Mounts the parts of the page.
 
-import { element } from "./elements.js"
-import { wear } from "./presenting.js"
-import { sized } from "./windows.js"
+import { element } from "../base/elements.js"
+import { wear } from "../base/presenting.js"
+import { sized } from "../base/windows.js"
 
 // Style sheets of the frame around the parts.
-export const FRAME = ["page/base.css", "page/shell.css"]
-// Style sheets of each part, after "page/base.css".
+export const FRAME = ["base/base.css", "page/shell.css"]
+// Style sheets of each part, after "base/base.css".
 /** @type {Record<string, string[]>} */
 const SHEETS = {
   bar: ["controls/dialog.css", "controls/bar.css"],
@@ -37,7 +37,7 @@ export const createMount = (sheets) => (
     const el = element(`div.${name}`)
     wear(el)
     host.attachShadow({ mode: "open" }).append(
-      ...stylesOf(sheets, ["page/base.css", ...(SHEETS[name] ?? ["page/page.css"])]), el)
+      ...stylesOf(sheets, ["base/base.css", ...(SHEETS[name] ?? ["page/page.css"])]), el)
     render({ ...properties, el })
     return host
   })

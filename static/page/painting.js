@@ -1,8 +1,8 @@
 // @ts-check
 // Fills the pictures of a scene with a state and paints them together.
 
-import { listen, tell } from "./bus.js"
-import { unpack } from "./unpack.js"
+import { listen, tell } from "../base/bus.js"
+import { unpack } from "../base/unpack.js"
 
 const MOST = 2000
 

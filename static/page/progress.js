@@ -1,8 +1,8 @@
 // @ts-check
 // Progress of a state that is still being computed; Stop or Escape keeps the part that is drawn.
 
-import { listen, tell } from "./bus.js"
-import { button, element } from "./elements.js"
+import { listen, tell } from "../base/bus.js"
+import { button, element } from "../base/elements.js"
 
 const SHOWN_AFTER = 300
 

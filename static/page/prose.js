@@ -1,9 +1,9 @@
 // @ts-check
 // The legend or the words of the scene on show, as HTML from the project's own files.
 
-import { listen } from "./bus.js"
+import { listen } from "../base/bus.js"
 import { depthMenu } from "./depth.js"
-import { element, update } from "./elements.js"
+import { element, update } from "../base/elements.js"
 
 /**
  * Show the entries of a legend whose numbers are listed.

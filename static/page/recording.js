@@ -2,8 +2,8 @@
 // Records what is done by hand as the Markdown of a lesson, to be edited: each state that has settled is a step.
 
 import { saveFile } from "../controls/dialog.js"
-import { listen, tell } from "./bus.js"
-import { button, element } from "./elements.js"
+import { listen, tell } from "../base/bus.js"
+import { button, element } from "../base/elements.js"
 
 const MOST = 100
 const MOST_CONTROLS = 6

@@ -3,7 +3,7 @@
 //
 // There is one request at a time: the next one is sent when the answer to the last one is painted.  So requests never queue,
 // however fast a slider is dragged, and the newest values win.
-import { listen, tell } from "./bus.js"
+import { listen, tell } from "../base/bus.js"
 
 const PATIENCE = 400
 const LONG = 5000

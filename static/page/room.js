@@ -2,9 +2,9 @@
 // The lecturer's room: it tells the server what is on the screen, and the page how many follow and what they guess.
 
 import { createAudience } from "../pictures/audience.js"
-import { listen, tell } from "./bus.js"
+import { listen, tell } from "../base/bus.js"
 import { addressOf, atMost, newCode, openRoom, TAKEN } from "./room_socket.js"
-import { tabStore } from "./stores.js"
+import { tabStore } from "../base/stores.js"
 
 const KEY = "own-room"
 

@@ -1,7 +1,7 @@
 // @ts-check
 // The websocket of a room, see "rooms/messages.py", and what a tab keeps of its room.
 
-import { tabStore } from "./stores.js"
+import { tabStore } from "../base/stores.js"
 import { answering, watch } from "./websocket.js"
 
 // Close codes of "server/room_socket.py": the room is over, or not for this page.

@@ -1,8 +1,8 @@
 // @ts-check
 // The status line: a summary that unfolds into its details.
 
-import { listen } from "./bus.js"
-import { element, update } from "./elements.js"
+import { listen } from "../base/bus.js"
+import { element, update } from "../base/elements.js"
 
 /** Render the status line. @param {{el: HTMLElement}} part */
 export function render({ el }) {

@@ -1,8 +1,8 @@
 // @ts-check
 // A short text that changes often, set as text and never as HTML.  Screen readers announce a paragraph when it changes.
 
-import { listen } from "./bus.js"
-import { element, update } from "./elements.js"
+import { listen } from "../base/bus.js"
+import { element, update } from "../base/elements.js"
 
 /**
  * Render the text of a key.

@@ -1,7 +1,7 @@
 // @ts-check
 // The guesses of an audience in a picture: the cloud, its median, the truth, and how far the audience was off.
 
-import { element } from "../page/elements.js"
+import { element } from "../base/elements.js"
 import { fit } from "./canvas.js"
 import { gallery } from "./gallery.js"
 import { along, apart, drawRing, GUESS, linesOf, nearest, TRUTH } from "./guess.js"

@@ -2,9 +2,9 @@
 // Canvases that repaint themselves when their data, their size or the theme changes.  Some lie over the frame of a Bokeh
 // plot and draw what Bokeh would draw slowly.
 
-import { listen } from "../page/bus.js"
-import { element } from "../page/elements.js"
-import { zoom } from "../page/presenting.js"
+import { listen } from "../base/bus.js"
+import { element } from "../base/elements.js"
+import { zoom } from "../base/presenting.js"
 import { INK, isDark, onDark, setDark, watchTheme } from "./looks.js"
 import { largerOf } from "./plot_looks.js"
 

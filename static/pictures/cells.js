@@ -5,7 +5,7 @@
 /** @typedef {Colouring & {source: string}} CellLayer a layer of cells, and its source */
 /** @typedef {(a: number, b: number, c: number, d: number, right: number, up: number) => number} Mix */
 
-import { element } from "../page/elements.js"
+import { element } from "../base/elements.js"
 import { bytesOf, onDark, shade } from "./looks.js"
 
 const MOST_PIXELS = 1200

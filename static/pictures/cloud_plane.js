@@ -5,8 +5,8 @@
 // [[look, x, y]]; and `bins` = [first, width, count] of ln|s|.  The density over |s| at the current time goes to the source of
 // the option `density`.
 
-import { listen, tell } from "../page/bus.js"
-import { zoom } from "../page/presenting.js"
+import { listen, tell } from "../base/bus.js"
+import { zoom } from "../base/presenting.js"
 import { squareCanvas } from "./canvas.js"
 import { cloudsOf } from "./cloud.js"
 import { drawMark, LOOKS, useLook } from "./looks.js"

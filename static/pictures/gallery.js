@@ -1,9 +1,9 @@
 // @ts-check
 // The pictures of the scenes.  The pictures of a scene are built once, kept, and filled with new data.
 
-import { listen } from "../page/bus.js"
-import { sayDragMe } from "../page/handle.js"
-import { element } from "../page/elements.js"
+import { listen } from "../base/bus.js"
+import { sayDragMe } from "../base/handle.js"
+import { element } from "../base/elements.js"
 import { cloudPlane } from "./cloud_plane.js"
 import { planeGhost } from "./ghost.js"
 import { setDark, setShades, watchTheme } from "./looks.js"

@@ -1,7 +1,7 @@
 // @ts-check
 // Ghosts: faint copies of an earlier state, redrawn only when axes or sizes change.
 
-import { element } from "../page/elements.js"
+import { element } from "../base/elements.js"
 import { frameCanvas, squareCanvas } from "./canvas.js"
 import { createSheet } from "./projection.js"
 

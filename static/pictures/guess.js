@@ -1,8 +1,8 @@
 // @ts-check
 // A guess in a picture: the audience clicks where it expects something, then the truth and the distance to it are drawn.
 
-import { arrowOf } from "../page/keys.js"
-import { element } from "../page/elements.js"
+import { arrowOf } from "../base/keys.js"
+import { element } from "../base/elements.js"
 import { fit } from "./canvas.js"
 import { gallery } from "./gallery.js"
 import { circlePath } from "./looks.js"

@@ -1,7 +1,7 @@
 // @ts-check
 // Pointer events of a Bokeh plot: clicks, drags and boxes choose values; hovering asks about the point under the pointer.
 
-import { tell } from "../page/bus.js"
+import { tell } from "../base/bus.js"
 
 /** @type {Record<string, number[]>} */
 const NOTHING = { left: [], right: [], top: [], bottom: [] }

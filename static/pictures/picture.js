@@ -1,7 +1,7 @@
 // @ts-check
 // The cell of a picture: caption, corner button, host of the picture, and a line about the place under the mouse.
 
-import { element } from "../page/elements.js"
+import { element } from "../base/elements.js"
 import { unbroken } from "./unbroken.js"
 
 // Tooltips of pictures by what the mouse does there.

@@ -1,9 +1,9 @@
 // @ts-check
 // A picture drawn by Bokeh from the description that "bokeh_figure.py" makes.
 
-import { listen } from "../page/bus.js"
-import { element } from "../page/elements.js"
-import { isPresenting } from "../page/presenting.js"
+import { listen } from "../base/bus.js"
+import { element } from "../base/elements.js"
+import { isPresenting } from "../base/presenting.js"
 import { startBokeh } from "./bokeh.js"
 import { checkBokeh, spareStyles, spareUnseen, waitLongForPress } from "./bokeh_private.js"
 import { frameCanvas } from "./canvas.js"

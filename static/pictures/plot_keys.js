@@ -2,9 +2,9 @@
 // The keyboard in a plot: arrow keys move the handle by a pixel, with Shift by ten.  A plot without a handle has a cross, which
 // Enter chooses.
 
-import { listen, tell } from "../page/bus.js"
-import { element } from "../page/elements.js"
-import { arrowOf } from "../page/keys.js"
+import { listen, tell } from "../base/bus.js"
+import { element } from "../base/elements.js"
+import { arrowOf } from "../base/keys.js"
 import { choose } from "./picks.js"
 
 const FAR = 10

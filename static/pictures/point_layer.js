@@ -1,7 +1,7 @@
 // @ts-check
 // Thousands of points, written into the pixels of a canvas: drawing each one would take many times longer.
 
-import { element } from "../page/elements.js"
+import { element } from "../base/elements.js"
 import { cloudColour } from "./looks.js"
 
 /**

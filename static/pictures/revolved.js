@@ -4,7 +4,7 @@
 //
 // Vectors are in the view: to the right, upwards, towards the eye.  ψ is the angle about the axis, from the side of the eye.
 
-import { element } from "../page/elements.js"
+import { element } from "../base/elements.js"
 import { LIGHT, HALFWAY } from "./solid.js"
 
 // Facets around the axis of a large surface, and the largest number of pixels on a side, at rest and while it turns.  A small

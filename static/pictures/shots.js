@@ -1,7 +1,7 @@
 // @ts-check
 // Bokeh plots for print: dark on white in both themes, and sharper than on the screen.
 
-import { element } from "../page/elements.js"
+import { element } from "../base/elements.js"
 import { atRatio, takeColours } from "./bokeh_private.js"
 import { layersOf } from "./ghost.js"
 import { INK } from "./looks.js"

@@ -4,7 +4,7 @@
 //
 // Vectors are in the view: to the right, upwards, towards the eye.  The unit of length is the radius of the sphere around.
 
-import { element } from "../page/elements.js"
+import { element } from "../base/elements.js"
 import { dot, unit } from "./vectors.js"
 
 // Largest number of shading pixels on a side, and picture pixels per shading pixel: shades change slowly.

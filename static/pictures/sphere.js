@@ -7,7 +7,7 @@
 // ("body.js"); `title` describes it, and `bare` keeps only the equator of the graticule.
 // On the far side the moving point has a dashed ring.
 
-import { listen } from "../page/bus.js"
+import { listen } from "../base/bus.js"
 import { bodyIn } from "./body.js"
 import { drawPoint } from "./body_parts.js"
 import { sphereClouds } from "./cloud_on_sphere.js"

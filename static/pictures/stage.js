@@ -4,12 +4,12 @@
 // The corner button of a picture or its number key enlarges it, with Shift a second and third one; Escape restores the layout.
 // A phone shows one picture at a time, chosen by the names below it.
 
-import { button, element, icon, relabel } from "../page/elements.js"
-import { listen, tell } from "../page/bus.js"
-import { isEmbedded } from "../page/embedding.js"
-import { isTaken, onKeys } from "../page/keys.js"
-import { isPresenting, setType, zoom } from "../page/presenting.js"
-import { NARROW, PHONE } from "../page/windows.js"
+import { button, element, icon, relabel } from "../base/elements.js"
+import { listen, tell } from "../base/bus.js"
+import { isEmbedded } from "../base/embedding.js"
+import { isTaken, onKeys } from "../base/keys.js"
+import { isPresenting, setType, zoom } from "../base/presenting.js"
+import { NARROW, PHONE } from "../base/windows.js"
 import { arrange, spareWidth } from "./arrange.js"
 import { isFolded, labelOf, nameOf } from "./picture.js"
 import { sizePlot } from "./plot_looks.js"

@@ -5,7 +5,7 @@
 // n₃; where there is a density, also re and im of the points ζ at which its Poisson kernel is.  The option `curves` names the
 // sources of curves (columns x, y, z, and t for the orbit) and their looks.
 
-import { listen } from "../page/bus.js"
+import { listen } from "../base/bus.js"
 import { drawPoint, drawTrail, TRAIL } from "./body_parts.js"
 import { FAINT, squareGhost } from "./ghost.js"
 import { LOOKS } from "./looks.js"

@@ -1,9 +1,9 @@
 // @ts-check
 // A square picture in space that drag, arrow keys and touch turn.  All of them begin with the view in the address.
 
-import { listen, tell } from "../page/bus.js"
-import { onDrag } from "../page/drag.js"
-import { arrowOf } from "../page/keys.js"
+import { listen, tell } from "../base/bus.js"
+import { onDrag } from "../base/drag.js"
+import { arrowOf } from "../base/keys.js"
 import { squareCanvas } from "./canvas.js"
 import { RADIUS } from "./projection.js"
 

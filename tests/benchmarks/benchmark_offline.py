@@ -34,7 +34,7 @@ READY = """new MutationObserver(() => {
 DRAG = """async ([low, high, count]) => {
     const { body } = await fetch(`data:;base64,${document.getElementById("code").textContent}`)
     const { page } = await new Response(body.pipeThrough(new DecompressionStream("deflate"))).json()
-    const { "page/bus.js": { tell } } = await import(page)
+    const { "base/bus.js": { tell } } = await import(page)
     let painted = null
     new MutationObserver(() => painted?.()).observe(document.documentElement, { attributeFilter: ["data-state"] })
     const times = []

@@ -3,7 +3,7 @@
 import { readFileSync } from "node:fs"
 
 import { decodeStrip } from "../../static/offline/strip.js"
-import { unpack } from "../../static/page/unpack.js"
+import { unpack } from "../../static/base/unpack.js"
 
 const strip = await decodeStrip(new Blob([readFileSync(process.argv[2])]).stream())
 const list = (item) => {

@@ -35,12 +35,12 @@ def test_each_module_comes_after_those_that_it_imports():
     written = re.findall(r"^// ([\w/]+\.js)$", bundle("page/served.js"), re.MULTILINE)
     assert written == paths("page/served.js")
     assert len(written) == len(set(written)) > 90
-    assert written.index("page/bus.js") < written.index("page/client.js") < written.index("page/served.js")
+    assert written.index("base/bus.js") < written.index("page/client.js") < written.index("page/served.js")
 
 
 def test_a_file_has_nothing_that_talks_to_a_server():
     found = {*paths("offline/file.js")}
-    assert {"offline/file.js", "page/shell.js", "page/bus.js", "pictures/sphere.js", "controls/player.js"} <= found
+    assert {"offline/file.js", "page/shell.js", "base/bus.js", "pictures/sphere.js", "controls/player.js"} <= found
     assert not SERVER_ONLY & found
 
 

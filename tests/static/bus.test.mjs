@@ -1,7 +1,7 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import { listen, tell } from "../../static/page/bus.js"
+import { listen, tell } from "../../static/base/bus.js"
 
 test("every listener of an event hears its detail, in order, and no other event", () => {
   const heard = []

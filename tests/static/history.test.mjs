@@ -3,7 +3,7 @@ import "./browser.mjs"
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import { listen, tell } from "../../static/page/bus.js"
+import { listen, tell } from "../../static/base/bus.js"
 import { createHistory } from "../../static/page/history.js"
 import { Element, point } from "./browser.mjs"
 

@@ -3,7 +3,7 @@ import "./browser.mjs"
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import { onDrag } from "../../static/page/drag.js"
+import { onDrag } from "../../static/base/drag.js"
 import { isNear } from "../../static/pictures/touch.js"
 import { Element } from "./browser.mjs"
 

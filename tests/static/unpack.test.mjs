@@ -1,7 +1,7 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import { unpack } from "../../static/page/unpack.js"
+import { unpack } from "../../static/base/unpack.js"
 
 test("arrays are views of the block, grids keep their shape, and plain values stay", () => {
   const block = Float32Array.from([0, 1, 2, 3, 4, 5, 6, 7, 8]).buffer

@@ -11,7 +11,7 @@ SERVED = f"{modules_path()}/page/served.js"
 
 _SCRIPT = """const begin = () => {
   import(new URL("BUNDLE", document.baseURI).href).then((modules) => {
-    const { "page/bus.js": bus, "pictures/gallery.js": { gallery }, "pictures/cloud.js": { cloudsOf } } = modules
+    const { "base/bus.js": bus, "pictures/gallery.js": { gallery }, "pictures/cloud.js": { cloudsOf } } = modules
     window.hess = {
       get plots() { return gallery.shown.plots }, source: gallery.source, has: gallery.has, tell: bus.tell,
       listen: (name, hear) => bus.listen({ [name]: hear }), clouds: (source, t) => cloudsOf(source).at(t),

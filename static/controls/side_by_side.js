@@ -2,7 +2,7 @@
 // Links one of two pages side by side ("beside.js") to the other: both show the same moment in the same axes, and bodies and
 // spheres turn together.  Messages go only to pages of the same origin.
 
-import { listen, tell } from "./bus.js"
+import { listen, tell } from "../base/bus.js"
 
 export const HALF = "hess-explorer-half"
 // Event for the other page → event that the other page tells itself.

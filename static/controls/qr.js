@@ -1,7 +1,7 @@
 // @ts-check
 // The QR code of a link, drawn by the server.
 
-import { isFile } from "./embedding.js"
+import { isFile } from "../base/embedding.js"
 
 /** @param {string} link */
 const address = (link) => new URL(`qr.svg?text=${encodeURIComponent(link)}`, document.baseURI).href

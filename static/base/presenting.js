@@ -1,0 +1,53 @@
+// @ts-check
+// Present mode for lecture halls: larger type, lines and canvases (`zoom`, "shell.css"), and pictures that fill the window.
+
+import { listen, tell } from "./bus.js"
+import { isEmbedded } from "./embedding.js"
+
+const LARGER = 2
+// Font size in pixels at a desk.
+const DESK = 14
+
+let isOn = false
+let type = DESK
+
+/** Return whether present mode is on. */
+export const isPresenting = () => isOn
+
+/**
+ * Set the font size beside the pictures, in pixels, for `zoom`.
+ * @param {number} size
+ */
+export const setType = (size) => { type = size }
+
+/** Return the factor by which lines, dots and labels on canvases are enlarged. */
+export function zoom() {
+  return Math.max(isOn ? LARGER : 1, type / DESK)
+}
+
+/**
+ * Keep the classes `presenting` and `embedded` of an element up to date.
+ * @param {HTMLElement} el
+ */
+export function wear(el) {
+  const follow = () => {
+    el.classList.toggle("presenting", isOn)
+    el.classList.toggle("embedded", isEmbedded())
+  }
+  listen({
+    presenting: follow,
+    embedding: follow,
+  })
+  follow()
+}
+
+/**
+ * Enter or leave present mode.
+ * @param {boolean} on
+ */
+export function present(on) {
+  if (on === isOn) return
+  isOn = on
+  document.documentElement.toggleAttribute("data-present", on)
+  tell("presenting", on)
+}
