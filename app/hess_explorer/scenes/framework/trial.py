@@ -5,14 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, Generic, TypeVar, cast
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 import numpy as np
 
 from hess_explorer.compute.budget import OverBudget
 from hess_explorer.scenes.framework.work import Work
 from hess_explorer.views.layers import Axes
-from hess_explorer.views.picture import adapted
 from hess_mechanics.dynamics.orbit import solve
 from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.dynamics.shadowing import HALF_A_PIXEL, away_from, errors_in_pixels, torn_away
@@ -41,7 +40,6 @@ __all__ = [
 ]
 
 S = TypeVar("S", bound="State")
-H = TypeVar("H")
 T = TypeVar("T")
 
 _SAMPLES = 400
@@ -55,8 +53,8 @@ def _always(shown: object) -> bool:
 
 
 @dataclass(frozen=True)
-class Trial(Generic[H]):
-    """One kind of computation of a scene, for a state or a part of it.
+class Trial(Generic[S]):
+    """One kind of computation of a scene.
 
     kind, pictures : the kind, and the pictures that show it; empty means all pictures.
     run(state, plan) : computes it as the scene does; error(state, result, truth) : its error in `unit`, NaN if there
@@ -67,16 +65,12 @@ class Trial(Generic[H]):
 
     kind: Kind
     pictures: tuple[str, ...]
-    run: Callable[[H, Plan], Any]
-    error: Callable[[H, Any, Any], float]
+    run: Callable[[S, Plan], Any]
+    error: Callable[[S, Any, Any], float]
     unit: str = "pixels"
     seen: float = HALF_A_PIXEL
-    shown: Callable[[H], bool] = _always
+    shown: Callable[[S], bool] = _always
     most: tuple[tuple[str, float], ...] = ()
-
-    def of_part(self, part: Callable[[S], H]) -> Trial[S]:
-        """Return the trial of a state, from this trial of a part of it."""
-        return cast("Trial[S]", adapted(self, part))
 
     def small(self, state: S) -> S:
         """Return the state with parameters limited to `most`, so that it is computed in about a second."""

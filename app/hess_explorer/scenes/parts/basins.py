@@ -271,7 +271,7 @@ def _sampled(what: _Sought) -> Arrivals:
     return arrivals(what.orbits, there.sets, *(low + _SPREAD * (high - low)).T)
 
 
-def _error(s: Basins, cells: Array, truth: Array) -> float:
+def _error(cells: Array, truth: Array) -> float:
     """Return the percentage of the points of the truth that lie in a cell (n, m) of another colour."""
     columns, rows = (_SPREAD * cells.shape[::-1]).astype(int).T
     return 100.0 * float(np.mean(cells[rows, columns] != truth))
@@ -309,12 +309,12 @@ S = TypeVar("S", bound=State)
 
 def basins_trial(of: Callable[[S], Basins]) -> Trial[S]:
     """Return the trial of the basins, computed at each level."""
-    return Trial[Basins](
+    return Trial(
         Kind.BASINS,
         ("section",),
-        lambda s, plan: (_sampled if plan.level.aside else _at_once)(s.sought(plan)).number.astype(float),
-        _error,
+        lambda s, plan: (_sampled if plan.level.aside else _at_once)(of(s).sought(plan)).number.astype(float),
+        lambda s, cells, truth: _error(cells, truth),
         unit="% of the cells that change",
         seen=3.0,
-        shown=lambda s: s.wanted,
-    ).of_part(of)
+        shown=lambda s: of(s).wanted,
+    )

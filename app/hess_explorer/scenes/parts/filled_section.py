@@ -421,13 +421,13 @@ def _place(found: Array) -> Place:
 def filled_trial(of: Callable[[S], FilledSection]) -> Trial[S]:
     """Return the trial of the section, computed at each level."""
 
-    return Trial[FilledSection](
+    return Trial(
         Kind.SECTION,
         ("section",),
-        FilledSection.orbits_at,
-        lambda s, orbits, truth: section_error(orbits, truth, s.pixels, _PERIODS),
+        lambda s, plan: of(s).orbits_at(plan),
+        lambda s, orbits, truth: section_error(orbits, truth, of(s).pixels, _PERIODS),
         most=_LARGE,
-    ).of_part(of)
+    )
 
 
 def filled_picture(

@@ -145,12 +145,12 @@ def indicator_layer(of: Callable[[S], Indicator]) -> Layer[S]:
 
 def indicator_trial(of: Callable[[S], Indicator]) -> Trial[S]:
     """Return the trial of the cells, computed at each level."""
-    return Trial[Indicator](
+    return Trial(
         Kind.INDICATOR,
         ("section",),
-        lambda s, plan: np.stack([row_of_cells(*row)[1] for row in s.rows(plan)]),
+        lambda s, plan: np.stack([row_of_cells(*row)[1] for row in of(s).rows(plan)]),
         lambda s, cells, truth: changed(cells, truth),
         unit="% of the cells that change",
         seen=3.0,
-        shown=lambda s: s.wanted,
-    ).of_part(of)
+        shown=lambda s: of(s).wanted,
+    )

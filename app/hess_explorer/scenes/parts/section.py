@@ -307,33 +307,33 @@ def section_picture(of: Callable[[S], Section], start: str, title: str = "Poinca
     start : the name of the parameter that holds its place, see `places`.
     """
 
-    def range_of(axis: int) -> Callable[[Section], Range]:
-        return lambda s: (s.frame[0][axis], s.frame[1][axis])
+    def range_of(axis: int) -> Callable[[S], Range]:
+        return lambda s: (of(s).frame[0][axis], of(s).frame[1][axis])
 
-    def names(s: Section) -> tuple[str, str]:
-        first, second = s.poincare.names
+    def names(s: S) -> tuple[str, str]:
+        first, second = of(s).poincare.names
         return first, second
 
-    return Plot[Section](
+    return Plot(
         name="section",
         title=title,
-        caption=lambda s: s.caption,
+        caption=lambda s: of(s).caption,
         axes=names,
         x=range_of(0),
         y=range_of(1),
-        message=lambda s: s.reason,
+        message=lambda s: of(s).reason,
         on_click=lambda s, x, y: {start: written([(x, y)])},
         starts=True,
-        layers=section_plane.layers(lambda s: s.points, others=lambda s: s.others, ended=lambda s: s.ended),
-    ).of_part(of)
+        layers=section_plane.layers(lambda s: of(s).points, others=lambda s: of(s).others, ended=lambda s: of(s).ended),
+    )
 
 
 def section_trial(of: Callable[[S], Section]) -> Trial[S]:
     """Return the trial of the section, computed at each level."""
-    return Trial[Section](
+    return Trial(
         Kind.SECTION,
         ("section",),
-        Section.orbits_at,
-        lambda s, orbits, truth: section_error(orbits, truth, s.pixels, s.poincare.turns),
+        lambda s, plan: of(s).orbits_at(plan),
+        lambda s, orbits, truth: section_error(orbits, truth, of(s).pixels, of(s).poincare.turns),
         most=(("count", _MOST_COMPARED),),
-    ).of_part(of)
+    )
