@@ -131,20 +131,20 @@ class ChaplyginBall(State):
         """(ξ, γ) along the orbit."""
         return self.orbit.path.states[:, 2:] @ self.strip.xi
 
-    def strip_orbits(self, count: int, level: Level) -> Task:
+    def strip_orbits(self, count: int, level: Level) -> Task[tuple[StripOrbit, ...]]:
         """Return a task that computes `count` orbits over the strip, with E = 1."""
-        return Task(strip_orbits, (self.body, count, level))
+        return Task(strip_orbits, self.body, count, level)
 
-    def phases(self, count: int, level: Level) -> Task:
+    def phases(self, count: int, level: Level) -> Task[model.BallScattering]:
         """Return a task that computes θ⁺ of `count` phases.  The task raises `WorkLimit`."""
-        return Task(model.all_phases, (self.body, self.theta, count, self.distance, level, _MOST_STEPS))
+        return Task(model.all_phases, self.body, self.theta, count, self.distance, level, _MOST_STEPS)
 
     @cached_property
     def crowd(self) -> tuple[StripOrbit, ...]:
         """Orbits over the strip."""
         plan = self.plan(Kind.CURVE)
-        found: tuple[StripOrbit, ...] = self.work.sooner(
-            self.strip_orbits(plan.side(_ORBITS), plan.level), self.strip_orbits(_FEW_ORBITS, DRAFT)
+        found: tuple[StripOrbit, ...] = self.work.need(
+            self.strip_orbits(plan.side(_ORBITS), plan.level), preview=self.strip_orbits(_FEW_ORBITS, DRAFT)
         )
         return tuple((math.sqrt(self.h) * track, place) for track, place in found)
 
@@ -154,7 +154,9 @@ class ChaplyginBall(State):
         plan = self.plan(Kind.MAP)
         whole = plan.side(_PHASES)
         try:
-            return self.work.sooner(self.phases(whole, plan.level), self.phases(min(whole, _FEW_PHASES), DRAFT)), ""
+            return self.work.need(
+                self.phases(whole, plan.level), preview=self.phases(min(whole, _FEW_PHASES), DRAFT)
+            ), ""
         except WorkLimit as error:
             return None, f"The map of the phases is left out: {error}"
 
@@ -170,7 +172,12 @@ class ChaplyginBall(State):
         phis = self.map.phis
         return [
             np.column_stack(
-                [phis, self.work.get(model.free_theta_plus, self.body, self.theta, self.distance, tuple(phis.tolist()))]
+                [
+                    phis,
+                    self.work.need(
+                        Task(model.free_theta_plus, self.body, self.theta, self.distance, tuple(phis.tolist()))
+                    ),
+                ]
             )
         ]
 

@@ -155,31 +155,37 @@ class RotationNumber(State):
             []
             if self.dragging
             else [
-                self.work.later(mechanics.rows, *common, fine, first, min(first + _ROWS, fine[1]), plan.level)
+                self.work.need(
+                    Task(mechanics.rows, *common, fine, first, min(first + _ROWS, fine[1]), plan.level), preview=None
+                )
                 for first in range(0, fine[1], _ROWS)
             ]
         )
         known = [part for part in parts if part is not None]
         if parts and len(known) == len(parts):
             return mechanics.together(known), fine
-        return self.work.get(mechanics.rows, *common, _COARSE, 0, _COARSE[1], plan.level), _COARSE
+        return self.work.need(Task(mechanics.rows, *common, _COARSE, 0, _COARSE[1], plan.level)), _COARSE
 
     @cached_property
     def grids(self) -> tuple[CellGrid, CellGrid]:
         """ρ and the zones over the window."""
         return rotation_plane.grids(*self.grid, *self.window)
 
-    def lock(self, plan: Plan) -> Task:
+    def lock(self, plan: Plan) -> Task[Array]:
         """Return a task that computes |t| = 2 in the map, (n, 2)."""
         return Task(
             mechanics.lock_curve,
-            (self.over, self.beside, (*self.window[0], *self.window[1]), plan.level, plan.side(_ON_CURVE)),
+            self.over,
+            self.beside,
+            (*self.window[0], *self.window[1]),
+            plan.level,
+            plan.side(_ON_CURVE),
         )
 
     @cached_property
     def boundary(self) -> list[Array]:
         """Return |t| = 2 in the map, once known."""
-        found: Array | None = None if self.dragging else self.work.ask(self.lock(self.plan(Kind.CURVE)))
+        found: Array | None = None if self.dragging else self.work.need(self.lock(self.plan(Kind.CURVE)), preview=None)
         if found is None or not len(found):
             return []
         return [found, found * np.array([1.0, -1.0])] if self.sides[1] == "f" else [found]
@@ -199,7 +205,7 @@ class RotationNumber(State):
     @cached_property
     def along(self) -> TorusValues:
         """ρ and trace at `x`."""
-        return self.work.get(mechanics.along, self.on_line, self.x.size, self.plan(Kind.LINE).level)
+        return self.work.need(Task(mechanics.along, self.on_line, self.x.size, self.plan(Kind.LINE).level))
 
     @cached_property
     def perturbed(self) -> Array | None:
@@ -207,13 +213,16 @@ class RotationNumber(State):
         return (
             None
             if self.dragging
-            else self.work.later(
-                mechanics.perturbed_along,
-                self.on_line,
-                self.x.size,
-                self.epsilon,
-                self.plan(Kind.LINE).level,
-                self.plan(Kind.LINE).part(mechanics.TURNS),
+            else self.work.need(
+                Task(
+                    mechanics.perturbed_along,
+                    self.on_line,
+                    self.x.size,
+                    self.epsilon,
+                    self.plan(Kind.LINE).level,
+                    self.plan(Kind.LINE).part(mechanics.TURNS),
+                ),
+                preview=None,
             )
         )
 
@@ -228,7 +237,7 @@ class RotationNumber(State):
         """The torus on the line with the rational ρ; None if there is none or it is not known yet."""
         if self.dragging:
             return None
-        found = self.work.later(_periodic, self.sought, self.on_line)
+        found = self.work.need(Task(_periodic, self.sought, self.on_line), preview=None)
         return None if found is None else found[0]
 
     @cached_property
@@ -292,8 +301,9 @@ class RotationNumber(State):
             error = (
                 None
                 if self.dragging
-                else self.work.later(
-                    mechanics.rows_error, self.over, self.beside, self.window, self.plan(Kind.GRID).level
+                else self.work.need(
+                    Task(mechanics.rows_error, self.over, self.beside, self.window, self.plan(Kind.GRID).level),
+                    preview=None,
                 )
             )
             yield f"map {m} × {n}" + (f", ρ to {error:.1e} (99 of 100 cells)" if error is not None else "")

@@ -142,19 +142,19 @@ class SingularMeasures(State):
         """The strip of admissible ω."""
         return Strip(self.body, self.h)
 
-    def task(self, count: int, level: Level) -> Task:
+    def task(self, count: int, level: Level) -> Task[Clouds]:
         """Return a task that moves `count` points."""
         angle = self.angle if self.start == "small patch" else None
         span = -self.span if self.direction == "backward" else self.span
         field = self.b3 if self.beside == "principal axis" else None
-        return Task(clouds, (self.body, self.h, angle, self.spread, count, span, field, level))
+        return Task(clouds, self.body, self.h, angle, self.spread, count, span, field, level)
 
     @cached_property
     def clouds(self) -> Clouds:
         """The moving clouds."""
         plan = self.plan(Kind.CLOUD)
         count = plan.part(int(self.points), _FEW)
-        found: Clouds = self.work.sooner(self.task(count, plan.level), self.task(min(count, _FEW), plan.level))
+        found: Clouds = self.work.need(self.task(count, plan.level), preview=self.task(min(count, _FEW), plan.level))
         return found
 
     @cached_property

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from bokeh.palettes import Cividis256
 
-from hess_explorer.compute.cache import CACHE, Task
+from hess_explorer.compute.cache import Task
 from hess_explorer.compute.cells import Outcome, evaluate, refused
 from hess_explorer.protocol.parameters import Choice, Number, Places, Spec, Values, places, written
 from hess_explorer.scenes.framework.cells import COARSE, found_by_rows
@@ -140,7 +140,7 @@ def _row(cells: Cells, window: Window, count: int, row: int) -> Array:
             found[2, i], _ = refused(error, {cells.x.name: x, cells.y.name: y})
     if known:
         # By the arguments, which not every parameter of the scene changes.
-        found[:, [*known]] = CACHE.get(_evaluated, cells.charted, cells.number, cells.level, tuple(known.values()))[0]
+        found[:, [*known]] = Task(_evaluated, cells.charted, cells.number, cells.level, tuple(known.values())).get()
     return frozen(found)
 
 
@@ -232,7 +232,7 @@ class _Chart(Part[Any]):
         """Value, error and status (3, 1) in this state; None until known."""
         if self.reason:
             return None
-        found: Array | None = self.work.ask(Task(_row, (self.key, (self.place, self.place), 1, 0)))
+        found: Array | None = self.work.need(Task(_row, self.key, (self.place, self.place), 1, 0), preview=None)
         return found
 
     @cached_property

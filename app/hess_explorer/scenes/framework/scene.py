@@ -70,7 +70,7 @@ class Report:
     derived: Sequence[str]
     status: str
     notes: Sequence[str]
-    todo: Sequence[Task]
+    todo: Sequence[Task[Any]]
     total: int
     summary: str
 
@@ -411,7 +411,7 @@ class Scene(Generic[S]):
         """Set the level of "auto": the cheapest one whose error is invisible in every picture in sight."""
         if not state.work.auto or state.dragging:
             return
-        found = [state.work.later(needed, trial, plain) for trial, plain in self.in_sight(state)]
+        found = [state.work.need(Task(needed, trial, plain), preview=None) for trial, plain in self.in_sight(state)]
         known = [name for name in found if name is not None]
         if known and len(known) == len(found):
             state.work.settle(max(known, key=[*LEVELS].index))

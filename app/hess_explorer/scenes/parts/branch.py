@@ -10,7 +10,7 @@ from typing import Any, Protocol, Self, TypeVar
 
 import numpy as np
 
-from hess_explorer.compute.cache import CACHE, Task
+from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.parameters import Number, Values
 from hess_explorer.scenes.framework.families import Begin, Family
 from hess_explorer.scenes.framework.parameters import Slider, choice, number, specs_of
@@ -156,7 +156,7 @@ class Continuation(Part[_Host]):
         """The orbit that is continued, or why there is none; None until known."""
         if self.host.begin is None:
             return None
-        found: Closed | NotFound | None = self.work.ask(self.host.begin.search)
+        found: Closed | NotFound | None = self.work.need(self.host.begin.search, preview=None)
         return found
 
     @property
@@ -177,7 +177,7 @@ class Continuation(Part[_Host]):
             if begin.value == begin.ends[upwards]:
                 continue
             for k in range(_PARTS):
-                one: mechanics.Branch | NotFound | None = self.work.ask(Task(_part, (begin, upwards, k)))
+                one: mechanics.Branch | NotFound | None = self.work.need(Task(_part, begin, upwards, k), preview=None)
                 if one is None or isinstance(one, NotFound):
                     failed += [] if one is None else [one.reason]
                     whole = whole and one is not None
@@ -588,7 +588,8 @@ def _part(begin: Begin, upwards: bool, k: int) -> mechanics.Branch | NotFound:
             return continued(
                 family.map_at, found.orbit, family.symbol, begin.value, end, points, _symmetries, edge, _STEP
             )
-        before, _ = CACHE.get(_part, begin, upwards, k - 1)
+        before = Task(_part, begin, upwards, k - 1).get()
+        assert not isinstance(before, NotFound), "pieces are continued one after the other"
         return gone_on(family.map_at, before, end, edge, points, _symmetries, _STEP)
     except ModelError as error:
         go_on()

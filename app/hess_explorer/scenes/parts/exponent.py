@@ -9,6 +9,7 @@ from typing import Protocol, TypeVar
 
 import numpy as np
 
+from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.part import Host, Part, Start
 from hess_explorer.scenes.framework.periodic_search import NotFound
 from hess_explorer.scenes.framework.scene import State
@@ -91,7 +92,9 @@ class Exponent(Part[_Host]):
         if self.later:
             return None
         plan = self.work.plan(Kind.EXPONENT)
-        return self.work.later(_exponent, self.host.body, self.host.start, plan.share * self.host.long, plan.level)
+        return self.work.need(
+            Task(_exponent, self.host.body, self.host.start, plan.share * self.host.long, plan.level), preview=None
+        )
 
     @property
     def found(self) -> lyapunov.Exponent | None:

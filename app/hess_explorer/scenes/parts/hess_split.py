@@ -9,6 +9,7 @@ from typing import TypeVar
 
 import numpy as np
 
+from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.part import Host, Part
 from hess_explorer.scenes.framework.periodic_search import NotFound
 from hess_explorer.scenes.framework.scene import State
@@ -53,12 +54,11 @@ class HessSplit(Part[Host]):
     def _splits(self) -> list[Split | NotFound] | None:
         """The splits at the values of ε of the graph and of the slope; None until all are known."""
         asked = dict.fromkeys([*(self.reach * _QUARTERS).tolist(), *_CLOSE])
-        ask = self.work.known if self.work.dragging else self.work.later
         # Without separatrices at ε = 0 nothing can split.
-        first = ask(_split, self.torus, 0.0)
+        first = self.work.need(Task(_split, self.torus, 0.0), preview=None)
         if first is None or isinstance(first, NotFound):
             return None if first is None else [first]
-        found = [ask(_split, self.torus, value) for value in asked]
+        found = [self.work.need(Task(_split, self.torus, value), preview=None) for value in asked]
         known = [one for one in found if one is not None]
         return known if len(known) == len(found) else None
 

@@ -9,6 +9,7 @@ from typing import Any, Protocol, TypeVar
 
 import numpy as np
 
+from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.cells import CELLS, COARSE, DENSITY, Arguments, changed, found_by_rows
 from hess_explorer.scenes.framework.parameters import choice
 from hess_explorer.scenes.framework.part import Part, Sectioned
@@ -69,7 +70,7 @@ class Indicator(Part[_Host]):
     @cached_property
     def time(self) -> float:
         """The time span of the motion from each cell."""
-        return self.work.get(time_of, self.host.poincare, _TURNS)
+        return self.work.need(Task(time_of, self.host.poincare, _TURNS))
 
     def rows(self, plan: Plan, coarse: int = 1) -> list[Arguments]:
         """Return the arguments of `row_of_cells` for each row of cells as wide as `coarse` of the finest."""

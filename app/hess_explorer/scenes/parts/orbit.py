@@ -57,17 +57,17 @@ class Orbit(Part[_Host]):
     max_step: float = 0.0
 
     @property
-    def finding(self) -> Task:
+    def finding(self) -> Task[results.Orbit]:
         """The computation of its samples."""
         host = self.host
         level = self.work.level if self.accuracy is None else self.accuracy()
         step = self.max_step or None
-        return Task(sampled_orbit, (host.body, host.start, host.lasts, host.weights, level, self.most, step))
+        return Task(sampled_orbit, host.body, host.start, host.lasts, host.weights, level, self.most, step)
 
     @cached_property
     def path(self) -> results.Orbit:
         """Its samples: `times` (n,) and `states` (n, d)."""
-        found: results.Orbit = self.work.get(self.finding.function, *self.finding.arguments)
+        found: results.Orbit = self.work.need(self.finding)
         return found
 
     def motion(self) -> Motion:

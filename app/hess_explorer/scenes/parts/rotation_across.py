@@ -10,7 +10,7 @@ from typing import Protocol, TypeVar
 import numpy as np
 
 from hess_explorer.compute.cache import Task
-from hess_explorer.scenes.framework.orbit_batches import in_batches
+from hess_explorer.scenes.framework.orbit_batches import OrbitBatch, in_batches
 from hess_explorer.scenes.framework.part import Host, Part, Start
 from hess_explorer.scenes.framework.scene import State
 from hess_explorer.scenes.framework.trial import Trial
@@ -56,7 +56,7 @@ class _Host(Host, Protocol):
     def count(self) -> float:
         """The number of crossings of each orbit of the section."""
 
-    def batch(self, starts: tuple[Start, ...], crossings: int, forward: bool, level: Level) -> Task:
+    def batch(self, starts: tuple[Start, ...], crossings: int, forward: bool, level: Level) -> Task[OrbitBatch]:
         """Return the computation of an `OrbitBatch`: so many crossings of the orbits from these states."""
 
 
@@ -91,11 +91,11 @@ class RotationAcross(Part[_Host]):
         """The known orbits with the positions of their starts along the line, and whether they are complete."""
         plan = self.work.plan(Kind.ROTATION)
         count, crossings = _HELD[:2] if self.work.dragging else (plan.side(_ACROSS), self._crossings_on_line(plan))
-        starts = self.work.get(on_line, self.host.poincare, self.ends, count)
+        starts = self.work.need(Task(on_line, self.host.poincare, self.ends, count))
         found: list[tuple[float, Array]] = []
         for some in in_batches(starts):
             task = self.host.batch(tuple(state for _, state in some), crossings, True, plan.level)
-            piece = self.work.soon(task.function, *task.arguments)
+            piece = self.work.need(task, preview=task if self.work.dragging else None)
             if piece is not None:
                 found += zip((share for share, _ in some), piece.orbits, strict=True)
         return found, len(found) == len(starts)

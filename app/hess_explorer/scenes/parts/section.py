@@ -98,7 +98,7 @@ class Section(Part[_Host]):
     """
 
     start: Callable[[], Start]
-    crossing: Callable[[int, Level], tuple[Task, Task]] | None = None
+    crossing: Callable[[int, Level], tuple[Task[SectionPoints], Task[SectionPoints]]] | None = None
     axes: Callable[[], Axes] | None = None
     closed: Callable[[], Closed | None] = none_closed
     later: bool = False
@@ -143,12 +143,12 @@ class Section(Part[_Host]):
         """The number of crossings of each orbit."""
         return self.work.plan(Kind.SECTION).part(self.host.count, _FEW)
 
-    def _tasks(self, crossings: int, level: Level) -> tuple[Task, Task]:
+    def _tasks(self, crossings: int, level: Level) -> tuple[Task[SectionPoints], Task[SectionPoints]]:
         if self.crossing is not None:
             return self.crossing(crossings, level)
         return (
-            Task(_crossings, (self.poincare, (self.given,), crossings, level)),
-            Task(_spread, (self.poincare, self.frame, crossings, level)),
+            Task(_crossings, self.poincare, (self.given,), crossings, level),
+            Task(_spread, self.poincare, self.frame, crossings, level),
         )
 
     @cached_property
@@ -158,8 +158,8 @@ class Section(Part[_Host]):
         few, whole = (self._tasks(count, level) for count in (min(self.wanted, _FEW), self.wanted))
         mine = few[0] if self.work.dragging else whole[0]
         try:
-            own: SectionPoints = self.work.get(mine.function, *mine.arguments)
-            return _Crossed(own, self.work.sooner(whole[1], few[1]), "")
+            own: SectionPoints = self.work.need(mine)
+            return _Crossed(own, self.work.need(whole[1], preview=few[1]), "")
         except WorkLimit as error:
             return _Crossed(None, None, f"The section is left out: {error}")
 
@@ -220,7 +220,7 @@ class Section(Part[_Host]):
         if self.work.dragging or self.closed() is not None or crossed.own is None or crossed.others is None:
             return None
         tight: list[SectionPoints | None] = [
-            self.work.later(task.function, *task.arguments)
+            self.work.need(task, preview=None)
             for task in self._tasks(self.wanted, self.work.plan(Kind.SECTION).level.tightened())
         ]
         if self.work.todo:
