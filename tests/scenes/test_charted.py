@@ -14,7 +14,7 @@ from hess_explorer.page.requested import RequestedState
 from hess_explorer.protocol.parameters import decode, encode
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.cells import COARSE
-from hess_explorer.scenes.framework.charted import STORED
+from hess_explorer.scenes.framework.chart_cells import STORED
 from hess_mechanics.catalogue import find
 from hess_mechanics.dynamics.cells import centres
 from hess_mechanics.errors import ModelError

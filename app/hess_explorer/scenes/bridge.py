@@ -10,6 +10,7 @@ from functools import cached_property
 import numpy as np
 
 from hess_explorer.compute.cache import Task
+from hess_explorer.protocol.parameters import Values
 from hess_explorer.scenes.framework import hess_case
 from hess_explorer.scenes.framework.charted import Charts, of_torus
 from hess_explorer.scenes.framework.hess_case import HeavyHess
@@ -150,16 +151,17 @@ class BothSides(State):
         """Return the meaning of h and f on the given side."""
         return dict.fromkeys("hf", (known.H_HEAVY if self.given == HEAVY else known.H_HESS).means)
 
-    def carried(self, before: BothSides) -> Mapping[str, float]:
+    def carried(self, before: BothSides) -> Values:
         """Return the parameters of the same motion after a change of the given side.  Raises `ModelError`."""
+        others = super().carried(before)
         if self.given == before.given:
-            return {}
+            return others
         bridge = before.bridge
         translate = bridge.in_units_of_b if before.given == HEAVY else bridge.from_units_of_b
         h, f = map(_without_round_off, translate(before.h, before.f))
         shown = before.idle()
         # Units b = 1 hide the sign of b; here b > 0, so μ < 0 reverses the vertical.
-        return {**shown, **({"b3": -abs(shown["b3"])} if "b3" in shown else {}), "h": h, "f": f}
+        return {**others, **shown, **({"b3": -abs(shown["b3"])} if "b3" in shown else {}), "h": h, "f": f}
 
     @cached_property
     def bridge(self) -> Bridge:

@@ -12,6 +12,8 @@ from typing import Any, ClassVar, Generic, Self, TypeVar, cast
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.parameters import Choice, Number, Spec, Value, Values
+from hess_explorer.scenes.framework.chart import charting
+from hess_explorer.scenes.framework.chart_picture import chart_picture
 from hess_explorer.scenes.framework.charted import Charts
 from hess_explorer.scenes.framework.parameters import Slider, specs_of
 from hess_explorer.scenes.framework.part import Host, Part, part
@@ -212,8 +214,8 @@ class Scene(Generic[S]):
         """Add the chart to states and pictures."""
         object.__setattr__(self, "charted", charts)
         if charts is not None:
-            object.__setattr__(self, "state", charts.added(self.state))
-            object.__setattr__(self, "views", (*self.views, charts.picture()))
+            object.__setattr__(self, "state", charting(self.state, charts))
+            object.__setattr__(self, "views", (*self.views, chart_picture(charts)))
 
     @cached_property
     def name(self) -> str:
