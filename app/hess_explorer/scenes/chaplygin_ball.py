@@ -228,27 +228,20 @@ class ChaplyginBall(State):
 
 _EXACT = replace(REFERENCE, promise=1e-2 * REFERENCE.promise)
 """The scattering map follows a motion for a time that depends on the promise, and always with the same order."""
-# Grids differ between levels, so the reference is computed on the grid of each result.
 _MEASURES: tuple[Trial[ChaplyginBall], ...] = (
     Trial(
         Kind.MAP,
         ("curve",),
-        lambda s, plan: s.phases(plan.side(_PHASES), plan.level).now(),
-        lambda s, found, truth: curve_error(
-            found.theta_plus, s.phases(found.phis.size, _EXACT).now().theta_plus, math.pi
-        ),
+        lambda s, plan: s.phases(plan.side(_PHASES), _EXACT if plan.level.aside else plan.level).now().theta_plus,
+        lambda s, found, truth: curve_error(found, truth, math.pi),
+        alike="cells",
     ),
     Trial(
         Kind.CURVE,
         ("omega",),
         lambda s, plan: s.strip_orbits(plan.side(_ORBITS), plan.level).now(),
-        lambda s, found, truth: (
-            math.sqrt(s.h)
-            * 0.5
-            * PIXELS
-            / s.half_width
-            * largest_distance(found, s.strip_orbits(len(found), REFERENCE.tightened()).now())
-        ),
+        lambda s, found, truth: math.sqrt(s.h) * 0.5 * PIXELS / s.half_width * largest_distance(found, truth),
+        alike="cells",
     ),
 )
 

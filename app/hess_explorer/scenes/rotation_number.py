@@ -25,7 +25,7 @@ from hess_explorer.views.layers import Axes, CellGrid
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits, superscript
 from hess_mechanics import parameters as known
-from hess_mechanics.numerics.accuracy import REFERENCE, Kind, Level, Plan
+from hess_mechanics.numerics.accuracy import REFERENCE, Kind, Plan
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov_hess import rotation_number as mechanics
 from hess_mechanics.suslov_hess.circle_map import CircleMap
@@ -317,52 +317,42 @@ def _periodic(rho: Fraction, line: ParameterLine) -> tuple[PeriodicTorus | None]
 
 
 # ---- what each level costs --------------------------------------------------------------------------------------
-# Grids differ between levels, so the reference is computed on the grid of each result.
-
-Map = tuple[TorusValues, tuple[int, int]]
 
 
-def _rows(s: RotationNumber, cells: tuple[int, int], level: Level) -> TorusValues:
-    return mechanics.rows(s.over, s.beside, s.window, cells, 0, cells[1], level)
-
-
-def _map_error(s: RotationNumber, found: Map, truth: Map) -> float:
-    values, cells = found
-    exact = _rows(s, cells, REFERENCE.tightened())
-    return colour_error(values.rho[values.possible], exact.rho[values.possible])
-
-
-def _line(s: RotationNumber, places: int, level: Level, turns: int = mechanics.TURNS) -> Array:
+def _line(s: RotationNumber, plan: Plan) -> Array:
     """Return ρ of the tori on the line and of the other family."""
-    values = mechanics.along(s.on_line, places, level)
-    return np.stack(
-        [
-            np.where(values.possible, values.rho, np.nan),
-            mechanics.perturbed_along(s.on_line, places, s.epsilon, level, turns),
-        ]
-    )
+    places = plan.side(_ON_LINE)
+    values = mechanics.along(s.on_line, places, plan.level)
+    perturbed = mechanics.perturbed_along(s.on_line, places, s.epsilon, plan.level, plan.part(mechanics.TURNS))
+    return np.stack([np.where(values.possible, values.rho, np.nan), perturbed])
 
 
-def _line_error(s: RotationNumber, found: Array, truth: Array) -> float:
-    exact = _line(s, found.shape[1], REFERENCE.tightened(), 2 * mechanics.TURNS)
+def _line_error(s: RotationNumber, found: Array, exact: Array) -> float:
     there = np.isfinite(found) & np.isfinite(exact)
     low, high = rotation_line.RHO
     return curve_error(found[there], exact[there], high - low, period=1.0) if there.any() else math.nan
+
+
+def _map(s: RotationNumber, plan: Plan) -> TorusValues:
+    m, n = plan.grid(_FINE)
+    return mechanics.rows(s.over, s.beside, s.window, (m, n), 0, n, plan.level)
 
 
 _MEASURES: tuple[Trial[RotationNumber], ...] = (
     Trial(
         Kind.GRID,
         ("map",),
-        lambda s, plan: (_rows(s, plan.grid(_FINE), plan.level), plan.grid(_FINE)),
-        _map_error,
+        _map,
+        lambda s, found, truth: colour_error(found.rho[found.possible], truth.rho[found.possible]),
         COLOUR_UNIT,
+        "cells",
     ),
     Trial(
         Kind.LINE,
         ("line", "trace"),
-        lambda s, plan: _line(s, plan.side(_ON_LINE), plan.level, plan.part(mechanics.TURNS)),
+        _line,
         _line_error,
+        alike="cells",
     ),
     Trial(
         Kind.CURVE,

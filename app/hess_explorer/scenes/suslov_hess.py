@@ -30,7 +30,7 @@ from hess_explorer.views.text import digits
 from hess_explorer.views.velocity_plane import nice_above, picture
 from hess_mechanics import parameters as known
 from hess_mechanics.errors import InvalidParameter, Separatrix
-from hess_mechanics.numerics.accuracy import DRAFT, REFERENCE, Kind, Level
+from hess_mechanics.numerics.accuracy import DRAFT, Kind, Level
 from hess_mechanics.numerics.balls import has_flint
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov_hess.bifurcation import TurningPoints, curve, curve_point, f_max, reach, turning_points
@@ -278,9 +278,9 @@ _MEASURES: tuple[Trial[SuslovHess], ...] = (
         Kind.COLOURS,
         ("bifurcation",),
         lambda s, plan: s.colours(affordable_cells(s.body.a, plan.grid(CELLS)), plan.level).now(),
-        # Grids differ between levels, so the reference is computed on the grid of the result.
-        lambda s, found, truth: colour_error(found, s.colours(found.shape[::-1], REFERENCE).now()),
+        lambda s, found, truth: colour_error(found, truth),
         COLOUR_UNIT,
+        "cells",
     ),
     Trial(
         Kind.CURVE,
