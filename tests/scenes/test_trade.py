@@ -13,12 +13,12 @@ from hess_explorer.compute.cache import CACHE
 from hess_explorer.protocol.wire import Wire
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.stage import Stage
-from hess_explorer.scenes.framework.trial import Trial, bare, needed, section_error
+from hess_explorer.scenes.framework.trial import Trial, bare, measured, needed, section_error
 from hess_explorer.scenes.framework.work import AUTO
 from hess_explorer.scenes.parts.costs import Costs
 from hess_mechanics.dynamics.trade import LevelCost, beyond
 from hess_mechanics.errors import InvalidParameter
-from hess_mechanics.numerics.accuracy import LEVELS, PLANS, REFERENCE, Kind
+from hess_mechanics.numerics.accuracy import LEVELS, PLANS, Kind
 from support.thorough import sample
 
 SCENES = {name: scene for name, scene in scenes().items() if scene.origin is None}
@@ -52,8 +52,7 @@ CHEAP = [
 @pytest.mark.parametrize("name, trial", sample(CHEAP, 6), ids=lambda one: getattr(one, "kind", one))
 def test_a_finer_level_has_a_smaller_error(name, trial):
     state = bare(SCENES[name].of(SCENES[name].defaults()))
-    truth = trial.run(state, dataclasses.replace(PLANS[trial.kind]["reference"], level=REFERENCE.tightened()))
-    errors = [trial.error(state, trial.run(state, plan), truth) for plan in PLANS[trial.kind].values()]
+    errors = [one.error for one in measured(trial, state)]
     # The truth of an unstable motion is not known to more than 1e-4 pixels.
     assert errors[0] > 30.0 * errors[2] > 0.0
     # For colours `standard` has the tolerance of `draft`, and smaller cells.
@@ -169,7 +168,7 @@ def test_the_cost_of_all_is_measured_when_its_picture_is_unfolded():
 def test_a_chaotic_section_has_no_error_and_says_so():
     trial = next(one for one in SUSLOV.trials if one.kind == Kind.SECTION)
     costs = tuple(LevelCost(name, 1.0, nan, True) for name in LEVELS)
-    work = types.SimpleNamespace(dragging=False, later=lambda *_: costs)
+    work = types.SimpleNamespace(dragging=False, need=lambda *_, **none: costs)
     found = Costs(work, bare(SUSLOV.of(SUSLOV.defaults())), (trial,))
     assert found.about().numbers == "Section has no error to measure: all of it is chaotic, or there is nothing."
     assert (found.curve(trial), found.rings(), found.level("draft"), [*found.rows()]) == (None, [], None, [])

@@ -200,7 +200,7 @@ def complete(scene: Scene[Any], values: Values, pictures: Collection[str], made:
         if not state.work.todo:
             break
         for task in state.work.todo:
-            state.work.get(task.function, *task.arguments)
+            state.work.need(task)
     return state, found
 
 

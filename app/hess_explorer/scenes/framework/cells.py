@@ -43,7 +43,7 @@ def found_by_rows(
     for stage, rows in enumerate(stages):
         # Every third row first, so that the whole window becomes finer.
         order = [i for begun in range(COARSE) for i in range(begun, len(rows), COARSE)]
-        found = {i: row for i in order if (row := work.ask(Task(row_of, rows[i]))) is not None}
+        found = {i: row for i in order if (row := work.need(Task(row_of, *rows[i]), preview=None)) is not None}
         left = len(rows) - len(found)
         if stage == 0:
             sooner()

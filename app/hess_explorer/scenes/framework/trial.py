@@ -5,18 +5,17 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, Generic, TypeVar, cast
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 import numpy as np
 
 from hess_explorer.compute.budget import OverBudget
 from hess_explorer.scenes.framework.work import Work
 from hess_explorer.views.layers import Axes
-from hess_explorer.views.picture import adapted
 from hess_mechanics.dynamics.orbit import solve
 from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.dynamics.shadowing import HALF_A_PIXEL, away_from, errors_in_pixels, torn_away
-from hess_mechanics.dynamics.trade import LevelCost, measure, measure_until
+from hess_mechanics.dynamics.trade import Alike, LevelCost, measure, measure_until
 from hess_mechanics.dynamics.work_precision import longest_span
 from hess_mechanics.dynamics.work_precision import truth as exactly
 from hess_mechanics.errors import ModelError
@@ -41,8 +40,6 @@ __all__ = [
 ]
 
 S = TypeVar("S", bound="State")
-H = TypeVar("H")
-T = TypeVar("T")
 
 _SAMPLES = 400
 _COLOUR = 1.0 / 256.0
@@ -55,28 +52,26 @@ def _always(shown: object) -> bool:
 
 
 @dataclass(frozen=True)
-class Trial(Generic[H]):
-    """One kind of computation of a scene, for a state or a part of it.
+class Trial(Generic[S]):
+    """One kind of computation of a scene.
 
     kind, pictures : the kind, and the pictures that show it; empty means all pictures.
     run(state, plan) : computes it as the scene does; error(state, result, truth) : its error in `unit`, NaN if there
     is nothing to compare.
+    alike : part of a plan in which the truth is computed as the measured level, because other points are not compared.
     seen : the largest invisible error; shown(state) : True if the pictures show it in this state.
     most : limits of parameters for which it takes about a second.
     """
 
     kind: Kind
     pictures: tuple[str, ...]
-    run: Callable[[H, Plan], Any]
-    error: Callable[[H, Any, Any], float]
+    run: Callable[[S, Plan], Any]
+    error: Callable[[S, Any, Any], float]
     unit: str = "pixels"
+    alike: Alike = ""
     seen: float = HALF_A_PIXEL
-    shown: Callable[[H], bool] = _always
+    shown: Callable[[S], bool] = _always
     most: tuple[tuple[str, float], ...] = ()
-
-    def of_part(self, part: Callable[[S], H]) -> Trial[S]:
-        """Return the trial of a state, from this trial of a part of it."""
-        return cast("Trial[S]", adapted(self, part))
 
     def small(self, state: S) -> S:
         """Return the state with parameters limited to `most`, so that it is computed in about a second."""
@@ -99,37 +94,31 @@ def bare(state: S) -> S:
     return found
 
 
-def _unless_refused(found: Callable[[], T]) -> T | Refused:
-    """Return the result, or `Refused` for a model error; `OverBudget` is raised because a later attempt may succeed."""
+def measured(trial: Trial[S], state: S) -> tuple[LevelCost, ...] | Refused:
+    """Return time and error of each level, for a `bare` state.  Raises `OverBudget`."""
     try:
-        return found()
+        return measure(*_of(trial, state), alike=trial.alike)
     except OverBudget:
+        # A later attempt may succeed.
         raise
     except ModelError as error:
         return Refused(str(error))
 
 
-def measured(trial: Trial[S], state: S) -> tuple[LevelCost, ...] | Refused:
-    """Return time and error of each level, for a `bare` state.  Raises `OverBudget`."""
-
-    def found() -> tuple[LevelCost, ...]:
-        less = trial.small(state)
-        return measure(trial.kind, lambda plan: trial.run(less, plan), lambda *both: trial.error(less, *both))
-
-    return _unless_refused(found)
-
-
 def needed(trial: Trial[S], state: S) -> str:
     """Return the cheapest level with an invisible error; `standard` if it cannot be computed.  Raises `OverBudget`."""
     try:
-        less = trial.small(state)
-        return measure_until(
-            trial.kind, lambda plan: trial.run(less, plan), lambda *both: trial.error(less, *both), trial.seen
-        )
+        return measure_until(*_of(trial, state), trial.seen, trial.alike)
     except OverBudget:
         raise
     except ModelError:
         return STANDARD.name
+
+
+def _of(trial: Trial[S], state: S) -> tuple[Kind, Callable[[Plan], Any], Callable[[Any, Any], float]]:
+    """Return the kind, the run and the error of a trial, as `measure` takes them."""
+    less = trial.small(state)
+    return trial.kind, lambda plan: trial.run(less, plan), lambda *both: trial.error(less, *both)
 
 
 def _measured_span(motion: Motion) -> float:
