@@ -65,7 +65,6 @@ def document(
     lesson: str = "",
     steps: Mapping[str, int] | None = None,
     home: str = HOME,
-    contents: str = "",
 ) -> bytes:
     """Return the file of a page.
 
@@ -85,8 +84,6 @@ def document(
         The family of each step of the lesson, by "lesson/number/revealed".
     home : str
         The address of the explorer, for the links.
-    contents : str
-        The relative address of a table of contents; "" for none.
 
     Returns
     -------
@@ -100,7 +97,6 @@ def document(
         "client": {**_CLIENT, **client},
         "lesson": lesson,
         "sheets": styles(),
-        "contents": contents,
         "recording": {
             **index,
             "scenes": recording.described(),

@@ -23,7 +23,6 @@ from hess_explorer.views import scattering_map as square
 from hess_explorer.views import theme
 from hess_explorer.views import velocity_plane as plane
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.comparison import Curves
 from hess_explorer.views.graph import over_time
 from hess_explorer.views.layers import arrows, curves, levels, names, region, ring
 from hess_explorer.views.plot import Plot
@@ -231,7 +230,6 @@ _MEASURES: tuple[Trial[ChaplyginBall], ...] = (
         lambda s, found, truth: curve_error(
             found.theta_plus, s.phases(found.phis.size, _EXACT).now().theta_plus, math.pi
         ),
-        lambda s, found: Curves(square.FRAME, (found.curve,)),
     ),
     Trial(
         Kind.CURVE,
@@ -244,10 +242,6 @@ _MEASURES: tuple[Trial[ChaplyginBall], ...] = (
             / s.half_width
             * largest_distance(found, s.strip_orbits(len(found), REFERENCE.tightened()).now())
         ),
-        lambda s, found: Curves(
-            plane.frame(s.half_width), tuple(math.sqrt(s.h) * track for track, _ in found), in_pairs=True
-        ),
-        alike=True,
     ),
 )
 

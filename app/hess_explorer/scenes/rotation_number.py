@@ -16,14 +16,11 @@ from hess_explorer.scenes.framework.charted import Charts, of_torus
 from hess_explorer.scenes.framework.hess_case import map_or_none, possible_f
 from hess_explorer.scenes.framework.parameters import accuracy_level, choice, number, parameter, places
 from hess_explorer.scenes.framework.scene import Preset, Scene, State
-from hess_explorer.scenes.framework.torus_trials import boundary
-from hess_explorer.scenes.framework.trial import COLOUR, COLOUR_UNIT, Trial, colour_error, curve_error
+from hess_explorer.scenes.framework.trial import COLOUR_UNIT, Trial, boundary_error, colour_error, curve_error
 from hess_explorer.scenes.framework.windows import Window, boxed, inside, tidy_window, window_of
 from hess_explorer.views import circle_map as circle
 from hess_explorer.views import rotation_line, rotation_plane
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.comparison import Cells, Curves, Frame
-from hess_explorer.views.graph import pieces
 from hess_explorer.views.layers import Axes, CellGrid
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits, superscript
@@ -179,11 +176,6 @@ class RotationNumber(State):
             (self.over, self.beside, (*self.window[0], *self.window[1]), plan.level, plan.side(_ON_CURVE)),
         )
 
-    @property
-    def frame(self) -> Frame:
-        """The map with its axes."""
-        return Frame(Axes(*self.window), self.sides)
-
     @cached_property
     def boundary(self) -> list[Array]:
         """Return |t| = 2 in the map, once known."""
@@ -330,13 +322,6 @@ def _map_error(s: RotationNumber, found: Map, truth: Map) -> float:
     return colour_error(values.rho[values.possible], exact.rho[values.possible])
 
 
-def _map_look(s: RotationNumber, found: Map) -> Cells:
-    values, (m, n) = found
-    # 2 lies outside the range of ρ, so locked cells get a colour of their own.
-    shown = np.where(values.possible, np.where(values.locked, 2.0, values.rho), np.nan)
-    return Cells(s.frame, shown.reshape(n, m), COLOUR)
-
-
 def _line(s: RotationNumber, places: int, level: Level, turns: int = mechanics.TURNS) -> Array:
     """Return ρ of the tori on the line and of the other family."""
     values = mechanics.along(s.on_line, places, level)
@@ -355,25 +340,12 @@ def _line_error(s: RotationNumber, found: Array, truth: Array) -> float:
     return curve_error(found[there], exact[there], high - low, period=1.0) if there.any() else math.nan
 
 
-def _line_look(s: RotationNumber, found: Array) -> Curves:
-    x = s.on_line.places(found.shape[1])
-    return Curves(
-        Frame(Axes(s.on_line.ends, rotation_line.RHO), (s.line, "ρ")),
-        tuple(
-            part
-            for rho in found
-            for part in pieces(np.column_stack([x, np.nan_to_num(rho)]), np.isfinite(rho), rotation_line.JUMP)
-        ),
-    )
-
-
 _MEASURES: tuple[Trial[RotationNumber], ...] = (
     Trial(
         Kind.GRID,
         ("map",),
         lambda s, plan: (_rows(s, plan.grid(_FINE), plan.level), plan.grid(_FINE)),
         _map_error,
-        _map_look,
         COLOUR_UNIT,
     ),
     Trial(
@@ -381,9 +353,13 @@ _MEASURES: tuple[Trial[RotationNumber], ...] = (
         ("line", "trace"),
         lambda s, plan: _line(s, plan.side(_ON_LINE), plan.level, plan.part(mechanics.TURNS)),
         _line_error,
-        _line_look,
     ),
-    boundary("map", lambda s, plan: s.lock(plan).now(), lambda s: s.frame),
+    Trial(
+        Kind.CURVE,
+        ("map",),
+        lambda s, plan: s.lock(plan).now(),
+        lambda s, found, truth: boundary_error(found, truth, Axes(*s.window)),
+    ),
 )
 
 SCENE = Scene(

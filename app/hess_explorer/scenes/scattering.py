@@ -20,7 +20,6 @@ from hess_explorer.scenes.framework.work import drift_status
 from hess_explorer.views import scattering_map as square
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.comparison import Curves
 from hess_explorer.views.layers import curves, levels, ring
 from hess_explorer.views.text import digits as in_digits
 from hess_explorer.views.text import vector
@@ -214,7 +213,6 @@ _MAP: Trial[Scattering] = Trial(
     ("curve", "map"),
     _map,
     lambda s, found, truth: curve_error(found, truth, math.pi),
-    lambda s, found: Curves(square.FRAME, (np.column_stack([_PHASES, found]),)),
 )
 
 SCENE = Scene(

@@ -16,7 +16,6 @@ from hess_explorer.scenes.framework.scene import Preset, Scene, State
 from hess_explorer.scenes.framework.trial import Trial
 from hess_explorer.views import cloud
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.comparison import compared
 from hess_explorer.views.graph import with_room
 from hess_explorer.views.layers import Columns, Range, column
 from hess_explorer.views.plot import Plot
@@ -231,9 +230,7 @@ _CLOUD: Trial[SingularMeasures] = Trial(
     Kind.CLOUD,
     (),
     lambda s, plan: s.task(plan.part(int(s.points), _FEW), plan.level).now(),
-    lambda s, found, truth: compared(cloud.look(found), cloud.look(_exact(s, found))).largest,
-    lambda s, found: cloud.look(found),
-    alike=True,
+    lambda s, found, truth: cloud.largest_distance(found, _exact(s, found)),
 )
 
 SCENE = Scene(

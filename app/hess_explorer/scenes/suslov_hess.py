@@ -16,15 +16,13 @@ from hess_explorer.scenes.framework.hess_case import Proved, limit_cycles, map_o
 from hess_explorer.scenes.framework.parameters import Slider, accuracy_level, number, parameter, slider_within
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
 from hess_explorer.scenes.framework.solid_body import Solid, hess_solid, solid_body
-from hess_explorer.scenes.framework.torus_trials import boundary
-from hess_explorer.scenes.framework.trial import COLOUR, COLOUR_UNIT, Trial, colour_error, curve_error
+from hess_explorer.scenes.framework.trial import COLOUR_UNIT, Trial, boundary_error, colour_error, curve_error
 from hess_explorer.scenes.framework.work import orbit_status
 from hess_explorer.scenes.parts.hess_surface import INVARIANT, HessSurface, shaded_by, surface_picture
 from hess_explorer.scenes.parts.proof import Proof, proved_error_shown
 from hess_explorer.views import bifurcation_diagram as diagram
 from hess_explorer.views import circle_map as circle
 from hess_explorer.views import torus_density, torus_plane
-from hess_explorer.views.comparison import Cells
 from hess_explorer.views.layers import CellGrid, Columns
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.poisson_sphere import Circle, Direction, Sphere, parallels
@@ -275,7 +273,6 @@ _MEASURES: tuple[Trial[SuslovHess], ...] = (
         ("circle",),
         lambda s, plan: circle_map(s.body.a, s.h, s.f, plan.level).theta(_PHASES),
         lambda s, theta, truth: curve_error(theta, truth, 2.0 * math.pi, period=2.0 * math.pi),
-        lambda s, theta: circle.look(_PHASES, theta),
     ),
     Trial(
         Kind.COLOURS,
@@ -283,13 +280,13 @@ _MEASURES: tuple[Trial[SuslovHess], ...] = (
         lambda s, plan: s.colours(affordable_cells(s.body.a, plan.grid(CELLS)), plan.level).now(),
         # Grids differ between levels, so the reference is computed on the grid of the result.
         lambda s, found, truth: colour_error(found, s.colours(found.shape[::-1], REFERENCE).now()),
-        lambda s, found: Cells(diagram.frame(s.h), found, COLOUR),
         COLOUR_UNIT,
     ),
-    boundary(
-        "bifurcation",
+    Trial(
+        Kind.CURVE,
+        ("bifurcation",),
         lambda s, plan: lock_boundary(s.body.a, plan.level, plan.side(_ON_BOUNDARY)),
-        lambda s: diagram.frame(s.h),
+        lambda s, found, truth: boundary_error(found, truth, diagram.window(s.h)),
     ),
 )
 

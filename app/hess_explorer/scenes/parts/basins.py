@@ -10,7 +10,6 @@ from typing import Protocol, TypeVar
 import numpy as np
 
 from hess_explorer.compute.cache import CACHE, Task
-from hess_explorer.scenes.framework.cells import look
 from hess_explorer.scenes.framework.part import Host, Part
 from hess_explorer.scenes.framework.periodic_search import Closed, Search, branch_of, sought
 from hess_explorer.scenes.framework.scene import State
@@ -315,7 +314,6 @@ def basins_trial(of: Callable[[S], Basins]) -> Trial[S]:
         ("section",),
         lambda s, plan: (_sampled if plan.level.aside else _at_once)(s.sought(plan)).number.astype(float),
         _error,
-        lambda s, cells: look(s.section.frame, s.host.poincare.names, cells),
         unit="% of the cells that change",
         seen=3.0,
         shown=lambda s: s.wanted,

@@ -15,8 +15,7 @@ from hess_explorer.scenes.framework.scene import State
 from hess_explorer.scenes.framework.trial import Trial
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.comparison import Curves, Frame
-from hess_explorer.views.graph import over_time, settled_range, thinned, with_room
+from hess_explorer.views.graph import over_time, thinned, with_room
 from hess_explorer.views.layers import Axes, Range
 from hess_explorer.views.picture import Picture
 from hess_explorer.views.plot import Plot
@@ -169,18 +168,11 @@ def exponent_picture(of: Callable[[S], Exponent], folded: str = "") -> Picture[S
 
 def exponent_trial(of: Callable[[S], Exponent]) -> Trial[S]:
     """Return the trial of the exponent, computed at each level."""
-
-    def look(s: Exponent, found: lyapunov.Exponent) -> Curves:
-        # The range fits all but the first tenth of the time.
-        axes = Axes((0.0, s.host.long), settled_range([found.rates]))
-        return Curves(Frame(axes, ("t", "λ")), (np.column_stack(thinned(found.times, found.rates)),))
-
     return Trial[Exponent](
         Kind.EXPONENT,
         ("exponent",),
         Exponent.at,
         lambda s, found, truth: abs(found.value - truth.value) / max(truth.spread, 1e-12),
-        look,
         unit="of what it changes by in the second half of its time",
         seen=10.0,
         most=(("long", _LONG),),

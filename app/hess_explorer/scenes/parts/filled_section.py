@@ -18,11 +18,10 @@ from hess_explorer.scenes.framework.part import Host, Part, Start
 from hess_explorer.scenes.framework.periodic_search import Closed
 from hess_explorer.scenes.framework.scene import State
 from hess_explorer.scenes.framework.trial import Trial, section_error
-from hess_explorer.scenes.framework.windows import Window, boxed, frame_of, inside, tidy_window, window_of
+from hess_explorer.scenes.framework.windows import Window, boxed, inside, tidy_window, window_of
 from hess_explorer.scenes.framework.work import drift_status, kept_status
 from hess_explorer.views import density, layered_section, theme
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.comparison import Marks
 from hess_explorer.views.layers import Axes, Layer
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.section_plane import joined
@@ -427,7 +426,6 @@ def filled_trial(of: Callable[[S], FilledSection]) -> Trial[S]:
         ("section",),
         FilledSection.orbits_at,
         lambda s, orbits, truth: section_error(orbits, truth, s.pixels, _PERIODS),
-        lambda s, orbits: Marks(frame_of(s.frame, s.poincare.names), tuple(orbits), _PERIODS, crossings=True),
         most=_LARGE,
     ).of_part(of)
 

@@ -17,7 +17,6 @@ from hess_explorer.scenes.framework.trial import Trial
 from hess_explorer.scenes.framework.windows import Window
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.comparison import Curves, Frame
 from hess_explorer.views.graph import with_room
 from hess_explorer.views.layers import Axes, Range, curves, points, region
 from hess_explorer.views.picture import Picture
@@ -198,16 +197,11 @@ S = TypeVar("S", bound=State)
 
 def rotation_trial(of: Callable[[S], RotationAcross]) -> Trial[S]:
     """Return the trial of the rotation numbers, computed at each level."""
-
-    def look(s: RotationAcross, found: RotationProfile) -> Curves:
-        return Curves(Frame(Axes(s.along, _axis_of(found)), s.names), tuple(_branches(found)))
-
     return Trial[RotationAcross](
         Kind.ROTATION,
         ("rotation",),
         RotationAcross.at,
         lambda s, found, truth: found.distance(truth),
-        look,
         unit="turns, the median",
         seen=RESOLVED,
     ).of_part(of)

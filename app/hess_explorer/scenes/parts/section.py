@@ -16,11 +16,10 @@ from hess_explorer.scenes.framework.part import Part, Sectioned, Start
 from hess_explorer.scenes.framework.periodic_search import Closed, none_closed
 from hess_explorer.scenes.framework.scene import State
 from hess_explorer.scenes.framework.trial import Trial, section_error
-from hess_explorer.scenes.framework.windows import Window, boxed, frame_of, tidy_window, window_of
+from hess_explorer.scenes.framework.windows import Window, boxed, tidy_window, window_of
 from hess_explorer.scenes.framework.work import drift_status, kept_status
 from hess_explorer.views import section_plane
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.comparison import Marks
 from hess_explorer.views.layers import Axes, Range
 from hess_explorer.views.picture import Picture
 from hess_explorer.views.plot import Plot
@@ -331,16 +330,10 @@ def section_picture(of: Callable[[S], Section], start: str, title: str = "Poinca
 
 def section_trial(of: Callable[[S], Section]) -> Trial[S]:
     """Return the trial of the section, computed at each level."""
-
-    def look(s: Section, orbits: list[Array]) -> Marks:
-        first, second = s.poincare.turns
-        return Marks(frame_of(s.frame, s.poincare.names), tuple(orbits), (first, second), crossings=True)
-
     return Trial[Section](
         Kind.SECTION,
         ("section",),
         Section.orbits_at,
         lambda s, orbits, truth: section_error(orbits, truth, s.pixels, s.poincare.turns),
-        look,
         most=(("count", _MOST_COMPARED),),
     ).of_part(of)
