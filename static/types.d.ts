@@ -133,6 +133,8 @@ interface LessonStep {
   text: string
   scene: string
   look: string
+  /** Names of the pictures that are shown alone; none with the whole page. */
+  pictures: string[]
   question: string
   answer: string
   /** Names of parameters. */
@@ -381,7 +383,8 @@ interface Host {
 
 /** The events of "base/bus.js", by name, with their details. */
 interface PageEvents {
-  introduce: string[] | null
+  /** The pictures that are shown alone, over the text of their step; none with the whole page. */
+  alone: string[]
   // To the client
   change: Record<string, number | string>
   expression: Texts

@@ -50,7 +50,7 @@ function start() {
   buildPage(model, { mark: "#", connect: connectTo(createRecorded(recording, stripAt, query)), answering: () => new Promise(() => {}) }, {
     mount, bar: [mount("bar", renderBar, { first: [opener("a.tool.home", "Explorer")], dialogs: {} })],
     lessons: { index: Object.values(recording.lessons).map(({ name, title, minutes }) => ({ name, title, minutes })) },
-    introduction: element("div"), styles: stylesOf(sheets, FRAME),
+    styles: stylesOf(sheets, FRAME),
   }, el)
 }
 

@@ -49,7 +49,8 @@ def _query() -> str:
 
 def _page(query: str, own: Sequence[Lesson]) -> Explorer:
     opened = opening(query, own)
-    reading = opened.reading
+    # Only the browser knows whether this is a first visit.
+    reading = opened.reading or (None if query else opened.lessons["introduction"])
     return Explorer(
         client=opened.client,
         lesson=describe_lesson(reading) if reading else "",
