@@ -348,6 +348,8 @@ interface Compared {
 
 /** Options of the export dialog: [kind, label, content] of each format; [least, most, usual] of the numbers. */
 interface ExportFiles {
+  /** Name and version. */
+  program: string
   formats: [string, string, string][]
   width: [number, number, number]
   seconds: [number, number, number]

@@ -4,7 +4,7 @@
 import { tell } from "../page/bus.js"
 import { element } from "../page/elements.js"
 import { gallery } from "./gallery.js"
-import { onDark, setDark, shade } from "./looks.js"
+import { bytesOf, onDark, setDark, shade } from "./looks.js"
 import { sizePlot } from "./plot_looks.js"
 import { pngOf } from "./png.js"
 
@@ -22,6 +22,9 @@ const BESIDE = 8
 const FONT = "system-ui, sans-serif"
 
 /** @typedef {{picture: string, side: number, ratio: number, isDark?: boolean, isBlack?: boolean, texts?: LiftedText[]}} Wanted */
+
+/** Return the colour of text. */
+const ink = () => `rgb(${bytesOf(shade(INK)).slice(0, 3)})`
 
 /** Return a square sheet of paper and its context. @param {number} side */
 function sheetOf(side) {
@@ -52,7 +55,7 @@ function inTheme(isDark, act) {
 function draw({ picture, side, ratio, isDark = false, isBlack = false, texts }) {
   return inTheme(isDark, () => {
     const { sheet, ctx } = sheetOf(side)
-    const look = { edge: side / ratio, ratio, text: shade(INK), dark: isDark, isFine: true, texts }
+    const look = { edge: side / ratio, ratio, text: ink(), dark: isDark, isFine: true, texts }
     ctx.drawImage(gallery.shown.shots.get(picture)(look), 0, 0)
     if (isBlack) {
       // Takes the colours away.
@@ -128,7 +131,7 @@ export async function frameUrl({ t, title, lines, ...wanted }) {
     const { sheet, ctx } = sheetOf(side)
     ctx.drawImage(drawn, Math.round((side - drawn.width) / 2), Math.round(ratio * HEAD))
     ctx.scale(ratio, ratio)
-    ctx.fillStyle = shade(INK)
+    ctx.fillStyle = ink()
     ctx.font = `${LARGE}px ${FONT}`
     const time = `t = ${t.toFixed(2)}`
     const clock = ctx.measureText("t = 000.00").width

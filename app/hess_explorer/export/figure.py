@@ -1,4 +1,4 @@
-"""Figures for print with Matplotlib: plots in the colours of the page or black on white, and images with their texts."""
+"""Figures for print with Matplotlib: plots, in colours or black on white, and images with their texts."""
 
 from __future__ import annotations
 
@@ -201,14 +201,14 @@ def _style() -> AbstractContextManager[None]:
 def saved(figure: Figure, data: PictureData, kind: str) -> bytes:
     """Return a figure as a file whose metadata contain link, parameters and version."""
     text = data.metadata_text
-    metadata: dict[str, Any] = {
-        "png": data.texts,
+    metadata: dict[str, dict[str, Any]] = {
+        "png": {**data.texts},
         "svg": {"Title": data.title, "Description": f"{data.caption} {text}", "Date": None},
         "pdf": {"Title": data.title, "Subject": text, "Keywords": data.caption, "CreationDate": None},
-    }[kind]
+    }
     out = io.BytesIO()
     with _style():
-        figure.savefig(out, format=kind, dpi=_DOTS_PER_INCH, metadata=metadata)
+        figure.savefig(out, format=kind, dpi=_DOTS_PER_INCH, metadata=metadata[kind])
     return out.getvalue()
 
 

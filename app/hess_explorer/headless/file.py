@@ -1,4 +1,4 @@
-"""Write a picture in any of the file formats: tables and plots without a browser, everything else as the page draws it."""
+"""Write a picture in any of the file formats: tables and plots without a browser, all else as the page draws it."""
 
 from __future__ import annotations
 
