@@ -6,6 +6,7 @@ import { render as renderBar } from "../controls/bar.js"
 import { element } from "../base/elements.js"
 import { createMount, FRAME, stylesOf } from "../page/mount.js"
 import { buildPage, opener } from "../page/shell.js"
+import { frameUrl, imageAndTexts, pictureUrl } from "../pictures/files.js"
 import { createRecorded } from "./recorded.js"
 import { createShelf } from "./strip.js"
 
@@ -55,3 +56,6 @@ function start() {
 }
 
 start()
+
+/** The functions by which "headless/drawing.py" draws the pictures of the page. */
+export const drawing = { frameUrl, imageAndTexts, pictureUrl }

@@ -105,6 +105,16 @@ class PictureData:
             f" | {note}" for note in self.notes
         )
 
+    @property
+    def texts(self) -> dict[str, str]:
+        """The metadata of a PNG file by keyword."""
+        return {
+            "Title": self.title,
+            "Description": self.metadata_text,
+            "Comment": self.caption,
+            "Software": self.facts["program"],
+        }
+
 
 def picture_data(query: str, picture: str = "", *, lenient: bool = False) -> PictureData:
     """Return a picture of the state that a query describes, with its data.

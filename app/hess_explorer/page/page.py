@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Sequence
+from importlib.metadata import version
 from typing import Any
 
 import panel as pn
@@ -25,6 +26,7 @@ __all__ = ["page"]
 logger = logging.getLogger("hess_explorer")
 
 _FILES = {
+    "program": f"hess-explorer {version('hess-explorer')}",
     "formats": [[kind, one.words, one.holds] for kind, one in FORMATS.items() if one.words],
     "width": [*WIDTHS, FileRequest.width],
     "seconds": [*SERVED_SECONDS, FileRequest.seconds],
