@@ -9,13 +9,13 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
+from hess_explorer.export.sphere_canvas import LOOKS
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from pytest import approx
 
 from hess_explorer.compute.background import Background
 from hess_explorer.compute.cache import CACHE
-from hess_explorer.export.sphere_canvas import LOOKS
 from hess_explorer.page import session
 from hess_explorer.protocol.parameters import Choice, Formula, Number, Places, written
 from hess_explorer.scenes.parts import precision
