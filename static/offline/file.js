@@ -6,13 +6,14 @@ import { render as renderBar } from "../controls/bar.js"
 import { element } from "../base/elements.js"
 import { createMount, FRAME, stylesOf } from "../page/mount.js"
 import { buildPage, opener } from "../page/shell.js"
+import { frameUrl, imageAndTexts, pictureUrl } from "../pictures/files.js"
 import { createRecorded } from "./recorded.js"
 import { createShelf } from "./strip.js"
 
 // Numbers of decoded strips that are kept, 4 bytes each.
 const MOST = 12_000_000
 
-/** @typedef {{client: ClientKeys, lesson: string, sheets: Record<string, string>, contents: string,
+/** @typedef {{client: ClientKeys, lesson: string, sheets: Record<string, string>,
  *   recording: import("./recorded.js").Recording}} FileModel
  */
 
@@ -36,7 +37,7 @@ const connectTo = (answer) => (receive) => {
 function start() {
   /** @type {FileModel} */
   const model = JSON.parse(read("model"))
-  const { client, sheets, recording, contents } = model
+  const { client, sheets, recording } = model
   const given = new URLSearchParams(location.hash.slice(1))
   for (const key of Object.keys(client)) if (given.has(key)) client[key] = given.get(key)
   // The lesson of the file is open from the start.
@@ -47,15 +48,14 @@ function start() {
   const el = element("div")
   root.append(el)
   const mount = createMount(sheets)
-  const first = [
-    ...(contents === "" ? [] : [element("a.tool.contents", { href: contents }, "Contents")]),
-    opener("a.tool.home", "Explorer"),
-  ]
   buildPage(model, { mark: "#", connect: connectTo(createRecorded(recording, stripAt, query)), answering: () => new Promise(() => {}) }, {
-    mount, bar: [mount("bar", renderBar, { first, dialogs: {} })],
+    mount, bar: [mount("bar", renderBar, { first: [opener("a.tool.home", "Explorer")], dialogs: {} })],
     lessons: { index: Object.values(recording.lessons).map(({ name, title, minutes }) => ({ name, title, minutes })) },
-    introduction: element("div"), styles: stylesOf(sheets, FRAME),
+    styles: stylesOf(sheets, FRAME),
   }, el)
 }
 
 start()
+
+/** The functions by which "headless/drawing.py" draws the pictures of the page. */
+export const drawing = { frameUrl, imageAndTexts, pictureUrl }

@@ -4,7 +4,7 @@
 /**
  * The states among which sliders move; the first one is where they begin.
  * @typedef {{scene: string, names: string[], points: number[][], states: [strip: number, at: number][], queries: string[],
- *   fixed: string, example: string}} Family
+ *   fixed: string}} Family
  */
 /**
  * What a file holds.  picks: scene → plot → the parameters of its axes; sources: scene → source → its columns; steps:
@@ -96,8 +96,6 @@ export function createRecorded({ families, picks, sources, steps, scenes, lesson
   function find(wanted) {
     if (known.has(wanted)) return known.get(wanted)
     const given = new URLSearchParams(wanted)
-    const example = families.findIndex((family) => family.example !== "" && family.example === given.get("example"))
-    if (example >= 0) return [example, 0]
     if (!given.has("scene")) return null
     return [...known].find(([one]) => [...new URLSearchParams(one)].every(([key, value]) => given.get(key) === value))?.[1] ?? null
   }
@@ -137,18 +135,13 @@ export function createRecorded({ families, picks, sources, steps, scenes, lesson
   }
 
   /** @param {StateRequest} request */
-  function apply({ values, expressions = {}, picked, step, restore, reset, scene, preset }) {
+  function apply({ values, expressions = {}, picked, step, restore, reset, scene }) {
     note = ""
     if (restore !== undefined) {
       const inside = families[here].queries.indexOf(restore)
       go(inside < 0 ? find(restore) : [here, inside])
     }
     if (reset) go([here, 0])
-    if (preset !== undefined) {
-      const { scene: name } = families[here]
-      const found = families.findIndex((family) => family.scene === name && family.example === preset)
-      go(found < 0 ? null : [found, 0])
-    }
     if (step !== undefined) go(step.join("/") in steps ? [steps[step.join("/")], 0] : null)
     else if (scene !== null && scene !== families[here].scene) {
       const found = families.findIndex((family) => family.scene === scene)
@@ -165,7 +158,7 @@ export function createRecorded({ families, picks, sources, steps, scenes, lesson
    * @returns {Record<string, ControlValue>}
    */
   function controlsHere(own) {
-    const { names, points, example } = families[here]
+    const { names, points } = families[here]
     /** @type {[string, ControlValue][]} */
     const sliders = names.map((name, i) => {
       const values = distinct(points.map((point) => point[i]))
@@ -173,7 +166,7 @@ export function createRecorded({ families, picks, sources, steps, scenes, lesson
       const [value = points[at][i], , , , idle = false] = /** @type {number[] & [any, any, any, any, boolean?]} */ (own[name] ?? [])
       return [name, [value, low, high, BELOW * (high - low) / Math.max(1, values.length - 1), idle]]
     })
-    return { ...Object.fromEntries(sliders), preset: at === 0 ? example : "" }
+    return Object.fromEntries(sliders)
   }
 
   /** Return the text about what moves in this file and what does not. */

@@ -2,9 +2,9 @@
 // Strips of computed states, as "offline/strips.py" packs them: decompressed and decoded when they are needed.
 
 /**
- * An array of a strip: its length, quantisation step (0: bits of single precision), least multiple of the step, order of its
- * differences, and the number of the array before it, or −1.
- * @typedef {[length: number, step: number, low: number, order: number, before: number]} Coding
+ * An array of a strip: its length, quantisation step (0: bits of single precision), least multiple of the step, and the number
+ * of the array before it, or −1.
+ * @typedef {[length: number, step: number, low: number, before: number]} Coding
  * @typedef {{trees: StoredTree[], arrays: Coding[], planes: number}} Head
  * @typedef {Omit<Tree, "sources"> & {sources: Record<string, Record<string, any>>}} StoredTree a tree whose arrays are {of, shape}
  */
@@ -25,10 +25,10 @@ export function wholeNumbers(arrays, bytes, planes) {
     for (let i = 0; i < count; i++) whole[i] |= bytes[from + i] << (8 * plane)
   }
   for (let i = 0; i < count; i++) whole[i] = (whole[i] >>> 1) ^ -(whole[i] & 1)
-  arrays.forEach(([length, , , order, before], k) => {
+  arrays.forEach(([length, , , before], k) => {
     const part = whole.subarray(starts[k], starts[k] + length)
     // Sums are taken modulo 2³².
-    for (let pass = 0; pass < order; pass++) for (let i = 1; i < length; i++) part[i] += part[i - 1]
+    for (let i = 1; i < length; i++) part[i] += part[i - 1]
     if (before >= 0) {
       const other = starts[before]
       for (let i = 0; i < length; i++) part[i] += whole[other + i]

@@ -37,9 +37,9 @@ export function createStage(shelf, gallery) {
   /** @type {string[]} */
   let large = []
   let wanted = ""
-  // The pictures that the introduction has reached; all without it.
-  /** @type {string[] | null} */
-  let introduced = null
+  // The pictures that a step of a lesson shows alone; all if there is none.
+  /** @type {string[]} */
+  let alone = []
   // Pixels that the text has taken.
   let spare = 0
   const chips = element("div.chips", { role: "group", ariaLabel: "Picture" })
@@ -91,7 +91,7 @@ export function createStage(shelf, gallery) {
    * @param {number} type
    */
   function viewport(scene, count, type) {
-    const isBeside = !NARROW.matches && !isPresenting() && !isEmbedded() && introduced === null
+    const isBeside = !NARROW.matches && !isPresenting() && !isEmbedded() && alone.length === 0
     const style = getComputedStyle(shelf)
     /** @param {string} name of a length in units of the font size, in "pictures.css" */
     const heightOf = (name) => Math.ceil(type * Number.parseFloat(style.getPropertyValue(name)))
@@ -117,11 +117,13 @@ export function createStage(shelf, gallery) {
     for (const [key, value] of Object.entries({ across: shelf.clientWidth, down: shelf.clientHeight, type })) {
       scene.grid.style.setProperty(`--${key}`, `${value}px`)
     }
-    const cells = scene.cells.filter((cell) => !isFolded(cell) && (introduced?.includes(nameOf(cell)) ?? true))
+    const open = scene.cells.filter((cell) => !isFolded(cell))
+    const chosenAlone = open.filter((cell) => alone.includes(nameOf(cell)))
+    const cells = chosenAlone.length > 0 ? chosenAlone : open
     for (const cell of scene.cells) if (!cells.includes(cell)) cell.classList.add("off")
     const own = scene === gallery.shown ? large.map((name) => cells.findIndex((cell) => nameOf(cell) === name)) : []
     const chosen = own.filter((i) => i >= 0)
-    const first = introduced?.at(-1) ?? scene.opening
+    const first = alone.at(-1) ?? scene.opening
     const opening = Math.max(0, cells.findIndex((cell) => nameOf(cell) === first))
     const seen = PHONE.matches ? [chosen[0] ?? opening] : cells.map((_, i) => i)
     const boxes = arrange(viewport(scene, seen.length, type), PHONE.matches ? [] : chosen)
@@ -147,7 +149,7 @@ export function createStage(shelf, gallery) {
 
   /** @param {Scene} scene @param {HTMLElement} seen */
   function showChips({ name, cells }, seen) {
-    chips.hidden = cells.length < 2 || introduced !== null
+    chips.hidden = cells.length < 2 || alone.length > 0
     if (chips.dataset.scene !== name) {
       chips.dataset.scene = name
       chips.replaceChildren(...cells.map((cell) => button("chip", () => {
@@ -161,6 +163,11 @@ export function createStage(shelf, gallery) {
       chip.ariaPressed = String(cells[i] === seen)
     })
     items[cells.indexOf(seen)].scrollIntoView({ block: "nearest", inline: "nearest" })
+  }
+
+  /** @param {string} name */
+  function unfold(name) {
+    if (isFolded(gallery.cell(name))) tell("fold", name)
   }
 
   /** @param {string[]} names */
@@ -198,8 +205,9 @@ export function createStage(shelf, gallery) {
   onKeys({ escape: () => large.length > 0 && enlarge([]) }, window)
 
   listen({
-    introduce(names) {
-      introduced = names
+    alone(names) {
+      alone = names
+      for (const name of names) unfold(name)
       // Wait until the page has its new sizes.
       requestAnimationFrame(placeShown)
     },
@@ -209,7 +217,7 @@ export function createStage(shelf, gallery) {
     painted() { if (PHONE.matches) placeShown() },
     // The picture of a lesson step.
     look(name) {
-      if (isFolded(gallery.cell(name))) tell("fold", name)
+      unfold(name)
       enlarge([name])
     },
     fold(name) {

@@ -14,7 +14,7 @@ from hess_explorer.page.requested import RequestedState
 from hess_explorer.protocol.parameters import decode, encode
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.cells import COARSE
-from hess_explorer.scenes.framework.charted import STORED
+from hess_explorer.scenes.framework.chart_cells import STORED
 from hess_mechanics.catalogue import find
 from hess_mechanics.dynamics.cells import centres
 from hess_mechanics.errors import ModelError
@@ -66,7 +66,7 @@ def test_the_own_number_and_coarse_cells_come_first_and_are_the_middle_ones_of_t
     state = state_of(known=False, a=0.35)
     assert state.charting.cells is None
     for task in state.work.todo[:9]:
-        state.work.get(task.function, *task.arguments)
+        state.work.need(task)
     coarse = state_of(known=False, a=0.35).charting.cells.cells
     assert ", 0 rows known" in state_of(known=False, a=0.35).charting.caption.numbers
     assert state_of(known=False, a=0.35).charting.own is not None
@@ -123,7 +123,7 @@ def test_an_error_belongs_to_its_number():
     values = {"chart": "lyapunov", "long": 20.0, "chart_window": "1,1;1.1,1.1"}
     state = state_of(SUSLOV, known=False, **values)
     own = next(task for task in state.work.todo if task.arguments[2] == 1)
-    state.work.get(own.function, *own.arguments)
+    state.work.need(own)
     state = state_of(SUSLOV, known=False, **values)
     found = find("lyapunov suslov").compute(SUSLOV.charted.numbers["lyapunov"][0].arguments(state), STANDARD)
     assert state.charting.own[:2, 0] == approx([found.value, found.spread], rel=1e-9)

@@ -6,7 +6,6 @@ import sys
 import time
 from pathlib import Path
 
-from .arguments import integer
 from .command import Command, Options, option, whole
 from .output import computing, show
 
@@ -16,7 +15,6 @@ __all__ = ["COMMAND"]
 def _run(options: Options) -> None:
     from hess_explorer.offline.html import HOME
     from hess_explorer.offline.site import build
-    from hess_mechanics.numerics.parallel import THREADS
 
     begun = time.monotonic()
 
@@ -29,7 +27,6 @@ def _run(options: Options) -> None:
             options.names,
             count=options.values,
             home=options.page or HOME,
-            workers=options.workers or THREADS,
             report=report,
         )
     lines = [f"{size:>12,} bytes  {path}" for path, size in sorted(sizes.items())]
@@ -40,8 +37,8 @@ def _run(options: Options) -> None:
 
 
 COMMAND = Command(
-    "Build a folder of pages that works without a server, from a disk, on any host and inside other pages: an index "
-    "with the gallery, all lessons, and each scene with its two main sliders, which move through computed states.",
+    "Build a folder of pages that works without a server, from a disk, on any host and inside other pages: all "
+    "lessons, each scene with its two main sliders, which move through computed states, and a page of links.",
     (
         option("folder", "the folder; files of an earlier site are replaced", type=Path, metavar="OUT"),
         option(
@@ -49,7 +46,6 @@ COMMAND = Command(
         ),
         whole("--values", 2, 400, "number of values of a slider", default=40),
         option("--page", "address of the explorer, for the links in the pages", default="", metavar="URL"),
-        option("--workers", "number of processes (default: one per core)", type=integer(1, 64), default=0, metavar="N"),
     ),
     _run,
     "course-pages --pages limit-cycles-and-locking suslov-hess --values 20",

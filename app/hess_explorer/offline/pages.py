@@ -11,20 +11,16 @@ from hess_explorer.offline.html import HOME, document
 from hess_explorer.offline.plan import Family, Slider, across, family, read_slider, slider_of
 from hess_explorer.offline.recording import Recording, Report
 from hess_explorer.page.lesson_description import describe_lesson
-from hess_explorer.protocol.parameters import Value, Values, encode
+from hess_explorer.protocol.parameters import Values, encode
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.part import part
-from hess_explorer.scenes.framework.scene import Preset, Scene
+from hess_explorer.scenes.framework.scene import Scene
 from hess_mechanics.numerics.accuracy import DRAFT
 
-__all__ = ["COUNT", "lesson_page", "planned", "scene_page", "state_page"]
+__all__ = ["COUNT", "accumulates", "lesson_page", "planned", "state_page"]
 
 COUNT = 40
 """Number of values of a slider by default."""
-_CLOUD = 500.0
-"""Number of points of a cloud in the page of a scene."""
-_WINDOW = ("first", "last")
-"""The ends of an orbit diagram: they choose what is computed."""
 
 
 def planned(query: str, sliders: Sequence[str], *, grid: bool = False, lenient: bool = False) -> Family:
@@ -44,7 +40,6 @@ def state_page(
     *,
     grid: bool = False,
     home: str = HOME,
-    contents: str = "",
     lenient: bool = False,
     report: Report | None = None,
 ) -> tuple[str, bytes]:
@@ -62,8 +57,6 @@ def state_page(
         True for all combinations of their values; by default each has its own line through the state.
     home : str
         Address of the explorer, for the links in the file.
-    contents : str
-        Relative address of a table of contents; "" for none.
     lenient : bool
         True to correct an invalid query, as in `address`.
     report : callable, optional
@@ -99,60 +92,7 @@ def state_page(
     }
     client = {name: repr(value) for name, value in found.client.items()}
     summary = f"{scene.summary} ?{found.link} | {parameters}"
-    return scene.name, document(scene.title, summary, recording, facts, client, home=home, contents=contents)
-
-
-def scene_page(
-    scene: Scene[Any],
-    examples: Sequence[Preset] = (),
-    count: int = COUNT,
-    *,
-    home: str = HOME,
-    contents: str = "",
-) -> bytes:
-    """Return the HTML file of a scene: its first state with its two most important sliders, and examples.
-
-    All states have the accuracy of a drag, which is right to half a pixel.  Scenes with clouds or densities have a
-    quarter of the values, and clouds `_CLOUD` points.
-
-    Parameters
-    ----------
-    scene : Scene
-        The scene.
-    examples : sequence of Preset
-        The examples.
-    count : int
-        Number of values of a slider.
-    home : str
-        Address of the explorer, for the links in the file.
-    contents : str
-        Relative address of a table of contents; "" for none.
-
-    Returns
-    -------
-    bytes
-        The contents of the file.
-
-    Raises
-    ------
-    ModelError
-        If the first state or an example cannot be computed.
-    """
-    light: dict[str, Value] = {"accuracy": DRAFT.name, "points": _CLOUD}
-    light = {name: value for name, value in light.items() if name in scene.defaults()}
-    values, _ = scene.admit({**scene.defaults(), **light})
-    if "points" in values or _accumulates(scene):
-        count = max(2, count // 4)
-    names = [name for name in scene.essential if name not in _WINDOW]
-    sliders = [slider for name in names if (slider := slider_of(scene, name, values, count)) is not None]
-    families = [family(scene, values, sliders[:2])]
-    for preset in examples:
-        at, _ = scene.admit({**scene.defaults(), **scene.example(preset), **light})
-        families.append(family(scene, at, [], example=preset.name))
-    recording = Recording({scene.name: scene.open_pictures})
-    recording.record(families)
-    facts = {"scene": scene.name, "title": scene.title, "link": encode(scene.name, values)}
-    return document(scene.title, scene.summary, recording, facts, {}, home=home, contents=contents)
+    return scene.name, document(scene.title, summary, recording, facts, client, home=home)
 
 
 def _moving(scene: Scene[Any]) -> Values:
@@ -160,10 +100,10 @@ def _moving(scene: Scene[Any]) -> Values:
 
     Sections and diagrams shaded by density take seconds at full accuracy: their sliders move at the accuracy of a drag.
     """
-    return {"accuracy": DRAFT.name} if _accumulates(scene) else {}
+    return {"accuracy": DRAFT.name} if accumulates(scene) else {}
 
 
-def _accumulates(scene: Scene[Any]) -> bool:
+def accumulates(scene: Scene[Any]) -> bool:
     """Return whether the pictures of a scene are shaded by the density of very many points."""
     return isinstance(getattr(scene.state, "density", None), part)
 
@@ -214,7 +154,6 @@ def lesson_page(
     count: int = COUNT,
     *,
     home: str = HOME,
-    contents: str = "",
     report: Report | None = None,
 ) -> bytes:
     """Return the HTML file of a lesson: all its steps, with the sliders that they name.
@@ -227,8 +166,6 @@ def lesson_page(
         Number of values of a slider.
     home : str
         Address of the explorer, for the links in the file.
-    contents : str
-        Relative address of a table of contents; "" for none.
     report : callable, optional
         See `Recording`.
 
@@ -265,5 +202,4 @@ def lesson_page(
         describe_lesson(lesson),
         steps,
         home,
-        contents,
     )

@@ -42,8 +42,7 @@ class Family:
     Attributes
     ----------
     scene : the scene; base : the values of the first state; names : the varied parameters; points : their values,
-    those of the first state first; moving : values of parameters in all other states, such as the accuracy; example :
-    the name of the example that the first state is, "" for none.
+    those of the first state first; moving : values of parameters in all other states, such as the accuracy.
     """
 
     scene: Scene[Any]
@@ -51,7 +50,6 @@ class Family:
     names: tuple[str, ...]
     points: tuple[tuple[float, ...], ...]
     moving: Values = field(default_factory=dict)
-    example: str = ""
 
     def values(self, point: Sequence[float]) -> Values:
         """Return the values of all parameters at a point."""
@@ -127,7 +125,6 @@ def family(
     *,
     grid: bool = False,
     moving: Values | None = None,
-    example: str = "",
 ) -> Family:
     """Return the states of sliders through a state.
 
@@ -143,8 +140,6 @@ def family(
         True for all combinations of their values; by default each slider has its own line through the state.
     moving : mapping, optional
         Values of parameters in all states but the first.
-    example : str
-        The name of the example that the state is.
 
     Returns
     -------
@@ -169,7 +164,7 @@ def family(
         points = _snake([slider.values for slider in sliders])
     else:
         points = [(*first[:i], value, *first[i + 1 :]) for i, one in enumerate(sliders) for value in one.values]
-    return Family(scene, base, names, tuple(dict.fromkeys([first, *points])), moving or {}, example)
+    return Family(scene, base, names, tuple(dict.fromkeys([first, *points])), moving or {})
 
 
 def _snake(sides: Sequence[Sequence[float]]) -> list[tuple[float, ...]]:

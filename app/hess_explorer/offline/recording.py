@@ -89,7 +89,6 @@ class Recording:
                     "states": [list(self._states[query]) for query in points],
                     "queries": list(points),
                     "fixed": _fixed(one),
-                    "example": one.example,
                 }
             )
 
@@ -177,8 +176,7 @@ class Recording:
         found["controls"] = [
             {**one, "range": list(varied[one["name"]])} for one in found["controls"] if one["name"] in varied
         ]
-        found["presets"] = [one["example"] for one in self._families if one["scene"] == name and one["example"]]
-        return {**found, "tries": [], "essential": [*varied], "drawn": False, "handle": None}
+        return {**found, "presets": [], "tries": [], "essential": [*varied], "drawn": False, "handle": None}
 
     def packed(self) -> tuple[dict[str, Any], list[str]]:
         """Return the index of the states and the strips in base 64."""

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Sequence
+from importlib.metadata import version
 from typing import Any
 
 import panel as pn
@@ -25,6 +26,7 @@ __all__ = ["page"]
 logger = logging.getLogger("hess_explorer")
 
 _FILES = {
+    "program": f"hess-explorer {version('hess-explorer')}",
     "formats": [[kind, one.words, one.holds] for kind, one in FORMATS.items() if one.words],
     "width": [*WIDTHS, FileRequest.width],
     "seconds": [*SERVED_SECONDS, FileRequest.seconds],
@@ -49,7 +51,8 @@ def _query() -> str:
 
 def _page(query: str, own: Sequence[Lesson]) -> Explorer:
     opened = opening(query, own)
-    reading = opened.reading
+    # Only the browser knows whether this is a first visit.
+    reading = opened.reading or (None if query else opened.lessons["introduction"])
     return Explorer(
         client=opened.client,
         lesson=describe_lesson(reading) if reading else "",

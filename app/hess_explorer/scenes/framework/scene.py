@@ -12,6 +12,8 @@ from typing import Any, ClassVar, Generic, Self, TypeVar, cast
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.parameters import Choice, Number, Spec, Value, Values
+from hess_explorer.scenes.framework.chart import charting
+from hess_explorer.scenes.framework.chart_picture import chart_picture
 from hess_explorer.scenes.framework.charted import Charts
 from hess_explorer.scenes.framework.parameters import Slider, specs_of
 from hess_explorer.scenes.framework.part import Host, Part, part
@@ -70,7 +72,7 @@ class Report:
     derived: Sequence[str]
     status: str
     notes: Sequence[str]
-    todo: Sequence[Task]
+    todo: Sequence[Task[Any]]
     total: int
     summary: str
 
@@ -212,8 +214,8 @@ class Scene(Generic[S]):
         """Add the chart to states and pictures."""
         object.__setattr__(self, "charted", charts)
         if charts is not None:
-            object.__setattr__(self, "state", charts.added(self.state))
-            object.__setattr__(self, "views", (*self.views, charts.picture()))
+            object.__setattr__(self, "state", charting(self.state, charts))
+            object.__setattr__(self, "views", (*self.views, chart_picture(charts)))
 
     @cached_property
     def name(self) -> str:
@@ -411,7 +413,7 @@ class Scene(Generic[S]):
         """Set the level of "auto": the cheapest one whose error is invisible in every picture in sight."""
         if not state.work.auto or state.dragging:
             return
-        found = [state.work.later(needed, trial, plain) for trial, plain in self.in_sight(state)]
+        found = [state.work.need(Task(needed, trial, plain), preview=None) for trial, plain in self.in_sight(state)]
         known = [name for name in found if name is not None]
         if known and len(known) == len(found):
             state.work.settle(max(known, key=[*LEVELS].index))

@@ -1,30 +1,50 @@
-"""Loops: films whose last frame meets the first, with a caption and the link, for slides and posts."""
+"""The times of the frames of a film or a loop, and the lines below a loop."""
 
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Mapping
-from typing import Any
 
 import numpy as np
 
-from hess_explorer.export.moment import end
+from hess_explorer.export.figure import densities
 from hess_explorer.export.picture_data import PictureData
-from hess_explorer.export.solid import EVEN, ODD
-from hess_explorer.views import theme
+from hess_explorer.views.body import BodyInSpace
 from hess_explorer.views.cloud import CloudPlane
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.poisson_sphere import Sphere
+from hess_explorer.views.torus_in_space import TorusInSpace
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["WIDTH", "footer", "in_dark", "loop_times", "on_dark", "period"]
+__all__ = ["film_times", "loop_lines", "loop_times", "moves", "period"]
 
-WIDTH = 135.0
-"""Width in millimetres: 1080 pixels."""
 _CLOSE, _AWAY = 0.01, 0.1
 """A motion has returned within the first share of its extent, after it was further away than the second."""
-_LINE, _LINES = 96, 3
+_LETTERS, _LINES = 96, 3
 """Letters of a line below the picture; most lines of the link."""
+
+
+def _end(data: PictureData) -> float:
+    """Return the last time of the orbit or of the clouds; 0 if nothing moves."""
+    clouds = (one["times"] for one in data.columns.values() if "frames0" in one)
+    tracks = (data.columns.get("data-orbit", {}).get("t", ()), *clouds)
+    return max((float(times[-1]) for times in tracks if len(times) > 1), default=0.0)
+
+
+def moves(data: PictureData) -> bool:
+    """Return True if the picture changes with time."""
+    picture = data.picture
+    follows = (
+        bool(picture.followers)
+        or bool(densities(data))
+        or isinstance(picture, (BodyInSpace, CloudPlane, TorusInSpace))
+        or (isinstance(picture, Sphere) and ("orbit" in picture.looks or bool(picture.clouds)))
+    )
+    return follows and _end(data) > 0.0
+
+
+def film_times(data: PictureData, count: int) -> Array:
+    """Return the times of the frames (count,), evenly spread over the whole motion, both ends included."""
+    return np.linspace(0.0, _end(data), count)
 
 
 def period(data: PictureData) -> float | None:
@@ -33,9 +53,7 @@ def period(data: PictureData) -> float | None:
     Only a point on a still picture repeats itself: trails, clouds and bodies remember where they came from.
     """
     picture, track = data.picture, data.columns.get("data-orbit", {})
-    stands = (isinstance(picture, Plot) and not isinstance(picture, CloudPlane)) or (
-        isinstance(picture, Sphere) and not picture.clouds
-    )
+    stands = isinstance(picture, Plot) or (isinstance(picture, Sphere) and not picture.clouds)
     names = [name for name in track if name != "t"]
     if not stands or not names or len(track["t"]) < 4:
         return None
@@ -72,28 +90,12 @@ def loop_times(data: PictureData, count: int) -> Array:
     """Return the times of the frames (count,): over a period of the motion, or there and back, slower at both ends."""
     phase = np.arange(count) / count
     lasts = period(data)
-    return lasts * phase if lasts is not None else 0.5 * end(data.columns) * (1.0 - np.cos(2.0 * np.pi * phase))
+    return lasts * phase if lasts is not None else 0.5 * _end(data) * (1.0 - np.cos(2.0 * np.pi * phase))
 
 
-def footer(data: PictureData, home: str) -> str:
+def loop_lines(data: PictureData, home: str) -> list[str]:
     """Return one line of caption and the link; the tags of the file have a link that is too long to be shown."""
     link = f"{home}?{data.link}"
-    lines = [link[i : i + _LINE] for i in range(0, len(link), _LINE)]
+    lines = [link[i : i + _LETTERS] for i in range(0, len(link), _LETTERS)]
     shown = lines if len(lines) <= _LINES else [*lines[: _LINES - 1], f"{lines[_LINES - 1][:-1]}…"]
-    return "\n".join([textwrap.shorten(data.caption, _LINE, placeholder=" …"), *shown])
-
-
-def in_dark(colour: str) -> str:
-    """Return the colour on a dark page."""
-    shades = {**dict(theme.SHADES.values()), EVEN: "#96A4B6", ODD: "#6B7B90"}
-    if colour == "white":
-        return shades[theme.PAPER]
-    # A style may have no colour, which is None.
-    return shades.get(colour[:7].upper(), colour[:7]) + colour[7:] if colour and colour.startswith("#") else colour
-
-
-def on_dark() -> Mapping[str, Any]:
-    """Return Matplotlib's settings of a dark page."""
-    ink, paper = theme.SHADES["ink"][1], theme.SHADES["paper"][1]
-    inks = ("text.color", "axes.edgecolor", "axes.labelcolor", "axes.titlecolor", "xtick.color", "ytick.color")
-    return dict.fromkeys(inks, ink) | dict.fromkeys(("figure.facecolor", "axes.facecolor"), paper)
+    return [textwrap.shorten(data.caption, _LETTERS, placeholder=" …"), *shown]
