@@ -9,7 +9,6 @@ from pytest import approx
 from hess_explorer.commands.serve import _shown
 from hess_explorer.compute.cells import Outcome
 from hess_explorer.export.picture_data import complete, picture_data
-from hess_explorer.lessons.reading import read
 from hess_explorer.page.requested import RequestedState
 from hess_explorer.protocol.parameters import decode, encode
 from hess_explorer.scenes import scenes
@@ -171,15 +170,6 @@ def test_every_number_of_a_scene_depends_on_the_first_sides_and_exists(scene):
         assert charted.values(state)
         if option == next(iter(scene.charted.numbers)):
             assert state.charting.reason == ""
-
-
-def test_a_step_of_a_lesson_shows_a_chart():
-    link = "?" + encode(TORI.name, {**TORI.defaults(), **OWN})
-    lesson = read(
-        f'---\ntitle: Charts\nminutes: 1\n---\n## One\n```step\nstate: "{link}"\nlook: chart\n```\nText.\n', "own"
-    )
-    (step,) = lesson.steps
-    assert (step.look, step.at.values["chart"]) == ("chart", "trace")
 
 
 def test_the_file_of_a_chart_holds_its_numbers():

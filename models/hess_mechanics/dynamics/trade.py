@@ -58,7 +58,12 @@ def _truths(kind: Kind, run: Callable[[Plan], R], alike: Alike) -> Callable[[Pla
     def truth(own: float) -> R:
         return run(replace(beyond(kind), **{alike: own}) if alike else beyond(kind))
 
-    return lambda plan: truth(getattr(plan, alike) if alike else 1.0)
+    def of(plan: Plan) -> R:
+        return truth(getattr(plan, alike) if alike else 1.0)
+
+    # The costliest first: it fails if any does.
+    of(PLANS[kind][REFERENCE.name])
+    return of
 
 
 def _sample(
