@@ -357,19 +357,15 @@ interface ExportFiles {
   seconds: [number, number, number]
 }
 
+/** picture: name of a file without theme and suffix, "" for none; examples: their names, to be searched. */
 interface SceneTile {
   name: string
   title: string
   summary: string
   picture: string
+  examples: string
   origin: string | null
   group: string
-}
-
-/** A row of the gallery; file: name without theme and suffix. */
-interface ShowcaseRow {
-  idea: string
-  exhibits: { title: string, query: string, file: string }[]
 }
 
 /** The model of the page's component, see "page/component.py". */
@@ -378,7 +374,6 @@ interface PageModel {
   lesson: string
   lessons: { name: string, title: string, minutes: number }[]
   scenes: SceneTile[]
-  showcase: ShowcaseRow[]
   files: ExportFiles
   sheets: Record<string, string>
 }

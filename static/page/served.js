@@ -32,9 +32,9 @@ let built = null
 export function render({ model, el }) {
   if (built !== null) return el.replaceWith(built)
   built = el
-  const { client, lessons: index, scenes, showcase, files, sheets } = model
+  const { client, lessons: index, scenes, files, sheets } = model
   const mount = createMount(sheets)
-  const menu = sceneMenu(scenes, showcase)
+  const menu = sceneMenu(scenes)
   const dialogs = { menu, share: shareDialog(), invite: inviteDialog(), export: exportDialog(files) }
   const first = [button("tool.param-scenes", menu.open, { title: "Choose a scene", ariaHasPopup: "dialog", innerHTML: icon(MENU) },
     element("span", "Scenes"))]

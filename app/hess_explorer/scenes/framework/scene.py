@@ -177,8 +177,7 @@ class Scene(Generic[S]):
 
     Parameters
     ----------
-    state : the class of its states; module : the file that declares it; its text and thumbnail are the Markdown and
-        SVG files of the same name.
+    state : the class of its states; module : the file that declares it; its text is the Markdown file of the same name.
     title, summary : a few words; a sentence for the menu.
     presets : named states; a new visitor sees the first one.
     views : its pictures.  Only the results that pictures in sight need are computed.
@@ -244,14 +243,6 @@ class Scene(Generic[S]):
     def moves(self) -> str:
         """A sentence on the controls: which one moves what."""
         return self._text[0]
-
-    @cached_property
-    def thumbnail(self) -> str:
-        """The content of the 48 × 32 SVG thumbnail."""
-        drawing = Path(self.module).with_suffix(".svg").read_text(encoding="utf-8")
-        found = re.search(r"<svg[^>]*>(.*)</svg>", drawing, re.DOTALL)
-        assert found is not None, self.module
-        return found[1]
 
     def drawing(self, name: str) -> str:
         """Return an SVG file that the Markdown text refers to as an image."""
