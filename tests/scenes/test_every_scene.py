@@ -704,6 +704,17 @@ def test_a_number_that_is_not_possible_there_does_not_go_along():
     assert taken == {**HESS.defaults(), "I22": 1.0}
 
 
+LOOKS = {
+    name: (theme.SHADES[shade][0] if shade else theme.INK, "[" in rest)
+    for name, shade, rest in re.findall(
+        r'^  (\w+): (?:look\("(\w+)"|\{)(.*)[)}],$',
+        (STATIC / "pictures/looks.js").read_text(encoding="utf-8"),
+        re.MULTILINE,
+    )
+}
+"""Colour of a line, and whether it is dashed, by the name of its look on spheres."""
+
+
 @pytest.mark.parametrize("scene", OWN, ids=lambda scene: scene.name)
 def test_the_legend_has_only_what_is_drawn(scene):
     # A diagram is the same with its first orbits and with all, which take long.
@@ -724,7 +735,7 @@ def test_the_legend_has_only_what_is_drawn(scene):
     for picture in (one for one in scene.views if one.kind == "sphere" and one.name in scene.open_pictures):
         own = view.data[picture.name]
         words = {*re.findall(r"\w+", repr(own)), *picture.describe()["tracks"].values()}
-        strokes = {(colour, dash != "-") for name, (colour, dash, _) in LOOKS.items() if name in words}
+        strokes = {stroke for name, stroke in LOOKS.items() if name in words}
         strokes |= {(theme.INK, True)} if len(own.get("section", ())) else set()
         for sign in (one for one in picture.legend if one.kind == "line"):
             colour = re.search(r"#\w{6}", sign.style)

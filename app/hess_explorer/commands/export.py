@@ -105,7 +105,8 @@ COMMAND = Command(
     "SVG or PDF, at the time of the link; or a film of the motion as WebM or MP4. A headless browser draws films, and "
     "spheres, bodies, tori and clouds. HTML is an interactive page in one file that needs no server: pictures of the "
     "state, whose sliders move if they are named by --vary, or a lesson. Every file contains link, parameters, "
-    "accuracy, errors and version. Figures and films require: pip install 'hess-explorer[export]'; playwright install chromium.",
+    "accuracy, errors and version. Figures and films require: pip install 'hess-explorer[export]'; "
+    "playwright install chromium.",
     (
         *picture("; for HTML a list with commas, by default those open at first"),
         option(

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import atexit
 import base64
 import tempfile
 from collections.abc import Callable, Iterator
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import Future
 from contextlib import ExitStack, contextmanager
 from functools import cache
 from pathlib import Path
+from queue import SimpleQueue
+from threading import Thread
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from hess_explorer.export.figure import Drawing
@@ -30,31 +33,60 @@ _VIEWPORT = 900
 """Width and height of the window, with room for the plot of a film."""
 _SECONDS = 120
 
-# Playwright refuses to run in the event loop of a notebook.
-_thread = ThreadPoolExecutor(1, thread_name_prefix="browser")
-_running = ExitStack()
+
+class _Studio:
+    """The browser of this process, which starts with the first picture and serves all of them.
+
+    It has a thread of its own, because Playwright refuses to run in the event loop of a notebook.
+    """
+
+    def __init__(self) -> None:
+        self._jobs: SimpleQueue[tuple[Future[Any], Callable[[Browser], Any]] | None] = SimpleQueue()
+        self._thread = Thread(target=self._work, name="browser", daemon=True)
+        self._thread.start()
+        atexit.register(self._close)
+
+    def run(self, act: Callable[[Browser], T]) -> T:
+        """Return act(browser).  Raises `BrowserError`."""
+        future: Future[T] = Future()
+        self._jobs.put((future, act))
+        return future.result()
+
+    def _close(self) -> None:
+        self._jobs.put(None)
+        self._thread.join()
+
+    def _work(self) -> None:
+        browser: Browser | None = None
+        with ExitStack() as running:
+            while (job := self._jobs.get()) is not None:
+                future, act = job
+                try:
+                    if browser is None or not browser.is_connected():
+                        running.close()
+                        browser = running.enter_context(launched())
+                    future.set_result(act(browser))
+                except BaseException as error:
+                    future.set_exception(error)
 
 
 @cache
-def _started() -> Browser:
-    return _running.enter_context(launched())
+def _studio() -> _Studio:
+    return _Studio()
 
 
 def _in_browser(act: Callable[[Browser], T]) -> T:
-    """Return act(browser), with the browser of this process, which starts on first use.  Raises `BrowserError`."""
+    """Return act(browser).  Raises `BrowserError`."""
 
-    def job() -> T:
-        if not _started().is_connected():
-            _running.close()
-            _started.cache_clear()
+    def act_or_say(browser: Browser) -> T:
         from playwright.sync_api import Error
 
         try:
-            return act(_started())
+            return act(browser)
         except Error as error:
             raise BrowserError(f"The picture could not be drawn: {error.message.splitlines()[0]}") from error
 
-    return _thread.submit(job).result()
+    return _studio().run(act_or_say)
 
 
 @contextmanager
