@@ -27,7 +27,7 @@ from hess_mechanics.dynamics import sampling
 from hess_mechanics.dynamics.orbit import solve
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.accuracy import Accuracy
-from hess_mechanics.numerics.arguments import as_parts
+from hess_mechanics.numerics.arguments import as_place
 from hess_mechanics.numerics.results import Array, Orbit, frozen
 from hess_mechanics.rigid_body.inertia import require_finite
 from hess_mechanics.suslov.equations import SYSTEM
@@ -43,7 +43,6 @@ __all__ = [
     "forbidden",
     "mirrored",
     "periods",
-    "periods_all_round",
     "rescaled_time",
     "sampled_orbit",
     "state_at",
@@ -101,21 +100,6 @@ class PlaneBody(PlaneProblem):
         """The acceleration a (2,) of (γ1, γ2) in the time τ."""
         return np.array([-self.b1 / self.I22, -self.b2 / self.I11])
 
-    def energy(self, state: Sequence[float]) -> float:
-        """Return the energy E of a state.
-
-        Parameters
-        ----------
-        state : sequence of five floats
-            State (ω1, ω2, γ1, γ2, γ3).
-
-        Returns
-        -------
-        float
-            The energy.
-        """
-        return float(SYSTEM.integrals(state, self.parameters)["E"])
-
     def pixels_per_unit(self, h: float) -> tuple[float, ...]:
         """Return the pixels per unit of each variable in plots that fit the largest ω of the energy h.
 
@@ -133,26 +117,6 @@ class PlaneBody(PlaneProblem):
         largest = 2.0 * max(h + math.hypot(self.b1, self.b2), 1e-300)
         return (radius * math.sqrt(self.I11 / largest), radius * math.sqrt(self.I22 / largest), radius, radius, radius)
 
-    def potential(self, q: Array) -> Array:
-        """Return the potential V = b2 q1/√I11 − b1 q2/√I22.
-
-        Parameters
-        ----------
-        q : ndarray of float, shape (..., 2)
-            Points of the plane.
-
-        Returns
-        -------
-        ndarray of float, shape (...)
-            Values of V.
-
-        References
-        ----------
-        `eqs03`; `Biz136` with its signs corrected.
-        """
-        r1, r2 = self.axes
-        return np.asarray(self.b2 / r1 * q[..., 0] - self.b1 / r2 * q[..., 1])
-
 
 def state_at(body: PlaneBody, q: Sequence[float], p: Sequence[float]) -> tuple[float, ...]:
     """Return the state (5,) with γ3 ≥ 0 at q and p (2,).
@@ -162,28 +126,23 @@ def state_at(body: PlaneBody, q: Sequence[float], p: Sequence[float]) -> tuple[f
     """
     require_finite(q1=q[0], q2=q[1], p1=p[0], p2=p[1])
     r1, r2 = body.axes
-    g1, g2 = -q[1] / r2, q[0] / r1
-    omega = (p[0] / r1, p[1] / r2)
-    left = 1.0 - g1 * g1 - g2 * g2
+    u, omega = np.array([-q[1] / r2, q[0] / r1]), np.array([p[0] / r1, p[1] / r2])
+    left = 1.0 - u[0] * u[0] - u[1] * u[1]
     if left < -_ON_EQUATOR:
         raise InvalidParameter(
             f"q = ({q[0]:.6g}, {q[1]:.6g}) is outside the ellipse q₁²/I₁₁ + q₂²/I₂₂ = 1, where γ₃² would be negative: "
             "choose a start inside it."
         )
-    if left > _ON_EQUATOR:
-        return (*omega, g1, g2, math.sqrt(left))
-    length = math.hypot(g1, g2)
-    g1, g2 = g1 / length, g2 / length
-    if abs(omega[0] * g2 - omega[1] * g1) <= _ON_EQUATOR * math.hypot(*omega):
-        along = omega[0] * g1 + omega[1] * g2
-        omega = (along * g1, along * g2)
-    return (*omega, g1, g2, 0.0)
+    if left <= _ON_EQUATOR:
+        u, left = u / np.linalg.norm(u), 0.0
+        if abs(omega[0] * u[1] - omega[1] * u[0]) <= _ON_EQUATOR * np.linalg.norm(omega):
+            omega = (omega @ u) * u
+    return (*omega.tolist(), *u.tolist(), math.sqrt(left))
 
 
 def mirrored(states: Array) -> Array:
     """Return states (..., 5) under γ3 → −γ3, which together with t → −t maps orbits with b3 = 0 to orbits."""
-    image: Array = np.asarray(states, float) * np.array([1.0, 1.0, 1.0, 1.0, -1.0])
-    return image
+    return np.asarray(states * np.array([1.0, 1.0, 1.0, 1.0, -1.0]))
 
 
 @dataclass(frozen=True)
@@ -210,15 +169,12 @@ class Arc:
 
     def u(self, tau: Array) -> Array:
         """Return (γ1, γ2) at τ (m,); shape (m, 2)."""
-        t = np.asarray(tau, float)[:, None]
-        u: Array = self.u0 + t * (self.v0 + 0.5 * t * self.a)
-        return u
+        t = tau[:, None]
+        return np.asarray(self.u0 + t * (self.v0 + 0.5 * t * self.a))
 
     def height(self, tau: Array) -> Array:
         """Return |γ3| at τ (m,); it is 0 where the parabola is outside the domain."""
-        u = self.u(tau)
-        height: Array = np.sqrt(np.maximum(0.0, 1.0 - np.sum(u * u, axis=1)))
-        return height
+        return np.asarray(np.sqrt(np.maximum(0.0, 1.0 - np.sum(self.u(tau) ** 2, axis=1))))
 
     @property
     def ends(self) -> tuple[float, float]:
@@ -233,11 +189,10 @@ class Arc:
         return (high - low) or 1.0 / (self.rate or 1.0)
 
     @property
-    def crossing_speeds(self) -> list[float]:
-        """The values |γ̇3| = |(u, v)| at τ₋ and τ₊, where the orbit crosses the equator."""
+    def crossing_speeds(self) -> Array:
+        """The values |γ̇3| = |(u, v)| at τ₋ and τ₊ (2,), where the orbit crosses the equator."""
         tau = np.array(self.tau)
-        speeds = np.abs(np.sum(self.u(tau) * (self.v0 + tau[:, None] * self.a), axis=1))
-        return [float(speed) for speed in speeds]
+        return np.asarray(np.abs(np.sum(self.u(tau) * (self.v0 + tau[:, None] * self.a), axis=1)))
 
     def oval(self, ends: tuple[float, float]) -> Array:
         """Return (τ, γ3), (m, 2), on γ3² = P(τ) over τ from one end to the other, both signs."""
@@ -266,7 +221,7 @@ def _period(c: Array, low: Array, high: Array, side: Array) -> Array:
         for _ in range(_MEANS):
             x, y = 0.5 * (x + y), np.sqrt(x * y)
         T = np.where((side == 0.0) & (root > 0.0), 2.0 * math.pi * s / x, math.inf)
-        T = np.where((P[0] == 0.0) & (P[1] == 0.0), 2.0 * math.pi / np.sqrt(-P[2]), T)
+        T = np.where((P[0] == 0.0) & (P[1] == 0.0) & (P[2] < 0.0), 2.0 * math.pi / np.sqrt(-P[2]), T)
     return np.where(np.isnan(T), math.inf, T)
 
 
@@ -286,7 +241,7 @@ def _solved(u0: Array, v0: Array, a: Array, height: float) -> tuple[Array, Array
         bend = -np.sum(v * v, axis=1) - bent @ u0
         start = np.full(len(v), height * height)
         c = np.column_stack([start, slope, bend, -np.sum(v * bent, axis=1), -0.25 * np.sum(bent * bent, axis=1)])
-    if not (np.all(np.isfinite(c)) and np.all(np.isfinite(rate))):
+    if not np.all(np.isfinite(c.T + rate)):
         raise InvalidParameter("The motion is too fast for double precision: choose less extreme parameters.")
     rows = np.empty((len(c), 5))
     arcs(c, rows)
@@ -319,10 +274,9 @@ def arc(body: PlaneBody, state: Sequence[float]) -> Arc:
     >>> arc(PlaneBody(1.3, 0.8, 0.5, -0.2), (1.0, -0.5, 0.0, 0.6, 0.8)).kind
     'periodic'
     """
-    state = as_parts("state", state, 5)
-    require_finite(**dict(zip(SYSTEM.variables, map(float, state), strict=True)))
-    u0, v0, a = np.array(state[2:4]), np.array([-state[1], state[0]]), body.acceleration
-    rows, (period,), (c,), (rate,) = _solved(u0, v0[None], a, float(state[4]))
+    w1, w2, g1, g2, g3 = as_place(SYSTEM.variables, state)
+    u0, v0, a = np.array([g1, g2]), np.array([-w2, w1]), body.acceleration
+    rows, (period,), (c,), (rate,) = _solved(u0, v0[None], a, g3)
     low, high, side, *other = map(float, rows[0])
     frame = (frozen(u0), frozen(v0), frozen(a), float(rate))
     if rate == 0.0 or (c[0] == 0.0 and c[1] == 0.0):
@@ -333,22 +287,16 @@ def arc(body: PlaneBody, state: Sequence[float]) -> Arc:
     return Arc(kind, *frame, (low, high), touch, (other[0], other[1]) if any(other) else None, float(period), None)
 
 
-def periods(body: PlaneBody, q: Sequence[float], speed: float, directions: Array) -> Array:
-    """Return the periods (n,) of the orbits from q (2,) with p = speed (cos α, sin α), for directions α (n,).
+def periods(body: PlaneBody, q: Sequence[float], speed: float) -> Array:
+    """Return (α, T), (721, 2), of the orbits from q (2,) with p = speed (cos α, sin α), for α from −π to π.
 
-    ∞ for asymptotic orbits and equilibria (speed 0, no field).  Raises `InvalidParameter`.
+    T = ∞ for asymptotic orbits and equilibria (speed 0, no field).  Raises `InvalidParameter`.
     """
     state = state_at(body, q, (0.0, 0.0))
     r1, r2 = body.axes
-    v0 = speed * np.column_stack([-np.sin(directions) / r2, np.cos(directions) / r1])
-    _, period, _, rate = _solved(np.array(state[2:4]), v0, body.acceleration, state[4])
-    return np.where(rate > 0.0, period, math.inf)
-
-
-def periods_all_round(body: PlaneBody, q: Sequence[float], speed: float) -> Array:
-    """Return (α, T), (n, 2), of `periods` for α from −π to π."""
-    directions = np.linspace(-math.pi, math.pi, 721)
-    return frozen(np.column_stack([directions, periods(body, q, speed, directions)]))
+    angle = np.linspace(-math.pi, math.pi, 721)
+    v0 = speed * np.column_stack([-np.sin(angle) / r2, np.cos(angle) / r1])
+    return frozen(np.column_stack([angle, _solved(np.array(state[2:4]), v0, body.acceleration, state[4])[1]]))
 
 
 def fixed_point_kinds(body: PlaneBody, h: float, count: int = 361) -> tuple[Array, Array]:

@@ -31,7 +31,7 @@ from hess_mechanics.dynamics.sampling import PIXELS, sampled_orbit
 from hess_mechanics.dynamics.section import Plane, section
 from hess_mechanics.dynamics.system import Body, System, in_units_of_time
 from hess_mechanics.numerics.accuracy import Accuracy
-from hess_mechanics.numerics.results import Array, Mask, Orbit, frozen
+from hess_mechanics.numerics.results import Array, Orbit, frozen
 from hess_mechanics.rigid_body.inertia import require_comparable, require_finite, require_positive_definite
 from hess_mechanics.suslov import equations
 
@@ -55,7 +55,7 @@ _EITHER_WAY = Plane((0.0, 0.0, 0.0, 0.0, 1.0), sense=0)
 
 
 @dataclass(frozen=True)
-class PlaneProblem:
+class PlaneProblem(Body):
     """Body with I13 = I23 = 0 whose motion is that of a point in the plane.
 
     Parameters
@@ -93,6 +93,21 @@ class PlaneProblem:
     def axes(self) -> tuple[float, float]:
         """The semi-axes √I11, √I22 of the ellipse (`Biz1360`)."""
         return math.sqrt(self.I11), math.sqrt(self.I22)
+
+    def energy(self, state: Sequence[float]) -> float:
+        """Return the energy E of a state.
+
+        Parameters
+        ----------
+        state : sequence of five floats
+            State (ω1, ω2, γ1, γ2, γ3).
+
+        Returns
+        -------
+        float
+            The energy.
+        """
+        return float(self.system.integrals(state, self.parameters)["E"])
 
     def place(self, u: Array) -> Array:
         """Return the point q of the plane for u = (γ1, γ2).
@@ -151,7 +166,7 @@ class PotentialBody(PlaneProblem):
     @property
     def parameters(self) -> tuple[float, ...]:
         """The parameters p = (I11, I22, c1, c2, λ, μ)."""
-        return self.I11, self.I22, self.c1, self.c2, self.cubic, self.quartic
+        return tuple(vars(self).values())
 
     @property
     def separates(self) -> bool:
@@ -253,6 +268,8 @@ def equator_energy(body: PotentialBody) -> float:
 # ---- Plots ------------------------------------------------------------------------------------------------------
 
 _BISECTIONS = 32
+_EDGE = 1.0 - 1e-9
+"""Radius from which a point lies on the equator."""
 
 
 @dataclass(frozen=True)
@@ -278,7 +295,6 @@ def motion_from(body: PotentialBody, start: tuple[float, ...], duration: float, 
     Raises `InvalidParameter`, `WorkLimit`.
     """
     orbit = sampled_orbit(body, start, duration, (0.0, 0.0, *(0.5 * PIXELS,) * 3), level, MOST_SAMPLES)
-    energy = float(SYSTEM.integrals(start, body.parameters)["E"])
     fixed = not np.any(np.array(SYSTEM.field(start, body.parameters)))
     F2 = separable_integral(body, orbit.states)
     integral = float(np.ptp(F2)) / max(float(np.abs(F2).max()), 1e-300)
@@ -288,7 +304,7 @@ def motion_from(body: PotentialBody, start: tuple[float, ...], duration: float, 
         if len(times) == 2:
             period = 2.0 * float(times[1] - times[0])
             left = missed(body, start, period, level)
-    return PlaneMotion(orbit, energy, period, left, fixed, integral)
+    return PlaneMotion(orbit, body.energy(start), period, left, fixed, integral)
 
 
 def _radius(body: PotentialBody, value: float) -> tuple[Array, Array]:
@@ -309,19 +325,12 @@ def _radius(body: PotentialBody, value: float) -> tuple[Array, Array]:
 def level_curve(body: PotentialBody, value: float) -> list[Array]:
     """Return the parts u (m, 2) of the curve U = value inside γ1² + γ2² = 1, for one of the `POTENTIALS`."""
     along, radius = _radius(body, value)
-    inside: Mask = radius < 1.0 - 1e-9
-    cuts = np.flatnonzero(inside[1:] != inside[:-1]) + 1
-    curve = radius[:, None] * along
-    return [
-        frozen(part)
-        for part, kept in zip(np.split(curve, cuts), np.split(inside, cuts), strict=True)
-        if kept[0] and len(part) > 1
-    ]
+    cuts = np.flatnonzero(np.diff(radius < _EDGE)) + 1
+    parts = np.split(radius[:, None] * along, cuts)
+    return [frozen(part) for part in parts if len(part) > 1 and math.hypot(*part[0]) < _EDGE]
 
 
 def forbidden(body: PotentialBody, energy: float) -> list[Array]:
     """Return the part of the disk where U > energy, as closed curves u (m, 2), for one of the `POTENTIALS`."""
     along, radius = _radius(body, energy)
-    if np.all(radius >= 1.0 - 1e-9):
-        return []
-    return [frozen(np.concatenate([along, (radius[:, None] * along)[::-1]]))]
+    return [] if np.all(radius >= _EDGE) else [frozen(np.concatenate([along, (radius[:, None] * along)[::-1]]))]
