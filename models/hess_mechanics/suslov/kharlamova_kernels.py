@@ -20,6 +20,9 @@ _LEAST = 1e-50
 _TOUCH = 1e-14
 """Largest γ3² of a minimum that counts as a double zero: its sign is round-off."""
 
+_CLOSE = 1e-12
+"""Last step of Newton's method, which squares the error, as a share of the zero."""
+
 
 @part
 def _value(c, x):
@@ -35,21 +38,15 @@ def _zero(c, derivative, a, b):
     rising = _value(c, b) > 0.0
     x = 0.5 * (a + b)
     for _ in range(200):
-        f = _value(c, x)
-        if f == 0.0:
-            break
+        f, slope = _value(c, x), _value(derivative, x)
         if (f > 0.0) == rising:
             b = x
         else:
             a = x
-        slope = _value(derivative, x)
-        y = x - f / slope if slope != 0.0 else a
-        if not a < y < b:
-            y = 0.5 * (a + b)
-        done = abs(y - x) <= 1e-16 * abs(y)
-        x = y
-        if done:
-            break
+        if abs(f) <= _CLOSE * abs(slope * x):
+            return x - f / slope if slope != 0.0 else x
+        y = x - f / slope
+        x = y if a < y < b else 0.5 * (a + b)
     return x
 
 
@@ -68,7 +65,7 @@ def _zeros(c, reach, derivatives, zeros):
     count = 0
     knots = np.empty(6)
     # Between the zeros of its derivative a polynomial is monotone.
-    for d in range(4, -1, -1):
+    for d in range(3, -1, -1):
         knots[0], knots[count + 1] = -reach, reach
         knots[1 : count + 1] = zeros[:count, 0]
         n, before = 0, _value(derivatives[d], -reach)
