@@ -29,10 +29,9 @@ from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.accuracy import Accuracy
 from hess_mechanics.numerics.arguments import as_place
 from hess_mechanics.numerics.results import Array, Orbit, frozen
-from hess_mechanics.rigid_body.inertia import require_finite
 from hess_mechanics.suslov.equations import SYSTEM
 from hess_mechanics.suslov.kharlamova_kernels import arcs
-from hess_mechanics.suslov.plane_potential import MOST_SAMPLES, PlaneProblem
+from hess_mechanics.suslov.plane_potential import MOST_SAMPLES, PlaneProblem, missed
 
 __all__ = [
     "Arc",
@@ -42,7 +41,8 @@ __all__ = [
     "fixed_point_kinds",
     "forbidden",
     "mirrored",
-    "periods",
+    "missed",
+    "periods_all_round",
     "rescaled_time",
     "sampled_orbit",
     "state_at",
@@ -124,13 +124,13 @@ def state_at(body: PlaneBody, q: Sequence[float], p: Sequence[float]) -> tuple[f
     A state within 1e-12 of the equator is moved onto it; if ω ∥ γ there to 1e-12, ω is made exactly parallel to γ,
     which gives a fixed point. Raises `InvalidParameter` if q is outside the elliptic domain (`Biz1360`).
     """
-    require_finite(q1=q[0], q2=q[1], p1=p[0], p2=p[1])
+    q1, q2, p1, p2 = as_place(("q1", "q2", "p1", "p2"), (*q, *p))
     r1, r2 = body.axes
-    u, omega = np.array([-q[1] / r2, q[0] / r1]), np.array([p[0] / r1, p[1] / r2])
+    u, omega = np.array([-q2 / r2, q1 / r1]), np.array([p1 / r1, p2 / r2])
     left = 1.0 - u[0] * u[0] - u[1] * u[1]
     if left < -_ON_EQUATOR:
         raise InvalidParameter(
-            f"q = ({q[0]:.6g}, {q[1]:.6g}) is outside the ellipse q₁²/I₁₁ + q₂²/I₂₂ = 1, where γ₃² would be negative: "
+            f"q = ({q1:.6g}, {q2:.6g}) is outside the ellipse q₁²/I₁₁ + q₂²/I₂₂ = 1, where γ₃² would be negative: "
             "choose a start inside it."
         )
     if left <= _ON_EQUATOR:
@@ -287,7 +287,7 @@ def arc(body: PlaneBody, state: Sequence[float]) -> Arc:
     return Arc(kind, *frame, (low, high), touch, (other[0], other[1]) if any(other) else None, float(period), None)
 
 
-def periods(body: PlaneBody, q: Sequence[float], speed: float) -> Array:
+def periods_all_round(body: PlaneBody, q: Sequence[float], speed: float) -> Array:
     """Return (α, T), (721, 2), of the orbits from q (2,) with p = speed (cos α, sin α), for α from −π to π.
 
     T = ∞ for asymptotic orbits and equilibria (speed 0, no field).  Raises `InvalidParameter`.
