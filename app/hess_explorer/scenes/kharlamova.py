@@ -38,8 +38,8 @@ from hess_mechanics import parameters as known
 from hess_mechanics.numerics.results import Array, Orbit
 from hess_mechanics.suslov import kharlamova as mechanics
 from hess_mechanics.suslov.equations import SYSTEM
-from hess_mechanics.suslov.kharlamova import MOST_SAMPLES, Arc, PlaneBody
-from hess_mechanics.suslov.plane_potential import POTENTIALS, PlaneMotion, PotentialBody, motion_from
+from hess_mechanics.suslov.kharlamova import Arc, PlaneBody
+from hess_mechanics.suslov.plane_potential import MOST_SAMPLES, POTENTIALS, PlaneMotion, PotentialBody, motion_from
 from hess_mechanics.suslov.principal_axis import divergence
 
 _LEVELS = (-0.75, -0.5, -0.25, 0.0, 0.25, 0.5, 0.75)  # equipotentials, in units of the potential's largest value
@@ -198,7 +198,7 @@ class Kharlamova(State):
     def orbit_columns(self) -> Columns:
         """Return the columns of the orbit and of its mirror image, the second moving point."""
         orbit, mirror = self.sampled
-        q, mirror_q = (mechanics.to_plane(self.body, states)[0] for states in (orbit.states, mirror))
+        q, mirror_q = (self.body.to_plane(states)[0] for states in (orbit.states, mirror))
         tau, mirror_tau = (mechanics.rescaled_time(self.arc, states) for states in (orbit.states, mirror))
         return plane_columns(
             orbit,
