@@ -10,7 +10,6 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
-from hess_explorer.export.sphere_canvas import LOOKS
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from pytest import approx
