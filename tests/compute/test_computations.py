@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 import scipy.integrate
 
-from hess_explorer.compute import background
 from hess_explorer.compute.cache import ResultCache
+from hess_explorer.compute.pool import POOL
 from hess_explorer.scenes import suslov_hess
 from hess_explorer.server import warm
 from hess_mechanics.errors import InvalidParameter, WorkLimit
@@ -84,7 +84,7 @@ def nothing_later(monkeypatch):
 
     Disable proofs as well: a state that waits for its proof looks up all its results in the cache again.
     """
-    monkeypatch.setattr(background, "_pool", types.SimpleNamespace(submit=lambda job: None))
+    monkeypatch.setattr(POOL, "fill", lambda task: None)
     monkeypatch.setattr(suslov_hess, "has_flint", lambda: False)
 
 
