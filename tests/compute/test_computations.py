@@ -127,13 +127,6 @@ def compute(scene, values, seen=None, dragging=False):
 # --- The Suslov–Hess case ----------------------------------------------------------------------------
 
 
-def test_the_first_view_computes_each_part_once_and_the_second_nothing(cache):
-    compute(HESS, HESS.defaults())
-    assert cache.take() == MOTION | ZONES
-    compute(HESS, HESS.defaults())
-    assert cache.take() == set()
-
-
 CHANGES = [
     ({"h": 1.45}, MOTION),
     ({"phi0": 0.51}, {TRACK}),
