@@ -113,7 +113,7 @@ def field(y: Sequence[Any], p: Sequence[Any]) -> tuple[Any, ...]:
     return (*inverse_times(F, (g1, g2, g3), I11, I22, D), -g3 * w2, g3 * w1, g1 * w2 - g2 * w1)
 
 
-def inverse_times(F: Sequence[Any], gamma: Sequence[Any], I11: Any, I22: Any, D: Any) -> tuple[Any, Any]:
+def inverse_times(F: Sequence[Any], gamma: Sequence[Any] | Array, I11: Any, I22: Any, D: Any) -> tuple[Any, Any]:
     """Return Î⁻¹F for F of two components, see the docstring of the module."""
     g1, g2, g3 = gamma
     square = constant(g1**2 + g2**2 + g3**2)
@@ -126,7 +126,7 @@ def inverse_times(F: Sequence[Any], gamma: Sequence[Any], I11: Any, I22: Any, D:
     return f1 + v1 * (g1 * z), f2 + v2 * (g2 * z)
 
 
-def determinant(gamma: Sequence[Any], p: Sequence[Any]) -> Any:
+def determinant(gamma: Sequence[Any] | Array, p: Sequence[Any]) -> Any:
     """Return det Î of `eq29`, expanded."""
     g1, g2, g3 = gamma
     I11, I22, D = p[0], p[1], p[4]

@@ -25,7 +25,8 @@ from functools import cached_property
 
 import numpy as np
 
-from hess_mechanics.chaplygin_ball.equations import BallBody
+from hess_mechanics.chaplygin_ball.energy_surface import line_of_rest
+from hess_mechanics.chaplygin_ball.equations import BallBody, determinant, inverse_times, kinetic_energy
 from hess_mechanics.chaplygin_ball.phase_cloud_kernels import integrate
 from hess_mechanics.dynamics.ensemble import integrated
 from hess_mechanics.dynamics.orbit import checked_times, require_finite_states, require_steps
@@ -81,7 +82,7 @@ class Cloud(Result):
     @cached_property
     def omega(self) -> Array:
         """Angular velocity (ω1, ω2), shape (n, m, 2)."""
-        J, n1, n2 = _axes(self.body)
+        J, (n1, n2) = _direction(self.body)
         across = self.signs[:, None] * np.exp(self.log_s) / J
         return frozen(np.stack([n2 * self.along + n1 * across, n2 * across - n1 * self.along], axis=-1))
 
@@ -118,30 +119,16 @@ class Cloud(Result):
         return relative
 
 
-def _axes(body: BallBody) -> tuple[float, float, float]:
-    """Return J, I13/J, I23/J."""
-    J = math.hypot(body.I13, body.I23)
-    if not J > 0.0:
-        raise InvalidParameter(
-            "With I13 = I23 = 0 and no field ω is constant, and 1/|I13ω1 + I23ω2| is undefined. "
-            "Choose I13 or I23 other than 0."
-        )
-    return J, body.I13 / J, body.I23 / J
-
-
-def _tensor(body: BallBody, gamma: Array) -> tuple[Array, Array, Array, Array]:
-    """Return Î11, Î12, Î22 and det Î of `eq29`, for γ (..., 3) of length 1."""
-    g1, g2, g3 = np.moveaxis(gamma, -1, 0)
-    I11, I22, D = body.I11, body.I22, body.D
-    det = I11 * I22 + D * (I11 * (1.0 - g2**2) + I22 * (1.0 - g1**2) + D * g3**2)
-    return I11 + D * (1.0 - g1**2), -D * g1 * g2, I22 + D * (1.0 - g2**2), det
+def _direction(body: BallBody) -> tuple[float, Array]:
+    """Return J and η = (I13, I23)/J."""
+    return math.hypot(body.I13, body.I23), line_of_rest(body)[1]
 
 
 def divergence(body: BallBody, omega: Array, gamma: Array) -> Array:
     """Return div v = (I13, I23) Î⁻¹ (−ω2, ω1), also with a field; ω (..., 2), γ (..., 3) of length 1, result (...)."""
-    A11, A12, A22, det = _tensor(body, gamma)
-    w1, w2 = omega[..., 0], omega[..., 1]
-    return np.asarray((body.I23 * (A11 * w1 + A12 * w2) - body.I13 * (A22 * w2 + A12 * w1)) / det, float)
+    torque = -omega[..., 1], omega[..., 0]
+    h1, h2 = inverse_times(torque, np.moveaxis(gamma, -1, 0), body.I11, body.I22, body.D)
+    return np.asarray(body.I13 * h1 + body.I23 * h2, float)
 
 
 def _require_cloud(h: float, spread: float, count: int) -> None:
@@ -169,9 +156,10 @@ def shell(body: BallBody, h: float, spread: float, count: int) -> Array:
         z, angle = random.uniform(-1.0, 1.0, 2 * count), random.uniform(0.0, 2.0 * math.pi, 2 * count)
         radius = np.sqrt(1.0 - z * z)
         some = np.column_stack([radius * np.cos(angle), radius * np.sin(angle), z])
-        gammas.append(some[random.random(2 * count) ** 2 * _tensor(body, some)[3] < smallest])
+        gammas.append(some[random.random(2 * count) ** 2 * determinant(some.T, body.parameters) < smallest])
     gamma = np.concatenate(gammas)[:count]
-    A11, A12, _, det = _tensor(body, gamma)
+    g1, g2, _ = gamma.T
+    A11, A12, det = body.I11 + body.D * (1.0 - g1**2), -body.D * g1 * g2, determinant(gamma.T, body.parameters)
     speed = np.sqrt(2.0 * h * random.uniform(1.0 - spread, 1.0 + spread, count))
     theta = random.uniform(0.0, 2.0 * math.pi, count)
     w2 = speed * np.sin(theta) * np.sqrt(A11 / det)
@@ -198,9 +186,7 @@ def patch(body: BallBody, h: float, angle: float, spread: float, count: int) -> 
 
 
 def _twice_energy(body: BallBody, states: Array) -> float:
-    A11, A12, A22, _ = _tensor(body, states[:, 2:])
-    w1, w2 = states[:, 0], states[:, 1]
-    return float((A11 * w1**2 + 2.0 * A12 * w1 * w2 + A22 * w2**2).max())
+    return 2.0 * float(kinetic_energy(states.T, body.parameters).max())
 
 
 def frame_times(body: BallBody, states: Array, span: float, field: float = 0.0) -> Array:
@@ -253,7 +239,7 @@ def carried(body: BallBody, states: Array, times: Array, level: Accuracy) -> Clo
     start = time.perf_counter()
     if any(body.parameters[5:]):
         raise InvalidParameter("1/|I13ω1 + I23ω2| is an invariant density only without a field: set b1 = b2 = b3 = 0.")
-    J, n1, n2 = _axes(body)
+    J, (n1, n2) = _direction(body)
     t = checked_times(times)
     nu = math.sqrt(_twice_energy(body, states) / min(body.I11, body.I22)) or 1.0  # a bound on every |ω|
     first = np.column_stack([states[:, :2] @ [[n2, n1], [-n1, n2]] / nu, states[:, 2:]])

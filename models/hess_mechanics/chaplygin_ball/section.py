@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
@@ -18,23 +18,21 @@ from hess_mechanics import parameters as known
 from hess_mechanics.chaplygin_ball.energy_surface import omega_of_energy
 from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody, kinetic_energy
 from hess_mechanics.chaplygin_ball.integrable_cases import has_area_integral, is_reversible
-from hess_mechanics.dynamics.cells import Window
 from hess_mechanics.dynamics.motions import body_parameters, on_section, usual
 from hess_mechanics.dynamics.orbit import solve
-from hess_mechanics.dynamics.return_map import PoincareSection
 from hess_mechanics.dynamics.section import MAX_STEPS, Plane, SectionPoints, section_points
 from hess_mechanics.dynamics.system import System
 from hess_mechanics.errors import InvalidParameter, ModelError, WorkLimit
 from hess_mechanics.numerics.accuracy import DRAFT, Accuracy
-from hess_mechanics.numerics.results import Array, Mask, frozen
+from hess_mechanics.numerics.results import Array
 from hess_mechanics.rigid_body.inertia import require_finite
+from hess_mechanics.suslov.section import AngleSection
 
 __all__ = [
     "EQUATOR",
     "SECTION",
     "BallSection",
     "ball_section",
-    "coordinates",
     "fastest",
     "forbidden_band",
     "outside_band",
@@ -59,13 +57,6 @@ def state_at(body: BallBody, h: float, psi: float, delta: float) -> tuple[float,
     gamma = (math.cos(psi), math.sin(psi), 0.0)
     omega = omega_of_energy(body, (math.cos(psi + delta), math.sin(psi + delta)), gamma, h)
     return (*omega, *gamma)
-
-
-def coordinates(states: Array) -> Array:
-    """Return (ψ, δ) (n, 2) of states (n, 5) of the section."""
-    psi = np.arctan2(states[:, 3], states[:, 2])
-    delta = np.arctan2(states[:, 1], states[:, 0]) - psi
-    return np.column_stack([psi, np.abs(np.arctan2(np.sin(delta), np.cos(delta)))])
 
 
 def forbidden_band(body: BallBody, h: float) -> tuple[float, float] | None:
@@ -143,22 +134,24 @@ def fastest(body: BallBody, start: tuple[float, ...], span: float) -> float:
 
 
 @dataclass(frozen=True)
-class BallSection(PoincareSection):
+class BallSection(AngleSection):
     """Section γ3 = 0 of a ball at the energy h.  Its methods raise `InvalidParameter`."""
 
     body: BallBody
     h: float
 
-    names: ClassVar[tuple[str, str]] = ("ψ", "δ")
-    turns: ClassVar[tuple[float, float]] = (2.0 * math.pi, math.inf)
-    window: ClassVar[tuple[tuple[float, float], ...]] = ((-math.pi, math.pi), (0.0, math.pi))
     system: ClassVar[System] = SYSTEM
-    surface: ClassVar[Plane] = EQUATOR
 
     @property
-    def parameters(self) -> tuple[float, ...]:
-        """The parameters of the body."""
-        return self.body.parameters
+    def _axis(self) -> int:
+        return 2
+
+    @property
+    def _energy(self) -> float:
+        return self.h
+
+    def _kinetic(self, u: Array, gamma: Array) -> Array:
+        return np.asarray(kinetic_energy((*u, *gamma), self.parameters))
 
     @property
     def slowness(self) -> float:
@@ -177,38 +170,11 @@ class BallSection(PoincareSection):
             return "the case I₁₃ = I₂₃ = b₃ = 0, whose orbits are closed"
         return "the integrable case I₁₁ = I₂₂, b along e₃" if has_area_integral(self.body) else ""
 
-    def moved(self, name: str, value: float) -> BallSection:
-        """Return the section with another value of one constant."""
-        if name == "h":
-            return replace(self, h=value)
-        return replace(self, body=replace(self.body, **{name: value}))
-
-    def states_at(self, psi: Array, delta: Array) -> tuple[Array, Mask]:
-        """Return the states (n, 5) at (ψ, δ) (n,), and the mask (n,) of the places with motion."""
-        psi, delta = np.array(psi, float, ndmin=1), np.array(delta, float, ndmin=1)
-        gamma = np.stack([np.cos(psi), np.sin(psi), np.zeros(psi.size)])
-        u = np.stack([np.cos(psi + delta), np.sin(psi + delta)])
-        room = self.h - np.array(self.parameters[5:]) @ gamma
-        there = (delta > 0.0) & (delta < math.pi) & np.isfinite(psi) & (room >= 0.0)
-        speed = np.sqrt(np.where(there, room, np.nan) / kinetic_energy((*u, *gamma), self.parameters))
-        states = np.vstack([speed * u, gamma]).T
-        return states, there
-
-    def places_of(self, states: Array) -> Array:
-        """Return (ψ, δ) (n, 2) of states (n, 5) of the section."""
-        return coordinates(states)
-
     def somewhere(self) -> tuple[float, ...] | None:
         """Return a state of the section; None if no motion crosses it."""
         with suppress(ModelError):
             return seeds(self.body, self.h, 1)[0]
         return None
-
-    def impossible(self, window: Window) -> Array:
-        """Return cells (1, n) over the window: 1 where the energy does not allow ψ."""
-        psi = np.linspace(window[0][0], window[1][0], _COLUMNS + 1)
-        psi = 0.5 * (psi[1:] + psi[:-1])
-        return frozen((self.body.b1 * np.cos(psi) + self.body.b2 * np.sin(psi) >= self.h)[None, :].astype(float))
 
 
 def _section(values: Mapping[str, float]) -> BallSection:

@@ -172,8 +172,3 @@ SYSTEM = System(
     rescale=in_units_of_time(4),
     example=((0.8, -0.4, 0.6, 0.0, 0.8), (2.0, 1.0, 0.3, 0.5, 0.3, -0.5, 1.0)),
 )
-
-
-def state(omega: Sequence[float], gamma: Sequence[float]) -> Array:
-    """Return y from ω = (ω1, ω2) and γ."""
-    return np.array([*omega, *gamma], float)

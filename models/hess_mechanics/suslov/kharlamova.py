@@ -49,8 +49,6 @@ __all__ = [
 ]
 
 _ON_EQUATOR = 1e-12
-_MEANS = 16
-"""Number of means after which both have the same value, whatever the zeros of P."""
 
 
 @dataclass(frozen=True)
@@ -218,7 +216,8 @@ def _period(c: Array, low: Array, high: Array, side: Array) -> Array:
     with np.errstate(all="ignore"):
         root = 0.5 * s * np.sqrt(-polyval(low, slope, False) * polyval(high, slope, False))
         x, y = np.sqrt(0.5 * (polyval(m, P, False) + P[4] * s**4 + root)), np.sqrt(root)
-        for _ in range(_MEANS):
+        # After 16 means both are the same, whatever the zeros of P.
+        for _ in range(16):
             x, y = 0.5 * (x + y), np.sqrt(x * y)
         T = np.where((side == 0.0) & (root > 0.0), 2.0 * math.pi * s / x, math.inf)
         T = np.where((P[0] == 0.0) & (P[1] == 0.0) & (P[2] < 0.0), 2.0 * math.pi / np.sqrt(-P[2]), T)
@@ -277,14 +276,14 @@ def arc(body: PlaneBody, state: Sequence[float]) -> Arc:
     w1, w2, g1, g2, g3 = as_place(SYSTEM.variables, state)
     u0, v0, a = np.array([g1, g2]), np.array([-w2, w1]), body.acceleration
     rows, (period,), (c,), (rate,) = _solved(u0, v0[None], a, g3)
-    low, high, side, *other = map(float, rows[0])
+    low, high, side, before, after = map(float, rows[0])
     frame = (frozen(u0), frozen(v0), frozen(a), float(rate))
     if rate == 0.0 or (c[0] == 0.0 and c[1] == 0.0):
         stable = bool(c[2] < 0.0) if c[2] != 0.0 else None
         return Arc("fixed", *frame, (0.0, 0.0), None, None, 0.0, stable)
     touch = low if side < 0.0 else high if side > 0.0 else None
     kind = "periodic" if math.isfinite(period) else "asymptotic"
-    return Arc(kind, *frame, (low, high), touch, (other[0], other[1]) if any(other) else None, float(period), None)
+    return Arc(kind, *frame, (low, high), touch, (before, after) if before < after else None, float(period), None)
 
 
 def periods_all_round(body: PlaneBody, q: Sequence[float], speed: float) -> Array:

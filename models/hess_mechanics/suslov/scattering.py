@@ -129,28 +129,7 @@ class Scattering(Result):
         A, B = self.A, self.B
         image = 2.0 * A * B.conjugate() * Gamma + A * A * y - B.conjugate() ** 2 * y.conj()
         # The arc cosine would lose half the digits at 0 and π.
-        return np.asarray(np.arctan2(np.abs(image), self._Gamma_plus(Gamma, y)), float)
-
-    def Gamma_plus(self, theta: Array | float, phi: Array | Sequence[float] | float) -> Array:
-        """Return Γ⁺ = cos θ⁺.
-
-        Parameters
-        ----------
-        theta : array_like of float
-            Incoming angle θ⁻ in radians.
-        phi : array_like of float
-            Phase φ in radians; it broadcasts with theta.
-
-        Returns
-        -------
-        ndarray of float
-            Values in [−1, 1], of the common shape of θ⁻ and φ.
-        """
-        return np.clip(self._Gamma_plus(*_spherical(theta, phi)), -1.0, 1.0)
-
-    def _Gamma_plus(self, Gamma: Array, y: Complex) -> Array:
-        value: Array = self.cos_chi * Gamma - 2.0 * np.real(self.A * self.B * y)
-        return value
+        return np.asarray(np.arctan2(np.abs(image), self.cos_chi * Gamma - 2.0 * np.real(A * B * y)), float)
 
 
 def _spherical(theta: Array | float, phi: Array | Sequence[float] | float) -> tuple[Array, Complex]:

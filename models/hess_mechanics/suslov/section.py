@@ -13,9 +13,10 @@ The energy gives |ω| wherever E > (b, γ).
 from __future__ import annotations
 
 import math
+from abc import abstractmethod
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import ClassVar
+from typing import Any, ClassVar, Self
 
 import numpy as np
 
@@ -32,7 +33,7 @@ from hess_mechanics.numerics.results import Array, Mask, frozen
 from hess_mechanics.rigid_body.inertia import require_finite
 from hess_mechanics.suslov.equations import SYSTEM, SuslovBody
 
-__all__ = ["SECTION", "SuslovSection", "require_reached"]
+__all__ = ["SECTION", "AngleSection", "SuslovSection", "require_reached"]
 
 _TURNS = 40.0
 """Time limit per crossing, in units of 1/ν; few orbits take longer."""
@@ -45,16 +46,115 @@ def _side(psi: Array) -> Array:
 
 
 @dataclass(frozen=True)
-class SuslovSection(PoincareSection):
+class AngleSection(PoincareSection):
+    """Section γ_k = 0 in (ψ, δ) at an energy, crossed while γ_k increases; b are the last parameters of the body."""
+
+    body: Any
+
+    names: ClassVar[tuple[str, str]] = ("ψ", "δ")
+    turns: ClassVar[tuple[float, float]] = (2.0 * math.pi, math.inf)
+    window: ClassVar[tuple[tuple[float, float], ...]] = ((-math.pi, math.pi), (0.0, math.pi))
+
+    @property
+    @abstractmethod
+    def _axis(self) -> int:
+        """Index of the component of γ that is 0, k − 1."""
+
+    @property
+    @abstractmethod
+    def _energy(self) -> float: ...
+
+    @abstractmethod
+    def _kinetic(self, u: Array, gamma: Array) -> Array:
+        """Return the kinetic energy (n,) for ω = u (2, n) at γ (3, n)."""
+
+    @property
+    def parameters(self) -> tuple[float, ...]:
+        """The parameters of the body."""
+        return tuple(self.body.parameters)
+
+    @property
+    def surface(self) -> Plane:
+        """The plane γ_k = 0."""
+        return Plane(tuple(float(i == self._axis + 2) for i in range(5)))
+
+    @property
+    def _in_plane(self) -> tuple[int, int]:
+        """The indices of the other two components of γ."""
+        first, second = (i for i in range(3) if i != self._axis)
+        return first, second
+
+    @property
+    def _field(self) -> tuple[float, float]:
+        """The components of b for the other two components of γ."""
+        b = self.parameters[-3:]
+        first, second = self._in_plane
+        return b[first], b[second]
+
+    @property
+    def lowest_energy(self) -> float:
+        """The energy below which no motion reaches the plane."""
+        return -math.hypot(*self._field)
+
+    def moved(self, name: str, value: float) -> Self:
+        """Return the section with another value of one constant."""
+        if name in vars(self.body):
+            return replace(self, body=replace(self.body, **{name: value}))
+        return replace(self, **{name: value})
+
+    def states_at(self, psi: Array, delta: Array) -> tuple[Array, Mask]:
+        """Return the states (n, 5) at (ψ, δ) (n,), and the mask (n,) of the places with motion."""
+        psi, delta = np.array(psi, float, ndmin=1), np.array(delta, float, ndmin=1)
+        gamma = self._gamma(psi)
+        side = _side(psi)
+        if self._axis == 2:
+            u = np.stack([np.cos(psi + delta), np.sin(psi + delta)])
+        elif self._axis == 0:
+            u = -side * np.stack([np.cos(delta), np.sin(delta)])
+        else:
+            u = side * np.stack([np.sin(delta), np.cos(delta)])
+        kinetic = self._energy - np.array(self.parameters[-3:]) @ gamma
+        speed = np.sqrt(np.maximum(0.0, kinetic) / self._kinetic(u, gamma))
+        inside = (delta > 0.0) & (delta < math.pi) & np.isfinite(psi)
+        return np.vstack([speed * u, gamma]).T, inside & (kinetic > 0.0)
+
+    def _gamma(self, psi: Array) -> Array:
+        gamma = np.zeros((3, psi.size))
+        gamma[self._in_plane, :] = np.cos(psi), np.sin(psi)
+        return gamma
+
+    def places_of(self, states: Array) -> Array:
+        """Return (ψ, δ) (n, 2) of states (n, 5) of the section."""
+        first, second = self._in_plane
+        psi = np.arctan2(states[:, 2 + second], states[:, 2 + first])
+        w1, w2 = states[:, 0], states[:, 1]
+        if self._axis == 2:
+            delta = np.arctan2(w2, w1) - psi
+            delta = np.abs(np.arctan2(np.sin(delta), np.cos(delta)))
+        elif self._axis == 0:
+            delta = np.arctan2(np.abs(w2), -_side(psi) * w1)
+        else:
+            delta = np.arctan2(np.abs(w1), _side(psi) * w2)
+        return np.column_stack([psi, delta])
+
+    def possible(self, psi: Array) -> Mask:
+        """Return the mask (n,) of the angles ψ that the energy allows."""
+        return np.asarray(np.array(self.parameters[-3:]) @ self._gamma(psi) < self._energy)
+
+    def impossible(self, window: Window) -> Array:
+        """Return cells (1, n) over the window: 1 where the energy does not allow ψ."""
+        psi = np.linspace(window[0][0], window[1][0], _COLUMNS + 1)
+        return frozen(1.0 - self.possible(0.5 * (psi[1:] + psi[:-1]))[None, :].astype(float))
+
+
+@dataclass(frozen=True)
+class SuslovSection(AngleSection):
     """Section γ_k = 0 of a body at E = h, crossed while γ_k increases.  Raises `InvalidParameter`."""
 
     body: SuslovBody
     E: float
     k: int
 
-    names: ClassVar[tuple[str, str]] = ("ψ", "δ")
-    turns: ClassVar[tuple[float, float]] = (2.0 * math.pi, math.inf)
-    window: ClassVar[tuple[tuple[float, float], ...]] = ((-math.pi, math.pi), (0.0, math.pi))
     system: ClassVar[System] = SYSTEM
 
     def __post_init__(self) -> None:
@@ -63,32 +163,15 @@ class SuslovSection(PoincareSection):
             raise InvalidParameter("The section is γ1 = 0, γ2 = 0 or γ3 = 0: choose 1, 2 or 3.")
 
     @property
-    def parameters(self) -> tuple[float, ...]:
-        """The parameters of the body."""
-        return self.body.parameters
+    def _axis(self) -> int:
+        return self.k - 1
 
     @property
-    def surface(self) -> Plane:
-        """The plane γ_k = 0."""
-        return Plane(tuple(float(i == self.k + 1) for i in range(5)))
+    def _energy(self) -> float:
+        return self.E
 
-    @property
-    def _in_plane(self) -> tuple[int, int]:
-        """The indices of the other two components of γ."""
-        first, second = (i for i in range(3) if i != self.k - 1)
-        return first, second
-
-    @property
-    def _field(self) -> tuple[float, float]:
-        """The components of b for the other two components of γ."""
-        b = self.body.parameters[4:]
-        first, second = self._in_plane
-        return b[first], b[second]
-
-    @property
-    def lowest_energy(self) -> float:
-        """The energy below which no motion reaches the plane."""
-        return -math.hypot(*self._field)
+    def _kinetic(self, u: Array, gamma: Array) -> Array:
+        return np.asarray(0.5 * (self.body.I11 * u[0] ** 2 + self.body.I22 * u[1] ** 2))
 
     @property
     def slowness(self) -> float:
@@ -112,33 +195,6 @@ class SuslovSection(PoincareSection):
         if b.I13 == b.I23 == b.b1 == b.b2 == 0.0 and b.I11 == b.I22:
             return "the integrable case I₁₁ = I₂₂, b along e"
         return ""
-
-    def moved(self, name: str, value: float) -> SuslovSection:
-        """Return the section with another value of one constant."""
-        if name == "E":
-            return replace(self, E=value)
-        return replace(self, body=replace(self.body, **{name: value}))
-
-    def states_at(self, psi: Array, delta: Array) -> tuple[Array, Mask]:
-        """Return the states (n, 5) at (ψ, δ) (n,), and the mask (n,) of the places with motion."""
-        body, psi, delta = self.body, np.array(psi, float, ndmin=1), np.array(delta, float, ndmin=1)
-        gamma = self._gamma(psi)
-        side = _side(psi)
-        if self.k == 3:
-            u = np.stack([np.cos(psi + delta), np.sin(psi + delta)])
-        elif self.k == 1:
-            u = -side * np.stack([np.cos(delta), np.sin(delta)])
-        else:
-            u = side * np.stack([np.sin(delta), np.cos(delta)])
-        kinetic = self.E - np.array(body.parameters[4:]) @ gamma
-        speed = np.sqrt(np.maximum(0.0, kinetic) / (0.5 * (body.I11 * u[0] ** 2 + body.I22 * u[1] ** 2)))
-        inside = (delta > 0.0) & (delta < math.pi) & np.isfinite(psi)
-        return np.vstack([speed * u, gamma]).T, inside & (kinetic > 0.0)
-
-    def _gamma(self, psi: Array) -> Array:
-        gamma = np.zeros((3, psi.size))
-        gamma[self._in_plane, :] = np.cos(psi), np.sin(psi)
-        return gamma
 
     def state_at(self, psi: float, delta: float) -> tuple[float, ...]:
         """Return the state (5,) at (ψ, δ).  Raises `InvalidParameter` if the energy does not allow it."""
@@ -166,24 +222,6 @@ class SuslovSection(PoincareSection):
         growth = SYSTEM.field(list(states.T), body.parameters)[self.k + 1]
         twice = np.where(ok, body.I11 * w1 * w1 + body.I22 * w2 * w2, 1.0)  # K|ω|² = 2(E − (b, γ))
         return np.where(ok, speed**2 * growth / twice, 0.0)
-
-    def places_of(self, states: Array) -> Array:
-        """Return (ψ, δ) (n, 2) of states (n, 5) of the section."""
-        first, second = self._in_plane
-        psi = np.arctan2(states[:, 2 + second], states[:, 2 + first])
-        w1, w2 = states[:, 0], states[:, 1]
-        if self.k == 3:
-            delta = np.arctan2(w2, w1) - psi
-            delta = np.abs(np.arctan2(np.sin(delta), np.cos(delta)))
-        elif self.k == 1:
-            delta = np.arctan2(np.abs(w2), -_side(psi) * w1)
-        else:
-            delta = np.arctan2(np.abs(w1), _side(psi) * w2)
-        return np.column_stack([psi, delta])
-
-    def possible(self, psi: Array) -> Mask:
-        """Return the mask (n,) of the angles ψ that the energy allows."""
-        return np.asarray(np.array(self.body.parameters[4:]) @ self._gamma(psi) < self.E)
 
     def _arcs(self, psi0: float, psi1: float) -> list[tuple[float, float]]:
         """Return the intervals of ψ0 … ψ1 where (b, γ) < E, in order."""
@@ -238,11 +276,6 @@ class SuslovSection(PoincareSection):
     def somewhere(self) -> tuple[float, ...] | None:
         """Return a state of the section; None if no motion crosses it."""
         return next(iter(self.spread(((-math.pi, 0.0), (math.pi, math.pi)), 1)), None)
-
-    def impossible(self, window: Window) -> Array:
-        """Return cells (1, n) over the window: 1 where the energy does not allow ψ."""
-        psi = np.linspace(window[0][0], window[1][0], _COLUMNS + 1)
-        return frozen(1.0 - self.possible(0.5 * (psi[1:] + psi[:-1]))[None, :].astype(float))
 
 
 def require_reached(section: SuslovSection) -> None:

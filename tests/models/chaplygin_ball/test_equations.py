@@ -7,7 +7,7 @@ import numpy as np
 import sympy
 from pytest import approx, mark, param, raises
 
-from hess_mechanics import ensemble, systems
+from hess_mechanics import ensemble
 from hess_mechanics.chaplygin_ball.energy_surface import Strip, line_of_rest, lowest_energy, omega_of_energy
 from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody
 from hess_mechanics.errors import InvalidParameter, NotPositiveDefinite, OutsideRegion
@@ -41,14 +41,6 @@ def test_the_field_solves_the_matrix_equation():
         kinetic = 0.5 * np.array([w1, w2]) @ matrix @ [w1, w2] + np.dot((b1, b2, b3), (g1, g2, g3))
         energy = SYSTEM.integrals((w1, w2, g1, g2, g3), body.parameters)["E"]
         assert energy == approx(kinetic, rel=1e-12, abs=1e-12)
-
-
-def test_without_the_inner_ball_it_is_the_suslov_problem():
-    random, suslov = np.random.default_rng(2), systems()["suslov"]
-    for state in random_states(random, 20):
-        p = random_body(random).parameters
-        found = SYSTEM.field(state, (*p[:4], 0.0, *p[5:]))
-        assert found == approx(suslov.field(state, (*p[:4], *p[5:])), rel=1e-12, abs=1e-14)
 
 
 # ---- invariant measures -----------------------------------------------------------------------------------------

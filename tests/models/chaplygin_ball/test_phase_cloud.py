@@ -57,14 +57,6 @@ def growth_in_closed_form(body, states, t):
     return np.cosh(u) / np.cosh(u + rate * t), rate
 
 
-def test_the_volume_of_a_patch_is_that_of_the_closed_form():
-    states = patch(FREE, 2.0, -0.3, 0.1, 4000)
-    times = np.linspace(0.0, 14.0, 15)
-    found = carried(FREE, states, times, "standard")
-    exact = [growth_in_closed_form(FREE, states, t)[0].mean() for t in times]
-    assert found.volume == approx(exact, rel=1e-6)
-
-
 # ---- orbits -----------------------------------------------------------------------------------------------------
 
 

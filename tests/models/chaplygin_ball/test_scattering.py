@@ -148,15 +148,6 @@ def test_where_the_line_is_left_within_a_fraction_of_a_turn_the_errors_say_what_
     assert np.all((errors > 0.0) & (errors < 1e-2))
 
 
-def test_errors_fall_with_the_distance_until_it_is_rounded():
-    errors = [
-        ball_scattering(CAPTION, 1.0, PHASES[:16], 10.0, distance, "reference").errors.max()
-        for distance in (1e-2, 1e-4, 1e-6, 1e-8, 1e-10)
-    ]
-    assert errors[0] > 10 * errors[1] > 100 * errors[2]
-    assert errors[2] < errors[3] < errors[4]
-
-
 @mark.parametrize(
     ("change", "match"),
     [

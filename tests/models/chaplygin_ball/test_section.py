@@ -6,12 +6,11 @@ import numpy as np
 from pytest import approx, mark, raises
 
 from hess_explorer.scenes import scenes
-from hess_mechanics import lyapunov_spectrum, section
+from hess_mechanics import lyapunov_spectrum
 from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody
 from hess_mechanics.chaplygin_ball.section import (
-    EQUATOR,
+    BallSection,
     ball_section,
-    coordinates,
     forbidden_band,
     seeds,
     state_at,
@@ -47,6 +46,10 @@ def example(name):
     return body, values["h"] - hypot(body.b1, body.b2)
 
 
+def places_of(body, states):
+    return BallSection(body, 0.0).places_of(states)
+
+
 # ---- coordinates ------------------------------------------------------------------------------------------------
 
 
@@ -63,7 +66,7 @@ def test_a_state_of_the_section_has_its_energy_and_its_coordinates(body):
         # γ̇3 = γ1ω2 − γ2ω1 = |ω| sin δ.
         assert g1 * w2 - g2 * w1 == approx(hypot(w1, w2) * sin(delta), rel=1e-9)
         assert SYSTEM.field(state, body.parameters)[4] > 0.0
-        assert coordinates(np.array([state]))[0] == approx((psi, delta), abs=1e-9)
+        assert places_of(body, np.array([state]))[0] == approx((psi, delta), abs=1e-9)
 
 
 test_what_is_no_point_of_the_section_is_refused = refused(
@@ -101,7 +104,7 @@ def test_an_energy_that_forbids_nothing_or_all():
 def test_seeds_cover_what_the_energy_allows(h):
     found = np.array(seeds(PLAIN, h, 200))
     assert SYSTEM.integrals(found.T, PLAIN.parameters)["E"] == approx(h, abs=1e-13)
-    psi, delta = coordinates(found).T
+    psi, delta = places_of(PLAIN, found).T
     band = forbidden_band(PLAIN, h)
     half = 0.0 if band is None else band[1]
     # PLAIN's b points to ψ = 0: so does the middle of the band.
@@ -151,29 +154,6 @@ def test_an_orbit_that_stops_crossing_is_not_followed_to_the_end():
 # ---- what the examples are --------------------------------------------------------------------------------------
 
 
-@mark.parametrize(
-    "body",
-    [
-        BallBody(1.0, 2.0, 0.0, 0.0, 1.0, 1.0, 0.5, 0.0),
-        BallBody(0.3, 2.0, 0.0, 0.0, 20.0, -0.4, 0.9, 0.0),
-        example("Every orbit closes")[0],
-    ],
-    ids=str,
-)
-def test_with_b3_and_I13_and_I23_zero_every_orbit_closes_after_one_turn(body):
-    for h in (-0.3, 1.7):
-        for start in seeds(body, h, 6):
-            found = section(body, start, EQUATOR, 1000.0, "precise", crossings=3)
-            assert len(found.states) == 3
-            assert np.max(np.abs(found.states - start)) <= 1e-8
-            assert found.error_estimate <= 1e-8
-    # b3 = 0.3 is enough to open them.
-    open_body = BallBody(*body.parameters[:7], 0.3)
-    start = seeds(open_body, 1.7, 12)[5]
-    found = section(open_body, start, EQUATOR, 1000.0, "precise", crossings=1)
-    assert np.max(np.abs(found.states[0] - start)) > 1e-3
-
-
 @mark.chaotic
 def test_mixed_some_orbits_lie_on_curves_and_others_fill_a_sea():
     body, h = example("Mixed")
@@ -182,7 +162,7 @@ def test_mixed_some_orbits_lie_on_curves_and_others_fill_a_sea():
     assert max(points.drift.values()) <= 1e-4
     assert all(len(states) == 1200 for states in points.states)
     # A curve once round passes 32 cells or a few more.  An orbit of the sea may stay beside an island until the end.
-    counts = np.array([len(occupied(coordinates(states[600:]))) for states in points.states])
+    counts = np.array([len(occupied(places_of(body, states[600:]))) for states in points.states])
     curve, sea = counts <= 80, counts >= 120
     assert deviations(curve, 0.2) > 5.0
     assert deviations(sea, 0.1) > 5.0

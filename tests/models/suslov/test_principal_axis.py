@@ -7,7 +7,6 @@ from scipy.integrate import solve_ivp
 
 from hess_mechanics import SuslovBody, level, section, systems
 from hess_mechanics.errors import WorkLimit
-from hess_mechanics.suslov.kharlamova import PlaneBody, arc, rescaled_time
 from hess_mechanics.suslov.principal_axis import conformal, divergence, energy_gradient, poisson_matrix
 from hess_mechanics.suslov.section import SuslovSection
 from support.mechanics import differences
@@ -86,14 +85,6 @@ def test_tau_is_the_integral_of_gamma3(span):
         t_eval=found.orbit.times[[0, 10, 50, -1]],
     )
     assert found.tau[[0, 10, 50, -1]] == approx(run.y[5], abs=1e-9)
-    assert found.tau_error < 1e-7
-    assert np.max(np.abs(found.tau[[10, 50, -1]] - run.y[5][1:])) <= found.tau_error + 1e-10
-
-
-def test_for_b3_0_it_is_the_time_on_the_parabola():
-    body, start = PlaneBody(1.5, 1.0, 0.4, -0.3), (0.9, -0.2, 0.48, 0.6, 0.64)
-    found = conformal(SuslovBody(1.5, 1.0, 0.0, 0.0, 0.4, -0.3, 0.0), start, 12.0, "reference")
-    assert found.tau == approx(rescaled_time(arc(body, start), found.orbit.states), abs=1e-9)
 
 
 @mark.parametrize("k", [1, 2, 3])

@@ -9,23 +9,19 @@ import numpy as np
 from pytest import approx, mark, raises
 
 from hess_mechanics import SuslovBody, ensemble
-from hess_mechanics.dynamics.attraction import arrivals
-from hess_mechanics.dynamics.basins import SectionOrbits, attractors
 from hess_mechanics.errors import InvalidParameter, WorkLimit
-from hess_mechanics.numerics.accuracy import DRAFT, PRECISE, STANDARD
+from hess_mechanics.numerics.accuracy import DRAFT, PRECISE
 from hess_mechanics.suslov.section import SuslovSection
 from support.deviations import deviations
 from support.diagrams import settled
-from support.mechanics import differences, scipy_crossings
+from support.mechanics import scipy_crossings
 from support.refusals import refused
 from support.suslov import divergence as divergence_of_field
-from support.suslov import energy, field, permanent_rotations
+from support.suslov import energy, field
 
 BODY = SuslovBody(1.5, 3.0, 0.4, -0.7, -0.5, 0.6, 0.7)
 SEA = SuslovBody(1.5, 3.0, 0.4, 0.4, -0.5, -0.5, 0.7), 0.005
 
-TWO = SuslovBody(1.5, 1.0, 0.4, 0.0, 0.3, -0.5, 1.0), 1.842
-CYCLE = SuslovBody(1.0, 3.0, 0.6, 0.6, 1.0, 0.7, 0.3), 1.743
 SEEN = SuslovSection(BODY, 0.6, 3)
 WHOLE = ((-pi, 0.0), (pi, pi))
 
@@ -120,32 +116,7 @@ def test_the_first_points_are_those_of_scipy(k, forward, count):
     assert found == approx(exact[:count], abs=1e-6)
 
 
-def test_what_attracts_forward_are_permanent_rotations_and_their_mirror_images_attract_backward():
-    body, E = CYCLE
-    at_rest = np.array(list(permanent_rotations(body, E)))
-    assert max(np.max(np.abs(field(body, state))) for state in at_rest) < 1e-12
-    starts = SuslovSection(body, E, 3).spread(WHOLE, 8)
-    for forward in (True, False):
-        for orbit in SuslovSection(body, 0.0, 3).points(starts, 600, forward, STANDARD).states:
-            distances = np.linalg.norm(at_rest - orbit[-1], axis=1)
-            assert distances.min() < 2e-5
-            # It attracts if its linear motion decays in the direction of time: all but two eigenvalues, as E and F1
-            # of neighbours stay.
-            jacobian = differences(lambda y: field(body, y), at_rest[np.argmin(distances)])
-            rates = np.sort(np.linalg.eigvals(jacobian).real * (1.0 if forward else -1.0))
-            assert rates[2] < -1e-3
-            assert rates[3:] == approx([0.0, 0.0], abs=1e-4)
-
-
 # ---- divergence --------------------------------------------------------------------------------------------------
-
-
-def test_the_divergence_is_that_of_the_field():
-    states = np.random.default_rng(3).normal(size=(40, 5))
-    assert BODY.system.divergence(states, BODY.parameters) == approx(
-        [divergence_of_field(BODY, y) for y in states], abs=1e-12
-    )
-    assert not BODY.system.divergence(states, SuslovBody(1.0, 2.0, 0.0, 0.0, 1.0).parameters).any()
 
 
 # ---- exponents ---------------------------------------------------------------------------------------------------
@@ -170,18 +141,3 @@ def test_the_chaotic_seas_of_the_scenes_keep_no_volume():
 
 
 # ---- basins ------------------------------------------------------------------------------------------------------
-
-
-def test_the_basins_of_the_example_are_those_that_scipy_finds():
-    body, E = TWO
-    orbits = SectionOrbits(SuslovSection(body, E, 3), DRAFT)
-    starts = orbits.section.spread(WHOLE, 6)
-    which = arrivals(orbits, attractors(orbits.section, 1000.0, DRAFT).sets, *orbits.places_of(np.array(starts)).T)
-    assert set(which.number) == {0, 1}
-    exact = []
-    for start in starts:
-        times, states = scipy_crossings(lambda y: field(body, y), start, lambda y: y[4], 400.0, 1, rtol=1e-8, atol=1e-9)
-        exact.append(states[times > 300.0, 0].mean())
-    # The first attractor is the one with ω₁ > 0 in the mean.
-    assert np.array_equal(np.array(exact) < 0.0, which.number)
-    assert np.ptp(exact) > 0.1
