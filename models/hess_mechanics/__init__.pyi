@@ -10,7 +10,7 @@ from .computations import (
 from .dynamics.continuation import Branch
 from .dynamics.ensemble import ensemble
 from .dynamics.lyapunov import Exponent, lyapunov_exponent
-from .dynamics.manifolds import Manifold
+from .dynamics.manifolds import Manifold, manifold
 from .dynamics.megno import Megno, megno
 from .dynamics.megno_map import MegnoMap, megno_map
 from .dynamics.orbit import solve
@@ -37,7 +37,6 @@ from .return_maps import (
     basins,
     continued_orbit,
     hysteresis,
-    manifold,
     orbit_diagram,
     period_doublings,
     periodic_orbit,

@@ -18,13 +18,11 @@ from hess_mechanics.dynamics.attraction import arrivals
 from hess_mechanics.dynamics.basins import Contraction, SectionOrbits, attractors
 from hess_mechanics.dynamics.cells import Window, centres, evenly
 from hess_mechanics.dynamics.continuation import Branch, continued
-from hess_mechanics.dynamics.manifolds import Manifold, grown
 from hess_mechanics.dynamics.megno_map import corners, require_plane
 from hess_mechanics.dynamics.orbit_diagram import COMPARED, Cascade, Diagram, cascade, diagram_over
 from hess_mechanics.dynamics.orbit_diagram import hysteresis as differing
 from hess_mechanics.dynamics.periodic import MAX_PERIOD, PeriodicOrbit, find_periodic, place_units
-from hess_mechanics.dynamics.return_map import PoincareSection, ReturnMap
-from hess_mechanics.dynamics.section import section_points
+from hess_mechanics.dynamics.return_map import PoincareSection, ReturnMap, section_crossings
 from hess_mechanics.dynamics.system import ParametrizedSystem, Problem
 from hess_mechanics.dynamics.variable_section import variable_section
 from hess_mechanics.errors import InvalidParameter, OutsideRegion, WorkLimit
@@ -48,7 +46,6 @@ __all__ = [
     "basins",
     "continued_orbit",
     "hysteresis",
-    "manifold",
     "orbit_diagram",
     "period_doublings",
     "periodic_orbit",
@@ -250,15 +247,9 @@ def section_orbits(
         if len(starts)
         else _spread(section, as_whole("orbits", orbits, 1, _MOST_ORBITS))
     )
-    end = count * (map_.longest or _TURNS * section.slowness / Problem.of(section, states).nu)
-    found = section_points(
-        section,
-        states,
-        section.surface,
-        -end if map_.backward else end,
-        plan(Kind.SECTION, map_.accuracy).level,
-        count,
-    )
+    turns = _TURNS if map_.longest is None else map_.longest * Problem.of(section, states).nu / section.slowness
+    level = plan(Kind.SECTION, map_.accuracy).level
+    found = section_crossings(section, states, count, turns, level, map_.backward)
     x, y = section.names
     return PlanePoints(
         (x, y),
@@ -376,72 +367,6 @@ def continued_orbit(map_: ReturnMap, orbit: PeriodicOrbit, parameter: str, to: f
     along = zip(branch.values.tolist(), branch.places, strict=True)
     times = [abs(map_.moved(parameter, value).time_of(places)) for value, places in along]
     return replace(branch, times=frozen(np.array(times)))
-
-
-def manifold(
-    map_: ReturnMap,
-    saddle: PeriodicOrbit,
-    length: float,
-    *,
-    stable: bool = False,
-    side: int = 1,
-    place: int = 0,
-    sagitta: float = 1e-3,
-    longest: float = 0.1,
-) -> Manifold:
-    """Return one branch of the stable or unstable manifold of a saddle, up to a given length.
-
-    Parameters
-    ----------
-    map_ : ReturnMap
-        Return map of a section with two coordinates.
-    saddle : PeriodicOrbit
-        A saddle of this map.
-    length : float
-        Length along the curve at which the branch ends, in units of the coordinates.
-    stable : bool, default False
-        Return the stable manifold instead of the unstable one.
-    side : {1, -1}, default 1
-        Leave the saddle along its direction (1) or against it (−1).
-    place : int, default 0
-        Index of the point of the saddle orbit from which the branch starts.
-    sagitta : float, default 1e-3
-        Largest distance between the curve and the returned polyline.
-    longest : float, default 0.1
-        Longest chord of the polyline.
-
-    Returns
-    -------
-    Manifold
-        The branch, as a polyline.
-
-    Raises
-    ------
-    InvalidParameter
-        If the orbit is not a saddle, or a number is out of range.
-    WorkLimit
-        If the branch needs too many returns.
-    NoReturn
-        If the motion does not return to the section.
-
-    Examples
-    --------
-    >>> from hess_mechanics import HeavyBody, manifold, periodic_orbit, return_map
-    >>> P = return_map(HeavyBody.hess((1.0, 1.6, 4.0), 1.0), h=1.5, f=-0.76)
-    >>> saddle = periodic_orbit(P, (-2.84, 0.288), 1)
-    >>> manifold(P, saddle, 0.5).length >= 0.5
-    True
-    """
-    return grown(
-        map_,
-        saddle,
-        length,
-        stable,
-        side,
-        place,
-        sagitta,
-        longest,
-    )
 
 
 def orbit_diagram(

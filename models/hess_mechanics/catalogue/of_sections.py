@@ -20,7 +20,7 @@ from hess_mechanics.catalogue.declared import (
     returning,
 )
 from hess_mechanics.dynamics.continuation import Branch
-from hess_mechanics.dynamics.manifolds import Manifold
+from hess_mechanics.dynamics.manifolds import Manifold, manifold
 from hess_mechanics.dynamics.motions import Motions, usual, whole
 from hess_mechanics.dynamics.orbit_diagram import Cascade, Diagram
 from hess_mechanics.dynamics.periodic import MAX_PERIOD, PeriodicOrbit
@@ -35,7 +35,6 @@ from hess_mechanics.return_maps import (
     basins,
     continued_orbit,
     hysteresis,
-    manifold,
     orbit_diagram,
     period_doublings,
     periodic_orbit,

@@ -63,11 +63,9 @@ def sample_times(body: Body, state: Array, span: float, weights: Array, sagitta:
         if count >= needed_count:
             break
         count = needed_count
-    field = body.system.field(list((states * problem.scale).T), list(body.parameters))
-    # A component may be a plain number.
-    rates = np.array(np.broadcast_arrays(*field))
-    accelerations = np.gradient(rates, span / (count - 1), axis=1) * weights[:, None]
-    density = np.sqrt(np.linalg.norm(accelerations, axis=0) / (8.0 * sagitta))
+    rates = body.system.rates(states * problem.scale, body.parameters)
+    accelerations = np.gradient(rates, span / (count - 1), axis=0) * weights
+    density = np.sqrt(np.linalg.norm(accelerations, axis=1) / (8.0 * sagitta))
     density = np.maximum(density, 16.0 / abs(span))  # some samples for a motion at rest too
     needed = np.concatenate([[0.0], np.cumsum(0.5 * (density[1:] + density[:-1]) * (abs(span) / (count - 1)))])
     samples = int(min(most - 1, np.ceil(needed[-1]))) + 1

@@ -417,6 +417,24 @@ class System:
             return None
         return found if found.shape == y.shape and np.all(np.isfinite(found)) else None
 
+    def rates(self, states: Array, parameters: Sequence[float] | Array) -> Array:
+        """Return the field at states.
+
+        Parameters
+        ----------
+        states : ndarray, shape (n, d)
+            States.
+        parameters : sequence of float, shape (q,)
+            Values of the parameters.
+
+        Returns
+        -------
+        ndarray, shape (n, d)
+            The rates.
+        """
+        found = self.field(list(states.T), np.asarray(parameters).tolist())
+        return np.stack([np.broadcast_to(rate, len(states)) for rate in found], axis=1)
+
     @cached_property
     def recursion(self) -> Recursion:
         """Taylor recursion of the field.  Raises `NotTraceable`."""

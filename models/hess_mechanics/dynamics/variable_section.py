@@ -122,10 +122,6 @@ class VariableSection(PoincareSection):
         turns, middle = np.array(self.turns), np.mean(self.ranges, axis=1)
         return np.asarray(places - np.where(np.isinf(turns), 0.0, _TURN) * np.round((places - middle) / turns))
 
-    def is_on(self, states: Array) -> Mask:
-        """Return a mask (n,) of the states (n, d) that have a place here: all of them."""
-        return np.ones(len(states), bool)
-
     def _index(self, name: str) -> int:
         return self.system.variables.index(name)
 
