@@ -14,7 +14,7 @@ from .dynamics.manifolds import Manifold, manifold
 from .dynamics.megno import Megno, megno
 from .dynamics.megno_map import MegnoMap, megno_map
 from .dynamics.orbit import solve
-from .dynamics.orbit_diagram import Cascade, Diagram
+from .dynamics.orbit_diagram import Cascade, Diagram, Hysteresis
 from .dynamics.periodic import PeriodicOrbit
 from .dynamics.regime import Dynamics, Regime, dynamics_of, regime
 from .dynamics.return_map import ReturnMap
@@ -32,7 +32,6 @@ from .numerics.accuracy import LEVELS, Level, Status, level
 from .numerics.results import Cost, Ensemble, Orbit, SectionCrossings
 from .return_maps import (
     Basins,
-    Hysteresis,
     PlanePoints,
     basins,
     continued_orbit,

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
@@ -19,8 +20,7 @@ from hess_mechanics.dynamics.basins import Contraction, SectionOrbits, attractor
 from hess_mechanics.dynamics.cells import Window, centres, evenly
 from hess_mechanics.dynamics.continuation import Branch, continued
 from hess_mechanics.dynamics.megno_map import corners, require_plane
-from hess_mechanics.dynamics.orbit_diagram import COMPARED, Cascade, Diagram, cascade, diagram_over
-from hess_mechanics.dynamics.orbit_diagram import hysteresis as differing
+from hess_mechanics.dynamics.orbit_diagram import COMPARED, Cascade, Diagram, Hysteresis, cascade, diagram_over
 from hess_mechanics.dynamics.periodic import MAX_PERIOD, PeriodicOrbit, find_periodic, place_units
 from hess_mechanics.dynamics.return_map import PoincareSection, ReturnMap, section_crossings
 from hess_mechanics.dynamics.system import ParametrizedSystem, Problem
@@ -41,7 +41,6 @@ from hess_mechanics.suslov_hess.section import TorusSection
 
 __all__ = [
     "Basins",
-    "Hysteresis",
     "PlanePoints",
     "basins",
     "continued_orbit",
@@ -356,7 +355,7 @@ def continued_orbit(map_: ReturnMap, orbit: PeriodicOrbit, parameter: str, to: f
     ('stable node', 0)
     """
     branch = continued(
-        lambda value: map_.moved(parameter, value),
+        partial(map_.moved, parameter),
         orbit,
         parameter,
         map_.constant(parameter),
@@ -426,53 +425,11 @@ def orbit_diagram(
     transient, kept = as_whole("transient", transient, 0, 20_000), as_whole("kept", kept, 1, 20_000)
     if len(np.atleast_1d(values)) * kept > _MOST_PLACES:
         raise WorkLimit(f"An orbit diagram has at most {_MOST_PLACES} places: choose fewer values, or crossings kept.")
-    found = diagram_over(lambda value: map_.moved(parameter, value), parameter, values, place, transient, kept, follow)
+    found = diagram_over(partial(map_.moved, parameter), parameter, values, place, transient, kept, follow)
     if not any(map(len, found.places)):
         # Say why.
         map_.moved(parameter, float(found.values[0])).state_at(np.array(place))
     return found
-
-
-@dataclass(frozen=True)
-class Hysteresis(Result):
-    """Orbit diagrams over a parameter there and back.
-
-    Attributes
-    ----------
-    there, back : Diagram
-        The diagram over rising values, and over falling values from where the first one ends.
-    intervals : tuple of (float, float)
-        Intervals of values over which they differ.
-    """
-
-    there: Diagram
-    back: Diagram
-    intervals: tuple[tuple[float, float], ...]
-
-    def labels(self) -> Labels:
-        """Return the points of both diagrams, labelled with the way and the value of the parameter.
-
-        Returns
-        -------
-        Labels
-            The coordinates over the points.
-        """
-        one, other = self.there.labels(), self.back.labels()
-        way = [
-            np.full(len(each.coords[self.there.parameter][1]), name) for each, name in ((one, "there"), (other, "back"))
-        ]
-        both = {
-            name: (dims, np.concatenate([values, other.coords[name][1]])) for name, (dims, values) in one.coords.items()
-        }
-        return Labels(
-            {"way": (("point",), np.concatenate(way)), **both},
-            {
-                name: (dims, np.concatenate([values, other.variables[name][1]]))
-                for name, (dims, values) in one.variables.items()
-            },
-            one.units,
-            {"intervals": "; ".join(f"{low:.12g} to {high:.12g}" for low, high in self.intervals), **one.facts},
-        )
 
 
 def hysteresis(
@@ -526,7 +483,7 @@ def hysteresis(
     there = orbit_diagram(map_, parameter, values, at, transient=transient, kept=kept)
     ends = [end.tolist() for end, some in zip(there.ends, there.places, strict=True) if len(some)]
     back = orbit_diagram(map_, parameter, there.values[::-1], ends[-1], transient=transient, kept=kept)
-    return Hysteresis(there, back, differing(map_.turns, there, back))
+    return Hysteresis(there, back, map_.turns)
 
 
 def period_doublings(map_: ReturnMap, orbit: PeriodicOrbit, parameter: str, to: float, most: int = 6) -> Cascade:
@@ -568,7 +525,7 @@ def period_doublings(map_: ReturnMap, orbit: PeriodicOrbit, parameter: str, to: 
     ([1], 2.126)
     """
     return cascade(
-        lambda value: map_.moved(parameter, value),
+        partial(map_.moved, parameter),
         parameter,
         orbit,
         map_.constant(parameter),

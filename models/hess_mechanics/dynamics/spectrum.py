@@ -161,17 +161,15 @@ class Spectrum(Result):
         )
 
 
-def kaplan_yorke(
-    values: Array, errors: Array, total: float | None = None, total_error: float = 0.0
-) -> tuple[float, float]:
+def kaplan_yorke(values: Array, errors: Array, total: float, total_error: float = 0.0) -> tuple[float, float]:
     """Return the dimension k + Σ_(i≤k) λ_i/|λ_(k+1)| of exponents and its error.
 
     Parameters
     ----------
     values, errors : Array, shape (m,)
         The exponents, the largest first, and their errors.
-    total, total_error : float, optional
-        Their sum, the mean divergence, where it is known better than from them.
+    total, total_error : float
+        Their sum, the mean divergence, which is known better than from them.
 
     Returns
     -------
@@ -183,15 +181,12 @@ def kaplan_yorke(
     --------
     >>> import numpy as np
     >>> from hess_mechanics.dynamics.spectrum import kaplan_yorke
-    >>> round(kaplan_yorke(np.array([0.9056, 0.0, -14.572]), np.zeros(3))[0], 3)  # Lorenz
+    >>> round(kaplan_yorke(np.array([0.9056, 0.0, -14.572]), np.zeros(3), -13.6667)[0], 3)  # Lorenz
     2.062
     """
     if not values.size:
         return 0.0, 0.0
     sums = np.cumsum(values)
-    known = total is not None
-    if total is None:
-        total, total_error = float(sums[-1]), float(np.hypot.reduce(errors))
     last = abs(float(values[-1]))
     if total >= -_ERRORS * total_error:
         return float(values.size), (abs(total) + total_error) / last if last > 0.0 else 0.0
@@ -199,7 +194,7 @@ def kaplan_yorke(
         # Volume shrinks, but no exponent is negative: nothing is known.
         return float(values.size), float(values.size)
     k = int(np.argmax(sums < 0.0)) if np.any(sums < 0.0) else values.size - 1
-    if known and k == values.size - 1:
+    if k == values.size - 1:
         # The sum of the first m − 1 is the total less the last one.
         return values.size + total / last, math.hypot(total_error, total / last * float(errors[-1])) / last
     before, next_one = float(sums[k - 1]) if k else 0.0, abs(float(values[k]))

@@ -219,27 +219,25 @@ class System:
     ) -> None:
         if not isinstance(name, str) or not name:
             raise InvalidParameter(f'{name!r} is not the name of a system: give a text such as "henon-heiles".')
-        known = {
-            "name": name,
-            "title": title or name,
-            "field": field,
-            "variables": _names(name, "variables", variables),
-            "parameters": _names(name, "parameters", parameters),
-            "source": source,
-            "labels": _names(name, "labels", labels),
-            "integrals": integrals,
-            "frequency": frequency,
-            "rescale": rescale,
-            "angular_velocities": angular_velocities,
-            "unit": unit,
-            "tolerance": tolerance,
-            "angles": _names(name, "angles", angles),
-            "symmetries": symmetries,
-        }
-        for key, value in known.items():
-            object.__setattr__(self, key, value)
+        vars(self).update(
+            name=name,
+            title=title or name,
+            field=field,
+            variables=_names(name, "variables", variables),
+            parameters=_names(name, "parameters", parameters),
+            source=source,
+            labels=_names(name, "labels", labels),
+            integrals=integrals,
+            frequency=frequency,
+            rescale=rescale,
+            angular_velocities=angular_velocities,
+            unit=unit,
+            tolerance=tolerance,
+            angles=_names(name, "angles", angles),
+            symmetries=symmetries,
+        )
         values = tuple(parameters.values()) if isinstance(parameters, Mapping) else (1.0,) * len(self.parameters)
-        object.__setattr__(self, "example", self._checked_example(example, values))
+        vars(self).update(example=self._checked_example(example, values))
         self._check_field()
         self._check_scaling()
         self._check_angles()
