@@ -30,7 +30,7 @@ from hess_mechanics.euler_poisson.andoyer import AndoyerSection
 from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.numerics.accuracy import Accuracy, Kind, plan
 from hess_mechanics.numerics.arguments import as_cells, as_level, as_number, as_pairs, as_place, as_whole
-from hess_mechanics.numerics.labelled import Labels, Result
+from hess_mechanics.numerics.labelled import Labels, Result, components
 from hess_mechanics.numerics.parallel import share
 from hess_mechanics.numerics.results import Array, angle_facts, frozen
 from hess_mechanics.suslov.equations import SuslovBody
@@ -92,7 +92,7 @@ class PlanePoints(Result):
         points = np.concatenate([np.empty((0, 2)), *self.orbits])
         return Labels(
             {"orbit": (("point",), number)},
-            {name: (("point",), points[:, i]) for i, name in enumerate(self.names)},
+            components(self.names, points, "point"),
             place_units(self.names),
             self.facts,
         )

@@ -278,12 +278,6 @@ def variable_section(
 def _controls(system: System, parameters: tuple[float, ...], variable: str) -> dict[str, float]:
     """Return how much the rate of a variable depends on each variable, at the example."""
     state, here = np.array(system.example[0]), system.variables.index(variable)
-    found = {}
-    for i, name in enumerate(system.variables):
-        ahead, behind = state.copy(), state.copy()
-        ahead[i] += _STEP
-        behind[i] -= _STEP
-        found[name] = abs(
-            float(system.field(list(ahead), parameters)[here] - system.field(list(behind), parameters)[here])
-        )
-    return found
+    steps = _STEP * np.eye(state.size)
+    ahead, behind = (system.rates(shifted, parameters)[:, here] for shifted in (state + steps, state - steps))
+    return dict(zip(system.variables, np.abs(ahead - behind).tolist(), strict=True))
