@@ -133,6 +133,8 @@ interface LessonStep {
   text: string
   scene: string
   look: string
+  /** Names of the pictures that are shown alone; none with the whole page. */
+  pictures: string[]
   question: string
   answer: string
   /** Names of parameters. */
@@ -263,9 +265,9 @@ interface Ghost {
   show(image: GhostImage): void
 }
 
-/** A picture that was drawn; shoot(side) returns it for print, `side` pixels wide. */
+/** A picture that was drawn; shoot(look) draws it again on a canvas of its own. */
 interface Drawn extends Partial<Ghost> {
-  shoot(side: number): HTMLCanvasElement
+  shoot(look: ShotLook): HTMLCanvasElement
   plot?: PlotView
 }
 
@@ -296,7 +298,22 @@ interface Scene {
 
 /** Properties of a painted canvas: its side or size in its own units, device pixels per unit, colour of text, theme. */
 interface CanvasLook { width: number, height: number, text: string, dark: boolean }
-interface SquareLook { edge: number, ratio: number, text: string, dark: boolean }
+/** `isFine`: shaded as finely as print needs. */
+interface SquareLook { edge: number, ratio: number, text: string, dark: boolean, isFine?: boolean }
+/** `texts` collects the texts, which are then not drawn. */
+interface ShotLook extends SquareLook { texts?: LiftedText[] }
+/** A text of a picture: place, turn counterclockwise, size, colour and alignment as on a canvas, in the picture's own units. */
+interface LiftedText {
+  text: string
+  x: number
+  y: number
+  turn: number
+  size: number
+  colour: string
+  alpha: number
+  align: CanvasTextAlign
+  baseline: CanvasTextBaseline
+}
 type PaintSquare = (ctx: CanvasRenderingContext2D, look: SquareLook) => void
 /** `turn` is the azimuth and elevation of the eye. */
 type PaintTurned = (ctx: CanvasRenderingContext2D, look: SquareLook, turn: [number, number]) => void
@@ -333,24 +350,22 @@ interface Compared {
 
 /** Options of the export dialog: [kind, label, content] of each format; [least, most, usual] of the numbers. */
 interface ExportFiles {
+  /** Name and version. */
+  program: string
   formats: [string, string, string][]
   width: [number, number, number]
   seconds: [number, number, number]
 }
 
+/** picture: name of a file without theme and suffix, "" for none; examples: their names, to be searched. */
 interface SceneTile {
   name: string
   title: string
   summary: string
   picture: string
+  examples: string
   origin: string | null
   group: string
-}
-
-/** A row of the gallery; file: name without theme and suffix. */
-interface ShowcaseRow {
-  idea: string
-  exhibits: { title: string, query: string, file: string }[]
 }
 
 /** The model of the page's component, see "page/component.py". */
@@ -359,7 +374,6 @@ interface PageModel {
   lesson: string
   lessons: { name: string, title: string, minutes: number }[]
   scenes: SceneTile[]
-  showcase: ShowcaseRow[]
   files: ExportFiles
   sheets: Record<string, string>
 }
@@ -381,7 +395,8 @@ interface Host {
 
 /** The events of "base/bus.js", by name, with their details. */
 interface PageEvents {
-  introduce: string[] | null
+  /** The pictures that are shown alone, over the text of their step; none with the whole page. */
+  alone: string[]
   // To the client
   change: Record<string, number | string>
   expression: Texts

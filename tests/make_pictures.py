@@ -1,4 +1,4 @@
-"""Make the pictures of the gallery in *Scenes* and of the README: `python tests/make_pictures.py [NAME…]`.
+"""Make the pictures of the scenes, in *Scenes* and in the README: `python tests/make_pictures.py [SCENE…]`.
 
 Each is the inside of a picture's axes, or a sphere, in the light and in the dark theme; with them goes the whole page.
 """
@@ -8,8 +8,8 @@ from __future__ import annotations
 import io
 import sys
 import tempfile
-from collections.abc import Iterator
 from pathlib import Path
+from urllib.parse import urlencode
 
 from PIL import Image
 from playwright.sync_api import FloatRect, Page
@@ -17,30 +17,33 @@ from playwright.sync_api import FloatRect, Page
 from hess_explorer.assets import STATIC
 from hess_explorer.headless.browser import launched, wait_ready
 from hess_explorer.headless.screenshot import screenshot, server_process
-from hess_explorer.page.showcase import EXHIBITS, Exhibit
+from hess_explorer.scenes import scenes
 from support.modules import look_inside
 
 README = Path(__file__).resolve().parents[1] / ".github" / "pictures"
-FRONT = (
-    Exhibit("suslov-hess", "Two limit cycles", "surface"),
-    Exhibit("free-suslov", "Portrait, I₁₃ > 0, I₂₃ < 0", "omega"),
-    Exhibit("scattering", "I₁₁ = 3.56", "map"),
-    Exhibit("suslov", "Two attractors", "section"),
-    Exhibit("kharlamova", "Periodic: two orbits", "domain"),
-    Exhibit("quartic", "Mixed: in the sea", "section"),
-    Exhibit("rotation-number", "One plateau", "map"),
-    Exhibit("chaplygin-ball", "Projections", "omega"),
-    Exhibit("ball-section", "Mixed", "section"),
-    Exhibit("euler-poisson", "Two layers", "section"),
-    Exhibit("hess-leak", "f = 0", "body"),
-    Exhibit("bridge", "Two limit cycles", "omega"),
-    Exhibit("loxodrome", "Almost round", "space"),
-    Exhibit("singular-measures", "Free Suslov", "sphere"),
-    Exhibit("orbit-diagram", "Period doubling", "diagram"),
-    Exhibit("ball-diagram", "Period doubling", "diagram"),
-    Exhibit("own-body", "Suslov problem", "sphere"),
-)
-"""The front picture of each scene."""
+FRONT = {
+    "suslov-hess": ("Two limit cycles", "surface"),
+    "free-suslov": ("Portrait, I₁₃ > 0, I₂₃ < 0", "omega"),
+    "scattering": ("I₁₁ = 3.56", "map"),
+    "suslov": ("Two attractors", "section"),
+    "kharlamova": ("Periodic: two orbits", "domain"),
+    "quartic": ("Mixed: in the sea", "section"),
+    "rotation-number": ("One plateau", "map"),
+    "chaplygin-ball": ("Projections", "omega"),
+    "ball-section": ("Mixed", "section"),
+    "euler-poisson": ("Two layers", "section"),
+    "hess-leak": ("f = 0", "body"),
+    "bridge": ("Two limit cycles", "omega"),
+    "loxodrome": ("Almost round", "space"),
+    "singular-measures": ("Free Suslov", "sphere"),
+    "orbit-diagram": ("Period doubling", "diagram"),
+    "ball-diagram": ("Period doubling", "diagram"),
+    "own-body": ("Suslov problem", "sphere"),
+    "suslov-hess-accuracy": ("Two limit cycles", "precision"),
+    "rotation-number-accuracy": ("One plateau", "trade"),
+}
+"""Scene → beginning of the name of an example, and its front picture."""
+EDGE = 320
 VIEWPORT = {"width": 560, "height": 680}
 INSIDE = """name => {
   const plot = hess.plots.find(({ model }) => model.name === name)
@@ -57,25 +60,17 @@ def inside(page: Page, name: str) -> FloatRect:
     return page.evaluate(INSIDE, name) or page.locator(f".picture-{name} canvas").first.bounding_box()
 
 
-def taken(page: Page, base: str, exhibit: Exhibit, theme: str, edge: int) -> Image.Image:
-    """Return a picture, once all of it has been computed, as a square of so many pixels."""
-    parts = f"embed=1&pictures={exhibit.picture}&controls=none&theme={theme}"
-    page.goto(f"{base}/?{exhibit.query}&{parts}")
+def taken(page: Page, base: str, name: str, theme: str) -> Image.Image:
+    """Return the front picture of a scene, once all of it has been computed, as a square."""
+    example, picture = FRONT[name]
+    (values,) = (one.values for one in scenes()[name].presets if one.name.startswith(example))
+    parts = {"embed": "1", "pictures": picture, "controls": "none", "theme": theme}
+    page.goto(f"{base}/?{urlencode({'scene': name, **values, **parts})}")
     wait_ready(page)
     # The page has taken its last size.
     page.wait_for_timeout(1000)
-    shot = page.screenshot(clip=inside(page, exhibit.picture))
-    return Image.open(io.BytesIO(shot)).convert("RGB").resize((edge, edge), Image.Resampling.LANCZOS)
-
-
-def wanted(names: list[str]) -> Iterator[tuple[Exhibit, Path, int]]:
-    """Yield the named pictures, or all: each with its file, without theme and suffix, and its edge in pixels."""
-    for exhibit in EXHIBITS:
-        if not names or exhibit.file in names:
-            yield exhibit, STATIC / "thumbnails" / exhibit.file, 240
-    for exhibit in FRONT:
-        if not names or exhibit.scene in names:
-            yield exhibit, README / exhibit.scene, 320
+    shot = page.screenshot(clip=inside(page, picture))
+    return Image.open(io.BytesIO(shot)).convert("RGB").resize((EDGE, EDGE), Image.Resampling.LANCZOS)
 
 
 def main(names: list[str]) -> None:
@@ -88,9 +83,9 @@ def main(names: list[str]) -> None:
         for theme in ("light", "dark"):
             page = browser.new_page(viewport=VIEWPORT, color_scheme=theme, reduced_motion="reduce")
             look_inside(page)
-            for exhibit, path, edge in wanted(names):
-                picture = taken(page, base, exhibit, theme, edge)
-                picture.save(path.with_name(f"{path.name}-{theme}.jpg"), quality=82, optimize=True)
+            for name in FRONT if not names else FRONT.keys() & names:
+                file = f"{Path(scenes()[name].module).stem.replace('_', '-')}-{theme}.jpg"
+                taken(page, base, name, theme).save(STATIC / "thumbnails" / file, quality=82, optimize=True)
             page.close()
     if not names or "page" in names:
         page = Image.open(io.BytesIO(screenshot("scene=suslov-hess", (1600, 950)))).convert("RGB")

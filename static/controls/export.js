@@ -1,12 +1,13 @@
 // @ts-check
-// The dialog Export: data, figure or film of a picture, or the whole state in one file, made by the server; the command that
-// makes the file, and the Python code that computes the same.
+// The dialog Export: data, figure or film of a picture, or the whole state in one file; the command that makes the file, and the
+// Python code that computes the same.  The server makes the file, but for a PNG of what is no plot, which the page draws again.
 
 import { button, element } from "../base/elements.js"
 import { listen, tell } from "../base/bus.js"
 import { linkTo } from "../base/embedding.js"
+import { pictureFile } from "../pictures/files.js"
 import { gallery } from "../pictures/gallery.js"
-import { nameOf, titleOf } from "../pictures/picture.js"
+import { captionOf, nameOf, titleOf } from "../pictures/picture.js"
 import { choices, dialogOf, optionsOf, saveFile, section, snippet } from "./dialog.js"
 import { slowFileOf } from "./slow_file.js"
 
@@ -30,6 +31,9 @@ export function exportDialog(files) {
   const isFilm = (kind) => holds[kind] === "film"
   /** @param {string} kind */
   const isDrawn = (kind) => isFilm(kind) || holds[kind] === "figure"
+  /** Whether a browser draws the file: this one a PNG, that of the server everything else. @param {Wanted} what */
+  const isOfBrowser = ({ picture: name, format: kind }) => (
+    isFilm(kind) || (isDrawn(kind) && scene.pictures.some((one) => one.name === name && one.kind !== "plot")))
   /** @type {SceneDescription | null} */
   let scene = null
   /** @type {AbortController | null} */
@@ -62,6 +66,8 @@ export function exportDialog(files) {
   // Sliders that move in a page.
   /** @type {Record<string, ControlValue>} */
   let controls = {}
+  // The status line, for the metadata of a PNG.
+  let status = ""
   const moving = choices("moving", "Sliders that move in the file")
   const values = number("values", 1, VALUES)
   const grid = element("input.param-grid", { type: "checkbox" })
@@ -73,7 +79,10 @@ export function exportDialog(files) {
       element("span", save, stop), made, message),
     section("Command", "The same on the command line", command),
     section("Python", "The same numbers in Python", python, element("span", copy, book))))
-  listen({ controls(changed) { Object.assign(controls, changed) } })
+  listen({
+    controls(changed) { Object.assign(controls, changed) },
+    texts(changed) { status = changed.status ?? status },
+  })
   dialog.addEventListener("close", () => running?.abort())
   dialog.addEventListener("input", write)
 
@@ -159,7 +168,8 @@ export function exportDialog(files) {
 
   /** @param {Wanted} what @param {AbortSignal} [signal] @returns {Promise<Fetched>} */
   async function fetched(what, signal) {
-    const isSlow = isFilm(what.format) || "vary" in what
+    if (what.format === "png" && isOfBrowser(what)) return drawn(what)
+    const isSlow = isOfBrowser(what) || "vary" in what
     const query = new URLSearchParams({ ...what, ...(isSlow && { progress: "1" }) })
     try {
       const answer = await fetch(new URL(`export?${state()}&${query}`, document.baseURI), { signal })
@@ -167,6 +177,23 @@ export function exportDialog(files) {
       return isSlow ? await slowFileOf(answer, count) : { file: await answer.blob() }
     } catch (error) {
       return { why: /** @type {Error} */ (error).name === "AbortError" ? "Stopped." : "The server does not answer: no file was made." }
+    }
+  }
+
+  /** @param {Wanted} what @returns {Promise<Fetched>} */
+  async function drawn({ picture: name, black: isBlack }) {
+    const [least, most] = files.width
+    const millimetres = width.valueAsNumber
+    if (!(millimetres >= least && millimetres <= most)) return { why: `A figure must be ${least} to ${most} mm wide.` }
+    const [title, ...words] = captionOf(gallery.cell(name))
+    const parameters = Object.entries(controls).map(([key, [value]]) => `${key} = ${value}`).join(", ")
+    try {
+      return { file: await pictureFile(name, millimetres, isBlack !== undefined, {
+        Title: title, Description: `${files.program}, ?${state()} | ${parameters} | ${status}`, Comment: words.join(" "),
+        Software: files.program,
+      }) }
+    } catch {
+      return { why: "This browser cannot draw such a large picture: choose a smaller width." }
     }
   }
 

@@ -1,7 +1,7 @@
 // @ts-check
 // Plays a scene slowly when it has first been drawn whole, so that newcomers see what moves; the first touch ends it.
 //
-// It does not play if the user prefers reduced motion, in an embedded page, or in a lesson.
+// It does not play if the user prefers reduced motion, in an embedded page, or in a lesson beside all pictures.
 
 import { listen } from "../base/bus.js"
 import { isEmbedded } from "../base/embedding.js"
@@ -22,22 +22,22 @@ export function opening({ begin, end, isOwn }) {
   // Motion takes the time of the browser, and on some machines that of the computation.
   let isComputing = false
   let isReading = false
-  // In the introduction the motion goes on under the hand.
-  let isIntroducing = false
+  // Beside pictures that are shown alone the motion goes on under the hand.
+  let isAlone = false
 
   listen({
-    introduce(names) { isIntroducing = names !== null },
+    alone(names) { isAlone = names.length > 0 },
     reading(on) { isReading = on },
     progress(progress) { isComputing = progress !== null },
     painted() {
       if (isComputing) return
-      if (isWaiting && !isReading) begin()
+      if (isWaiting && (isAlone || !isReading)) begin()
       isWaiting = false
     },
   })
   for (const name of TOUCHES) {
     document.addEventListener(name, (event) => {
-      if (isIntroducing) return
+      if (isAlone) return
       isWaiting = false
       if (!isOwn(/** @type {KeyboardEvent} */ (event))) end()
     }, { capture: true, passive: true })

@@ -1,27 +1,26 @@
 // @ts-check
-// The menu of scenes: a dialog with a gallery, all scenes in groups, and a search.  It tells "scene" for a choice and "near" for
-// the scene under the mouse or focus, so that its pictures are built in advance.
+// The menu of scenes: a dialog with a picture of each scene, in groups, and a search.  It tells "scene" for a choice and "near"
+// for the scene under the mouse or focus, so that its pictures are built in advance.
 
 import { button, element } from "../base/elements.js"
 import { tell } from "../base/bus.js"
 import { dialogOf, section } from "./dialog.js"
-import { showcaseOf } from "./showcase.js"
 
 const REST = 60
-const TILE = ".scene, .exhibit"
 
 /** @param {SceneTile} scene @param {boolean} isHere @param {boolean} isFirst @param {(name: string) => void} choose */
-function tileOf({ name, title, summary, picture }, isHere, isFirst, choose) {
-  const words = element("span.about", ...isFirst ? [element("span.start", "start here")] : [],
-    element("span.name", title), element("span.summary", summary))
+function tileOf({ name, title, summary, picture, examples }, isHere, isFirst, choose) {
+  const theme = document.documentElement.style.colorScheme === "dark" ? "dark" : "light"
+  const image = picture === "" ? element("span.picture") : element("img.picture", {
+    src: new URL(`../thumbnails/${picture}-${theme}.jpg`, import.meta.url).href, alt: "", loading: "lazy", width: 320, height: 320,
+  })
   /** @type {ReturnType<typeof setTimeout>} */
   let resting = null
   const rest = () => { resting = setTimeout(() => tell("near", name), REST) }
   const leave = () => clearTimeout(resting)
   return button(`scene.param-scene-${name}`, () => choose(name), {
-    ariaPressed: isHere, dataset: { scene: name }, innerHTML: `<svg viewBox="0 0 48 32" aria-hidden="true">${picture}</svg>`,
-    onpointerenter: rest, onfocus: rest, onpointerleave: leave, onblur: leave,
-  }, words)
+    ariaPressed: isHere, dataset: { scene: name, examples }, onpointerenter: rest, onfocus: rest, onpointerleave: leave, onblur: leave,
+  }, image, ...isFirst ? [element("span.start", "start here")] : [], element("span.name", title), element("span.summary", summary))
 }
 
 /**
@@ -43,41 +42,46 @@ function neighbour(tiles, tile, key) {
   return rows[0]?.other
 }
 
-/**
- * Return the dialog and the functions that open it and set the scene on show.
- * @param {SceneTile[]} scenes
- * @param {ShowcaseRow[]} showcase
- */
-export function sceneMenu(scenes, showcase) {
+/** Return the dialog and the functions that open it and set the scene on show. @param {SceneTile[]} scenes */
+export function sceneMenu(scenes) {
+  let here = ""
   const search = element("input.search", { type: "search", ariaLabel: "Search scenes", placeholder: "Search", oninput: filter })
-  const gallery = element("div.showcase")
-  const list = element("div.groups")
+  const list = element("div.scenes")
   const none = element("p.none", { hidden: true, role: "status" }, "No scene matches.")
-  const dialog = dialogOf("Scenes", "menu-of-scenes", [search], element("div.scenes", gallery, list), none)
+  const dialog = dialogOf("Scenes", "menu-of-scenes", [search], list, none)
 
-  const tiles = () => /** @type {HTMLElement[]} */ ([...dialog.querySelectorAll(TILE)]).filter((tile) => tile.checkVisibility())
+  const tiles = () => /** @type {HTMLElement[]} */ ([...list.querySelectorAll(".scene")]).filter((tile) => tile.checkVisibility())
   /** @param {string} name */
   const choose = (name) => {
     tell("scene", name)
     dialog.close()
   }
 
+  function fill() {
+    const base = scenes.find(({ name }) => name === here)?.origin ?? here
+    // Scenes that look into another scene are offered only with that scene.
+    const offered = scenes.filter(({ origin }) => origin === null || origin === base)
+    list.replaceChildren(...[...new Set(offered.map(({ group }) => group))].map((group) => section(group, group,
+      element("div.tiles", ...offered.filter((scene) => scene.group === group)
+        .map((scene) => tileOf(scene, scene.name === here, scene === scenes[0], choose))))))
+  }
+
   function filter() {
     const words = search.value.toLowerCase().split(/\s+/).filter(Boolean)
-    for (const group of /** @type {NodeListOf<HTMLElement>} */ (dialog.querySelectorAll("section"))) {
-      const own = /** @type {HTMLElement[]} */ ([...group.querySelectorAll(TILE)])
+    for (const group of /** @type {NodeListOf<HTMLElement>} */ (list.querySelectorAll("section"))) {
+      const own = /** @type {HTMLElement[]} */ ([...group.querySelectorAll(".scene")])
       for (const tile of own) {
-        const text = `${group.ariaLabel} ${tile.textContent}`.toLowerCase()
+        const text = `${group.ariaLabel} ${tile.textContent} ${tile.dataset.examples}`.toLowerCase()
         tile.hidden = !words.every((word) => text.includes(word))
       }
       group.hidden = own.every((tile) => tile.hidden)
     }
-    none.hidden = dialog.querySelector("section:not([hidden])") !== null
+    none.hidden = list.querySelector("section:not([hidden])") !== null
   }
 
   dialog.addEventListener("keydown", (event) => {
     /** @type {HTMLElement | null} */
-    const tile = /** @type {Element} */ (event.target).closest(TILE)
+    const tile = /** @type {Element} */ (event.target).closest(".scene")
     if (event.target === search) {
       if (!["Enter", "ArrowDown"].includes(event.key)) return
       const [first] = tiles()
@@ -87,14 +91,19 @@ export function sceneMenu(scenes, showcase) {
     } else if (tile !== null && event.key.startsWith("Arrow")) {
       const next = neighbour(tiles(), tile, event.key)
       ;(next ?? (event.key === "ArrowUp" ? search : tile)).focus()
-    } else return
+    } else {
+      // Typing searches: the letter goes where the focus is.
+      if (/^\S$/u.test(event.key) && !event.ctrlKey && !event.metaKey && !event.altKey) search.focus()
+      return
+    }
     event.preventDefault()
   })
 
   return {
     box: dialog,
     open() {
-      gallery.replaceChildren(...showcaseOf(showcase, () => dialog.close()))
+      // The theme may be another one.
+      fill()
       search.value = ""
       filter()
       dialog.showModal()
@@ -102,12 +111,8 @@ export function sceneMenu(scenes, showcase) {
     },
     /** @param {SceneDescription} scene */
     show({ name }) {
-      const base = scenes.find((scene) => scene.name === name)?.origin ?? name
-      // Scenes that look into another scene are offered only with that scene.
-      const offered = scenes.filter((scene) => scene.origin === null || scene.origin === base)
-      list.replaceChildren(...[...new Set(offered.map(({ group }) => group))].map((group) => section(group, group,
-        element("div.tiles", ...offered.filter((scene) => scene.group === group)
-          .map((scene) => tileOf(scene, scene.name === name, scene === scenes[0], choose))))))
+      here = name
+      fill()
     },
   }
 }

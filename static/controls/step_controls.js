@@ -9,17 +9,14 @@ import { isPresenting } from "../base/presenting.js"
 import { NARROW, PHONE } from "../base/windows.js"
 import { control as controlOf } from "./control.js"
 
-// Where the column of controls is beside the text, it is enough.
-const isColumnAway = () => NARROW.matches || PHONE.matches || isPresenting() || isEmbedded()
-
-/**
- * Return the group of controls, empty at first, and the function that fills it.
- * @param {() => boolean} isNeeded whether the group has anything to show now
- */
-export function stepControls(isNeeded = isColumnAway) {
+/** Return the group of controls, empty at first, and the function that fills it. */
+export function stepControls() {
   const group = element("div.step-controls", { role: "group", ariaLabel: "Controls of this step" })
   /** @type {string[]} */
   let names = []
+  let isAlone = false
+  // Where the column of controls is beside the text, it is enough.
+  const isColumnAway = () => NARROW.matches || PHONE.matches || isPresenting() || isEmbedded() || isAlone
   /** @type {ControlDescription[]} */
   let known = []
   // Latest values from the server for the current scene.
@@ -36,7 +33,7 @@ export function stepControls(isNeeded = isColumnAway) {
 
   function build() {
     parts = {}
-    const wanted = isNeeded() ? names.map((name) => known.find((control) => control.name === name)).filter(Boolean) : []
+    const wanted = isColumnAway() ? names.map((name) => known.find((control) => control.name === name)).filter(Boolean) : []
     group.replaceChildren(...wanted.map((control) => {
       const [item, showOne, refuse, follow] = controlOf(control)
       parts[control.name] = { show: showOne, refuse, follow }
@@ -68,6 +65,10 @@ export function stepControls(isNeeded = isColumnAway) {
     texts(texts) { for (const [name, part] of Object.entries(parts)) if (texts[`error-${name}`]) part.refuse?.(texts[`error-${name}`]) },
     presenting: build,
     embedding: build,
+    alone(pictures) {
+      isAlone = pictures.length > 0
+      build()
+    },
   })
   return {
     group,

@@ -6,6 +6,7 @@ import { render as renderBar } from "../controls/bar.js"
 import { element } from "../base/elements.js"
 import { createMount, FRAME, stylesOf } from "../page/mount.js"
 import { buildPage, opener } from "../page/shell.js"
+import { frameUrl, imageAndTexts, pictureUrl } from "../pictures/files.js"
 import { createRecorded } from "./recorded.js"
 import { createShelf } from "./strip.js"
 
@@ -50,8 +51,11 @@ function start() {
   buildPage(model, { mark: "#", connect: connectTo(createRecorded(recording, stripAt, query)), answering: () => new Promise(() => {}) }, {
     mount, bar: [mount("bar", renderBar, { first: [opener("a.tool.home", "Explorer")], dialogs: {} })],
     lessons: { index: Object.values(recording.lessons).map(({ name, title, minutes }) => ({ name, title, minutes })) },
-    introduction: element("div"), styles: stylesOf(sheets, FRAME),
+    styles: stylesOf(sheets, FRAME),
   }, el)
 }
 
 start()
+
+/** The functions by which "headless/drawing.py" draws the pictures of the page. */
+export const drawing = { frameUrl, imageAndTexts, pictureUrl }

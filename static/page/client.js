@@ -20,6 +20,7 @@ import { tabStore } from "../base/stores.js"
 import { createTheme } from "./theme.js"
 import { createVisibility } from "./visibility.js"
 import { handleCommands } from "./commands.js"
+import { isFirstVisit } from "./lessons.js"
 
 // The next part of a state is requested after a pause as long as the last part took: half of the time is left to the user,
 // and a slow server is asked less often.  While nothing new arrives, pauses grow to a quarter of the time since then, so that
@@ -239,21 +240,22 @@ export function startClient(model, host) {
     await gallery.standing
     // The preference of the system counts until the user chooses a theme.
     const preference = matchMedia("(prefers-color-scheme: dark)")
-    let isIntroducing = false
+    let isAlone = false
     const followPreference = () => {
-      theme.setDark(own.theme === "" ? isIntroducing || preference.matches : own.theme === "dark")
+      theme.setDark(own.theme === "" ? isAlone || preference.matches : own.theme === "dark")
     }
     followPreference()
     preference.addEventListener("change", followPreference)
     listen({
-      introduce(names) {
-        isIntroducing = names !== null
+      // As in a cinema.
+      alone(names) {
+        isAlone = names.length > 0
         followPreference()
       },
     })
     tell("client", own)
-    // The lesson of a link begins when the page is ready.
-    if (model.lesson !== "") tell("lesson-read", { lesson: JSON.parse(model.lesson), step: Number(own.step) - 1 })
+    // The lesson of a link begins when the page is ready; with a bare address this is the introduction.
+    if (own.lesson !== "" || (model.lesson !== "" && isFirstVisit())) tell("lesson-read", { lesson: JSON.parse(model.lesson), step: Math.max(0, Number(own.step) - 1) })
     send = host.connect(onAnswer, onLost, requests.silence)
     requests.begin(unanswered)
   }

@@ -13,9 +13,20 @@ import { listen, tell } from "../base/bus.js"
 import { isEmbedded } from "../base/embedding.js"
 import { onKeys } from "../base/keys.js"
 import { button, element } from "../base/elements.js"
+import { browserStore } from "../base/stores.js"
 import { CALM } from "../base/windows.js"
 
 const SECOND = 1000
+// One turn of a wheel is one step.
+const PAUSE = 700
+
+/** Return whether the page is opened for the first time, by its bare address.  Programs that drive a browser get the whole page. */
+export function isFirstVisit() {
+  // Without a store every visit would be the first.
+  const isFirst = location.search === "" && !navigator.webdriver && browserStore.works() && browserStore.get("introduced") === null
+  if (isFirst) browserStore.set("introduced", "1")
+  return isFirst
+}
 
 /** @param {string} name @param {string} innerHTML */
 const html = (name, innerHTML) => element(name, { innerHTML })
@@ -50,6 +61,7 @@ export function render({ index, record, el }) {
   let wanted = null
   let at = 0
   let begun = 0
+  let turned = 0
   // These belong to the step on show and end with it.
   /** @type {ReturnType<typeof createGuess> | null} */
   let guess = null
@@ -73,6 +85,9 @@ export function render({ index, record, el }) {
     tell("step", [name, number, revealed])
   }
 
+  // Whether the step shows its pictures alone.
+  const isAlone = () => lesson !== null && lesson.steps[at].pictures.length > 0
+
   function leaveStep() {
     guess?.end()
     animation?.stop()
@@ -84,8 +99,9 @@ export function render({ index, record, el }) {
    * does not notice a picture that is enlarged and reduced again within a frame.
    * @param {LessonStep} step
    */
-  function arrange({ scene, look, hide, prediction }) {
+  function arrange({ scene, look, pictures, hide, prediction }) {
     if (gallery.shown?.name !== scene) return
+    tell("alone", pictures)
     if (look !== "") tell("look", look)
     veil(prediction ?? hide ?? null)
   }
@@ -96,6 +112,7 @@ export function render({ index, record, el }) {
     const step = lesson.steps[at]
     const { prediction } = step
     const isLast = at === lesson.steps.length - 1
+    const isAlone = step.pictures.length > 0
     const [said, buttons] = [element("output.said"), element("div.row")]
     const audience = element("output.audience", { hidden: true })
     if (prediction) {
@@ -108,6 +125,7 @@ export function render({ index, record, el }) {
       buttons.append(button("button.param-animate", animation.start, animation.label))
     }
     expected = step
+    panel.classList.toggle("alone", isAlone)
     controls.fill(step.controls)
     const title = element("h2.title", { innerHTML: step.title, tabIndex: -1 })
     const progress = element("progress", { max: lesson.steps.length, value: at + 1, ariaLabel: "Steps" })
@@ -118,9 +136,11 @@ export function render({ index, record, el }) {
           disabled: at === 0, title: at === 0 ? "Disabled: this is the first step" : "Back (Page Up)",
         }, "Back"),
         button("button.param-next-step", next, {
-          disabled: isLast, title: isLast ? "Disabled: this is the last step" : "Next (Page Down)",
-        }, "Next"),
-        ...(isEmbedded() ? [] : [button("button.param-leave-lesson", leave, { title: "Leave the lesson" }, "Leave")]),
+          disabled: isLast && !isAlone, title: isLast && !isAlone ? "Disabled: this is the last step" : "Next (Page Down)",
+        }, !isAlone ? "Next" : isLast ? "The whole page" : "Go on ↓"),
+        ...(isEmbedded() ? [] : [isAlone
+          ? button("button.param-leave-lesson", leave, { title: "Show the whole page (Esc)" }, "Skip")
+          : button("button.param-leave-lesson", leave, { title: "Leave the lesson" }, "Leave")]),
         element("div.where", progress, element("span.count", `${at + 1} / ${lesson.steps.length}`), time))))
     said.hidden = guess === null
     buttons.hidden = guess === null && animation === null
@@ -165,8 +185,9 @@ export function render({ index, record, el }) {
     if (reveal()) return
     /** @type {HTMLDetailsElement | null} */
     const answer = panel.querySelector(".answer:not([open])")
-    if (answer === null) turnTo(at + 1)
-    else answer.open = true
+    if (answer !== null) answer.open = true
+    else if (isAlone() && at === lesson.steps.length - 1) leave()
+    else turnTo(at + 1)
   }
 
   /**
@@ -196,6 +217,7 @@ export function render({ index, record, el }) {
   function leave() {
     leaveStep()
     veil(null)
+    tell("alone", [])
     controls.fill([])
     clearInterval(ticking)
     lesson = null
@@ -277,5 +299,16 @@ export function render({ index, record, el }) {
       wanted = null
     },
   })
-  onKeys({ pagedown: () => lesson !== null && next(), pageup: () => lesson !== null && turnTo(at - 1) })
+  addEventListener("wheel", (event) => {
+    if (!isAlone()) return
+    // No picture is zoomed.
+    event.preventDefault()
+    event.stopPropagation()
+    if (event.deltaY <= 0 || event.timeStamp - turned < PAUSE) return
+    turned = event.timeStamp
+    next()
+  }, { capture: true, passive: false })
+  onKeys({
+    pagedown: () => lesson !== null && next(), pageup: () => lesson !== null && turnTo(at - 1), escape: () => isAlone() && leave(),
+  })
 }

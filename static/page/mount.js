@@ -14,7 +14,6 @@ const SHEETS = {
   controls: ["controls/dialog.css", "controls/controls.css"],
   pictures: ["pictures/pictures.css"],
   player: ["controls/controls.css", "controls/player.css"],
-  introduction: ["controls/controls.css", "page/introduction.css"],
   lessons: ["controls/controls.css", "page/page.css", "page/lessons.css"],
 }
 

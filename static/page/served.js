@@ -1,5 +1,5 @@
 // @ts-check
-// The page beside its server: with the tools that ask the server, rooms and the introduction.
+// The page beside its server: with the tools that ask the server, and rooms.
 
 import { render as renderBar } from "../controls/bar.js"
 import { exportDialog } from "../controls/export.js"
@@ -7,7 +7,6 @@ import { inviteDialog } from "../controls/invite.js"
 import { sceneMenu } from "../controls/scenes.js"
 import { shareDialog } from "../controls/share.js"
 import { button, element, icon } from "../base/elements.js"
-import { render as renderIntroduction } from "./introduction.js"
 import { createMount, FRAME, stylesOf } from "./mount.js"
 import { recording } from "./recording.js"
 import { createRoom } from "./room.js"
@@ -33,15 +32,15 @@ let built = null
 export function render({ model, el }) {
   if (built !== null) return el.replaceWith(built)
   built = el
-  const { client, lessons: index, scenes, showcase, files, sheets } = model
+  const { client, lessons: index, scenes, files, sheets } = model
   const mount = createMount(sheets)
-  const menu = sceneMenu(scenes, showcase)
+  const menu = sceneMenu(scenes)
   const dialogs = { menu, share: shareDialog(), invite: inviteDialog(), export: exportDialog(files) }
   const first = [button("tool.param-scenes", menu.open, { title: "Choose a scene", ariaHasPopup: "dialog", innerHTML: icon(MENU) },
     element("span", "Scenes"))]
   const { query } = buildPage(model, { mark: "?", connect: openWebsocket, answering }, {
     mount, bar: [mount("bar", renderBar, { first, dialogs }), ...rejoin(client)],
-    lessons: { index, record: recording() }, introduction: mount("introduction", renderIntroduction), styles: stylesOf(sheets, FRAME),
+    lessons: { index, record: recording() }, styles: stylesOf(sheets, FRAME),
   }, el)
   if (client.embed !== "1") createRoom({ query })
 }

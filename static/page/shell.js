@@ -56,8 +56,12 @@ function tabsOf(columns) {
   for (const query of [NARROW, PHONE]) query.addEventListener("change", follow)
   choose(tabs[0][0])
   follow()
-  // The text of a lesson, at its start.
-  listen({ reading(on) { if (on) choose(tabs.find(([, column]) => column.id === "text")[0]) } })
+  listen({
+    // The text of a lesson, at its start.
+    reading(on) { if (on) choose(tabs.find(([, column]) => column.id === "text")[0]) },
+    // Pictures that are shown alone leave the columns as the page opens with them.
+    alone(names) { if (names.length > 0) choose(tabs[0][0]) },
+  })
   return element("div.tabs", { role: "tablist", ariaLabel: "Beside the pictures", onkeydown }, ...tabs.map(([tab]) => tab))
 }
 
@@ -94,11 +98,11 @@ function sentenceAbove(stage, reading) {
  * Build the page and start its client, which is returned.
  * @param {Pick<PageModel, "client" | "lesson">} model
  * @param {Host} host answers the requests of the page
- * @param {{mount: ReturnType<typeof import("./mount.js").createMount>, bar: HTMLElement[], lessons: object, introduction: HTMLElement, styles: HTMLElement[]}} parts the content
- *   of the bar, the properties of the lessons, the place of the introduction, and the style sheets of the frame
+ * @param {{mount: ReturnType<typeof import("./mount.js").createMount>, bar: HTMLElement[], lessons: object, styles: HTMLElement[]}} parts the content
+ *   of the bar, the properties of the lessons, and the style sheets of the frame
  * @param {HTMLElement} el
  */
-export function buildPage(model, host, { mount, bar, lessons, introduction, styles }, el) {
+export function buildPage(model, host, { mount, bar, lessons, styles }, el) {
   /** @param {string} key @param {string} [tag] */
   const text = (key, tag) => mount("text", renderText, { key, tag })
   const controls = element("section.controls.column", { id: "controls" },
@@ -118,13 +122,12 @@ export function buildPage(model, host, { mount, bar, lessons, introduction, styl
   el.append(
     ...styles, element("header.bar", ...bar, element("div.news", text("busy"))),
     tabsOf({ Controls: controls, Text: reader }), controls, stage, reader,
-    element("div.foot", text("notes"), mount("status", renderStatus, {}, element("div.status-line"))), opener("a.opener", "Open in Hess Explorer"), drawer(el), spot(),
-    introduction)
-  introduction.before(announcer(sentenceAbove(stage, reading)))
+    element("div.foot", text("notes"), mount("status", renderStatus, {}, element("div.status-line"))), opener("a.opener", "Open in Hess Explorer"), drawer(el), spot())
+  el.append(announcer(sentenceAbove(stage, reading)))
   wear(el)
   listen({
     reading: (on) => el.classList.toggle("in-lesson", on),
-    introduce: (names) => el.classList.toggle("introducing", names !== null),
+    alone: (names) => el.classList.toggle("alone", names.length > 0),
   })
   onKeys({ f: () => tell("fullscreen"), p: () => tell("present") })
   return startClient(model, host)

@@ -2,33 +2,23 @@
 // Layout of square pictures in a viewport, side by side and as large as the room allows.
 
 /**
- * The viewport.  `share` of its height belongs to an enlarged picture, if the width allows.  caption(width) is the height of
- * the caption over a picture in a cell of that width, `caption.title(width)` that of a title alone, and `caption.wide` the
- * largest width of a cell that is wider than its picture.
- * @typedef {{width: number, height: number, count: number, gap: number, share: number,
- *   caption: ((width: number) => number) & {title: (width: number) => number, wide: number}}} Place
- * @typedef {{x: number, y: number, width: number, edge: number, caption: number, small: boolean}} Box
+ * The viewport.  `share` of its height belongs to an enlarged picture, if the width allows.  `caption` is the height of the
+ * caption over a picture, `title` that of the title over a picture beside enlarged ones, and `wide` the largest width of a cell
+ * that is wider than its picture.
+ * @typedef {{width: number, height: number, count: number, gap: number, share: number, caption: number, title: number,
+ *   wide: number}} Place
+ * @typedef {{x: number, y: number, width: number, edge: number, caption: number, aside: boolean}} Box
  * Many arrangements are compared, by their smallest edge and the area of all pictures; boxes are made for one.
  * @typedef {{smallest: number, area: number, boxes: () => Box[]}} Arrangement
  */
 
 const STEP = 2
-// Square pixels that count as more.
-const LARGER = 1000
+// Factor of the area of all pictures for which an arrangement may be less regular.
+const LARGER = 1.1
 // Edge of a picture beside enlarged ones, as a share of the height.
 const SMALLEST = 0.09
 // Error of the width that the text may take.
 const COARSE = 12
-
-/**
- * Return the height of a caption in a column of this width, whose cells are no wider than their captions and pictures need.
- * @param {Place["caption"]} caption
- * @param {number} wide
- * @param {number} high room for caption and picture
- */
-function captionIn(caption, wide, high) {
-  return caption(Math.min(wide, Math.max(high - caption(caption.wide), caption.wide)))
-}
 
 /**
  * Return the arrangement of equal pictures in a grid.
@@ -36,23 +26,22 @@ function captionIn(caption, wide, high) {
  * @param {number} columns
  * @returns {Arrangement}
  */
-function grid({ width, height, count, gap, caption }, columns) {
+function grid({ width, height, count, gap, caption, wide: widest }, columns) {
   const rows = Math.ceil(count / columns)
   const wide = (width - gap * (columns - 1)) / columns
   const high = (height - gap * (rows - 1)) / rows
-  const above = captionIn(caption, wide, high)
-  const edge = Math.floor(Math.min(wide, high - above))
+  const edge = Math.floor(Math.min(wide, high - caption))
   const boxes = () => {
-    const cell = Math.min(wide, Math.max(edge, caption.wide))
+    const cell = Math.min(wide, Math.max(edge, widest))
     const left = (width - columns * cell - gap * (columns - 1)) / 2
-    const row = edge + above + gap
+    const row = edge + caption + gap
     const top = (height - rows * row + gap) / 2
     // A last row that is not full is centred.
     /** @param {number} i */
-    const aside = (i) => (i < columns * (rows - 1) ? 0 : (rows * columns - count) / 2)
+    const indent = (i) => (i < columns * (rows - 1) ? 0 : (rows * columns - count) / 2)
     return Array.from({ length: count }, (_, i) => ({
-      x: left + ((i % columns) + aside(i)) * (cell + gap), y: top + Math.floor(i / columns) * row,
-      width: cell, edge, caption: above, small: false,
+      x: left + ((i % columns) + indent(i)) * (cell + gap), y: top + Math.floor(i / columns) * row,
+      width: cell, edge, caption, aside: false,
     }))
   }
   return { smallest: edge, area: count * edge * edge, boxes }
@@ -67,27 +56,25 @@ const grids = (place) => Array.from({ length: place.count }, (_, i) => grid(plac
  * @param {number} leading
  * @param {number} lead
  * @param {boolean} isBeside
- * @param {boolean} titlesOnly whether the captions of the others are cut to their titles
+ * @param {boolean} aside whether the captions of the others are cut to their titles
  * @returns {Arrangement}
  */
-function leadAndRest({ width, height, count, gap, share, caption }, leading, lead, isBeside, titlesOnly) {
-  const over = caption(lead)
+function leadAndRest(place, leading, lead, isBeside, aside) {
+  const { width, height, count, gap, caption, title } = place
   const row = leading * lead + gap * (leading - 1)
   const across = isBeside ? row + gap : 0
-  const down = isBeside ? 0 : lead + over + gap
+  const down = isBeside ? 0 : lead + caption + gap
   const left = isBeside ? 0 : (width - row) / 2
-  const top = isBeside ? (height - lead - over) / 2 : 0
-  const { title, wide } = caption
+  const top = isBeside ? (height - lead - caption) / 2 : 0
   const rest = best(grids({
-    width: width - across, height: height - down, count: count - leading, gap, share,
-    caption: titlesOnly ? Object.assign(title.bind(null), { title, wide }) : caption,
+    ...place, width: width - across, height: height - down, count: count - leading, caption: aside ? title : caption,
   }))
   const edge = Math.min(rest.smallest, lead)
   const boxes = () => {
     const leads = Array.from({ length: leading }, (_, i) => ({
-      x: left + i * (lead + gap), y: top, width: lead, edge: lead, caption: over, small: false,
+      x: left + i * (lead + gap), y: top, width: lead, edge: lead, caption, aside: false,
     }))
-    const others = rest.boxes().map((box) => ({ ...box, x: box.x + across, y: box.y + down, edge, small: titlesOnly }))
+    const others = rest.boxes().map((box) => ({ ...box, x: box.x + across, y: box.y + down, edge, aside }))
     return [...leads, ...others]
   }
   return { smallest: edge, area: leading * lead * lead + (count - leading) * edge * edge, boxes }
@@ -99,21 +86,17 @@ function leadAndRest({ width, height, count, gap, share, caption }, leading, lea
  * @param {number} leading
  */
 function largest({ width, height, gap, caption }, leading) {
-  const wide = (width - gap * (leading - 1)) / leading
-  let edge = Math.floor(Math.min(wide, height - caption(Math.min(wide, height))))
-  // A smaller picture may have a higher caption.
-  while (edge > 0 && edge + caption(edge) > height) edge -= 1
-  return edge
+  return Math.floor(Math.min((width - gap * (leading - 1)) / leading, height - caption))
 }
 
 /**
- * Return the arrangement with the largest smallest picture; among equals, the one that fills most of the viewport.
+ * Return the arrangement with the largest smallest picture; among equals, one whose pictures fill clearly more of the viewport.
  * @param {Arrangement[]} arrangements
  */
 function best(arrangements) {
   return arrangements.reduce((found, one) => {
     const larger = one.smallest - found.smallest
-    return larger >= 1 || (larger > -1 && one.area - found.area >= LARGER) ? one : found
+    return larger >= 1 || (larger > -1 && one.area >= LARGER * found.area) ? one : found
   })
 }
 
@@ -122,12 +105,12 @@ function best(arrangements) {
  * @param {Place} place
  * @param {number} leading
  * @param {number} least
- * @param {boolean} titlesOnly
+ * @param {boolean} aside
  */
-function ledBy(place, leading, least, titlesOnly) {
+function ledBy(place, leading, least, aside) {
   const found = []
   for (let lead = largest(place, leading); lead >= least; lead -= STEP) {
-    for (const isBeside of [true, false]) found.push(leadAndRest(place, leading, lead, isBeside, titlesOnly))
+    for (const isBeside of [true, false]) found.push(leadAndRest(place, leading, lead, isBeside, aside))
   }
   return found
 }

@@ -5,7 +5,7 @@
 import { listen } from "../base/bus.js"
 import { element } from "../base/elements.js"
 import { zoom } from "../base/presenting.js"
-import { INK, isDark, onDark, setDark, watchTheme } from "./looks.js"
+import { isDark, onDark, setDark, watchTheme } from "./looks.js"
 import { largerOf } from "./plot_looks.js"
 
 const pixelRatio = () => devicePixelRatio || 1
@@ -69,9 +69,28 @@ export function liveCanvas(className, properties, paint) {
 }
 
 /**
+ * Return a text that was to be drawn, for a file in which text stays text.
+ * @param {CanvasRenderingContext2D} ctx
+ * @param {string} text
+ * @param {number} left
+ * @param {number} top
+ * @param {number} ratio
+ * @returns {LiftedText}
+ */
+function lifted(ctx, text, left, top, ratio) {
+  const { font, fillStyle, globalAlpha: alpha, textAlign: align, textBaseline: baseline } = ctx
+  const transform = ctx.getTransform()
+  const { x, y } = transform.transformPoint({ x: left, y: top })
+  return {
+    text, x: x / ratio, y: y / ratio, turn: Math.atan2(-transform.b, transform.a), size: Number.parseFloat(font),
+    colour: String(fillStyle), alpha, align, baseline,
+  }
+}
+
+/**
  * Add a square canvas to an element, as wide as the element.
  *
- * Lengths are in CSS pixels, larger in present mode.  shoot(side) returns the picture for print, `side` pixels wide.
+ * Lengths are in CSS pixels, larger in present mode.  shoot(look) draws the picture on a canvas of its own.
  * @param {HTMLElement} el
  * @param {string} className
  * @param {object} properties
@@ -83,13 +102,15 @@ export function squareCanvas(el, className, properties, paint) {
     paint(ctx, { edge: width / zoom(), ratio: pixelRatio() * zoom(), text, dark })
   })
   el.append(own.canvas)
-  /** @param {number} side */
-  const shoot = (side) => {
+  /** @param {ShotLook} look */
+  const shoot = (look) => {
+    const { edge, ratio, texts } = look
+    const side = Math.round(edge * ratio)
     const sheet = element("canvas", { width: side, height: side })
     const ctx = sheet.getContext("2d")
-    const ratio = zoom() * side / own.width
     ctx.scale(ratio, ratio)
-    paint(ctx, { edge: side / ratio, ratio, text: INK, dark: false })
+    if (texts !== undefined) ctx.fillText = (text, left, top) => { texts.push(lifted(ctx, text, left, top, ratio)) }
+    paint(ctx, look)
     return sheet
   }
   return Object.assign(own, { shoot })

@@ -4,9 +4,10 @@
 import { listen } from "../base/bus.js"
 import { sayDragMe } from "../base/handle.js"
 import { element } from "../base/elements.js"
+import { zoom } from "../base/presenting.js"
 import { cloudPlane } from "./cloud_plane.js"
 import { planeGhost } from "./ghost.js"
-import { setDark, setShades, watchTheme } from "./looks.js"
+import { INK, setDark, setShades, watchTheme } from "./looks.js"
 import { createCell, fillCaption, fillHover, isFolded, isInSight, nameOf } from "./picture.js"
 import { buildPlot } from "./plot.js"
 import { colourPlot } from "./plot_looks.js"
@@ -87,7 +88,7 @@ function followThemeForAWhile() {
 /** @param {HTMLElement} host @param {PictureDescription} picture @param {FindSource} source @returns {Promise<Drawn>} */
 async function drawPlot(host, picture, source) {
   const plot = await buildPlot(host, picture, source)
-  return { plot, shoot: (side) => shootPlot(plot, side), ...planeGhost(plot) }
+  return { plot, shoot: (look) => shootPlot(plot, look), ...planeGhost(plot) }
 }
 
 /**
@@ -152,9 +153,11 @@ function showGhost(taken) {
 function shoot(side) {
   setDark(false)
   const shots = gallery.cellsInSight().map((cell) => {
-    const sheet = shown.shots.get(nameOf(cell))(side)
+    const host = cell.querySelector(".host")
+    const edge = host.clientWidth / zoom()
+    const sheet = shown.shots.get(nameOf(cell))({ edge, ratio: side / edge, text: INK, dark: false })
     sheet.className = "printed"
-    cell.querySelector(".host").append(sheet)
+    host.append(sheet)
     return sheet
   })
   colour(shown)

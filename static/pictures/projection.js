@@ -14,7 +14,7 @@ const ASIDE = [[0, 0], [0, 1], [0, -1], [1, 0], [-1, 0], [1, 1], [-1, 1]]
  * @param {SquareLook} look
  * @param {number[]} turn azimuth and elevation of the eye
  */
-export function createSheet(ctx, { edge, ratio, text, dark }, [azimuth, elevation]) {
+export function createSheet(ctx, { edge, ratio, text, dark, isFine = false }, [azimuth, elevation]) {
   const [ca, sa, ce, se] = [Math.cos(azimuth), Math.sin(azimuth), Math.cos(elevation), Math.sin(elevation)]
   const half = edge / 2
   const scale = half * RADIUS
@@ -30,7 +30,7 @@ export function createSheet(ctx, { edge, ratio, text, dark }, [azimuth, elevatio
   /** @type {number[][]} */
   const taken = []
   return {
-    ctx, edge, ratio, text, dark, half, scale, px, py, depth, at,
+    ctx, edge, ratio, text, dark, isFine, half, scale, px, py, depth, at,
     /**
      * Return a point in the view: to the right, upwards, towards the eye.
      * @param {Vector} point

@@ -7,9 +7,10 @@
 import { element } from "../base/elements.js"
 import { LIGHT, HALFWAY } from "./solid.js"
 
-// Facets around the axis of a large surface, and the largest number of pixels on a side, at rest and while it turns.  A small
+// Facets around the axis of a large surface, and the largest number of pixels on a side, in a file, at rest and while it turns.  A small
 // surface has every second facet: their sides are then some ten pixels long too, and a quarter of a pixel inside a circle.
 const AROUND = 96
+const FINE = 2048
 const MOST = 640
 const QUICK = 420
 const BUCKETS = 1024
@@ -285,8 +286,8 @@ export function createRevolved() {
      * @param {((i: number, phi: number) => number) | null} density see `place`
      * @param {boolean} isQuick whether fewer pixels will do
      */
-    shade({ edge, ratio, scale, dark }, radius, height, turn, density, isQuick) {
-      const pixels = Math.min(isQuick ? QUICK : MOST, Math.round(edge * ratio))
+    shade({ edge, ratio, scale, dark, isFine }, radius, height, turn, density, isQuick) {
+      const pixels = Math.min(isFine ? FINE : isQuick ? QUICK : MOST, Math.round(edge * ratio))
       perEdge = pixels / edge
       // Without a density the surface looks the same from all azimuths.
       const now = [pixels, dark, turn[1], density && turn[0]].join()

@@ -1,10 +1,9 @@
 // @ts-check
-// Bokeh plots for print: dark on white in both themes, and sharper than on the screen.
+// Bokeh plots for print and for films: in the colours of any theme, and sharper than on the screen.
 
 import { element } from "../base/elements.js"
 import { atRatio, takeColours } from "./bokeh_private.js"
 import { layersOf } from "./ghost.js"
-import { INK } from "./looks.js"
 import { colourPlot } from "./plot_looks.js"
 
 /** @param {PlotView} plot @param {number} side @param {number} ratio */
@@ -27,19 +26,20 @@ function composed(plot, side, ratio) {
 }
 
 /**
- * Return a picture of a plot with our canvases, for print.  The plot is left in the colours of print; everything happens in
- * one task, so that nothing of it is seen.
+ * Return a picture of a plot with our canvases, laid out as on the page.  The plot is left in the colours of the picture;
+ * everything happens in one task, so that nothing of it is seen.
  * @param {PlotView} plot
- * @param {number} side width in pixels
+ * @param {ShotLook} look
  */
-export function shootPlot(plot, side) {
+export function shootPlot(plot, { edge, ratio: sharpness, text }) {
   const repaint = () => {
     plot.canvas_view.resize()
     plot.invalidate_painters()
     plot.paint()
   }
+  const side = Math.round(edge * sharpness)
   const ratio = side / plot.bbox.width
-  colourPlot(plot, INK, INK)
+  colourPlot(plot, text, text)
   takeColours(plot)
   const sheet = atRatio(ratio, () => {
     repaint()

@@ -7,8 +7,10 @@
 import { element } from "../base/elements.js"
 import { dot, unit } from "./vectors.js"
 
-// Largest number of shading pixels on a side, and picture pixels per shading pixel: shades change slowly.
+// Largest number of shading pixels on a side, on the screen and in a file, and picture pixels per shading pixel: shades change
+// slowly.
 const MOST = 128
+const FINE = 512
 const COARSE = 2
 // The light comes over the left shoulder of the viewer and turns with the view.
 export const LIGHT = unit([-0.42, 0.62, 0.66])
@@ -78,9 +80,17 @@ const clipped = (x) => Math.max(-1, Math.min(1, x))
 
 /** Return a painter of ellipsoids. */
 export function createSolid() {
-  const canvas = element("canvas", { width: MOST, height: MOST })
+  const canvas = element("canvas")
   const shade = canvas.getContext("2d")
-  const image = shade.createImageData(MOST, MOST)
+  /** @type {ImageData} */
+  let image
+
+  /** @param {number} side */
+  function size(side) {
+    if (image?.width === side) return
+    canvas.width = canvas.height = side
+    image = shade.createImageData(side, side)
+  }
 
   /**
    * Shade the ellipsoid on the canvas.
@@ -94,7 +104,7 @@ export function createSolid() {
    * @param {boolean} glass
    */
   function cast(axes, semi, width, height, columns, rows, { even, odd, ambient }, glass) {
-    const { data } = image
+    const { data, width: side } = image
     // In coordinates in which the ellipsoid is the unit sphere, a ray is start + depth × along.
     const [ux, uy, uz] = [0, 1, 2].map((i) => axes.map((axis, k) => axis[i] / semi[k]))
     const a = dot(uz, uz)
@@ -130,7 +140,7 @@ export function createSolid() {
         const octant = clipped(p * s0) * clipped(q * s1) * clipped(r * s2)
         const share = 0.5 + 0.5 * octant
         const bright = ambient + (1.08 - ambient) * lit
-        const i = 4 * (row * MOST + column)
+        const i = 4 * (row * side + column)
         data[i] = bright * (odd[0] + share * (even[0] - odd[0])) + 70 * shine
         data[i + 1] = bright * (odd[1] + share * (even[1] - odd[1])) + 70 * shine
         data[i + 2] = bright * (odd[2] + share * (even[2] - odd[2])) + 70 * shine
@@ -139,7 +149,7 @@ export function createSolid() {
       }
     }
     // Smoothing reads one pixel further, where a larger body may have been.
-    shade.clearRect(0, 0, MOST, MOST)
+    shade.clearRect(0, 0, side, side)
     shade.putImageData(image, 0, 0, 0, 0, columns, rows)
   }
 
@@ -150,10 +160,12 @@ export function createSolid() {
      * @param {Vector[]} axes in the view
      * @param {number[]} semi
      */
-    paint({ ctx, half, scale, ratio, dark, use }, axes, semi, glass = false) {
+    paint({ ctx, half, scale, ratio, dark, isFine, use }, axes, semi, glass = false) {
       const { halves, angle, width, height } = outline(axes, semi)
+      const most = isFine ? FINE : MOST
+      size(most)
       const [columns, rows] = [width, height].map((length) =>
-        Math.max(16, Math.min(MOST, Math.ceil((2 * length * scale * ratio) / COARSE))))
+        Math.max(16, Math.min(most, Math.ceil((2 * length * scale * ratio) / COARSE))))
       cast(axes, semi, width, height, columns, rows, TONES[dark ? "dark" : "light"], glass)
       const edge = new Path2D()
       edge.ellipse(half, half, scale * halves[0], scale * halves[1], -angle, 0, 2 * Math.PI)

@@ -21,81 +21,12 @@ const HALL = 0.9
 const ENLARGE = "M4 4h6v2H6v4H4zm10 0h6v6h-2V6h-4zM4 14h2v4h4v2H4zm14 0h2v6h-6v-2h4z"
 const REDUCE = "M8 4h2v6H4V8h4zm6 0h2v4h4v2h-6zM4 14h6v6H8v-4H4zm10 0h6v2h-4v4h-2z"
 
-// Heights of captions, in units of the font size.
-const LINE = 1.29
-const AIR = 0.3
-// Widths of the longest title, of the longest title with its verdict, of the longest line of numbers, and of the longest
-// caption in one piece.
-const TITLE = 19.5
-const HEAD = 33
-const NUMBERS = 36
-const LONGEST = 56
-// Widths of what stands beside a caption, the corner button, at a desk and in present mode, and of the margins elsewhere.
-const SIDES = 4.4
-const SIDE = 2.6
-const MARGINS = 0.6
+// Largest width of a cell that is wider than its picture, in units of the font size.
 const WIDEST = 34
-const MOST_LINES = 4
-// Below this cell width, in units of the font size, captions are smaller.
-const NARROW_CELL = 26
-const SMALLER = 0.88
 // A picture that is smaller than this in present mode, in units of the font size, is drawn in this size and scaled down.
 const LEGIBLE = 13
-// Largest and smallest font size of titles beside enlarged pictures in present mode, relative to that of captions: the
-// longest word fills the cell ("pictures.css" has the same sizes).
-const ASIDE = 0.7
-const LEAST = 0.47
-// Width of the longest word, in units of its font size; a picture in a narrower cell has no room.
-const WORD = 7
-// Room that a line break wastes at most, in units of the font size.
-const BREAK = 4
 // The text beside the pictures takes at most this width from them, in units of the font size.
-const MOST_SPARE = 14
-
-/** Return the width below which a cell is narrow, 0 if none is. @param {number} type */
-const narrowestOf = (type) => (isPresenting() || PHONE.matches ? 0 : NARROW_CELL * type)
-
-/**
- * Return what a caption shows in present mode, where only a few words are read from afar, and in how many lines.
- * @param {number} width of the cell
- * @param {number} type
- * @returns {{shows: "all" | "head" | "title", lines: number}}
- */
-function inTheHall(width, type) {
-  const room = Math.max(1, width / type - SIDE)
-  /** @param {number} length */
-  const lines = (length) => (length <= room ? 1 : Math.ceil((length + BREAK) / room))
-  if (lines(LONGEST) === 1) return { shows: "all", lines: 1 }
-  return lines(HEAD) <= 2 ? { shows: "head", lines: lines(HEAD) } : { shows: "title", lines: lines(TITLE) }
-}
-
-/** Return the heights of captions for a font size, see `Place` in "arrange.js". @param {number} type */
-function captions(type) {
-  // Asked once, because captions are measured for thousands of arrangements.
-  const isHall = isPresenting()
-  const narrowest = narrowestOf(type)
-  /** @param {number} width */
-  const own = (width) => (width < narrowest ? SMALLER * type : type)
-  /** @param {number} length @param {number} width */
-  const linesOf = (length, width) => Math.ceil(length / Math.max(1, width / own(width) - SIDES))
-  /** @param {number} width */
-  const lines = (width) => {
-    if (isHall) return inTheHall(width, type).lines
-    const together = linesOf(LONGEST, width)
-    // In a narrow cell the numbers follow the verdict on the same line; elsewhere they begin a new one.
-    if (width < narrowest) return Math.min(MOST_LINES, Math.max(2, together))
-    return Math.min(MOST_LINES, together + 1, linesOf(HEAD, width) + linesOf(NUMBERS, width))
-  }
-  /** @param {number} count @param {number} size */
-  const high = (count, size) => Math.ceil((count * LINE + AIR) * size)
-  /** @param {number} width */
-  const title = (width) => {
-    if (!isHall) return high(TITLE > width / own(width) - SIDE ? 2 : 1, own(width))
-    const size = Math.min(ASIDE * type, width / WORD)
-    return size < LEAST * type ? Infinity : high(Math.ceil((TITLE + BREAK) / (width / size - MARGINS)), size)
-  }
-  return Object.assign((/** @type {number} */ width) => high(lines(width), own(width)), { title, wide: WIDEST * type })
-}
+const MOST_SPARE = 10
 
 /**
  * Return the stage, which places the pictures of a scene.
@@ -106,9 +37,9 @@ export function createStage(shelf, gallery) {
   /** @type {string[]} */
   let large = []
   let wanted = ""
-  // The pictures that the introduction has reached; all without it.
-  /** @type {string[] | null} */
-  let introduced = null
+  // The pictures that a step of a lesson shows alone; all if there is none.
+  /** @type {string[]} */
+  let alone = []
   // Pixels that the text has taken.
   let spare = 0
   const chips = element("div.chips", { role: "group", ariaLabel: "Picture" })
@@ -118,14 +49,10 @@ export function createStage(shelf, gallery) {
 
   // Write only changes: a plot is laid out again whenever its size is set.
   /** @param {HTMLElement} cell @param {import("./arrange.js").Box} box @param {number} type */
-  function put(cell, { x, y, width, edge, caption, small }, type) {
-    const shows = isPresenting() ? inTheHall(width, type).shows : "all"
-    const scale = isPresenting() && small ? Math.min(1, edge / (LEGIBLE * type)) : 1
-    cell.classList.toggle("small", small || shows === "title")
-    cell.classList.toggle("aside", small)
-    cell.classList.toggle("brief", shows === "head")
+  function put(cell, { x, y, width, edge, caption, aside }, type) {
+    const scale = isPresenting() && aside ? Math.min(1, edge / (LEGIBLE * type)) : 1
+    cell.classList.toggle("aside", aside)
     cell.classList.toggle("thumbnail", scale < 1)
-    cell.classList.toggle("narrow", width < narrowestOf(type))
     const place = [x, y, width, edge, caption, 1000 * scale].map(Math.round).join(" ")
     if (cell.dataset.place === place) return
     cell.dataset.place = place
@@ -164,10 +91,14 @@ export function createStage(shelf, gallery) {
    * @param {number} type
    */
   function viewport(scene, count, type) {
-    const isBeside = !NARROW.matches && !isPresenting() && !isEmbedded() && introduced === null
+    const isBeside = !NARROW.matches && !isPresenting() && !isEmbedded() && alone.length === 0
+    const style = getComputedStyle(shelf)
+    /** @param {string} name of a length in units of the font size, in "pictures.css" */
+    const heightOf = (name) => Math.ceil(type * Number.parseFloat(style.getPropertyValue(name)))
     const full = {
       width: shelf.clientWidth + (isBeside ? spare : 0), height: shelf.clientHeight, count, gap: Math.round(0.6 * type),
-      share: isPresenting() ? HALL : DESK, caption: captions(type),
+      share: isPresenting() ? HALL : DESK, caption: heightOf("--caption-height"), title: heightOf("--title-height"),
+      wide: WIDEST * type,
     }
     if (!isBeside) return full
     const taken = spareWidth(full, MOST_SPARE * type)
@@ -186,11 +117,13 @@ export function createStage(shelf, gallery) {
     for (const [key, value] of Object.entries({ across: shelf.clientWidth, down: shelf.clientHeight, type })) {
       scene.grid.style.setProperty(`--${key}`, `${value}px`)
     }
-    const cells = scene.cells.filter((cell) => !isFolded(cell) && (introduced?.includes(nameOf(cell)) ?? true))
+    const open = scene.cells.filter((cell) => !isFolded(cell))
+    const chosenAlone = open.filter((cell) => alone.includes(nameOf(cell)))
+    const cells = chosenAlone.length > 0 ? chosenAlone : open
     for (const cell of scene.cells) if (!cells.includes(cell)) cell.classList.add("off")
     const own = scene === gallery.shown ? large.map((name) => cells.findIndex((cell) => nameOf(cell) === name)) : []
     const chosen = own.filter((i) => i >= 0)
-    const first = introduced?.at(-1) ?? scene.opening
+    const first = alone.at(-1) ?? scene.opening
     const opening = Math.max(0, cells.findIndex((cell) => nameOf(cell) === first))
     const seen = PHONE.matches ? [chosen[0] ?? opening] : cells.map((_, i) => i)
     const boxes = arrange(viewport(scene, seen.length, type), PHONE.matches ? [] : chosen)
@@ -216,7 +149,7 @@ export function createStage(shelf, gallery) {
 
   /** @param {Scene} scene @param {HTMLElement} seen */
   function showChips({ name, cells }, seen) {
-    chips.hidden = cells.length < 2 || introduced !== null
+    chips.hidden = cells.length < 2 || alone.length > 0
     if (chips.dataset.scene !== name) {
       chips.dataset.scene = name
       chips.replaceChildren(...cells.map((cell) => button("chip", () => {
@@ -230,6 +163,11 @@ export function createStage(shelf, gallery) {
       chip.ariaPressed = String(cells[i] === seen)
     })
     items[cells.indexOf(seen)].scrollIntoView({ block: "nearest", inline: "nearest" })
+  }
+
+  /** @param {string} name */
+  function unfold(name) {
+    if (isFolded(gallery.cell(name))) tell("fold", name)
   }
 
   /** @param {string[]} names */
@@ -267,8 +205,9 @@ export function createStage(shelf, gallery) {
   onKeys({ escape: () => large.length > 0 && enlarge([]) }, window)
 
   listen({
-    introduce(names) {
-      introduced = names
+    alone(names) {
+      alone = names
+      for (const name of names) unfold(name)
       // Wait until the page has its new sizes.
       requestAnimationFrame(placeShown)
     },
@@ -278,7 +217,7 @@ export function createStage(shelf, gallery) {
     painted() { if (PHONE.matches) placeShown() },
     // The picture of a lesson step.
     look(name) {
-      if (isFolded(gallery.cell(name))) tell("fold", name)
+      unfold(name)
       enlarge([name])
     },
     fold(name) {

@@ -182,5 +182,13 @@ export function torus(el, options, source, isShown) {
       }
     }
   })
-  return { shoot: turned.shoot, ...ghost }
+  return {
+    ...ghost,
+    shoot(look) {
+      const sheet = turned.shoot(look)
+      // The surface on the screen has other pixels.
+      request()
+      return sheet
+    },
+  }
 }

@@ -74,10 +74,14 @@ export function turnable(el, className, { name, title, what, isShown }, paint, p
   })
   return {
     request, requestMoving, turn: () => turn,
-    /** Return the picture for print. @param {number} side */
-    shoot(side) {
-      const sheet = own.shoot(side)
-      if (above !== null) sheet.getContext("2d").drawImage(above.shoot(side), 0, 0)
+    /** Return the picture on a canvas of its own. @param {ShotLook} look */
+    shoot(look) {
+      const sheet = own.shoot(look)
+      if (above !== null) {
+        const ctx = sheet.getContext("2d")
+        ctx.resetTransform()
+        ctx.drawImage(above.shoot(look), 0, 0)
+      }
       return sheet
     },
     /** @param {() => void} watcher is called when the picture turns */

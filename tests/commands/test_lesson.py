@@ -9,12 +9,12 @@ from hess_explorer.lessons.reading import KEYS, read_file
 from hess_mechanics.suslov_hess.bifurcation import f_max
 
 
-def test_the_example_is_a_lesson_with_all_settings_but_one_and_is_not_written_over(tmp_path, capsys):
+def test_the_example_is_a_lesson_with_all_settings_but_two_and_is_not_written_over(tmp_path, capsys):
     path = tmp_path / "first.md"
     assert main(["lesson", "new", str(path)]) == 0
     assert f"hess-explorer serve --lesson {path}" in capsys.readouterr().out
     text = path.read_text(encoding="utf-8")
-    assert [key for key in KEYS if f"\n{key}: " not in text] == ["example"]
+    assert [key for key in KEYS if f"\n{key}: " not in text] == ["example", "pictures"]
     assert main(["lesson", "check", str(path)]) == 0
     assert capsys.readouterr().out == f"{path}: {len(read_file(path).steps)} steps, no mistakes\n"
     path.write_text("mine")

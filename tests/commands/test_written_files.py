@@ -9,7 +9,6 @@ from pytest import approx, mark, raises
 
 import hess_explorer as hess
 from hess_explorer.__main__ import main
-from hess_explorer.offline import site
 from support.command_line import typed
 from support.disk import full_disk, names
 from support.mechanics import ROOT
@@ -32,22 +31,17 @@ def saved(file):
     state.save(file, "circle")
 
 
-def page(file):
-    site._write(file, "suslov-hess", 2, site.HOME)
-
-
 WRITERS = [
     (command(f"{ORBIT} --out"), "csv"),
     (command("export --state accuracy=draft --picture circle --format json --out"), "json"),
     (command("shot"), "png"),
     (saved, "csv"),
-    (page, "html"),
+    (command("export --state accuracy=draft --format html --out"), "html"),
 ]
 
 
-@mark.parametrize("write, suffix", WRITERS, ids=["orbit", "export", "shot", "save", "site"])
+@mark.parametrize("write, suffix", WRITERS, ids=["orbit", "export", "shot", "save", "page"])
 def test_an_earlier_file_stays_whole_on_a_full_disk(write, suffix, tmp_path, monkeypatch):
-    monkeypatch.setattr(site, "scene_page", lambda *_, **__: bytes(10_000))
     monkeypatch.setattr("hess_explorer.headless.screenshot.screenshot", lambda *_, **__: bytes(10_000))
     file = tmp_path / f"file.{suffix}"
     file.write_bytes(b"earlier")

@@ -95,7 +95,7 @@ def fail(n):
 
 
 def tasks(count, first=0, function=square):
-    return [Task(function, (first + n,)) for n in range(count)]
+    return [Task(function, first + n) for n in range(count)]
 
 
 # ---- The background ---------------------------------------------------------------------------------------------
@@ -142,12 +142,12 @@ def test_added_pieces_follow_those_under_way(gate):
 def test_refinements_are_begun_when_nothing_else_is_missing(free_gate):
     work = Work()
     work.newest([tasks(2, first=7)], last=True)
-    work.later(square, 3)
+    work.need(Task(square, 3), preview=None)
     assert work.todo == tasks(1, first=3)
     free_gate.get(square, 3)
     again = Work()
     again.newest([tasks(2, first=7)], last=True)
-    again.later(square, 3)
+    again.need(Task(square, 3), preview=None)
     assert again.todo == tasks(2, first=7)
 
 
@@ -178,7 +178,7 @@ def endless():
         finally:
             ended.set()
 
-    return Task(goes_on, (1,)), begun, ended
+    return Task(goes_on, 1), begun, ended
 
 
 def test_a_piece_that_has_begun_ends_when_nobody_wants_it_any_more(endless):
@@ -210,7 +210,7 @@ def test_a_piece_that_takes_too_long_ends_with_a_sentence(endless, monkeypatch):
 
 def test_what_is_refused_ends_the_work_with_its_sentence(free_gate):
     work = Background()
-    work.follow([*tasks(2), Task(refuse, (7,)), *tasks(500, first=10)])
+    work.follow([*tasks(2), Task(refuse, 7), *tasks(500, first=10)])
     wait_until(lambda: work.left == 0)
     assert work.error == "7 is refused: choose another."
     assert len(free_gate.calls) < 100
@@ -220,7 +220,7 @@ def test_what_is_refused_ends_the_work_with_its_sentence(free_gate):
 
 def test_what_fails_is_logged_and_ends_the_work(free_gate, caplog):
     work = Background()
-    work.follow([Task(fail, (7,)), *tasks(500)])
+    work.follow([Task(fail, 7), *tasks(500)])
     wait_until(lambda: work.left == 0)
     assert work.error == "A part of this state could not be computed. Please report the link."
     assert "fail" in caplog.text

@@ -86,7 +86,7 @@ def test_pieces_of_one_session_wait_while_others_are_answered():
         waited(begun)
     assert scheduler._pool._max_workers > THREADS
     work = Background()
-    work.follow([Task(computed.set, ())])
+    work.follow([Task(computed.set)])
     assert not computed.wait(0.05)
     go.set()
     waited(computed)

@@ -66,7 +66,7 @@ def test_the_lines_leave_what_is_exported_of_every_picture_of_every_preset(name,
         ("scene=suslov&accuracy=draft&orbits=2&count=20&long=20&indicator=nothing&starts=0.1,0.2;1,1", "section"),
         ("scene=scattering&az=1.5&accuracy=draft", "sphere"),
         ("scene=suslov-hess&chart=trace&accuracy=draft", "chart"),
-        ("scene=euler-poisson-accuracy&accuracy=draft", "difference"),
+        ("scene=euler-poisson-accuracy&accuracy=draft", "growth"),
         ("scene=suslov-hess&h=1&f=0&accuracy=draft", "circle"),
     ],
 )

@@ -1,24 +1,22 @@
-"""Figures for papers: lines match the data, text remains text, and metadata names the source."""
+"""Figures of plots for papers: text remains text, and metadata names the source."""
 
 import io
 import re
 import xml.etree.ElementTree as ET
-from math import cos, nan, pi, sin
+from math import nan
 
 import numpy as np
 import pytest
 from PIL import Image
 from pytest import approx
-from scipy.spatial.transform import Rotation
 
 from hess_explorer.export.figure import as_file
 from hess_explorer.export.picture_data import picture_data
-from hess_explorer.export.sphere_canvas import seen
 from hess_mechanics.errors import ModelError
 
 DRAFT = "accuracy=draft"
-# Lines, cells, a sphere, points.
-SEVERAL = [("", "bifurcation"), ("", "sphere"), ("scene=scattering", "map"), ("scene=free-suslov", "omega")]
+# Lines, cells, points of a cloud at the time of the link.
+SEVERAL = [("", "bifurcation"), ("scene=scattering", "map"), ("scene=singular-measures&points=1000&t=5", "density")]
 
 
 @pytest.mark.parametrize("link, picture", SEVERAL)
@@ -30,9 +28,7 @@ def test_text_stays_text_and_the_file_says_link_and_version(link, picture):
     assert found.facts["program"] in text
     assert found.link.replace("&", "&amp;") in text
     words = re.findall(r"<text[^>]*>([^<]+)</text>", text)
-    names = getattr(found.picture, "axes", ("γ₁", "γ₂"))
-    names = names(found.state) if callable(names) else names
-    assert set(names) <= set(words)
+    assert set(found.picture.names(found.state)) <= set(words)
 
 
 def test_the_size_is_that_asked_for_and_black_has_no_colours():
@@ -47,16 +43,6 @@ def test_the_size_is_that_asked_for_and_black_has_no_colours():
     assert as_file(found, "pdf").startswith(b"%PDF")
     assert "hess-explorer" in picture.info["Software"]
     assert found.link in picture.info["Description"]
-
-
-@pytest.mark.parametrize("azimuth, elevation", [(0.6, 0.35), (-2.0, -1.1), (0.0, pi / 2)])
-def test_a_sphere_is_seen_from_where_the_link_says(azimuth, elevation):
-    eye = np.array([cos(elevation) * cos(azimuth), cos(elevation) * sin(azimuth), sin(elevation)])
-    assert seen(eye[None], azimuth, elevation)[0] == approx([0.0, 0.0, 1.0], abs=1e-15)
-    points = np.random.default_rng(1).normal(size=(20, 3))
-    # Right, up, towards the eye: turned by the azimuth, then by the elevation, and the axes renamed.
-    turned = Rotation.from_euler("zy", [-azimuth, elevation]).apply(points)
-    assert seen(points, azimuth, elevation) == approx(turned[:, [1, 2, 0]], abs=1e-14)
 
 
 def test_what_cannot_be_made_is_refused_with_a_sentence(monkeypatch):

@@ -56,9 +56,10 @@ def test_a_lesson_is_read_as_it_is_written():
     assert guess.then.values == SCENES["suslov-hess"].defaults() | {"h": 1.5, "f": 0.6}
     # The control of what is animated is beside the text; another step may name others.
     assert first.controls == ("h",)
-    named = "controls: [f, accuracy, f]\nhide: {picture: omega, layer: stable}"
+    named = "controls: [f, accuracy, f]\npictures: [circle, body]\nhide: {picture: omega, layer: stable}"
     others = read(WHOLE.replace("look: circle", named), "mine")
     assert others.steps[0].controls == ("f", "accuracy")
+    assert others.steps[0].pictures == ("circle", "body")
     assert others.steps[0].hide == HiddenLayer("omega", "data-stable")
     assert (second.controls, second.hide) == ((), None)
     # A step without a state is where the last one has come to.
@@ -78,9 +79,11 @@ MISTAKES = [
     ("&h=0.2&f=0.5", "&g=0.2", 9, "suslov-hess has no parameter 'g'"),
     ("&h=0.2&f=0.5", "&h=0.2" + "0" * 2000, 9, "longer than 2000"),
     ("look: circle", "look: circel", 10, "look must be one of body, omega"),
-    ("look: circle", "glance: circle", 10, "choose from state, example, look, animate, controls, hide, predict"),
+    ("look: circle", "glance: circle", 10, "choose from state, example, look, pictures, animate"),
     ("look: circle", "controls: h", 10, "a list of at most 6 names"),
     ("look: circle", "controls: [[h]]", 10, "a name in controls must be one of I22"),
+    ("look: circle", "pictures: circle", 10, "like pictures: [body, omega]"),
+    ("look: circle", "pictures: [section]", 10, "a name in pictures must be one of body"),
     ("look: circle", "hide: {picture: [circle], layer: stable}", 10, "picture of hide must be one of omega"),
     ("look: circle", "hide: {picture: bifurcation, layer: rotation}", 10, "layer of hide must be one of"),
     ("look: circle", "example: S", 10, "exactly one example"),

@@ -14,8 +14,8 @@ from PIL import Image
 from pytest import approx
 
 import hess_explorer as hess
-from hess_explorer.export.figure import as_file
 from hess_explorer.export.picture_data import picture_data
+from hess_explorer.headless.drawing import png_of
 from hess_mechanics import BallBody, HeavyBody, HessBody, SuslovBody, basins, circle_map, level, return_map
 from hess_mechanics.errors import InvalidParameter, ModelError
 from hess_mechanics.euler_poisson import equations as euler_poisson
@@ -99,7 +99,7 @@ def test_scenes_pictures_layers_and_columns_that_are_not_there_are_named():
         (lambda: state.data(None), "has no picture None"),
         (lambda: state.save(None), "None is not the name of a file"),
         (lambda: state.figure("circle", width="wide"), "20 to 400 mm wide, not 'wide'"),
-        (lambda: state.save("x.gif", "body", seconds=10**400), "1 to 60 seconds long, not 10000"),
+        (lambda: state.save("x.mp4", "body", seconds=10**400), "1 to 60 seconds long, not 10000"),
         (lambda: hess.from_link(None), "link = None is not a text"),
         (lambda: hess.state(3), "There is no scene 3: choose one of"),
         (lambda: hess.state("suslov", starts=[(10**400, 1.0)]), "must be a list of pairs"),
@@ -172,10 +172,11 @@ def test_a_plot_draws_the_numbers_of_the_data_on_the_axes_of_the_page(scene, pic
     assert figure.title.text == data.facts["title"]
 
 
+@pytest.mark.usefixtures("browser")
 def test_a_sphere_is_the_figure_for_paper_in_pixels():
     state = hess.state("suslov-hess", accuracy="draft", az=1.0, el=-0.4)
     pixels = state.plot("sphere").dimension_values(2, flat=False)
-    figure = np.asarray(Image.open(io.BytesIO(as_file(picture_data(state.link, "sphere"), "png", 71.0))).convert("RGB"))
+    figure = np.asarray(Image.open(io.BytesIO(png_of(picture_data(state.link, "sphere"), 71.0))).convert("RGB"))
     assert np.array_equal(pixels[::-1], figure[..., 0] / np.float32(255.0))
     assert pixels.std() > 0.05
 

@@ -71,12 +71,12 @@ def test_every_scene_is_there_with_its_picture_and_words():
     for scene in scenes().values():
         if scene.origin is None:
             for theme in ("light", "dark"):
-                assert f'.github/pictures/{scene.name}-{theme}.jpg"' in README, scene.name
+                assert f'static/thumbnails/{scene.name}-{theme}.jpg"' in README, scene.name
 
 
 def test_pictures_are_light():
     assert (ROOT / ".github/pictures/page.png").stat().st_size <= 250_000
-    assert sum(path.stat().st_size for path in (ROOT / ".github/pictures").glob("*.[jp]*g")) <= 1_000_000
+    assert sum(path.stat().st_size for path in (ROOT / "static/thumbnails").iterdir()) <= 1_000_000
 
 
 def test_the_python_of_the_readme_runs(capsys, tmp_path, monkeypatch):

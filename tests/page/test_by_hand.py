@@ -39,7 +39,7 @@ def pictures(explorer):
     # Later results have arrived.
     expect(
         explorer.page.locator(".gallery:not(.away) .caption").filter(
-            has_text=re.compile(r"Measured so far|Not compared yet|[Bb]eing computed")
+            has_text=re.compile(r"Measured so far|[Bb]eing computed")
         )
     ).to_have_count(0, timeout=120_000)
     explorer.page.mouse.move(5, 5)

@@ -27,13 +27,13 @@ def test_a_first_visitor_sees_one_dark_picture_then_one_more_at_a_time_then_the_
         page.add_init_script(VISITOR)
         explorer = Explorer(page, server)
         explorer.goto("/")
-        introduction = page.get_by_role("region", name="Introduction")
+        introduction = page.get_by_role("region", name="Lesson", exact=True)
         assert explorer.dark
         assert in_sight(page) == ["body"]
         assert page.locator(".param-scenes").is_hidden()
         sentences = []
         for number, picture in enumerate(("body", "surface", "circle", "bifurcation"), start=1):
-            sentences.append(introduction.locator(".sentence").text_content())
+            sentences.append(introduction.locator(".title").text_content())
             page.locator(f"{IN_SIGHT}.picture-{picture}").wait_for()
             # A phone shows the newest.
             assert len(in_sight(page)) == (1 if size == "phone" else number)
@@ -50,7 +50,7 @@ def test_a_first_visitor_sees_one_dark_picture_then_one_more_at_a_time_then_the_
             if size == "desk" and number == 1:
                 page.mouse.wheel(0, 100)
             else:
-                introduction.locator(".param-go-on").click()
+                introduction.locator(".param-next-step").click()
         assert len(set(sentences)) == (2 if size == "phone" else 4)
         page.locator(".param-scenes").wait_for()
         assert introduction.count() == 0

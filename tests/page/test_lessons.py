@@ -250,6 +250,7 @@ FAST = ((NAME, "present"),)
 GIVEN = [
     pytest.param(name, place, marks=() if (name, place) in FAST else pytest.mark.thorough)
     for name in shipped()
+    if name != "introduction"
     for place in SIZES
 ]
 MOST_LINES = 6

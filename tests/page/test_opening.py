@@ -52,7 +52,7 @@ def test_a_scene_begins_in_gentle_motion_until_the_first_touch_and_asks_for_noth
     explorer = fresh_browser(f"scene={HESS}", "no-preference")
     page = explorer.page
     # A link with a state has no introduction.
-    assert page.get_by_role("region", name="Introduction").count() == 0
+    assert page.get_by_role("region", name="Lesson", exact=True).count() == 0
     # The address is written a moment after the first state.
     page.wait_for_function("location.search.includes('v=1')")
     assert page.locator(SIGN).count() == 1

@@ -7,8 +7,6 @@ import pytest
 from pytest import approx
 
 from hess_explorer.headless.browser import wait_ready
-from hess_explorer.page.opening import opening
-from hess_explorer.page.showcase import EXHIBITS, IDEAS
 from hess_explorer.scenes import scenes
 from support.page import (
     DEFAULTS,
@@ -25,6 +23,8 @@ from support.thorough import sample
 SCENES = scenes()
 # The menu offers only the accuracy page of the current scene.
 OFFERED = [name for name, scene in SCENES.items() if scene.origin in (None, HESS)]
+GROUPS = list(dict.fromkeys(SCENES[name].group for name in OFFERED))
+OFFERED_IN_GROUPS = sorted(OFFERED, key=lambda name: GROUPS.index(SCENES[name].group))
 PHONE = (390, 844)
 PIXELS = 600
 """The width of the pictures that samples and levels are right for."""
@@ -57,9 +57,8 @@ def listeners(explorer):
 def test_the_menu_offers_the_scenes_in_groups_and_says_where_to_begin_and_which_is_on_show(explorer):
     explorer.open_menu()
     menu = explorer.page.get_by_role("dialog", name="Scenes", exact=True)
-    groups = list(dict.fromkeys(SCENES[name].group for name in OFFERED))
-    assert menu.locator("h3").all_text_contents() == [*IDEAS, *groups]
-    for group in groups:
+    assert menu.locator("h3").all_text_contents() == GROUPS
+    for group in GROUPS:
         tiles = menu.get_by_role("region", name=group, exact=True).get_by_role("button").all()
         names = [name for name in OFFERED if SCENES[name].group == group]
         assert [tile.get_attribute("data-scene") for tile in tiles] == names
@@ -73,24 +72,18 @@ def test_the_menu_offers_the_scenes_in_groups_and_says_where_to_begin_and_which_
     assert menu.count() == 0
 
 
-@pytest.mark.parametrize("exhibit", EXHIBITS, ids=lambda exhibit: exhibit.file)
-def test_the_gallery_links_to_states_that_need_no_correction_and_have_its_picture(exhibit):
-    opened = opening(exhibit.query, lenient=False)
-    assert opened.notes == []
-    assert exhibit.picture in opened.scene.pictures
-
-
-def test_an_example_of_the_gallery_is_a_picture_of_both_themes_and_opens_its_state(explorer):
+def test_the_menu_has_a_picture_of_each_scene_in_both_themes(explorer):
     page = explorer.page
     explorer.turn_theme(is_dark=True)
     explorer.open_menu()
-    for picture, exhibit in zip(page.locator(".exhibit img").all(), EXHIBITS, strict=True):
-        assert picture.get_attribute("src").endswith(f"/{exhibit.file}-dark.jpg")
+    tiles = page.locator(".scene").all()
+    for tile, name in zip(tiles, OFFERED_IN_GROUPS, strict=True):
+        picture = tile.locator("img")
+        assert picture.get_attribute("src").endswith(f"/{'speed-accuracy' if name == STUDY else name}-dark.jpg")
         picture.scroll_into_view_if_needed()
-        page.wait_for_function("item => item.complete && item.naturalWidth === 240", arg=picture.element_handle())
-    explorer.change(page.get_by_role("button", name="Almost round").click)
+        page.wait_for_function("item => item.complete && item.naturalWidth === 320", arg=picture.element_handle())
+    explorer.change(page.get_by_role("button", name="Loxodromic pendulum").click)
     assert explorer.scene == "loxodrome"
-    assert explorer.chosen("preset") == "Almost round: many turns"
     assert not page.get_by_role("dialog", name="Scenes").count()
 
 
@@ -115,12 +108,12 @@ def test_the_menu_obeys_the_keyboard_and_is_searched(explorer):
     for _ in range(4):
         keys.press("ArrowDown")
     assert SCENES[page.evaluate(FOCUSED)].group != SCENES[HESS].group
-    # Past the two rows of the gallery.
-    for _ in range(7):
+    for _ in range(5):
         keys.press("ArrowUp")
     assert page.evaluate(FOCUSED) == "search"
-    # Typed text goes to the search box only.
-    keys.type("f loxo 2 ")
+    # Typed text goes to the search box only, also from a scene.
+    keys.press("ArrowDown")
+    keys.type("f loxo nowhere ")
     assert page.get_by_text("No scene matches.").is_visible()
     page.locator(".search").fill("accuracy SPEED")
     assert [tile.get_attribute("data-scene") for tile in page.locator(".scene:visible").all()] == [STUDY]
@@ -130,7 +123,7 @@ def test_the_menu_obeys_the_keyboard_and_is_searched(explorer):
     button.press("Enter")
     for _ in range(3):
         keys.press("Shift+Tab")
-        assert page.evaluate(FOCUSED) in (*SCENES, "exhibit", "search", "button")
+        assert page.evaluate(FOCUSED) in (*SCENES, "search", "button")
     keys.press("Escape")
     assert page.evaluate(FOCUSED) == "tool param-scenes"
     assert not explorer.playing

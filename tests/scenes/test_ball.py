@@ -10,11 +10,9 @@ import pytest
 from pytest import approx
 
 from hess_explorer.scenes.framework.periodic_search import NONE
-from hess_mechanics import SuslovBody, cos_chi
 from support.ball import (
     BALL,
     SECTION,
-    TENSOR,
     angles,
     circle_of,
     energy_of,
@@ -76,36 +74,6 @@ def test_theta_plus_over_the_phases_goes_through_the_orbit_and_its_range_is_that
 
 
 # cos χ of the free Suslov problem with these tensors, of an independent computation with 40 digits.
-
-
-@pytest.mark.parametrize("name", [one.name for one in BALL.presets if one.values.get("D") == 0.0])
-def test_without_the_inner_ball_the_curve_is_the_dashed_one_and_that_of_the_rotation(name):
-    view = ball(name)
-    (curve,), (free,) = view.data["curve-ball"]["ys"], view.data["curve-free"]["ys"]
-    # Whether the start lies on its circle to first order in δ or not, as in S4.
-    assert np.max(np.abs(curve - free)) <= 3.0 * 10.0 ** -view.values["digits"]
-    chi, theta = acos(cos_chi(SuslovBody(*(view.values[key] for key in TENSOR[:4])))), view.values["theta"]
-    # Its extremes lie between two of the 65 phases.
-    assert curve.min() == approx(abs(chi - theta), abs=6e-3)
-    assert curve.max() == approx(min(chi + theta, 2.0 * pi - chi - theta), abs=6e-3)
-    # The strip is one ellipse.
-    (outer,), (inner,) = view.data["omega-forbidden"]["xs"]
-    assert np.max(np.abs(np.asarray(outer[1]) - np.asarray(inner[0]))) == 0.0
-    if "reversal" in name:
-        assert view.numbers("curve", "θ⁺ = # for every φ") == [shown(pi - theta)]
-
-
-@every_ball
-def test_many_orbits_cross_the_strip_from_one_half_of_the_line_to_the_other(name):
-    view = ball(name)
-    xi, strip, pixel = xi_of(view.values), view.result.strip, view.axes["omega"][1] / 150
-    tracks = [np.column_stack(pair).astype(float) for pair in zip(*view.data["omega-arcs"].values(), strict=True)]
-    assert len(tracks) == 18
-    for one in tracks:
-        assert one[0] @ xi > 0.0 > one[-1] @ xi
-        assert np.max(np.abs(one[[0, -1]] @ [-xi[1], xi[0]])) < 3.0 * pixel
-    for half, ends in (("unstable", strip.unstable), ("stable", strip.stable)):
-        assert view.columns(f"omega-{half}", "x", "y") == approx(np.array(ends), rel=1e-6)
 
 
 @pytest.mark.parametrize(

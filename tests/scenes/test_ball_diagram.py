@@ -14,7 +14,6 @@ from hess_mechanics.dynamics.orbit_diagram import period_of
 from support.ball import energy_of
 from support.deviations import deviations
 from support.diagrams import complete, nearest, settled
-from support.view import View
 
 SCENE = scenes()["ball-diagram"]
 
@@ -25,16 +24,6 @@ def test_near_a_doubling_the_period_is_that_of_its_side(D, period):
     state = SCENE.compute({**SCENE.defaults(), "D": D}, (), True)
     map_ = ReturnMap(state.poincare, level("standard"))
     assert period_of(map_.turns, map_.orbit(np.array(state.diagram.place), 700)[500:], map_.promise) == (period, True)
-
-
-def test_the_orbit_of_period_one_doubles_first_and_goes_on_as_a_saddle():
-    given = {"branch": "period 1", "chosen": "-2.7743,1.0236", "last": 3.0, "steps": 2.0}
-    view = View(SCENE, {**given, "ways": "there and back"}, seen=["diagram"])
-    (flip,) = (one for part in view.result.continuation.branches for one in part.bifurcations)
-    assert (flip.kind, flip.value) == ("flip", approx(2.7347985, abs=6e-8))
-    for part in view.result.continuation.branches:
-        for value, kind in zip(part.values, part.kinds, strict=True):
-            assert abs(value - flip.value) < 1e-6 or kind.startswith("stable" if value > flip.value else "saddle")
 
 
 @pytest.mark.chaotic

@@ -3,7 +3,6 @@
 The numbers are held against closed forms; the motions are in `models/euler_poisson/test_hess_isomorphism.py`.
 """
 
-import re
 from functools import cache
 from math import copysign, cosh, log, log10, pi, sqrt
 
@@ -12,7 +11,6 @@ import pytest
 from pytest import approx
 from scipy.optimize import brentq
 
-from hess_mechanics.errors import InvalidParameter, ModelError, NoField, Separatrix
 from support.board import Browser
 from support.bridge import (
     BRIDGE,
@@ -23,16 +21,12 @@ from support.bridge import (
     torus,
     values_of,
 )
-from support.free_suslov import shown
 from support.view import View
 
 
 @cache
 def leak(name, accuracy="standard"):
     return View(LEAK, {**values_of(LEAK, name), "accuracy": accuracy})
-
-
-both = pytest.mark.parametrize("scene", [LEAK, BRIDGE], ids=["leak", "bridge"])
 
 
 @cache
@@ -81,30 +75,6 @@ def test_where_the_two_cycles_have_merged_r_M_grows_like_the_square_of_the_time(
     view = View(LEAK, values | {"f": f}, seen=("leak",))
     (largest,) = view.numbers("leak", "Lock boundary: |r·M| grows like t². In 40 periods |r·M| ≤ #.")
     assert largest < 1e-10
-
-
-def test_the_caption_of_the_sphere_has_the_turning_points():
-    view = leak("Figure 11: h = 50, f = 5")
-    _, h, f, _ = torus(view.values)
-    _, *ends = np.sort(np.roots([-2.0, -2.0 * h, 2.0, 2.0 * h - f * f]).real)
-    assert view.numbers("sphere", "n₃ from # to #.") == [shown(end) for end in ends]
-
-
-@pytest.mark.parametrize(
-    "values, error, words",
-    [
-        ({"I2": 2.0}, InvalidParameter, "I2 = 2 must lie between"),
-        ({"m": 0.0}, NoField, "Choose μ|r| of at least"),
-        ({"m": 4e-299}, NoField, "Choose μ|r| of at least"),
-        ({"h": 9.975, "f": 0.0}, Separatrix, "h = μ|r|, f = 0 is the separatrix"),
-    ],
-)
-@both
-def test_what_cannot_be_is_refused_in_a_sentence(scene, values, error, words):
-    with pytest.raises(error, match=re.escape(words)):
-        View(scene, values)
-    with pytest.raises(ModelError):
-        scene.of(scene.admit({**scene.defaults(), **values})[0]).motion()
 
 
 def test_energy_and_area_integral_are_kept_inside_what_is_possible():

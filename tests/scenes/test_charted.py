@@ -9,12 +9,11 @@ from pytest import approx
 from hess_explorer.commands.serve import _shown
 from hess_explorer.compute.cells import Outcome
 from hess_explorer.export.picture_data import complete, picture_data
-from hess_explorer.lessons.reading import read
 from hess_explorer.page.requested import RequestedState
 from hess_explorer.protocol.parameters import decode, encode
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.cells import COARSE
-from hess_explorer.scenes.framework.charted import STORED
+from hess_explorer.scenes.framework.chart_cells import STORED
 from hess_mechanics.catalogue import find
 from hess_mechanics.dynamics.cells import centres
 from hess_mechanics.errors import ModelError
@@ -66,7 +65,7 @@ def test_the_own_number_and_coarse_cells_come_first_and_are_the_middle_ones_of_t
     state = state_of(known=False, a=0.35)
     assert state.charting.cells is None
     for task in state.work.todo[:9]:
-        state.work.get(task.function, *task.arguments)
+        state.work.need(task)
     coarse = state_of(known=False, a=0.35).charting.cells.cells
     assert ", 0 rows known" in state_of(known=False, a=0.35).charting.caption.numbers
     assert state_of(known=False, a=0.35).charting.own is not None
@@ -123,7 +122,7 @@ def test_an_error_belongs_to_its_number():
     values = {"chart": "lyapunov", "long": 20.0, "chart_window": "1,1;1.1,1.1"}
     state = state_of(SUSLOV, known=False, **values)
     own = next(task for task in state.work.todo if task.arguments[2] == 1)
-    state.work.get(own.function, *own.arguments)
+    state.work.need(own)
     state = state_of(SUSLOV, known=False, **values)
     found = find("lyapunov suslov").compute(SUSLOV.charted.numbers["lyapunov"][0].arguments(state), STANDARD)
     assert state.charting.own[:2, 0] == approx([found.value, found.spread], rel=1e-9)
@@ -171,15 +170,6 @@ def test_every_number_of_a_scene_depends_on_the_first_sides_and_exists(scene):
         assert charted.values(state)
         if option == next(iter(scene.charted.numbers)):
             assert state.charting.reason == ""
-
-
-def test_a_step_of_a_lesson_shows_a_chart():
-    link = "?" + encode(TORI.name, {**TORI.defaults(), **OWN})
-    lesson = read(
-        f'---\ntitle: Charts\nminutes: 1\n---\n## One\n```step\nstate: "{link}"\nlook: chart\n```\nText.\n', "own"
-    )
-    (step,) = lesson.steps
-    assert (step.look, step.at.values["chart"]) == ("chart", "trace")
 
 
 def test_the_file_of_a_chart_holds_its_numbers():

@@ -74,19 +74,6 @@ def test_an_example_shows_what_its_name_and_its_captions_promise(preset):
     assert view.columns("data-orbit", "l", "x") == approx(coordinates(M_and_gamma), abs=1e-5)
 
 
-@pytest.mark.parametrize("preset", sample([EP.presets[i] for i in (1, 5, 10, 15)], 2), ids=lambda one: one.name)
-def test_rotation_numbers_are_those_of_3000_points(preset):
-    view = EulerPoisson({**preset.values, "orbits": 0.0}, seen={"rotation", "section"})
-    along, rho = view.curve("rotation-rho")
-    assert view.numbers("rotation", "rom # to #") == approx([np.min(rho), np.max(rho)], abs=6e-5)
-    turning = view.values["turns"] == "about the middle"
-    ends = view.columns("section-line", "x", "y")
-    for i in (0, len(rho) // 2, -1):
-        place = (along[i], ends[0, 1]) if turning else (ends[0, 0], along[i])
-        exact, spread = rotation_number(places_from(view, place), tuple(ends[0]) if turning else None)
-        assert spread > 1e-6 or remainder(rho[i] - exact, 1.0) == approx(0.0, abs=3e-4)
-
-
 def test_at_the_meandering_torus_the_rotation_number_turns_round_at_an_eighth():
     view = EulerPoisson({**EP.presets[1].values, "orbits": 0.0}, seen={"rotation"})
     *_, rho, place = view.numbers("rotation", "No twist where ρ has an extremum. ρ from # to #, extremum # at #.")

@@ -5,6 +5,7 @@ import re
 import time
 from itertools import permutations
 from math import inf, log10, nan, pi
+from pathlib import Path
 from xml.etree import ElementTree
 
 import numpy as np
@@ -13,9 +14,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from pytest import approx
 
+from hess_explorer.assets import STATIC
 from hess_explorer.compute.background import Background
 from hess_explorer.compute.cache import CACHE
-from hess_explorer.export.sphere_canvas import LOOKS
 from hess_explorer.page import session
 from hess_explorer.protocol.parameters import Choice, Formula, Number, Places, written
 from hess_explorer.scenes.parts import precision
@@ -111,8 +112,8 @@ def test_a_scene_explains_itself_and_each_of_its_parameters(scene):
     legend = ElementTree.fromstring(scene.legend.strip())
     labels = {sign.label for picture in scene.views for sign in picture.legend}
     assert {"".join(item.itertext()) for item in legend} == labels
-    shapes = ElementTree.fromstring(f"<svg>{scene.thumbnail}</svg>")
-    assert {shape.tag for shape in shapes.iter()} <= {"svg", "path", "ellipse", "circle", "rect", "line", "g"}
+    picture = Path(scene.module).stem.replace("_", "-")
+    assert all((STATIC / f"thumbnails/{picture}-{one}.jpg").exists() for one in ("light", "dark"))
 
 
 @every_scene
@@ -302,7 +303,6 @@ def test_a_state_looks_the_same_whatever_was_shown_before(scene, preset):
             x0, x1, y0, y1 = before[view.name]
             axes = view.ranges(found, Axes((x0, x1), (y0, y1)))
             assert board.ranges[view.name] == [*axes.x, *axes.y], view.name
-    # Those of what is compared come with it.
     assert len(known) > at_once(scene)
     if scene.origin is None:
         assert board.captions == first.captions
@@ -498,6 +498,9 @@ REFUSED = [
     ("euler-poisson", {"f": 500.0}, "Nothing is possible here"),
     ("loxodrome", {"I2": 1.0, "I3": 1.0}, "which differ"),
     ("loxodrome", {"m": -0.5}, "choose μ > 0"),
+    ("hess-leak", {"I2": 2.0}, "I2 = 2 must lie between"),
+    ("bridge", {"m": 4e-299}, "Choose μ.r. of at least"),
+    ("bridge", {"h": 9.975, "f": 0.0}, "h = μ.r., f = 0 is the separatrix"),
 ]
 
 
@@ -608,31 +611,6 @@ def unfolded(scene, sources):
 
 
 @pytest.mark.usefixtures("quick")
-def test_another_scene_keeps_the_values_and_brings_its_own_pictures():
-    browser = Browser(HESS)
-    browser.ask(1, values={"h": 0.5, "f": 0.3, "phi0": -1.0})
-    before = browser.session.values
-    state = browser.ask(2, scene=ACCURACY.name)
-    assert browser.session.values == {**before, "difference": "colours"}
-    assert browser.entered[-1] == ACCURACY.name
-    browser.assert_admissible()
-    assert (state["scene"], state["answers"]) == (ACCURACY.name, 2)
-    # Its data are in the answer that enters it, and nothing of the old pictures is sent any more.
-    assert len(browser.screen.fresh["data-orbit"]["t"]) > 100
-    assert {name.split("-")[0] for name in browser.screen.fresh} <= {*ACCURACY.pictures, "data"}
-    state = browser.ask(3, values={"phi0": 2.0})
-    assert {name.split("-")[0] for name in state["tree"]["sources"]} <= {*ACCURACY.pictures, "data"}
-    assert "growth-standard" in state["tree"]["sources"]
-    # And back, with what was changed there.
-    state = browser.ask(4, scene=HESS.name)
-    assert browser.entered == [HESS.name, ACCURACY.name, HESS.name]
-    assert browser.session.values == {**before, "phi0": 2.0}
-    assert browser.data["data-orbit"]["phi"][0] == approx(2.0)
-    # The browser has kept its pictures: what has not changed there is not sent again.
-    assert "bifurcation-boundary" not in state["tree"]["sources"]
-
-
-@pytest.mark.usefixtures("quick")
 def test_values_that_come_with_a_scene_count_in_it():
     browser = Browser(HESS, notes=["h was not a number and is 1.5 now."])
     browser.ask(1, scene=ACCURACY.name, values={"h": 0.25, "f": 77.0})
@@ -725,6 +703,17 @@ def test_a_number_that_is_not_possible_there_does_not_go_along():
     assert taken == {**HESS.defaults(), "I22": 1.0}
 
 
+LOOKS = {
+    name: (theme.SHADES[shade][0] if shade else theme.INK, "[" in rest)
+    for name, shade, rest in re.findall(
+        r'^  (\w+): (?:look\("(\w+)"|\{)(.*)[)}],$',
+        (STATIC / "pictures/looks.js").read_text(encoding="utf-8"),
+        re.MULTILINE,
+    )
+}
+"""Colour of a line, and whether it is dashed, by the name of its look on spheres."""
+
+
 @pytest.mark.parametrize("scene", OWN, ids=lambda scene: scene.name)
 def test_the_legend_has_only_what_is_drawn(scene):
     # A diagram is the same with its first orbits and with all, which take long.
@@ -745,7 +734,7 @@ def test_the_legend_has_only_what_is_drawn(scene):
     for picture in (one for one in scene.views if one.kind == "sphere" and one.name in scene.open_pictures):
         own = view.data[picture.name]
         words = {*re.findall(r"\w+", repr(own)), *picture.describe()["tracks"].values()}
-        strokes = {(colour, dash != "-") for name, (colour, dash, _) in LOOKS.items() if name in words}
+        strokes = {stroke for name, stroke in LOOKS.items() if name in words}
         strokes |= {(theme.INK, True)} if len(own.get("section", ())) else set()
         for sign in (one for one in picture.legend if one.kind == "line"):
             colour = re.search(r"#\w{6}", sign.style)

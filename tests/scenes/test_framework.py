@@ -70,7 +70,6 @@ class Shown(Mixed):
 def test_no_name_of_a_scene_hides_one_of_the_scene_that_looks_into_it():
     shown = Scene(Shown, "/shown.py", "", "", (), ())
     looking = speed_and_accuracy(shown)
-    # With one kind of computation there is none to choose.
     assert (looking.name, looking.origin, looking.specs) == ("shown-accuracy", "shown", shown.specs)
     assert shown.has_motion
     assert not looking.has_motion

@@ -105,15 +105,6 @@ def test_with_F2_both_orbits_join_the_mirrored_circle_and_grey_circles_are_its_l
     assert re.sub(r"\s", "", formula(k)) in re.sub(r"\s", "", FREE.words)
 
 
-@pytest.mark.parametrize("name", ["Γ(t), k = 1.5", "Γ(t), I₁₃ ≠ 0"])
-def test_without_F2_two_phases_join_two_circles(name):
-    view = example("free-suslov", name)
-    _, went, other = view.numbers("sphere", "From Γ⁻ = # to Γ⁺ = # and #.")
-    assert abs(went - other) > 0.05
-    assert "F₂: none known" in " ".join(view.report.derived)
-    assert (view.values["I13"] != 0.0) == ("I₁₃ ≠ 0" in name)
-
-
 PORTRAITS = [preset for preset in FREE.presets if preset.name.startswith("Portrait")]
 
 

@@ -42,16 +42,6 @@ def test_an_example_of_b3_0_is_what_its_name_says(preset):
         assert ("unstable" in view.text["domain"]) is ("unstable" in preset.name)
 
 
-def test_the_mirror_image_runs_along_the_same_curves():
-    view = View(ARC, {})
-    orbit, found = view.data["data-orbit"], view.result.arc
-    for tau, g3 in (("tau", "g3"), ("mirror_tau", "mirror_g3")):
-        assert np.abs(orbit[g3]) == approx(found.height(orbit[tau]), abs=2e-3)
-    # It starts below where the orbit starts, and is where that was.
-    past = solve(view.result.body, view.result.start, -view.result.orbit.times, "reference").states
-    assert orbit["mirror_g3"] == approx(-past[:, 4], abs=2e-6)
-
-
 @pytest.mark.parametrize("name", POTENTIALS)
 def test_in_another_potential_the_caption_says_what_the_motion_does(name):
     body = PotentialBody(1.5, 1.0, *POTENTIALS[name])

@@ -1,7 +1,7 @@
 """Periodic orbits in the four scenes with a section: drawings and captions."""
 
 from functools import cache
-from math import inf, log, pi
+from math import log, pi
 
 import numpy as np
 import pytest
@@ -12,10 +12,7 @@ from hess_explorer.scenes.framework import periodic_search
 from hess_explorer.scenes.framework.periodic_search import NONE
 from hess_explorer.views.layers import Axes
 from hess_explorer.views.periodic import within
-from hess_mechanics import circle_map, level
 from hess_mechanics.dynamics.periodic import apart
-from hess_mechanics.euler_poisson.andoyer import hess_curve
-from hess_mechanics.euler_poisson.hess_isomorphism import Bridge
 from support.ball import returned as ball_returned
 from support.view import View, values_of
 
@@ -98,44 +95,6 @@ def test_a_manifold_ends_where_the_map_jumps_and_no_line_is_drawn_across():
         before, after = curve.at(curve.parameters[-1]), curve.at(curve.parameters[-1] + 0.01)
         assert apart(curve.turns, before, curve.points[-1]) == approx([0.0, 0.0], abs=1e-6)
         assert np.hypot(*apart(curve.turns, after, before)) > 0.2
-
-
-def test_homoclinic_points_lie_on_both_manifolds():
-    view = shown("ball-section", "period 1")
-    found = view.result.periodic_orbit.homoclinic
-    said, error = view.derived(
-        "# homoclinic points on the drawn parts of the manifolds, to #; longer manifolds cross more often"
-    )
-    assert said == len(found) == len(view.points("homoclinic")) > 20
-    assert error == approx(max(one.error for one in found), rel=0.5)
-    for stable in (True, False):
-        branches = [one.points for one in view.result.periodic_orbit.manifolds if one.stable is stable]
-        for place in view.points("homoclinic"):
-            away = np.hypot(*apart((2.0 * pi, inf), np.concatenate(branches), place).T)
-            assert away.min() < 10.0 / max(view.result.section.pixels)
-
-
-def test_in_the_hess_case_the_saddle_has_the_multipliers_of_the_moebius_matrix_and_lies_on_the_hess_manifold():
-    view = shown("euler-poisson", "period 1", ("reach", 2.5))
-    state, body = view.result, view.result.body
-    bridge = Bridge.of_heavy(body)
-    h, f = bridge.in_units_of_b(state.h, state.f)
-    exact = max(one.multiplier for one in circle_map(bridge.hess.a, h, f, level("reference")).fixed_points)
-    said = view.numbers("section", "\nPeriod #, saddle. Multipliers μ = #, #, to")
-    assert said == approx([1, exact, 1.0 / exact], rel=1e-3)
-    # One of its manifolds is the Hess manifold itself.
-    off = [
-        max(
-            float(np.abs(one.points[:, 1] - hess_curve(body, one.points[:, 0])).max())
-            for one in state.periodic_orbit.manifolds
-            if one.stable is stable
-        )
-        for stable in (True, False)
-    ]
-    assert min(off) < 0.5 / max(state.section.pixels) < 0.1 < max(off)
-    assert view.numbers("exponent", "\nFrom the multipliers of the periodic orbit. ln|μ₁|/T = #.") == approx(
-        [log(exact) / state.periodic_orbit.closed.time], rel=1e-3
-    )
 
 
 def test_where_every_orbit_of_the_ball_closes_the_chosen_one_is_parabolic():

@@ -119,7 +119,7 @@ def test_an_estimate_that_is_too_small_is_given_away():
     found = finding.now()
     least = np.abs(found.orbit.states - true_states(motion, found.orbit.times)).max()
     for estimate, too_small in ((1.1 * least, False), (0.9 * least, True)):
-        judgement = judged(Task(_told, (Told(found, estimate),)), motion, units)
+        judgement = judged(Task(_told, Told(found, estimate)), motion, units)
         assert ("the estimate is too small, as the error reaches" in judgement.sentence) == too_small
 
 

@@ -19,7 +19,7 @@ from hess_mechanics.dynamics.section import occupied_cells
 from support.deviations import deviations
 from support.free_suslov import shown
 from support.moved import from_moved_starts
-from support.suslov import energy, permanent_rotations, start_on
+from support.suslov import energy, start_on
 from support.view import View, values_of
 
 SCENE = scenes()["suslov"]
@@ -110,27 +110,6 @@ def test_exponent_and_divergence_of_an_example_are_as_its_name_and_words_say(nam
     assert abs(deviations(rates, exponent, spread)) < 5.0
 
 
-def test_what_attracts_and_repels_in_the_reversal_are_permanent_rotations():
-    view = example(REVERSAL)
-    found = np.array(list(permanent_rotations(body_of(view), energy_of(view))))
-    psi = np.arctan2(found[:, 3], found[:, 2])
-    # δ → 0 where ω is along γ, π where it is against it.
-    rests = np.column_stack([psi, np.where(found[:, 0] * found[:, 2] > 0.0, 0.0, pi)])
-    met = []
-    for layer in ("first", "second"):
-        # The last points of 40 orbits with 100 crossings each.
-        ends = view.points(layer)[99::100]
-        assert len(ends) == 40
-        gaps = np.linalg.norm(ends[:, None, :] - rests[None, :, :], axis=2)
-        assert np.max(gaps.min(axis=1)) < 0.01
-        met.append(set(np.argmin(gaps, axis=1).tolist()))
-    forward, backward = met
-    assert forward.isdisjoint(backward)
-    # The mirror image of each: the same ψ, the other end of δ.
-    images = {int(np.argmin(np.linalg.norm(rests - [psi[i], pi - rests[i, 1]], axis=1))) for i in forward}
-    assert backward <= images
-
-
 def test_the_shares_in_the_caption_are_those_of_the_basins():
     view = example(TWO)
     share, rest = view.numbers("section", "Two attractors. Basins: # % and # % of the cells.")
@@ -182,14 +161,6 @@ def test_a_sea_that_is_its_own_mirror_image_is_no_attractor():
     found = np.array(scores(view, 48))
     assert deviations(found, -3.0) > 5.0
     assert deviations(found > -3.0, 0.5) > 5.0
-
-
-@pytest.mark.chaotic
-def test_one_strange_attractor_is_one():
-    view = View(SCENE, {**example(STRANGE).values, **FEW, "colours": "basins", "long": 4000.0, "accuracy": "draft"})
-    mean, error = view.numbers("section", "One attractor for all orbits. mean div = # ± #.")
-    assert mean < -3.0 * error
-    assert deviations(scores(view, 16), -3.0) < -5.0
 
 
 # ---- planes, choices, controls -----------------------------------------------------------------------------------
@@ -276,24 +247,6 @@ def test_an_energy_that_does_not_reach_the_plane_is_raised_and_shown(plane, h):
         assert bottom < view.values["h"] < 1.02 * bottom
     view.assert_finite()
     assert len(view.points("first")) > 1
-
-
-def test_on_a_principal_axis_both_times_and_the_brackets_are_drawn():
-    view = View(SCENE, {**values_of(SCENE, PRINCIPAL), **FEW, "span": 20.0}, seen={"conformal", "sphere"})
-    body, orbit = body_of(view), view.data["data-orbit"]
-    # τ is the integral of γ3, and reverses on the equator, where the start lies.
-    t, tau = view.curve("conformal-tau")
-    assert np.gradient(tau, t)[5:-5] == approx(np.interp(t, orbit["t"], orbit["g3"])[5:-5], abs=0.02)
-    left, turns = view.numbers("conformal", "ẋ = γ₃{x, E} to #; τ reverses # times on the equator.")
-    assert left < 1e-14
-    assert turns == np.count_nonzero(np.diff(np.sign(orbit["g3"][1:])))
-    # γ_k over I γ3, with its poles cut out.
-    for source, sign, name, moment in (("first", 1.0, "g2", body.I11), ("second", -1.0, "g1", body.I22)):
-        at, value = view.curve(f"conformal-{source}")
-        above, below = (np.interp(at, orbit["t"], orbit[one]) for one in (name, "g3"))
-        near = np.abs(below) > 0.2
-        assert value[near] == approx(sign * (above / (moment * below))[near], abs=0.02)
-        assert len(view.data[f"conformal-{source}"]["xs"]) > 3
 
 
 def test_elsewhere_the_conformal_time_is_not_drawn_and_that_is_said():

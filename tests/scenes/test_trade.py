@@ -10,18 +10,15 @@ import pytest
 from pytest import approx
 
 from hess_explorer.compute.cache import CACHE
-from hess_explorer.protocol.parameters import decode
 from hess_explorer.protocol.wire import Wire
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.stage import Stage
-from hess_explorer.scenes.framework.trial import Trial, bare, needed, section_error
+from hess_explorer.scenes.framework.trial import Trial, bare, measured, needed, section_error
 from hess_explorer.scenes.framework.work import AUTO
 from hess_explorer.scenes.parts.costs import Costs
-from hess_mechanics.dynamics.cells import centres
 from hess_mechanics.dynamics.trade import LevelCost, beyond
 from hess_mechanics.errors import InvalidParameter
-from hess_mechanics.numerics.accuracy import LEVELS, PLANS, REFERENCE, Kind
-from hess_mechanics.suslov_hess.rotation_number import values_at
+from hess_mechanics.numerics.accuracy import LEVELS, PLANS, Kind
 from support.thorough import sample
 
 SCENES = {name: scene for name, scene in scenes().items() if scene.origin is None}
@@ -55,8 +52,7 @@ CHEAP = [
 @pytest.mark.parametrize("name, trial", sample(CHEAP, 6), ids=lambda one: getattr(one, "kind", one))
 def test_a_finer_level_has_a_smaller_error(name, trial):
     state = bare(SCENES[name].of(SCENES[name].defaults()))
-    truth = trial.run(state, dataclasses.replace(PLANS[trial.kind]["reference"], level=REFERENCE.tightened()))
-    errors = [trial.error(state, trial.run(state, plan), truth) for plan in PLANS[trial.kind].values()]
+    errors = [one.error for one in measured(trial, state)]
     # The truth of an unstable motion is not known to more than 1e-4 pixels.
     assert errors[0] > 30.0 * errors[2] > 0.0
     # For colours `standard` has the tolerance of `draft`, and smaller cells.
@@ -146,7 +142,7 @@ def test_what_cannot_be_computed_is_measured_as_standard():
     def refuse(state, plan):
         raise InvalidParameter("No.")
 
-    assert needed(Trial(Kind.MAP, (), refuse, lambda *_: 0.0, refuse), None) == "standard"
+    assert needed(Trial(Kind.MAP, (), refuse, lambda *_: 0.0), None) == "standard"
 
 
 # ---- the cost of all --------------------------------------------------------------------------------------------
@@ -154,7 +150,9 @@ def test_what_cannot_be_computed_is_measured_as_standard():
 
 def test_the_cost_of_all_is_measured_when_its_picture_is_unfolded():
     scene = scenes()["scattering-accuracy"]
-    assert scene.folded == {"trade": "Measure all that is computed", "difference": "Show what more accuracy changes"}
+    assert scene.folded == {"trade": "Measure all that is computed"}
+    # A scene that computes only its motion has no such picture.
+    assert "trade" not in scenes()["kharlamova-accuracy"].pictures
     state, report = completed(scene, {}, ("trade",))
     trial = next(one for one in state.trials if one.kind == Kind.MAP)
     samples = state.costs.samples[trial]
@@ -170,94 +168,14 @@ def test_the_cost_of_all_is_measured_when_its_picture_is_unfolded():
 def test_a_chaotic_section_has_no_error_and_says_so():
     trial = next(one for one in SUSLOV.trials if one.kind == Kind.SECTION)
     costs = tuple(LevelCost(name, 1.0, nan, True) for name in LEVELS)
-    work = types.SimpleNamespace(dragging=False, later=lambda *_: costs)
+    work = types.SimpleNamespace(dragging=False, need=lambda *_, **none: costs)
     found = Costs(work, bare(SUSLOV.of(SUSLOV.defaults())), (trial,))
     assert found.about().numbers == "Section has no error to measure: all of it is chaotic, or there is nothing."
     assert (found.curve(trial), found.rings(), found.level("draft"), [*found.rows()]) == (None, [], None, [])
 
 
-def test_what_is_too_large_to_be_measured_or_compared_says_so_and_leaves_no_axes_of_before():
-    scene, stage = scenes()["singular-measures-accuracy"], Stage(scenes()["singular-measures-accuracy"], Wire())
-
-    def shown(**values):
-        for _ in range(2):
-            state = scene.compute({**scene.defaults(), **values}, ("trade", "difference"), False)
-            report = stage.show(state, False)
-            for task in report.todo:
-                CACHE.get(task.function, *task.arguments)
-        return state, report, stage.wire.pack()[0]["ranges"]["difference"]
-
-    assert max(shown(points="1000", h=3.0)[2]) > 1.5
-    state, report, axes = shown(h=60.0, span=200.0)
+def test_what_is_too_large_to_be_measured_says_so():
+    state, report = completed(scenes()["singular-measures-accuracy"], {"h": 60.0, "span": 200.0}, ("trade",))
     why = "In this time the cloud turns too often for 30 frames: choose a time span below "
     assert state.costs.about().numbers.startswith(f"Cloud cannot be measured: {why}")
-    assert state.comparison.about().numbers.startswith(why)
-    assert state.comparison.message() == "The cloud cannot be compared"
-    assert (report.todo, axes) == ((), [-1.0, 1.0, -1.0, 1.0])
-
-
-# ---- what the next level changes ----------------------------------------------------------------------------------
-
-
-def difference(name, kind, level, **values):
-    """The state of "Speed and accuracy" with its difference picture, when that is known."""
-    return completed(scenes()[f"{name}-accuracy"], {"difference": kind, "accuracy": level, **values}, ("difference",))
-
-
-def test_the_cells_that_change_are_those_of_the_finer_grid_with_another_colour():
-    scene, (state, _) = SCENES["rotation-number"], difference("rotation-number", "grid", "draft")
-    axes = scene.of(scene.defaults()).window
-    found = {}
-    for name, (m, n) in (("draft", (150, 100)), ("standard", (300, 200))):
-        h, f = np.meshgrid(*(centres(*axis, count) for axis, count in zip(axes, (m, n), strict=True)))
-        values = values_at(0.5, h.ravel(), f.ravel(), LEVELS[name])
-        # Locked tori have one tone, whatever ρ.
-        shown = np.where(values.possible, np.where(values.locked, 9.0, values.rho), np.nan)
-        found[name] = shown.reshape(n, m)
-    coarse, fine = np.kron(found["draft"], np.ones((2, 2))), found["standard"]
-    changed = (np.abs(coarse - fine) > 1.0 / 256.0) | (np.isnan(coarse) ^ np.isnan(fine))
-    nothing = np.isnan(coarse) & np.isnan(fine)
-    assert np.array_equal(state.comparison.found.cells, np.where(nothing, -1.0, changed))
-    share = 100.0 * changed[~nothing].mean()
-    assert 3.0 < share < 12.0
-    assert float(re.search(r"([\d.]+) % of the cells change\.", state.comparison.about().verdict)[1]) == (
-        approx(share, rel=0.05)
-    )
-    assert "difference" in scenes()["rotation-number-accuracy"].open_pictures
-
-
-def test_of_a_regular_motion_nothing_moves():
-    state, _ = difference("quartic", "section", "standard", ratio=1.0, h=0.6)
-    assert len(state.comparison.found.changed) == len(state.comparison.found.lost) == 0
-    assert len(state.comparison.found.same) > 4000
-    assert state.comparison.about().verdict.startswith("Nothing moves by more than ")
-
-
-def test_there_is_nothing_beyond_the_last_level_and_nothing_of_what_is_not_shown():
-    state, report = difference("scattering", "map", "reference")
-    assert state.comparison.found is None
     assert report.todo == ()
-    assert state.comparison.about().words == "Nothing to compare with. No level is more accurate than reference."
-    state, _ = difference("suslov", "basins", "draft")
-    assert state.comparison.about().words == "The scene shows no basins now."
-    scene = scenes()["scattering-accuracy"]
-    held = scene.compute({**scene.defaults(), "accuracy": "draft"}, ("difference",), True)
-    assert (held.comparison.found, held.comparison.about().words) == (None, "Compared when a slider is released.")
-
-
-def test_what_is_compared_is_one_of_the_kinds_the_costliest_at_first():
-    scene = scenes()["euler-poisson-accuracy"]
-    assert scene.defaults()["difference"] == "rotation number"
-    # Basins are shown only where they are asked for.
-    assert scenes()["suslov-accuracy"].defaults()["difference"] == "section"
-    values, notes = decode("v=1&difference=everything", scene.specs)
-    assert values["difference"] == "rotation number"
-    assert notes == [
-        "What is compared must be one of orbit, section, indicator, exponent, rotation number: set to rotation number."
-    ]
-    admitted, notes = scene.admit({**scene.defaults(), "difference": "<b>"})
-    assert admitted == scene.defaults()
-    assert len(notes) == 1
-    # A scene that computes only its motion has no such pictures.
-    motion = scenes()["kharlamova-accuracy"]
-    assert ("difference" in motion.defaults(), "trade" in motion.pictures) == (False, False)

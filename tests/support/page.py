@@ -192,7 +192,7 @@ class Explorer:
     @property
     def scene(self):
         """The name of the scene on show."""
-        return self.page.locator(".scene[aria-pressed=true]").get_attribute("data-scene")
+        return self.page.evaluate("document.documentElement.dataset.scene")
 
     @property
     def accuracy(self):

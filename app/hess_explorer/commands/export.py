@@ -78,8 +78,8 @@ def _lesson(options: Options) -> bytes:
 
 
 def _picture(options: Options) -> bytes:
-    from hess_explorer.export.file import content
     from hess_explorer.export.picture_data import picture_data
+    from hess_explorer.headless.file import content
 
     found = picture_data(options.state, options.picture, lenient=options.lenient)
     loop = Loop(options.loop == "dark", options.page) if options.loop else None
@@ -101,11 +101,12 @@ def _run(options: Options) -> None:
 
 
 COMMAND = Command(
-    "Export a picture of the state that a link describes: its data in full precision as CSV or JSON; a square figure "
-    "as PNG, SVG or PDF, with bodies and clouds at the time of the link and without the moving point; or a film of the "
-    "motion as WebM, MP4 or GIF. HTML is an interactive page in one file that needs no server: pictures of the state, "
-    "whose sliders move if they are named by --vary, or a lesson. Every file contains link, parameters, accuracy, "
-    "errors and version. Figures and films require: pip install 'hess-explorer[export]'.",
+    "Export a picture of the state that a link describes: its data in full precision as CSV or JSON; a figure as PNG, "
+    "SVG or PDF, at the time of the link; or a film of the motion as WebM or MP4. A headless browser draws films, and "
+    "spheres, bodies, tori and clouds. HTML is an interactive page in one file that needs no server: pictures of the "
+    "state, whose sliders move if they are named by --vary, or a lesson. Every file contains link, parameters, "
+    "accuracy, errors and version. Figures and films require: pip install 'hess-explorer[export]'; "
+    "playwright install chromium.",
     (
         *picture("; for HTML a list with commas, by default those open at first"),
         option(

@@ -123,7 +123,7 @@ def _shown(found: xr.Dataset, at: Mapping[str, float]) -> str:
 
     from hess_explorer.protocol.parameters import Number, encode
     from hess_explorer.scenes import scenes
-    from hess_explorer.scenes.framework.charted import STORED
+    from hess_explorer.scenes.framework.chart_cells import STORED
     from hess_mechanics.errors import InvalidParameter
 
     fixed = json.loads(found.attrs["parameters"])

@@ -7,6 +7,7 @@ import threading
 from collections import deque
 from collections.abc import Callable, Collection, Iterable
 from concurrent.futures import ThreadPoolExecutor
+from typing import Any
 
 import numpy as np
 
@@ -44,7 +45,7 @@ def run_in_steps(step: Callable[[], bool]) -> None:
 class _Job:
     """The background tasks of one state."""
 
-    def __init__(self, tasks: Iterable[Task]) -> None:
+    def __init__(self, tasks: Iterable[Task[Any]]) -> None:
         self.tasks = deque(tasks)
         self.running = 0
         self.error = ""
@@ -62,16 +63,16 @@ class Background:
         self._lock = threading.Lock()
         self._job = _Job(())
         # The running tasks, including those of earlier states, each with the event that cancels it.
-        self._begun: list[tuple[Task, threading.Event]] = []
+        self._begun: list[tuple[Task[Any], threading.Event]] = []
 
-    def follow(self, tasks: Iterable[Task]) -> None:
+    def follow(self, tasks: Iterable[Task[Any]]) -> None:
         """Compute these tasks into the cache.  Earlier tasks are discarded, except running ones that are listed."""
         wanted = list(tasks)
         self._discard(wanted)
         self._job = _Job(wanted)
         self._run(len(wanted))
 
-    def add(self, tasks: Iterable[Task]) -> None:
+    def add(self, tasks: Iterable[Task[Any]]) -> None:
         """Compute these tasks too, after the others."""
         with self._lock:
             before = len(self._job.tasks)
@@ -88,7 +89,7 @@ class Background:
         """Discard all tasks; running ones end at the next check of their budget."""
         self._discard(())
 
-    def _discard(self, but: Collection[Task]) -> None:
+    def _discard(self, but: Collection[Task[Any]]) -> None:
         with self._lock:
             self._job.tasks.clear()
             for task, left in self._begun:

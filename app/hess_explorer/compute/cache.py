@@ -8,7 +8,7 @@ from collections.abc import Callable, Hashable, Mapping
 from concurrent.futures import Future
 from contextlib import suppress
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Generic, ParamSpec, TypeVar, cast
 
 import numpy as np
 from cachetools import LRUCache
@@ -16,6 +16,9 @@ from cachetools import LRUCache
 from hess_explorer.compute.budget import Abandoned, OverBudget, check
 
 __all__ = ["CACHE", "ResultCache", "Task", "size_of"]
+
+P = ParamSpec("P")
+T_co = TypeVar("T_co", covariant=True)
 
 _OVERHEAD, _NUMBER = 512, 64
 
@@ -36,16 +39,24 @@ def size_of(value: Any) -> int:
     return _NUMBER
 
 
-@dataclass(frozen=True)
-class Task:
+@dataclass(frozen=True, init=False)
+class Task(Generic[T_co]):
     """A deferred computation function(*arguments), whose result goes into the cache."""
 
-    function: Callable[..., Any]
+    function: Callable[..., T_co]
     arguments: tuple[Hashable, ...]
 
-    def now(self) -> Any:
+    def __init__(self, function: Callable[P, T_co], *arguments: P.args, **none: P.kwargs) -> None:
+        object.__setattr__(self, "function", function)
+        object.__setattr__(self, "arguments", arguments)
+
+    def now(self) -> T_co:
         """Compute and return the result, bypassing the cache."""
         return self.function(*self.arguments)
+
+    def get(self) -> T_co:
+        """Return the result, from the cache if it is known."""
+        return cast(T_co, CACHE.get(self.function, *self.arguments)[0])
 
 
 class ResultCache:

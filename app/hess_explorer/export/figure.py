@@ -1,31 +1,41 @@
-"""Draw a picture for print with Matplotlib: the layers and axes of the page, in its colours or black on white."""
+"""Figures for print with Matplotlib: plots, in colours or black on white, and images with their texts."""
 
 from __future__ import annotations
 
 import io
-from collections.abc import Mapping
+import textwrap
+from collections.abc import Mapping, Sequence
 from contextlib import AbstractContextManager
+from dataclasses import dataclass
+from math import degrees
 from typing import TYPE_CHECKING, Any
 
-from hess_explorer.export import clouds, plots, spheres, torus
+import holoviews as hv
+import numpy as np
+
 from hess_explorer.export.formats import WIDTHS, holding
 from hess_explorer.export.picture_data import PictureData
-from hess_explorer.export.solid import EVEN, ODD
 from hess_explorer.views import theme
 from hess_explorer.views.cloud import CloudPlane
-from hess_explorer.views.elements import Colour, as_it_is
+from hess_explorer.views.elements import as_it_is, on_paper, overlay
+from hess_explorer.views.layers import Layer
 from hess_explorer.views.plot import Plot
-from hess_explorer.views.torus_in_space import TorusInSpace
 from hess_mechanics.errors import InvalidParameter
+from hess_mechanics.numerics.results import Array
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes as Frame
     from matplotlib.figure import Figure
 
-__all__ = ["STYLE", "as_figure", "as_file", "draw", "draw_moving", "draw_still", "in_black", "saved"]
+__all__ = ["Drawing", "as_figure", "as_file", "densities", "image_figure", "saved"]
 
 _DOTS_PER_INCH = 300
-STYLE: Mapping[str, Any] = {
+_POINTS = 0.6
+"""Points per pixel of the page."""
+_TITLE, _CAPTION, _LINE, _LETTER = 9.0, 7.5, 11.0, 0.58
+"""Sizes of title and caption below an image and height of their lines, in points; width of a letter in its size."""
+_OVER = 1e3
+"""Drawing order of moving points, above all static layers."""
+_STYLE: Mapping[str, Any] = {
     # DejaVu Sans has no 𝒟, so STIXGeneral is the fallback.
     "font.family": ["DejaVu Sans", "STIXGeneral"],
     "font.size": 9.0,
@@ -35,15 +45,29 @@ STYLE: Mapping[str, Any] = {
     "svg.hashsalt": "hess-explorer",
     "mathtext.fontset": "dejavusans",
 }
+_ALIGNED = {"alphabetic": "baseline", "middle": "center"}
+"""Vertical alignment in Matplotlib by `textBaseline` of a canvas, where they differ."""
+
+
+@dataclass(frozen=True)
+class Drawing:
+    """A picture as the page draws it: PNG file without texts, the texts, and the edge in pixels of the page.
+
+    texts : text, x, y, turn, size, colour, alpha, align, baseline of each, see `LiftedText` in "types.d.ts".
+    """
+
+    image: bytes
+    texts: Sequence[Mapping[str, Any]]
+    edge: float
 
 
 def as_file(data: PictureData, kind: str, width: float = 85.0, black: bool = False) -> bytes:
-    """Return a square figure as a file, in which text stays text.
+    """Return a plot as a square figure in a file, in which text stays text.
 
     Parameters
     ----------
     data : PictureData
-        The picture and its data.
+        The plot and its data.
     kind : str
         "png" (300 dots per inch), "svg" or "pdf".
     width : float
@@ -63,12 +87,11 @@ def as_file(data: PictureData, kind: str, width: float = 85.0, black: bool = Fal
     """
     if kind not in holding("figure"):
         raise InvalidParameter(f"{kind!r} is not a figure format: choose one of {', '.join(holding('figure'))}.")
-    with _style():
-        return saved(as_figure(data, width, black), data, kind)
+    return saved(as_figure(data, width, black), data, kind)
 
 
 def as_figure(data: PictureData, width: float = 85.0, black: bool = False) -> Figure:
-    """Return a square figure of Matplotlib, to be changed or saved.
+    """Return a plot as a square figure of Matplotlib, at the time of the link, to be changed or saved.
 
     Parameters
     ----------
@@ -86,8 +109,82 @@ def as_figure(data: PictureData, width: float = 85.0, black: bool = False) -> Fi
         If the width is not supported, or Matplotlib is not installed.
     """
     WIDTHS.require("A figure", width, "mm wide")
+    plot, colour = data.picture, _in_black if black else as_it_is
+    assert isinstance(plot, Plot)
+    assert data.axes is not None
     with _style():
-        return draw(data, width, black)
+        from matplotlib.figure import Figure
+
+        figure = Figure(figsize=(width / 25.4, width / 25.4), layout="constrained")
+        frame = figure.add_subplot()
+        renderer = hv.renderer("matplotlib")
+        elements = overlay(plot, data.columns, data.axes, plot.names(data.state), colour=colour)
+        renderer.get_plot(elements, fig=figure, axis=frame)
+        for view, layer in densities(data):
+            x, y = _density(data.columns.get(view.name, {}), data.client["t"])
+            frame.scatter(x, y, zorder=_OVER, **on_paper(layer, colour))
+    return figure
+
+
+def image_figure(data: PictureData, drawing: Drawing, width: float = 85.0) -> Figure:
+    """Return the image of a picture as a figure of Matplotlib, with title and caption below.
+
+    Parameters
+    ----------
+    data : PictureData
+        The picture and its data.
+    drawing : Drawing
+        The image and the texts in it.
+    width : float
+        Width in millimetres.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        The figure, with one Axes in the pixels of the page.
+
+    Raises
+    ------
+    InvalidParameter
+        If Matplotlib is not installed.
+    """
+    with _style():
+        from matplotlib.figure import Figure
+        from matplotlib.image import imread
+
+        side = width / 25.4
+        lines = _wrapped(data.title, side, _TITLE), _wrapped(data.caption, side, _CAPTION)
+        below = _LINE * (sum(map(len, lines)) + 0.5) / 72.0
+        figure = Figure(figsize=(side, side + below))
+        frame = figure.add_axes((0.0, below / (side + below), 1.0, side / (side + below)))
+        frame.axis("off")
+        extent = (0.0, drawing.edge, drawing.edge, 0.0)
+        frame.imshow(imread(io.BytesIO(drawing.image)), extent=extent, aspect="auto", interpolation="none")
+        for one in drawing.texts:
+            frame.text(
+                one["x"],
+                one["y"],
+                one["text"],
+                fontsize=_POINTS * one["size"],
+                color=one["colour"],
+                alpha=one["alpha"],
+                rotation=degrees(one["turn"]),
+                rotation_mode="anchor",
+                horizontalalignment=one["align"],
+                verticalalignment=_ALIGNED.get(one["baseline"], one["baseline"]),
+                parse_math=False,
+            )
+        place = below
+        for size, text in zip((_TITLE, _CAPTION), lines, strict=True):
+            for line in text:
+                place -= _LINE / 72.0
+                figure.text(0.02, place / (side + below), line, fontsize=size, parse_math=False)
+    return figure
+
+
+def _wrapped(text: str, side: float, size: float) -> list[str]:
+    """Return the lines of a text below an image; side : width in inches, size : of its letters in points."""
+    return textwrap.wrap(text, max(10, int(72.0 * side / (_LETTER * size))))
 
 
 def _style() -> AbstractContextManager[None]:
@@ -98,64 +195,49 @@ def _style() -> AbstractContextManager[None]:
         raise InvalidParameter(
             "Figures need Matplotlib: pip install 'hess-explorer[export]'. CSV and JSON work without it."
         ) from error
-    return mpl.rc_context(dict(STYLE))
+    return mpl.rc_context(dict(_STYLE))
 
 
 def saved(figure: Figure, data: PictureData, kind: str) -> bytes:
     """Return a figure as a file whose metadata contain link, parameters and version."""
-    program, text = data.facts["program"], data.metadata_text
-    metadata: dict[str, Any] = {
-        "png": {"Title": data.title, "Description": text, "Comment": data.caption, "Software": program},
+    text = data.metadata_text
+    metadata: dict[str, dict[str, Any]] = {
+        "png": {**data.texts},
         "svg": {"Title": data.title, "Description": f"{data.caption} {text}", "Date": None},
         "pdf": {"Title": data.title, "Subject": text, "Keywords": data.caption, "CreationDate": None},
-    }[kind]
+    }
     out = io.BytesIO()
-    figure.savefig(out, format=kind, dpi=_DOTS_PER_INCH, metadata=metadata)
+    with _style():
+        figure.savefig(out, format=kind, dpi=_DOTS_PER_INCH, metadata=metadata[kind])
     return out.getvalue()
 
 
-def draw(data: PictureData, width: float = 85.0, black: bool = False) -> Figure:
-    """Return the figure, `width` millimetres wide, at the time and view of the link."""
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=(width / 25.4, width / 25.4), layout="constrained")
-    frame = figure.add_subplot()
-    colour = in_black if black else as_it_is
-    draw_still(frame, data, colour)
-    draw_moving(frame, data, colour, data.client["t"], point=False)
-    return figure
-
-
-def draw_still(frame: Frame, data: PictureData, colour: Colour) -> None:
-    """Draw the static parts, beneath the moving ones."""
-    if isinstance(data.picture, Plot):
-        plots.draw_still(frame, data, colour)
-    elif isinstance(data.picture, CloudPlane):
-        clouds.draw_still(frame, data, colour)
-    elif isinstance(data.picture, TorusInSpace):
-        torus.draw_still(frame, data, colour)
-    else:
-        spheres.draw_still(frame, data, colour)
+def densities(data: PictureData) -> list[tuple[CloudPlane[Any], Layer[Any]]]:
+    """Return the layers that show the density of a cloud at the moving time, each with its cloud."""
+    plot = data.picture
+    layers = {plot.source_of(layer): layer for layer in plot.layers} if isinstance(plot, Plot) else {}
+    return [
+        (view, layers[view.density])
+        for view in data.scene.views
+        if isinstance(view, CloudPlane) and view.density in layers and view.name in plot.needs
+    ]
 
 
-def draw_moving(frame: Frame, data: PictureData, colour: Colour, t: float, point: bool) -> None:
-    """Draw bodies and clouds at time t; point : True to include the moving points of the orbit."""
-    if isinstance(data.picture, Plot):
-        plots.draw_moving(frame, data, colour, t, point)
-    elif isinstance(data.picture, CloudPlane):
-        clouds.draw_moving(frame, data, colour, t)
-    elif isinstance(data.picture, TorusInSpace):
-        torus.draw_moving(frame, data, colour, t, point)
-    else:
-        spheres.draw_moving(frame, data, colour, t, point)
+def _density(columns: Mapping[str, Any], t: float) -> tuple[Array, Array]:
+    """Return |s| and the density of the first cloud per unit of |s| in the frame nearest to t, in its bins of ln|s|."""
+    if "signs0" not in columns:
+        return np.empty(0), np.empty(0)
+    times, (first, wide, count) = columns["times"], columns["bins"]
+    frames = np.asarray(columns["frames0"], float).reshape(len(times), 5, -1)
+    log_s = frames[np.argmin(np.abs(times - t)), 1]
+    counts = np.histogram(log_s, first + wide * np.arange(count + 1))[0]
+    s = np.exp(first + (np.arange(count) + 0.5) * wide)
+    full = counts > 0
+    return s[full], counts[full] / (log_s.size * wide * s[full])
 
 
-def in_black(colour: str) -> str:
+def _in_black(colour: str) -> str:
     """Return the colour in black on white: areas keep their lightness, everything else is black."""
-    return (
-        colour
-        if colour in (theme.PAPER, "white")
-        else {theme.FORBIDDEN: "#E4E4E4", theme.LOCKED: "#BDBDBD", EVEN: "#D6D6D6", ODD: "#B2B2B2"}.get(
-            colour, "#000000"
-        )
-    )
+    if colour in (theme.PAPER, "white"):
+        return colour
+    return {theme.FORBIDDEN: "#E4E4E4", theme.LOCKED: "#BDBDBD"}.get(colour, "#000000")

@@ -105,6 +105,16 @@ class PictureData:
             f" | {note}" for note in self.notes
         )
 
+    @property
+    def texts(self) -> dict[str, str]:
+        """The metadata of a PNG file by keyword."""
+        return {
+            "Title": self.title,
+            "Description": self.metadata_text,
+            "Comment": self.caption,
+            "Software": self.facts["program"],
+        }
+
 
 def picture_data(query: str, picture: str = "", *, lenient: bool = False) -> PictureData:
     """Return a picture of the state that a query describes, with its data.
@@ -200,7 +210,7 @@ def complete(scene: Scene[Any], values: Values, pictures: Collection[str], made:
         if not state.work.todo:
             break
         for task in state.work.todo:
-            state.work.get(task.function, *task.arguments)
+            state.work.need(task)
     return state, found
 
 

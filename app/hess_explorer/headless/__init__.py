@@ -1,1 +1,1 @@
-"""Screenshots of the page with a headless browser."""
+"""Pictures, films and screenshots of the page with a headless browser."""

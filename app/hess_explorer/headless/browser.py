@@ -9,6 +9,8 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from hess_mechanics.errors import ModelError
+
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, BrowserType, Page
 
@@ -21,7 +23,7 @@ _POLLING_MS = 10
 _QUIET = ("--disable-background-networking", "--disable-component-update", "--disable-domain-reliability", "--no-pings")
 
 
-class BrowserError(RuntimeError):
+class BrowserError(ModelError):
     """There is no usable browser; the message tells the user what to do."""
 
 

@@ -24,6 +24,8 @@ Check the file with `hess-explorer lesson check FILE`.
 state: "?scene=suslov-hess&h=0.5&f=0.6"
 # The picture to enlarge.
 look: circle
+# With this line only these pictures are shown, over the text.
+# pictures: [body, circle]
 # The sliders beside the text.
 controls: [h, f]
 ```

@@ -74,7 +74,8 @@ class LessonStep:
     """One step of a lesson.
 
     text, answer : Markdown; the answer is hidden at first.  look : name of the picture to enlarge, "" for none.
-    controls : names of the parameters whose controls are beside the text.  line : line of its heading in the file.
+    controls : names of the parameters whose controls are beside the text.  pictures : names of the pictures that the
+    step shows alone, over its text; empty for the whole page.  line : line of its heading in the file.
     """
 
     title: str
@@ -87,6 +88,7 @@ class LessonStep:
     prediction: Prediction | None = None
     controls: tuple[str, ...] = ()
     hide: HiddenLayer | None = None
+    pictures: tuple[str, ...] = ()
     line: int = field(default=0, compare=False)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from urllib.parse import urlsplit
 
 from hess_explorer.lessons.lesson import LessonError, StateLink
@@ -12,7 +13,7 @@ from hess_explorer.scenes import scenes
 __all__ = ["example_of", "not_one_of", "place_of"]
 
 
-def not_one_of(what: str, given: object, allowed: tuple[str, ...]) -> str:
+def not_one_of(what: str, given: object, allowed: Sequence[str]) -> str:
     """Return the message that a value is not allowed, with those that are."""
     return f"{what} must be one of {', '.join(allowed)}, not {str(given)[:40]!r}."
 

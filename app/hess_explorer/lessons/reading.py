@@ -11,6 +11,7 @@ contains its settings as YAML; the headings "Question" and "Answer" one level do
     ```step
     state: "?scene=suslov-hess&h=0.2&f=0.5"
     look: circle
+    pictures: [circle, omega]
     animate: {name: h, from: 0.2, to: 1.5, seconds: 8}
     controls: [h, f]
     hide: {picture: omega, layer: stable}
@@ -46,6 +47,7 @@ from hess_explorer.lessons.settings import (
     hidden_of,
     is_number,
     look_of,
+    names_of,
     prediction_of,
 )
 from hess_explorer.scenes import scenes
@@ -67,7 +69,7 @@ __all__ = [
 MAX_BYTES = 256 * 1024
 MAX_STEPS = 200
 TRY_THIS = "Try this"
-KEYS = ("state", "example", "look", "animate", "controls", "hide", "predict")
+KEYS = ("state", "example", "look", "pictures", "animate", "controls", "hide", "predict")
 """Names of the settings of a step."""
 _MOST_MINUTES = 600.0
 
@@ -218,6 +220,7 @@ def _step(part: Part, tag: str, before: StateLink | None, images: Images, proble
         problems.attempt(None, prediction_of, fields.get("predict"), place, line_of("predict"), problems),
         problems.attempt((), controls_of, fields.get("controls"), animation, scene, line_of("controls"), problems),
         problems.attempt(None, hidden_of, fields.get("hide"), scene, line_of("hide"), problems),
+        names_of(fields.get("pictures"), "pictures", scene.pictures, line_of("pictures"), problems),
         part.line - 1,
     )
 

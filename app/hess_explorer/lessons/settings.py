@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Any, TypeGuard
 
 from hess_explorer.lessons.lesson import TIME, Animation, HiddenLayer, LessonError, Prediction, StateLink
@@ -14,10 +15,10 @@ from hess_explorer.scenes.framework.scene import Scene
 from hess_explorer.views.layers import Layer
 from hess_explorer.views.plot import Plot
 
-__all__ = ["animation_of", "controls_of", "hidden_of", "is_number", "look_of", "only", "prediction_of"]
+__all__ = ["animation_of", "controls_of", "hidden_of", "is_number", "look_of", "names_of", "only", "prediction_of"]
 
 _MOST_SECONDS, _MOST_TIME = 600.0, 1e6
-_MOST_CONTROLS = 6
+_MOST_NAMES = 6
 # Layers on canvases of the page, which are always shown.
 _PAINTED = ("image", "dots")
 _CURVES, _POINTS = ("multi_line", "line"), ("scatter",)
@@ -88,14 +89,24 @@ def controls_of(
     """Return the names of the controls beside the text; by default that of the animated parameter."""
     if found is None:
         return (animation.name,) if animation and animation.name != TIME else ()
+    return names_of(
+        found, "controls", [spec.name for spec in scene.specs if isinstance(spec, Controlled)], line, problems
+    )
+
+
+def names_of(found: object, key: str, allowed: Sequence[str], line: int, problems: Problems) -> tuple[str, ...]:
+    """Return the names of a list, each once; none without a list."""
+    if found is None:
+        return ()
     listed = found if isinstance(found, list) else []
-    if listed is not found or len(listed) > _MOST_CONTROLS:
-        problems.add(f"controls must be a list of at most {_MOST_CONTROLS} names, like controls: [h, f].", line)
-    names = tuple(spec.name for spec in scene.specs if isinstance(spec, Controlled))
+    if listed is not found or len(listed) > _MOST_NAMES:
+        problems.add(
+            f"{key} must be a list of at most {_MOST_NAMES} names, like {key}: [{', '.join(allowed[:2])}].", line
+        )
     for name in listed:
-        if name not in names:
-            problems.add(not_one_of("a name in controls", name, names), line)
-    return tuple(dict.fromkeys(name for name in listed if name in names))
+        if name not in allowed:
+            problems.add(not_one_of(f"a name in {key}", name, allowed), line)
+    return tuple(dict.fromkeys(name for name in listed if name in allowed))
 
 
 def hidden_of(found: object, scene: Scene[Any], line: int, problems: Problems) -> HiddenLayer | None:

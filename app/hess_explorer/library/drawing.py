@@ -10,8 +10,8 @@ from typing import Any
 import holoviews as hv
 import numpy as np
 
-from hess_explorer.export.figure import as_file
 from hess_explorer.export.picture_data import PictureData
+from hess_explorer.headless.drawing import png_of
 from hess_explorer.views import theme
 from hess_explorer.views.elements import SIDE, overlay, with_options
 from hess_explorer.views.plot import Plot
@@ -44,17 +44,19 @@ def draw(data: PictureData) -> Any:
     Returns
     -------
     holoviews.Overlay or holoviews.RGB
-        The layers of a plot; an image of spheres, bodies and clouds.
+        The layers of a plot; an image of spheres, bodies, tori and clouds.
 
     Raises
     ------
     InvalidParameter
         If the image needs Matplotlib and it is not installed.
+    BrowserError
+        If the image needs a browser and there is none.
     """
     _show_in_notebooks()
     plot = data.picture
     if not isinstance(plot, Plot):
-        return _painted(data)
+        return _image(data)
     assert data.axes is not None
     if find_spec("matplotlib"):
         # Load the options of the Matplotlib backend without selecting it.
@@ -62,13 +64,14 @@ def draw(data: PictureData) -> Any:
     return overlay(plot, data.columns, data.axes, plot.names(data.state), data.title)
 
 
-def _painted(data: PictureData) -> Any:
-    """Return a three-dimensional picture as an image, drawn like the figure for print."""
-    # Matplotlib is optional: `as_file` raises an error that names the extra.
-    file = as_file(data, "png", _MILLIMETRES)
-    from matplotlib.image import imread
+def _image(data: PictureData) -> Any:
+    """Return a picture as an image, drawn by the page."""
+    try:
+        from matplotlib.image import imread
+    except ImportError as error:
+        raise InvalidParameter("Images need Matplotlib: pip install 'hess-explorer[export]'.") from error
 
-    pixels = imread(io.BytesIO(file))
+    pixels = imread(io.BytesIO(png_of(data, _MILLIMETRES)))
     shared = {"title": data.title, "xaxis": None, "yaxis": None}
     return with_options(
         hv.RGB(pixels, bounds=(-1.0, -1.0, 1.0, 1.0)),

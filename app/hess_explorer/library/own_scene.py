@@ -50,7 +50,6 @@ _TRIED = 200
 """Places of a section that are tried as the start of a motion."""
 _ESSENTIAL = 4
 """Largest number of parameters whose controls are open at first."""
-_CURVE = '<path d="M5 25C9 2 18 2 22 16S34 30 38 12 43 6 44 9" fill="none" stroke="#0072B2" stroke-width="1.8"/>'
 
 
 @dataclass(frozen=True, repr=False)
@@ -72,11 +71,6 @@ class OwnScene(Scene[OwnState]):
         """A sentence on the controls."""
         chosen = "a click in the section chooses" if issubclass(self.state, LevelState) else "the initial values choose"
         return f"The parameters change the equations, {chosen} the motion."
-
-    @property
-    def thumbnail(self) -> str:
-        """The content of the SVG thumbnail."""
-        return _CURVE
 
 
 @typed

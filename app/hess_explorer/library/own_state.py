@@ -8,6 +8,7 @@ from typing import ClassVar
 
 import numpy as np
 
+from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.parameters import Value, Values, written
 from hess_explorer.scenes.framework.parameters import accuracy_level, exponent_time, parameter, time_span
 from hess_explorer.scenes.framework.part import Start, part
@@ -75,7 +76,7 @@ class OwnState(State):
     @cached_property
     def weights(self) -> tuple[float, ...]:
         """Pixels of the pictures per unit of each variable."""
-        return self.work.get(_pixels, self.system)
+        return self.work.need(Task(_pixels, self.system))
 
     @property
     def periodic_orbit(self) -> NotPeriodic | PeriodicOrbit:

@@ -191,12 +191,14 @@ class SceneState:
         Returns
         -------
         holoviews.Overlay or holoviews.RGB
-            The layers of a plot; an image of spheres, bodies and clouds.
+            The layers of a plot; an image of spheres, bodies, tori and clouds, which a headless browser draws.
 
         Raises
         ------
         InvalidParameter
             If the scene has no such picture, or if an image needs Matplotlib and it is not installed.
+        BrowserError
+            If an image needs a browser and there is none.
         ModelError
             If the state cannot be computed.
         """
@@ -205,7 +207,7 @@ class SceneState:
         return draw(self._shown(picture))
 
     def figure(self, picture: str = "", *, width: float = 85.0, black: bool = False) -> Any:
-        """Return a picture as a figure of Matplotlib, as `save` writes it.
+        """Return a picture as a figure of Matplotlib, as `save` writes it to SVG and PDF.
 
         Parameters
         ----------
@@ -219,12 +221,14 @@ class SceneState:
         Returns
         -------
         matplotlib.figure.Figure
-            The figure; `figure.axes[0]` is its Axes.
+            The figure; `figure.axes[0]` is its Axes.  A sphere, body, torus or cloud is an image with its texts.
 
         Raises
         ------
         InvalidParameter
             If the scene has no such picture, the width is not supported, or Matplotlib is not installed.
+        BrowserError
+            If the picture needs a browser and there is none.
         ModelError
             If the state cannot be computed.
 
@@ -235,9 +239,9 @@ class SceneState:
         >>> axes.set_xlabel("phase")  # doctest: +ELLIPSIS
         Text(...)
         """
-        from hess_explorer.export.figure import as_figure
+        from hess_explorer.headless.file import figure
 
-        return as_figure(self._shown(picture), width, black)
+        return figure(self._shown(picture), width, black)
 
     def save(
         self, file: str | Path, picture: str = "", *, width: float = 85.0, black: bool = False, seconds: float = 10.0
@@ -248,7 +252,7 @@ class SceneState:
         ----------
         file : str or Path
             Name of the file.  Its suffix chooses the format: csv and json for data; png, svg and pdf for a figure;
-            webm, mp4 and gif for a film.
+            webm and mp4 for a film.  A headless browser draws films, and spheres, bodies, tori and clouds.
         picture : str
             Name of the picture; the first picture by default.
         width : float
@@ -267,6 +271,8 @@ class SceneState:
         ------
         InvalidParameter
             If the format is unknown or the scene has no such picture.
+        BrowserError
+            If the file needs a browser and there is none.
         ModelError
             If the state cannot be computed.
         OSError
@@ -281,7 +287,7 @@ class SceneState:
                 f"The file format {path.suffix!r} is not supported: choose one of .{', .'.join(_ENDINGS)}."
             )
         # Imported here, because drawing needs libraries that data do not.
-        from hess_explorer.export.file import content
+        from hess_explorer.headless.file import content
 
         write_whole(path, content(self._shown(picture), FileRequest(kind, width, black, seconds)))
         return path

@@ -19,7 +19,7 @@ from hess_explorer.offline.recording import Recording
 from hess_explorer.page.component import styles
 from hess_explorer.protocol.parameters import CLIENT
 
-__all__ = ["HOME", "document", "frame_size"]
+__all__ = ["HOME", "document", "frame_size", "module_address"]
 
 HOME = "http://localhost:5006/"
 """Default address of the explorer."""
@@ -121,12 +121,16 @@ def document(
     return page.encode()
 
 
+def module_address() -> str:
+    """Return the address from which the page imports its modules."""
+    return f"data:text/javascript;base64,{base64.b64encode(bundle('offline/file.js').encode()).decode()}"
+
+
 @cache
 def _code() -> str:
     """Return Bokeh and the modules of the page, compressed, in base 64."""
     bokeh = "\n".join(Resources(mode="inline", components=["bokeh"]).js_raw)
-    page = base64.b64encode(bundle("offline/file.js").encode()).decode()
-    code = json.dumps({"bokeh": bokeh, "page": f"data:text/javascript;base64,{page}"})
+    code = json.dumps({"bokeh": bokeh, "page": module_address()})
     return base64.b64encode(zlib.compress(code.encode(), 9)).decode()
 
 

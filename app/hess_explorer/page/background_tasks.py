@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from hess_explorer.compute.background import Background
 from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.scene import Report
@@ -20,8 +22,8 @@ class BackgroundTasks:
     def __init__(self) -> None:
         self.background = Background()
         self.progress: tuple[int, int] | None = None
-        self._followed: set[Task] = set()
-        self._next: list[Task] | None = None
+        self._followed: set[Task[Any]] = set()
+        self._next: list[Task[Any]] | None = None
         self._adds = False
         self._left = 0
         self._stopped = False

@@ -33,10 +33,9 @@ class Explorer(JSComponent):
         doc="URL keys that the browser keeps: t, speed, az, el, large, present, "
         "embed, pictures, controls, lesson, step.",
     )
-    lesson = param.String(default="", doc="The lesson that the link names, as JSON; see `description`.")
+    lesson = param.String(default="", doc="The lesson of the link, the introduction for a bare address: JSON.")
     lessons = param.List(default=[], doc="{name, title, minutes} of each lesson.")
-    scenes = param.List(default=[], doc="{name, title, summary, picture, origin, group} of each scene.")
-    showcase = param.List(default=[], doc="{idea, exhibits: {title, query, file} each} of each row of the gallery.")
+    scenes = param.List(default=[], doc="{name, title, summary, picture, examples, origin, group} of each scene.")
     files = param.Dict(
         default={},
         doc="formats: [kind, words, category] of each export format; width, seconds: [minimum, maximum, default].",

@@ -31,6 +31,7 @@ def _step(step: LessonStep, images: Mapping[str, str]) -> dict[str, Any]:
         "text": to_html(step.text, images),
         "scene": step.at.scene,
         "look": step.look,
+        "pictures": step.pictures,
         "question": to_html(step.question, images),
         "answer": to_html(step.answer, images),
         "controls": step.controls,

@@ -7,13 +7,15 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Sequence
+from importlib.metadata import version
+from pathlib import Path
 from typing import Any
 
 import panel as pn
 
+from hess_explorer.assets import STATIC
 from hess_explorer.export.formats import FORMATS, SERVED_SECONDS, WIDTHS, FileRequest
 from hess_explorer.lessons.lesson import Lesson
-from hess_explorer.page import showcase
 from hess_explorer.page.component import Explorer, styles
 from hess_explorer.page.lesson_description import describe_lesson
 from hess_explorer.page.opening import opening, query_of
@@ -25,6 +27,7 @@ __all__ = ["page"]
 logger = logging.getLogger("hess_explorer")
 
 _FILES = {
+    "program": f"hess-explorer {version('hess-explorer')}",
     "formats": [[kind, one.words, one.holds] for kind, one in FORMATS.items() if one.words],
     "width": [*WIDTHS, FileRequest.width],
     "seconds": [*SERVED_SECONDS, FileRequest.seconds],
@@ -49,13 +52,13 @@ def _query() -> str:
 
 def _page(query: str, own: Sequence[Lesson]) -> Explorer:
     opened = opening(query, own)
-    reading = opened.reading
+    # Only the browser knows whether this is a first visit.
+    reading = opened.reading or (None if query else opened.lessons["introduction"])
     return Explorer(
         client=opened.client,
         lesson=describe_lesson(reading) if reading else "",
         lessons=[{"name": one.name, "title": one.title, "minutes": one.minutes} for one in opened.lessons.values()],
         scenes=[_entry(one) for one in scenes().values()],
-        showcase=showcase.rows(),
         files=_FILES,
         sheets=styles(),
         sizing_mode="stretch_both",
@@ -63,12 +66,14 @@ def _page(query: str, own: Sequence[Lesson]) -> Explorer:
 
 
 def _entry(scene: Scene[Any]) -> dict[str, str | None]:
-    """Return the entry of a scene for the menu of scenes."""
+    """Return the entry of a scene for the menu of scenes; a scene of one's own has no picture there."""
+    picture = Path(scene.module).stem.replace("_", "-")
     return {
         "name": scene.name,
         "title": scene.title,
         "summary": scene.summary,
-        "picture": scene.thumbnail,
+        "picture": picture if (STATIC / f"thumbnails/{picture}-light.jpg").exists() else "",
+        "examples": " ".join(preset.name for preset in scene.presets),
         "origin": scene.origin,
         "group": scene.group,
     }

@@ -53,7 +53,7 @@ from hess_mechanics.chaplygin_ball.section import (
     spread_section,
     state_at,
 )
-from hess_mechanics.dynamics.section import occupied_cells
+from hess_mechanics.dynamics.section import SectionPoints, occupied_cells
 from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.parameters import H_BALL
@@ -231,7 +231,7 @@ class BallSection(State):
     @cached_property
     def weights(self) -> tuple[float, ...]:
         """Scale of each variable in pixels per unit, fitted to the orbit."""
-        return pixels_per_unit(room_for(self.work.get(fastest, self.body, self.start, self.lasts)))
+        return pixels_per_unit(room_for(self.work.need(Task(fastest, self.body, self.start, self.lasts))))
 
     def motion(self) -> Motion:
         """Return the orbit on show."""
@@ -279,10 +279,10 @@ class BallSection(State):
         """The proved error of the orbit."""
         return Proof(self.orbit, self.certain)
 
-    def _crossing(self, crossings: int, level: Level) -> tuple[Task, Task]:
+    def _crossing(self, crossings: int, level: Level) -> tuple[Task[SectionPoints], Task[SectionPoints]]:
         return (
-            Task(ball_section, (self.body, self.E, (self.given,), crossings, level, _MOST_STEPS)),
-            Task(spread_section, (self.body, self.E, _ORBITS, crossings, level, _MOST_STEPS)),
+            Task(ball_section, self.body, self.E, (self.given,), crossings, level, _MOST_STEPS),
+            Task(spread_section, self.body, self.E, _ORBITS, crossings, level, _MOST_STEPS),
         )
 
     # ---- the pictures -------------------------------------------------------------------------------------------

@@ -9,6 +9,8 @@ from functools import cached_property
 
 import numpy as np
 
+from hess_explorer.compute.cache import Task
+from hess_explorer.protocol.parameters import Values
 from hess_explorer.scenes.framework import hess_case
 from hess_explorer.scenes.framework.charted import Charts, of_torus
 from hess_explorer.scenes.framework.hess_case import HeavyHess
@@ -149,16 +151,17 @@ class BothSides(State):
         """Return the meaning of h and f on the given side."""
         return dict.fromkeys("hf", (known.H_HEAVY if self.given == HEAVY else known.H_HESS).means)
 
-    def carried(self, before: BothSides) -> Mapping[str, float]:
+    def carried(self, before: BothSides) -> Values:
         """Return the parameters of the same motion after a change of the given side.  Raises `ModelError`."""
+        others = super().carried(before)
         if self.given == before.given:
-            return {}
+            return others
         bridge = before.bridge
         translate = bridge.in_units_of_b if before.given == HEAVY else bridge.from_units_of_b
         h, f = map(_without_round_off, translate(before.h, before.f))
         shown = before.idle()
         # Units b = 1 hide the sign of b; here b > 0, so μ < 0 reverses the vertical.
-        return {**shown, **({"b3": -abs(shown["b3"])} if "b3" in shown else {}), "h": h, "f": f}
+        return {**others, **shown, **({"b3": -abs(shown["b3"])} if "b3" in shown else {}), "h": h, "f": f}
 
     @cached_property
     def bridge(self) -> Bridge:
@@ -173,7 +176,7 @@ class BothSides(State):
     @cached_property
     def map(self) -> CircleMap:
         """The circle map of the torus."""
-        return self.work.get(circle_map, self.bridge.hess.a, self.turning.h, self.turning.f, self.level)
+        return self.work.need(Task(circle_map, self.bridge.hess.a, self.turning.h, self.turning.f, self.level))
 
     @property
     def period(self) -> float:
@@ -193,8 +196,17 @@ class BothSides(State):
     @cached_property
     def track(self) -> Track:
         """The orbit on the Suslov side."""
-        return self.work.get(
-            track, self.bridge.hess, self.turning.h, self.turning.f, self.phi0, self.span, self.level, self.half_width
+        return self.work.need(
+            Task(
+                track,
+                self.bridge.hess,
+                self.turning.h,
+                self.turning.f,
+                self.phi0,
+                self.span,
+                self.level,
+                self.half_width,
+            )
         )
 
     @cached_property
@@ -236,7 +248,7 @@ class BothSides(State):
         end = min(self.span, most * self.period)
         start = tuple(self.turning.state_at_lower_turn(self.phi0).tolist())
         count = max(64, math.ceil(end / self.period * _IN_A_PERIOD)) + 1
-        return self.work.get(difference, self.bridge, start, end, count)
+        return self.work.need(Task(difference, self.bridge, start, end, count))
 
     def motion(self) -> Motion:
         """Return the reduced motion, common to both sides."""

@@ -23,7 +23,6 @@ from hess_explorer.views import scattering_map as square
 from hess_explorer.views import theme
 from hess_explorer.views import velocity_plane as plane
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.comparison import Curves
 from hess_explorer.views.graph import over_time
 from hess_explorer.views.layers import arrows, curves, levels, names, region, ring
 from hess_explorer.views.plot import Plot
@@ -132,20 +131,20 @@ class ChaplyginBall(State):
         """(ξ, γ) along the orbit."""
         return self.orbit.path.states[:, 2:] @ self.strip.xi
 
-    def strip_orbits(self, count: int, level: Level) -> Task:
+    def strip_orbits(self, count: int, level: Level) -> Task[tuple[StripOrbit, ...]]:
         """Return a task that computes `count` orbits over the strip, with E = 1."""
-        return Task(strip_orbits, (self.body, count, level))
+        return Task(strip_orbits, self.body, count, level)
 
-    def phases(self, count: int, level: Level) -> Task:
+    def phases(self, count: int, level: Level) -> Task[model.BallScattering]:
         """Return a task that computes θ⁺ of `count` phases.  The task raises `WorkLimit`."""
-        return Task(model.all_phases, (self.body, self.theta, count, self.distance, level, _MOST_STEPS))
+        return Task(model.all_phases, self.body, self.theta, count, self.distance, level, _MOST_STEPS)
 
     @cached_property
     def crowd(self) -> tuple[StripOrbit, ...]:
         """Orbits over the strip."""
         plan = self.plan(Kind.CURVE)
-        found: tuple[StripOrbit, ...] = self.work.sooner(
-            self.strip_orbits(plan.side(_ORBITS), plan.level), self.strip_orbits(_FEW_ORBITS, DRAFT)
+        found: tuple[StripOrbit, ...] = self.work.need(
+            self.strip_orbits(plan.side(_ORBITS), plan.level), preview=self.strip_orbits(_FEW_ORBITS, DRAFT)
         )
         return tuple((math.sqrt(self.h) * track, place) for track, place in found)
 
@@ -155,7 +154,9 @@ class ChaplyginBall(State):
         plan = self.plan(Kind.MAP)
         whole = plan.side(_PHASES)
         try:
-            return self.work.sooner(self.phases(whole, plan.level), self.phases(min(whole, _FEW_PHASES), DRAFT)), ""
+            return self.work.need(
+                self.phases(whole, plan.level), preview=self.phases(min(whole, _FEW_PHASES), DRAFT)
+            ), ""
         except WorkLimit as error:
             return None, f"The map of the phases is left out: {error}"
 
@@ -171,7 +172,12 @@ class ChaplyginBall(State):
         phis = self.map.phis
         return [
             np.column_stack(
-                [phis, self.work.get(model.free_theta_plus, self.body, self.theta, self.distance, tuple(phis.tolist()))]
+                [
+                    phis,
+                    self.work.need(
+                        Task(model.free_theta_plus, self.body, self.theta, self.distance, tuple(phis.tolist()))
+                    ),
+                ]
             )
         ]
 
@@ -222,32 +228,20 @@ class ChaplyginBall(State):
 
 _EXACT = replace(REFERENCE, promise=1e-2 * REFERENCE.promise)
 """The scattering map follows a motion for a time that depends on the promise, and always with the same order."""
-# Grids differ between levels, so the reference is computed on the grid of each result.
 _MEASURES: tuple[Trial[ChaplyginBall], ...] = (
     Trial(
         Kind.MAP,
         ("curve",),
-        lambda s, plan: s.phases(plan.side(_PHASES), plan.level).now(),
-        lambda s, found, truth: curve_error(
-            found.theta_plus, s.phases(found.phis.size, _EXACT).now().theta_plus, math.pi
-        ),
-        lambda s, found: Curves(square.FRAME, (found.curve,)),
+        lambda s, plan: s.phases(plan.side(_PHASES), _EXACT if plan.level.aside else plan.level).now().theta_plus,
+        lambda s, found, truth: curve_error(found, truth, math.pi),
+        alike="cells",
     ),
     Trial(
         Kind.CURVE,
         ("omega",),
         lambda s, plan: s.strip_orbits(plan.side(_ORBITS), plan.level).now(),
-        lambda s, found, truth: (
-            math.sqrt(s.h)
-            * 0.5
-            * PIXELS
-            / s.half_width
-            * largest_distance(found, s.strip_orbits(len(found), REFERENCE.tightened()).now())
-        ),
-        lambda s, found: Curves(
-            plane.frame(s.half_width), tuple(math.sqrt(s.h) * track for track, _ in found), in_pairs=True
-        ),
-        alike=True,
+        lambda s, found, truth: math.sqrt(s.h) * 0.5 * PIXELS / s.half_width * largest_distance(found, truth),
+        alike="cells",
     ),
 )
 

@@ -340,9 +340,9 @@ class EulerPoisson(State):
         """Rotation numbers along a line across the section."""
         return RotationAcross(self, self.section, self.turns == _ABOUT)
 
-    def batch(self, starts: tuple[Start, ...], crossings: int, forward: bool, level: Level) -> Task:
+    def batch(self, starts: tuple[Start, ...], crossings: int, forward: bool, level: Level) -> Task[OrbitBatch]:
         """Return a task that computes `crossings` crossings of the orbits from `starts`."""
-        return Task(_batch, (self.poincare, starts, crossings, level))
+        return Task(_batch, self.poincare, starts, crossings, level)
 
     def start_at(self, x: float, y: float) -> Values:
         """Return the parameters of an orbit that starts at a place of the section."""

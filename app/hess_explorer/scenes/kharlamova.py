@@ -9,6 +9,7 @@ from functools import cached_property
 
 import numpy as np
 
+from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.charted import Charted, Charts
 from hess_explorer.scenes.framework.parameters import (
     ONE_TURN,
@@ -37,8 +38,8 @@ from hess_mechanics import parameters as known
 from hess_mechanics.numerics.results import Array, Orbit
 from hess_mechanics.suslov import kharlamova as mechanics
 from hess_mechanics.suslov.equations import SYSTEM
-from hess_mechanics.suslov.kharlamova import MOST_SAMPLES, Arc, PlaneBody
-from hess_mechanics.suslov.plane_potential import POTENTIALS, PlaneMotion, PotentialBody, motion_from
+from hess_mechanics.suslov.kharlamova import Arc, PlaneBody
+from hess_mechanics.suslov.plane_potential import MOST_SAMPLES, POTENTIALS, PlaneMotion, PotentialBody, motion_from
 from hess_mechanics.suslov.principal_axis import divergence
 
 _LEVELS = (-0.75, -0.5, -0.25, 0.0, 0.25, 0.5, 0.75)  # equipotentials, in units of the potential's largest value
@@ -151,12 +152,12 @@ class Kharlamova(State):
     @cached_property
     def arc(self) -> Arc:
         """The arc of the parabola that the orbit covers."""
-        return self.work.get(mechanics.arc, self.body, self.start)
+        return self.work.need(Task(mechanics.arc, self.body, self.start))
 
     @cached_property
     def sampled(self) -> tuple[Orbit, Array]:
         """The orbit, and the mirror image (m, 5) of its past."""
-        return self.work.get(mechanics.sampled_orbit, self.body, self.start, self.span, self.level)
+        return self.work.need(Task(mechanics.sampled_orbit, self.body, self.start, self.span, self.level))
 
     @property
     def orbit(self) -> Orbit:
@@ -166,12 +167,12 @@ class Kharlamova(State):
     @cached_property
     def missed(self) -> float:
         """The distance of a periodic orbit from its start after one period."""
-        return self.work.get(mechanics.missed, self.body, self.start, self.arc.period, self.level)
+        return self.work.need(Task(mechanics.missed, self.body, self.start, self.arc.period, self.level))
 
     @cached_property
     def periods(self) -> Array:
         """The initial directions α and the periods T, (n, 2)."""
-        return self.work.get(mechanics.periods_all_round, self.body, (self.q1, self.q2), self.p)
+        return self.work.need(Task(mechanics.periods_all_round, self.body, (self.q1, self.q2), self.p))
 
     @cached_property
     def other_body(self) -> PotentialBody:
@@ -181,7 +182,7 @@ class Kharlamova(State):
     @cached_property
     def other(self) -> PlaneMotion:
         """The motion from the same start in the other potential."""
-        return self.work.get(motion_from, self.other_body, self.start, self.span, self.level)
+        return self.work.need(Task(motion_from, self.other_body, self.start, self.span, self.level))
 
     @cached_property
     def solid(self) -> Solid:
@@ -197,7 +198,7 @@ class Kharlamova(State):
     def orbit_columns(self) -> Columns:
         """Return the columns of the orbit and of its mirror image, the second moving point."""
         orbit, mirror = self.sampled
-        q, mirror_q = (mechanics.to_plane(self.body, states)[0] for states in (orbit.states, mirror))
+        q, mirror_q = (self.body.to_plane(states)[0] for states in (orbit.states, mirror))
         tau, mirror_tau = (mechanics.rescaled_time(self.arc, states) for states in (orbit.states, mirror))
         return plane_columns(
             orbit,
@@ -215,7 +216,7 @@ class Kharlamova(State):
 
     def fixed_points(self, kind: float) -> list[Array]:
         """Return the parts of the domain's edge with fixed points: stable for kind 1, unstable for −1."""
-        boundary, kinds = self.work.get(mechanics.fixed_point_kinds, self.body, self.h)
+        boundary, kinds = self.work.need(Task(mechanics.fixed_point_kinds, self.body, self.h))
         return pieces(boundary, kinds == kind)
 
     def path(self) -> list[Array]:
@@ -352,7 +353,7 @@ SCENE = Scene(
             dots={"mirror": ("mirror_q1", "mirror_q2")},
             layers=(
                 *plane_domain.ground(
-                    edge=lambda s: s.work.get(mechanics.fixed_point_kinds, s.body, s.h)[0],
+                    edge=lambda s: s.work.need(Task(mechanics.fixed_point_kinds, s.body, s.h))[0],
                     forbidden=lambda s: mechanics.forbidden(s.body, s.h),
                     levels=lambda s: mechanics.equipotentials(s.body, _LEVELS),
                 ),

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.formulas import drive, polynomial
 from hess_explorer.scenes.framework.parameters import (
     ONE_TURN,
@@ -178,7 +179,8 @@ class OwnBodyState(State):
     @cached_property
     def is_compiled(self) -> bool:
         """True once the equations of this form are compiled."""
-        return self.work.later(_compiled, self.body.system) is not None
+        # A chain, because a drag must not end the compilation.
+        return self.work.newest([[Task(_compiled, self.body.system)]])[0] is not None
 
     @property
     def periodic_orbit(self) -> NotPeriodic:
@@ -218,8 +220,9 @@ class OwnBodyState(State):
         """The section of the motion up to the time of the exponent; None until it is known."""
         if not self.is_compiled or self.dragging:
             return None
-        return self.work.later(
-            section, self.body, self.start, self.body.surface, self.long, self.level, _MOST_CROSSINGS
+        return self.work.need(
+            Task(section, self.body, self.start, self.body.surface, self.long, self.level, _MOST_CROSSINGS),
+            preview=None,
         )
 
     def idle(self) -> Mapping[str, float]:

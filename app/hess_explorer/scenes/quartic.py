@@ -45,6 +45,7 @@ from hess_explorer.views.plot import Plot
 from hess_explorer.views.poisson_sphere import Sphere, centre_of_mass, parallels
 from hess_explorer.views.text import digits, staying, vector
 from hess_explorer.views.velocity_plane import centred, nice_above
+from hess_mechanics.dynamics.section import SectionPoints
 from hess_mechanics.errors import ModelError
 from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.results import Array
@@ -224,10 +225,10 @@ class Quartic(State):
         """The proved error of the orbit."""
         return Proof(self.orbit, self.certain)
 
-    def _crossing(self, crossings: int, level: Level) -> tuple[Task, Task]:
+    def _crossing(self, crossings: int, level: Level) -> tuple[Task[SectionPoints], Task[SectionPoints]]:
         return (
-            Task(model.quartic_section, (self.body, (self.given,), crossings, level, _MOST_STEPS)),
-            Task(model.spread_section, (self.body, _ORBITS, crossings, level, _MOST_STEPS)),
+            Task(model.quartic_section, self.body, (self.given,), crossings, level, _MOST_STEPS),
+            Task(model.spread_section, self.body, _ORBITS, crossings, level, _MOST_STEPS),
         )
 
     # ---- the pictures -------------------------------------------------------------------------------------------

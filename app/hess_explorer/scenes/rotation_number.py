@@ -16,19 +16,16 @@ from hess_explorer.scenes.framework.charted import Charts, of_torus
 from hess_explorer.scenes.framework.hess_case import map_or_none, possible_f
 from hess_explorer.scenes.framework.parameters import accuracy_level, choice, number, parameter, places
 from hess_explorer.scenes.framework.scene import Preset, Scene, State
-from hess_explorer.scenes.framework.torus_trials import boundary
-from hess_explorer.scenes.framework.trial import COLOUR, COLOUR_UNIT, Trial, colour_error, curve_error
+from hess_explorer.scenes.framework.trial import COLOUR_UNIT, Trial, boundary_error, colour_error, curve_error
 from hess_explorer.scenes.framework.windows import Window, boxed, inside, tidy_window, window_of
 from hess_explorer.views import circle_map as circle
 from hess_explorer.views import rotation_line, rotation_plane
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.comparison import Cells, Curves, Frame
-from hess_explorer.views.graph import pieces
 from hess_explorer.views.layers import Axes, CellGrid
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits, superscript
 from hess_mechanics import parameters as known
-from hess_mechanics.numerics.accuracy import REFERENCE, Kind, Level, Plan
+from hess_mechanics.numerics.accuracy import REFERENCE, Kind, Plan
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov_hess import rotation_number as mechanics
 from hess_mechanics.suslov_hess.circle_map import CircleMap
@@ -158,36 +155,37 @@ class RotationNumber(State):
             []
             if self.dragging
             else [
-                self.work.later(mechanics.rows, *common, fine, first, min(first + _ROWS, fine[1]), plan.level)
+                self.work.need(
+                    Task(mechanics.rows, *common, fine, first, min(first + _ROWS, fine[1]), plan.level), preview=None
+                )
                 for first in range(0, fine[1], _ROWS)
             ]
         )
         known = [part for part in parts if part is not None]
         if parts and len(known) == len(parts):
             return mechanics.together(known), fine
-        return self.work.get(mechanics.rows, *common, _COARSE, 0, _COARSE[1], plan.level), _COARSE
+        return self.work.need(Task(mechanics.rows, *common, _COARSE, 0, _COARSE[1], plan.level)), _COARSE
 
     @cached_property
     def grids(self) -> tuple[CellGrid, CellGrid]:
         """ρ and the zones over the window."""
         return rotation_plane.grids(*self.grid, *self.window)
 
-    def lock(self, plan: Plan) -> Task:
+    def lock(self, plan: Plan) -> Task[Array]:
         """Return a task that computes |t| = 2 in the map, (n, 2)."""
         return Task(
             mechanics.lock_curve,
-            (self.over, self.beside, (*self.window[0], *self.window[1]), plan.level, plan.side(_ON_CURVE)),
+            self.over,
+            self.beside,
+            (*self.window[0], *self.window[1]),
+            plan.level,
+            plan.side(_ON_CURVE),
         )
-
-    @property
-    def frame(self) -> Frame:
-        """The map with its axes."""
-        return Frame(Axes(*self.window), self.sides)
 
     @cached_property
     def boundary(self) -> list[Array]:
         """Return |t| = 2 in the map, once known."""
-        found: Array | None = None if self.dragging else self.work.ask(self.lock(self.plan(Kind.CURVE)))
+        found: Array | None = None if self.dragging else self.work.need(self.lock(self.plan(Kind.CURVE)), preview=None)
         if found is None or not len(found):
             return []
         return [found, found * np.array([1.0, -1.0])] if self.sides[1] == "f" else [found]
@@ -207,7 +205,7 @@ class RotationNumber(State):
     @cached_property
     def along(self) -> TorusValues:
         """ρ and trace at `x`."""
-        return self.work.get(mechanics.along, self.on_line, self.x.size, self.plan(Kind.LINE).level)
+        return self.work.need(Task(mechanics.along, self.on_line, self.x.size, self.plan(Kind.LINE).level))
 
     @cached_property
     def perturbed(self) -> Array | None:
@@ -215,13 +213,16 @@ class RotationNumber(State):
         return (
             None
             if self.dragging
-            else self.work.later(
-                mechanics.perturbed_along,
-                self.on_line,
-                self.x.size,
-                self.epsilon,
-                self.plan(Kind.LINE).level,
-                self.plan(Kind.LINE).part(mechanics.TURNS),
+            else self.work.need(
+                Task(
+                    mechanics.perturbed_along,
+                    self.on_line,
+                    self.x.size,
+                    self.epsilon,
+                    self.plan(Kind.LINE).level,
+                    self.plan(Kind.LINE).part(mechanics.TURNS),
+                ),
+                preview=None,
             )
         )
 
@@ -236,7 +237,7 @@ class RotationNumber(State):
         """The torus on the line with the rational ρ; None if there is none or it is not known yet."""
         if self.dragging:
             return None
-        found = self.work.later(_periodic, self.sought, self.on_line)
+        found = self.work.need(Task(_periodic, self.sought, self.on_line), preview=None)
         return None if found is None else found[0]
 
     @cached_property
@@ -300,8 +301,9 @@ class RotationNumber(State):
             error = (
                 None
                 if self.dragging
-                else self.work.later(
-                    mechanics.rows_error, self.over, self.beside, self.window, self.plan(Kind.GRID).level
+                else self.work.need(
+                    Task(mechanics.rows_error, self.over, self.beside, self.window, self.plan(Kind.GRID).level),
+                    preview=None,
                 )
             )
             yield f"map {m} × {n}" + (f", ρ to {error:.1e} (99 of 100 cells)" if error is not None else "")
@@ -315,75 +317,49 @@ def _periodic(rho: Fraction, line: ParameterLine) -> tuple[PeriodicTorus | None]
 
 
 # ---- what each level costs --------------------------------------------------------------------------------------
-# Grids differ between levels, so the reference is computed on the grid of each result.
-
-Map = tuple[TorusValues, tuple[int, int]]
 
 
-def _rows(s: RotationNumber, cells: tuple[int, int], level: Level) -> TorusValues:
-    return mechanics.rows(s.over, s.beside, s.window, cells, 0, cells[1], level)
-
-
-def _map_error(s: RotationNumber, found: Map, truth: Map) -> float:
-    values, cells = found
-    exact = _rows(s, cells, REFERENCE.tightened())
-    return colour_error(values.rho[values.possible], exact.rho[values.possible])
-
-
-def _map_look(s: RotationNumber, found: Map) -> Cells:
-    values, (m, n) = found
-    # 2 lies outside the range of ρ, so locked cells get a colour of their own.
-    shown = np.where(values.possible, np.where(values.locked, 2.0, values.rho), np.nan)
-    return Cells(s.frame, shown.reshape(n, m), COLOUR)
-
-
-def _line(s: RotationNumber, places: int, level: Level, turns: int = mechanics.TURNS) -> Array:
+def _line(s: RotationNumber, plan: Plan) -> Array:
     """Return ρ of the tori on the line and of the other family."""
-    values = mechanics.along(s.on_line, places, level)
-    return np.stack(
-        [
-            np.where(values.possible, values.rho, np.nan),
-            mechanics.perturbed_along(s.on_line, places, s.epsilon, level, turns),
-        ]
-    )
+    places = plan.side(_ON_LINE)
+    values = mechanics.along(s.on_line, places, plan.level)
+    perturbed = mechanics.perturbed_along(s.on_line, places, s.epsilon, plan.level, plan.part(mechanics.TURNS))
+    return np.stack([np.where(values.possible, values.rho, np.nan), perturbed])
 
 
-def _line_error(s: RotationNumber, found: Array, truth: Array) -> float:
-    exact = _line(s, found.shape[1], REFERENCE.tightened(), 2 * mechanics.TURNS)
+def _line_error(s: RotationNumber, found: Array, exact: Array) -> float:
     there = np.isfinite(found) & np.isfinite(exact)
     low, high = rotation_line.RHO
     return curve_error(found[there], exact[there], high - low, period=1.0) if there.any() else math.nan
 
 
-def _line_look(s: RotationNumber, found: Array) -> Curves:
-    x = s.on_line.places(found.shape[1])
-    return Curves(
-        Frame(Axes(s.on_line.ends, rotation_line.RHO), (s.line, "ρ")),
-        tuple(
-            part
-            for rho in found
-            for part in pieces(np.column_stack([x, np.nan_to_num(rho)]), np.isfinite(rho), rotation_line.JUMP)
-        ),
-    )
+def _map(s: RotationNumber, plan: Plan) -> TorusValues:
+    m, n = plan.grid(_FINE)
+    return mechanics.rows(s.over, s.beside, s.window, (m, n), 0, n, plan.level)
 
 
 _MEASURES: tuple[Trial[RotationNumber], ...] = (
     Trial(
         Kind.GRID,
         ("map",),
-        lambda s, plan: (_rows(s, plan.grid(_FINE), plan.level), plan.grid(_FINE)),
-        _map_error,
-        _map_look,
+        _map,
+        lambda s, found, truth: colour_error(found.rho[found.possible], truth.rho[found.possible]),
         COLOUR_UNIT,
+        "cells",
     ),
     Trial(
         Kind.LINE,
         ("line", "trace"),
-        lambda s, plan: _line(s, plan.side(_ON_LINE), plan.level, plan.part(mechanics.TURNS)),
+        _line,
         _line_error,
-        _line_look,
+        alike="cells",
     ),
-    boundary("map", lambda s, plan: s.lock(plan).now(), lambda s: s.frame),
+    Trial(
+        Kind.CURVE,
+        ("map",),
+        lambda s, plan: s.lock(plan).now(),
+        lambda s, found, truth: boundary_error(found, truth, Axes(*s.window)),
+    ),
 )
 
 SCENE = Scene(

@@ -16,7 +16,6 @@ from hess_explorer.scenes.framework.scene import Preset, Scene, State
 from hess_explorer.scenes.framework.trial import Trial
 from hess_explorer.views import cloud
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.comparison import compared
 from hess_explorer.views.graph import with_room
 from hess_explorer.views.layers import Columns, Range, column
 from hess_explorer.views.plot import Plot
@@ -26,7 +25,7 @@ from hess_mechanics import parameters as known
 from hess_mechanics.chaplygin_ball.energy_surface import Strip
 from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.chaplygin_ball.phase_cloud_density import Clouds, clouds
-from hess_mechanics.numerics.accuracy import REFERENCE, Kind, Level
+from hess_mechanics.numerics.accuracy import Kind, Level
 from hess_mechanics.numerics.results import Array
 
 _FEW = 1000
@@ -143,19 +142,19 @@ class SingularMeasures(State):
         """The strip of admissible ω."""
         return Strip(self.body, self.h)
 
-    def task(self, count: int, level: Level) -> Task:
+    def task(self, count: int, level: Level) -> Task[Clouds]:
         """Return a task that moves `count` points."""
         angle = self.angle if self.start == "small patch" else None
         span = -self.span if self.direction == "backward" else self.span
         field = self.b3 if self.beside == "principal axis" else None
-        return Task(clouds, (self.body, self.h, angle, self.spread, count, span, field, level))
+        return Task(clouds, self.body, self.h, angle, self.spread, count, span, field, level)
 
     @cached_property
     def clouds(self) -> Clouds:
         """The moving clouds."""
         plan = self.plan(Kind.CLOUD)
         count = plan.part(int(self.points), _FEW)
-        found: Clouds = self.work.sooner(self.task(count, plan.level), self.task(min(count, _FEW), plan.level))
+        found: Clouds = self.work.need(self.task(count, plan.level), preview=self.task(min(count, _FEW), plan.level))
         return found
 
     @cached_property
@@ -217,23 +216,12 @@ class SingularMeasures(State):
         return cloud.status_of(self.clouds)
 
 
-def _exact(s: SingularMeasures, found: Clouds) -> Clouds:
-    """Return the reference clouds of the same initial points."""
-    exact: Clouds = s.task(_count(found), REFERENCE.tightened()).now()
-    return exact
-
-
-def _count(found: Clouds) -> int:
-    return int(found.cloud.signs.size) * (1 if found.other is None else 2)
-
-
 _CLOUD: Trial[SingularMeasures] = Trial(
     Kind.CLOUD,
     (),
     lambda s, plan: s.task(plan.part(int(s.points), _FEW), plan.level).now(),
-    lambda s, found, truth: compared(cloud.look(found), cloud.look(_exact(s, found))).largest,
-    lambda s, found: cloud.look(found),
-    alike=True,
+    lambda s, found, truth: cloud.largest_distance(found, truth),
+    alike="share",
 )
 
 SCENE = Scene(

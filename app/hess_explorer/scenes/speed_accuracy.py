@@ -8,60 +8,32 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-from hess_explorer.protocol.parameters import Choice, Spec, Value, Values
+from hess_explorer.protocol.parameters import Spec, Value, Values
 from hess_explorer.scenes.framework.parameters import Slider
 from hess_explorer.scenes.framework.scene import Scene, State
 from hess_explorer.scenes.framework.trial import Trial, bare
-from hess_explorer.scenes.parts.comparison import Comparison
-from hess_explorer.scenes.parts.costs import Costs
-from hess_explorer.scenes.parts.precision import Precision
+from hess_explorer.scenes.parts.costs import Costs, costs_picture
+from hess_explorer.scenes.parts.precision import Precision, precision_pictures
 from hess_explorer.views.picture import Picture
-from hess_mechanics.numerics.accuracy import Kind
 
 __all__ = ["SpeedAccuracy", "speed_and_accuracy"]
-
-_COMPARED = "difference"
-"""Name of the parameter that selects the compared computation."""
-_COSTLIEST = (
-    Kind.ROTATION,
-    Kind.BASINS,
-    Kind.INDICATOR,
-    Kind.SECTION,
-    Kind.GRID,
-    Kind.CLOUD,
-    Kind.COLOURS,
-    Kind.MAP,
-    Kind.CURVE,
-    Kind.LINE,
-    Kind.EXPONENT,
-    Kind.ORBIT,
-)
-"""Kinds of computation by decreasing cost, as measured by `hess-explorer bench --trade`."""
 
 
 @dataclass(frozen=True)
 class Study(State):
     """Measurements of a state of the other scene.
 
-    shown : state of the other scene; trials : its computations; difference : kind of the computation whose levels are
-    compared.
+    shown : state of the other scene; trials : its computations.
     """
 
     shown: State
     trials: tuple[Trial[Any], ...]
-    difference: str
 
     @cached_property
     def costs(self) -> Costs:
         """Time and error of all computations that the state shows."""
         plain = bare(self.shown)
         return Costs(self.work, plain, tuple(trial for trial in self.trials if trial.shown(plain)))
-
-    @cached_property
-    def comparison(self) -> Comparison:
-        """The change from the chosen level to the next."""
-        compared = next(trial for trial in self.trials if trial.kind == self.difference)
-        return Comparison(self.work, bare(self.shown), compared)
 
     @cached_property
     def precision(self) -> Precision | None:
@@ -79,8 +51,6 @@ class Study(State):
             yield f"Computed: {', '.join(str(trial.kind) for trial in self.trials)}"
         if "trade" in self.seen:
             yield from self.costs.rows()
-        if "difference" in self.seen:
-            yield from self.comparison.rows()
         if self.precision is not None:
             yield from self.precision.derived()
 
@@ -119,22 +89,8 @@ class SpeedAccuracy(Scene[Study]):
 
     @cached_property
     def specs(self) -> tuple[Spec, ...]:
-        """The parameters of the other scene, and the compared computation if there are several."""
-        kinds = tuple(str(trial.kind) for trial in self.other.trials)
-        choice = Choice(
-            _COMPARED,
-            "What is compared",
-            kinds,
-            self._costliest,
-            "Picture of the scene to compare, at the chosen level and at the next more accurate one.",
-        )
-        return (*self.other.specs, choice) if len(kinds) > 1 else self.other.specs
-
-    @cached_property
-    def _costliest(self) -> str:
-        """The most expensive kind of computation in the default state."""
-        plain = bare(self.other.of(self.other.defaults()))
-        return str(min((trial.kind for trial in self.other.trials if trial.shown(plain)), key=_COSTLIEST.index))
+        """The parameters of the other scene."""
+        return self.other.specs
 
     def in_sight(self, state: Study) -> Iterator[tuple[Trial[Any], State]]:
         """Return all computations of the other scene."""
@@ -143,16 +99,11 @@ class SpeedAccuracy(Scene[Study]):
     def of(self, values: Values, seen: Collection[str] = (), dragging: bool = False) -> Study:
         """Return the state with these values; nothing is computed yet."""
         shown = self.other.of(values, seen, dragging)
-        difference = str(values.get(_COMPARED, self._costliest))
-        return Study(shown, self.other.trials, difference, work=shown.work, seen=shown.seen)
+        return Study(shown, self.other.trials, work=shown.work, seen=shown.seen)
 
     def admit(self, values: Values) -> tuple[dict[str, Value], list[str]]:
         """Return valid values and notes, by the rules of the other scene."""
-        admitted, notes = self.other.admit(values)
-        for spec in self.specs[len(self.other.specs) :]:
-            admitted[spec.name], note = spec.read(str(values[spec.name]))
-            notes += [note] if note else []
-        return admitted, notes
+        return self.other.admit(values)
 
 
 def speed_and_accuracy(other: Scene[Any]) -> SpeedAccuracy:
@@ -163,10 +114,9 @@ def speed_and_accuracy(other: Scene[Any]) -> SpeedAccuracy:
         if moving
         else ("speed_accuracy_of_maps", "Cost and error of all that the scene computes")
     )
-    pictures: list[Picture[Study]] = [one.of_part(_precision) for one in Precision.pictures()] if moving else []
+    pictures: list[Picture[Study]] = [*precision_pictures(_precision)] if moving else []
     if other.measures:
-        pictures.append(Costs.picture(other.trials, folded=moving).of_part(lambda s: s.costs))
-    pictures.append(Comparison.picture(folded=moving).of_part(lambda s: s.comparison))
+        pictures.append(costs_picture(lambda s: s.costs, other.trials, folded=moving))
     return SpeedAccuracy(
         Study,
         str(Path(__file__).with_name(f"{words}.md")),

@@ -276,9 +276,9 @@ class Suslov(State):
         """The basins of the section, and what bounds them."""
         return Basins(self, self.section, self.colours == "basins")
 
-    def batch(self, starts: tuple[Start, ...], crossings: int, forward: bool, level: Level) -> Task:
+    def batch(self, starts: tuple[Start, ...], crossings: int, forward: bool, level: Level) -> Task[OrbitBatch]:
         """Return a task that computes `crossings` crossings of the orbits from `starts`."""
-        return Task(_batch, (self.poincare, starts, crossings, forward, level))
+        return Task(_batch, self.poincare, starts, crossings, forward, level)
 
     @property
     def impossible_here(self) -> str:
@@ -294,7 +294,9 @@ class Suslov(State):
         return (
             None
             if self.exponent.later
-            else self.work.later(mean_divergence, self.body, self.start, self.plan(Kind.EXPONENT).share * self.long)
+            else self.work.need(
+                Task(mean_divergence, self.body, self.start, self.plan(Kind.EXPONENT).share * self.long), preview=None
+            )
         )
 
     # ---- the other pictures -------------------------------------------------------------------------------------
@@ -329,7 +331,7 @@ class Suslov(State):
         if self.I13 != 0.0 or self.I23 != 0.0:
             return None, "Only for I₁₃ = I₂₃ = 0, as in the example “On a principal axis”."
         try:
-            return self.work.get(conformal, self.body, self.start, self.lasts, self.orbit_level()), ""
+            return self.work.need(Task(conformal, self.body, self.start, self.lasts, self.orbit_level())), ""
         except WorkLimit as error:
             return None, str(error)
 

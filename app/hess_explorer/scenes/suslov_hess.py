@@ -16,15 +16,13 @@ from hess_explorer.scenes.framework.hess_case import Proved, limit_cycles, map_o
 from hess_explorer.scenes.framework.parameters import Slider, accuracy_level, number, parameter, slider_within
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
 from hess_explorer.scenes.framework.solid_body import Solid, hess_solid, solid_body
-from hess_explorer.scenes.framework.torus_trials import boundary
-from hess_explorer.scenes.framework.trial import COLOUR, COLOUR_UNIT, Trial, colour_error, curve_error
+from hess_explorer.scenes.framework.trial import COLOUR_UNIT, Trial, boundary_error, colour_error, curve_error
 from hess_explorer.scenes.framework.work import orbit_status
 from hess_explorer.scenes.parts.hess_surface import INVARIANT, HessSurface, shaded_by, surface_picture
 from hess_explorer.scenes.parts.proof import Proof, proved_error_shown
 from hess_explorer.views import bifurcation_diagram as diagram
 from hess_explorer.views import circle_map as circle
 from hess_explorer.views import torus_density, torus_plane
-from hess_explorer.views.comparison import Cells
 from hess_explorer.views.layers import CellGrid, Columns
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.poisson_sphere import Circle, Direction, Sphere, parallels
@@ -32,7 +30,7 @@ from hess_explorer.views.text import digits
 from hess_explorer.views.velocity_plane import nice_above, picture
 from hess_mechanics import parameters as known
 from hess_mechanics.errors import InvalidParameter, Separatrix
-from hess_mechanics.numerics.accuracy import DRAFT, REFERENCE, Kind, Level
+from hess_mechanics.numerics.accuracy import DRAFT, Kind, Level
 from hess_mechanics.numerics.balls import has_flint
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov_hess.bifurcation import TurningPoints, curve, curve_point, f_max, reach, turning_points
@@ -113,12 +111,12 @@ class SuslovHess(State):
     def locked(self) -> Array:
         """The boundary of the lock zone, |t| = 2, (n, 2)."""
         plan = self.plan(Kind.CURVE, steady=True)
-        return self.work.get(lock_boundary, self.body.a, plan.level, plan.side(_ON_BOUNDARY))
+        return self.work.need(Task(lock_boundary, self.body.a, plan.level, plan.side(_ON_BOUNDARY)))
 
     @cached_property
     def edge(self) -> Array:
         """The bifurcation curve within the diagram, (n, 2)."""
-        return self.work.get(curve, diagram.window(self.h).x[1])
+        return self.work.need(Task(curve, diagram.window(self.h).x[1]))
 
     @cached_property
     def half_width(self) -> float:
@@ -131,13 +129,13 @@ class SuslovHess(State):
     @cached_property
     def track(self) -> Track:
         """The orbit on show."""
-        found: Track = self.work.get(self.finding.function, *self.finding.arguments)
+        found: Track = self.work.need(self.finding)
         return found
 
     @property
-    def finding(self) -> Task:
+    def finding(self) -> Task[Track]:
         """The task that computes the orbit on show."""
-        return Task(track, (self.body, self.h, self.f, self.phi0, self.span, self.level, self.half_width))
+        return Task(track, self.body, self.h, self.f, self.phi0, self.span, self.level, self.half_width)
 
     @cached_property
     def orbit_proof(self) -> Proof:
@@ -165,7 +163,7 @@ class SuslovHess(State):
         if reason or self.map is None:
             return None, reason
         try:
-            return self.work.get(density_on_torus, self.map, self.level), ""
+            return self.work.need(Task(density_on_torus, self.map, self.level)), ""
         except InvalidParameter as error:
             return None, str(error)
 
@@ -192,7 +190,7 @@ class SuslovHess(State):
             return None
         if not has_flint():
             return Proved("", "Proofs need python-flint: pip install 'hess-explorer[prove]'")
-        return self.work.later(proved, self.I22, self.I23, self.h, self.f)
+        return self.work.need(Task(proved, self.I22, self.I23, self.h, self.f), preview=None)
 
     # ---- what the pictures show --------------------------------------------------------------------------------
 
@@ -214,17 +212,17 @@ class SuslovHess(State):
         ends = (-1.0, 1.0) if self.turning is None else self.turning.roots[1:]
         return [*parallels(self.body.n3, ends), *self.orbit_proof.around]
 
-    def colours(self, cells: tuple[int, int], level: Level) -> Task:
+    def colours(self, cells: tuple[int, int], level: Level) -> Task[Array]:
         """Return a task that computes the rotation number over the diagram."""
         axes = diagram.window(self.h)
-        return Task(rotation_number_window, (self.body.a, axes.x, axes.y, level, cells))
+        return Task(rotation_number_window, self.body.a, axes.x, axes.y, level, cells)
 
     @cached_property
     def rotation(self) -> CellGrid:
         """The rotation number over the diagram."""
         axes, plan = diagram.window(self.h), self.plan(Kind.COLOURS, steady=True)
         task = self.colours(affordable_cells(self.body.a, plan.grid(CELLS)), plan.level)
-        return CellGrid(self.work.get(task.function, *task.arguments), axes.x, axes.y)
+        return CellGrid(self.work.need(task), axes.x, axes.y)
 
     # ---- words --------------------------------------------------------------------------------------------------
 
@@ -275,21 +273,20 @@ _MEASURES: tuple[Trial[SuslovHess], ...] = (
         ("circle",),
         lambda s, plan: circle_map(s.body.a, s.h, s.f, plan.level).theta(_PHASES),
         lambda s, theta, truth: curve_error(theta, truth, 2.0 * math.pi, period=2.0 * math.pi),
-        lambda s, theta: circle.look(_PHASES, theta),
     ),
     Trial(
         Kind.COLOURS,
         ("bifurcation",),
         lambda s, plan: s.colours(affordable_cells(s.body.a, plan.grid(CELLS)), plan.level).now(),
-        # Grids differ between levels, so the reference is computed on the grid of the result.
-        lambda s, found, truth: colour_error(found, s.colours(found.shape[::-1], REFERENCE).now()),
-        lambda s, found: Cells(diagram.frame(s.h), found, COLOUR),
+        lambda s, found, truth: colour_error(found, truth),
         COLOUR_UNIT,
+        "cells",
     ),
-    boundary(
-        "bifurcation",
+    Trial(
+        Kind.CURVE,
+        ("bifurcation",),
         lambda s, plan: lock_boundary(s.body.a, plan.level, plan.side(_ON_BOUNDARY)),
-        lambda s: diagram.frame(s.h),
+        lambda s, found, truth: boundary_error(found, truth, diagram.window(s.h)),
     ),
 )
 

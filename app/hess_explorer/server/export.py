@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import threading
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 from urllib.parse import urlencode
@@ -19,9 +19,11 @@ from hess_explorer.export.notebook import PROGRAMS
 from hess_explorer.export.picture_data import address, compute
 from hess_explorer.offline.pages import planned, state_page
 from hess_explorer.protocol.parameters import MAX_QUERY, Choice, Number, decode
+from hess_explorer.scenes import scenes
 from hess_explorer.server.home import home_of
 from hess_explorer.server.refusal import refuse
 from hess_explorer.server.slow_file import SlowFile
+from hess_explorer.views.plot import Plot
 from hess_mechanics.errors import InvalidParameter, ModelError
 
 __all__ = ["Export"]
@@ -47,14 +49,21 @@ _SECONDS = 10.0
 """CPU time limit of a file in seconds."""
 
 
+def _needs_browser(state: Mapping[str, str], picture: str, kind: str) -> bool:
+    """Return whether a browser draws the file: a film, or a figure of a picture that is no plot."""
+    scene = scenes().get(state.get("scene", ""), next(iter(scenes().values())))
+    view = next((view for view in scene.views if view.name == picture), scene.views[0])
+    return kind in holding("film") or (kind in holding("figure") and not isinstance(view, Plot))
+
+
 class Export(RequestHandler):
     """GET /export?<state>&picture=NAME&format=…&width=MM&black=1&seconds=S&loop=dark: the file, or an error message.
 
     The formats py and ipynb are Python code that computes the picture, as a script and as a notebook.  For HTML,
     `picture` and `vary`, the sliders that move in the page, may be lists with commas, and grid=1 asks for all
-    combinations.  With progress=1 a slow file, which is a film or a page with sliders, is preceded by lines that report
-    its progress: "queued", "3/250" after the third of 250 frames or states, and finally "file 12345" with the number of
-    bytes that follow, or "why" and an error message.
+    combinations.  With progress=1 a slow file, which is a page with sliders or drawn by a browser, is preceded by lines
+    that report its progress: "queued", "3/250" after the third of 250 frames or states, and finally "file 12345" with
+    the number of bytes that follow, or "why" and an error message.
     """
 
     waiting = slow_waiting = 0
@@ -80,7 +89,7 @@ class Export(RequestHandler):
         own = {spec.name for spec in _SPECS} | {"picture", "vary"}
         state, picture = {name: value for name, value in given.items() if name not in own}, given.get("picture", "")
         sliders = given["vary"].split(",") if read["format"] in holding("state") and given.get("vary") else []
-        is_slow = bool(sliders) or read["format"] in holding("film")
+        is_slow = bool(sliders) or _needs_browser(state, picture, str(read["format"]))
         if (Export.slow_waiting >= _MOST_SLOW) if is_slow else (Export.waiting >= _MOST):
             refuse(self, 503, "The server is making too many files at the moment: try again in a minute.")
             return

@@ -1,4 +1,4 @@
-"""Serve the JavaScript modules and the gallery, under a URL that changes with them."""
+"""Serve the JavaScript modules and the pictures of the scenes, under a URL that changes with them."""
 
 from __future__ import annotations
 

@@ -9,7 +9,6 @@ import numpy as np
 
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.comparison import Frame
 from hess_explorer.views.layers import (
     TURNS,
     Axes,
@@ -30,7 +29,7 @@ from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov_hess.bifurcation import f_max
 from hess_mechanics.suslov_hess.circle_map import CircleMap, circle_map
 
-__all__ = ["REACH", "about", "about_torus", "frame", "impossible", "layers", "window"]
+__all__ = ["REACH", "about", "about_torus", "impossible", "layers", "window"]
 
 S = TypeVar("S")
 
@@ -42,11 +41,6 @@ def window(h: float) -> Axes:
         end *= 2.5
     top = 1.08 * f_max(end)
     return Axes((-1.0 - 0.08 * (end + 1.0), end), (-top, top))
-
-
-def frame(h: float) -> Frame:
-    """Return the axes and their names, for comparisons."""
-    return Frame(window(h), ("h", "f"))
 
 
 def _mirrored(half: Array) -> list[Array]:

@@ -10,9 +10,8 @@ import numpy as np
 
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.comparison import Curves, Frame
 from hess_explorer.views.graph import ANGLE, ANGLE_TICKS
-from hess_explorer.views.layers import Axes, Layers, curves, line, mapped, points
+from hess_explorer.views.layers import Layers, curves, line, mapped, points
 from hess_explorer.views.picture import Values
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits
@@ -20,7 +19,7 @@ from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov_hess.circle_map import CircleMap
 from hess_mechanics.suslov_hess.invariant_measure import invariant_measure
 
-__all__ = ["EVENLY", "about", "cobweb", "cycles", "look", "picture", "riccati_matrix"]
+__all__ = ["EVENLY", "about", "cobweb", "cycles", "picture", "riccati_matrix"]
 
 S = TypeVar("S")
 Click = Callable[[S, float, float], Values]
@@ -80,16 +79,6 @@ def picture(
         on_click=on_click,
         starts=on_click is not None,
         layers=_layers(map, iterates),
-    )
-
-
-def look(phi: Array, theta: Array) -> Curves:
-    """Return Θ (n,) over the phases (n,) and its copies, for comparisons."""
-    lifted = np.unwrap(theta)
-    lifted = lifted - 2.0 * math.pi * np.round(lifted[len(lifted) // 2] / (2.0 * math.pi))
-    return Curves(
-        Frame(Axes(ANGLE, ANGLE), ("φ", "Θ(φ)")),
-        tuple(np.column_stack([phi, lifted + turn]) for turn in (0.0, -2.0 * math.pi, 2.0 * math.pi)),
     )
 
 

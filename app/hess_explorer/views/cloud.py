@@ -11,12 +11,11 @@ import numpy as np
 
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.comparison import Marks
 from hess_explorer.views.graph import over_time
 from hess_explorer.views.layers import Axes, Layer, Layers, Sign, Sources, column, levels, line, points
 from hess_explorer.views.picture import Picture
 from hess_explorer.views.text import digits, ranging
-from hess_explorer.views.velocity_plane import centred, frame, nice_above
+from hess_explorer.views.velocity_plane import centred, nice_above
 from hess_mechanics.chaplygin_ball.energy_surface import Strip, line_of_rest
 from hess_mechanics.chaplygin_ball.phase_cloud_density import BIN, SMALLEST, Clouds, Density
 from hess_mechanics.dynamics.sampling import PIXELS
@@ -29,7 +28,7 @@ __all__ = [
     "course_layers",
     "density_axes",
     "density_layers",
-    "look",
+    "largest_distance",
     "room",
     "status_of",
 ]
@@ -82,18 +81,17 @@ def about_course(found: Clouds, of_patch: bool) -> Caption:
     return Caption(numbers=f"{text}; the second cloud preserves volume." if found.other is not None else f"{text}.")
 
 
-def look(found: Clouds) -> Marks:
-    """Return the final points for comparison at all times, in the plane and on the sphere."""
-    half_width = room(found)
-    w, radius = 0.5 * PIXELS / half_width, 0.5 * PIXELS
-    clouds = [(found.cloud.omega, found.cloud.gamma)]
-    if found.other is not None:
-        clouds.append((found.other.states[..., :2], found.other.states[..., 2:]))
-    return Marks(
-        frame(half_width),
-        tuple(omega[:, -1] for omega, _ in clouds),
-        elsewhere=tuple((w * omega, radius * gamma) for omega, gamma in clouds),
-    )
+def largest_distance(found: Clouds, exact: Clouds) -> float:
+    """Return the largest distance in pixels, in the plane and on the sphere, of points from more exact ones."""
+    to_pixels = 0.5 * PIXELS * np.array([1.0 / room(exact)] * 2 + [1.0] * 3)
+    away = to_pixels * (_points(found) - _points(exact))
+    return max(float(np.linalg.norm(part, axis=-1).max()) for part in (away[..., :2], away[..., 2:]))
+
+
+def _points(found: Clouds) -> Array:
+    """Return ω1, ω2 and γ (n, m, 5) of the points of all clouds in all frames."""
+    states = np.concatenate([found.cloud.omega, found.cloud.gamma], axis=-1)
+    return states if found.other is None else np.concatenate([states, found.other.states])
 
 
 @dataclass(frozen=True, kw_only=True)

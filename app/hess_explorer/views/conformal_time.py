@@ -57,10 +57,10 @@ def picture(found: Found[S], reason: Callable[[S], str], span: Callable[[S], flo
 
     layers: Layers[S] = (
         levels("levels", lambda s: [] if found(s) is None else [0.0]),
-        curves("first", within=_bracket(found, 2), color=theme.MAP, width=1.5, label="{ω₁, γ₃} = γ₂/(I₁₁γ₃)"),
+        curves("first", within=_bracket(found, 0), color=theme.MAP, width=1.5, label="{ω₁, γ₃} = γ₂/(I₁₁γ₃)"),
         curves(
             "second",
-            within=_bracket(found, 3),
+            within=_bracket(found, 1),
             color=theme.MUTED,
             width=1.5,
             dash="dashed",

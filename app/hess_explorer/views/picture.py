@@ -4,16 +4,15 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, fields, is_dataclass, replace
-from typing import Any, ClassVar, Generic, TypeVar, cast
+from dataclasses import dataclass, replace
+from typing import Any, ClassVar, Generic, TypeVar
 
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import Axes, Columns, Sign, Sources
 
-__all__ = ["Corners", "Picture", "Values", "adapted"]
+__all__ = ["Corners", "Picture", "Values"]
 
 S = TypeVar("S")
-H = TypeVar("H")
 Values = Mapping[str, float | str]
 Corners = tuple[float, float, float, float]
 """Two opposite corners: x0, y0, x1, y1."""
@@ -50,10 +49,6 @@ class Picture(ABC, Generic[S]):
 
     kind: ClassVar[str]
     """Renderer in the browser: "plot" is Bokeh, the others draw on their own canvases."""
-
-    def of_part(self, part: Callable[[H], S]) -> Picture[H]:
-        """Return this picture for a state that holds the shown object as a part."""
-        return cast("Picture[H]", adapted(self, part))
 
     @property
     def needs(self) -> frozenset[str]:
@@ -115,12 +110,3 @@ class Picture(ABC, Generic[S]):
         """Return the caption with its title."""
         title = self.title if isinstance(self.title, str) else self.title(state)
         return replace(self.caption(state), title=title)
-
-
-def adapted(shown: Any, part: Callable[[Any], Any]) -> Any:
-    """Adapt the functions of a picture, layer or field from a part to the state that holds the part."""
-    if is_dataclass(shown) and not isinstance(shown, type):
-        return replace(shown, **{one.name: adapted(getattr(shown, one.name), part) for one in fields(shown)})
-    if isinstance(shown, tuple):
-        return tuple(adapted(one, part) for one in shown)
-    return (lambda state, *mouse: shown(part(state), *mouse)) if callable(shown) else shown

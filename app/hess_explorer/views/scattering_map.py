@@ -11,16 +11,14 @@ from bokeh.palettes import Cividis256
 
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.comparison import Frame
 from hess_explorer.views.graph import ANGLE, ANGLE_TICKS
-from hess_explorer.views.layers import Axes, CellGrid, Layers, Range, Sign, curves, image, line, ring, target
+from hess_explorer.views.layers import CellGrid, Layers, Range, Sign, curves, image, line, ring, target
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits
 from hess_explorer.views.velocity_plane import nice_above
 from hess_mechanics.numerics.results import Array
 
 __all__ = [
-    "FRAME",
     "POLAR",
     "POLAR_TICKS",
     "cosine_axis",
@@ -33,8 +31,6 @@ __all__ = [
 S = TypeVar("S")
 
 POLAR: Range = (0.0, math.pi)
-FRAME = Frame(Axes(ANGLE, POLAR), ("φ", "θ⁺"))
-"""Frame of a curve θ⁺(φ)."""
 POLAR_TICKS = ((0.0, "0"), (math.pi / 4, "π/4"), (math.pi / 2, "π/2"), (3 * math.pi / 4, "3π/4"), (math.pi, "π"))
 
 

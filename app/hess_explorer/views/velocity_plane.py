@@ -9,7 +9,6 @@ import numpy as np
 
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.comparison import Frame
 from hess_explorer.views.layers import (
     Axes,
     Columns,
@@ -41,7 +40,6 @@ __all__ = [
     "centred",
     "energy_levels",
     "equilibria",
-    "frame",
     "halves",
     "nice_above",
     "orbit",
@@ -149,11 +147,6 @@ def centred(half_width: float) -> Range:
 def about_origin(half_width: Callable[[S], float]) -> Callable[[S], Range]:
     """Return the range of an axis about 0 as a function of the state."""
     return lambda state: centred(half_width(state))
-
-
-def frame(half_width: float) -> Frame:
-    """Return the plane with its axes, for comparisons."""
-    return Frame(Axes(centred(half_width), centred(half_width)), ("ω₁", "ω₂"))
 
 
 def square(half_width: float) -> Array:

@@ -6,14 +6,17 @@ import math
 import time
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
-from typing import TypeVar
+from functools import cache
+from typing import Any, Literal, TypeVar
 
 from hess_mechanics.numerics.accuracy import LEVELS, PLANS, REFERENCE, STANDARD, Kind, Plan
 from hess_mechanics.numerics.patience import go_on
 
-__all__ = ["LevelCost", "beyond", "enough", "measure", "measure_until"]
+__all__ = ["Alike", "LevelCost", "beyond", "enough", "measure", "measure_until"]
 
 R = TypeVar("R")
+Alike = Literal["", "share", "cells"]
+"""Part of a plan in which the truth is that of the measured level; empty for none."""
 
 _TWICE = {Kind.ROTATION: "share", Kind.LINE: "share", Kind.CURVE: "cells"}
 """Part of a plan that limits the error of a kind besides the tolerance, so that its own value would hide this error."""
@@ -48,31 +51,53 @@ def beyond(kind: Kind) -> Plan:
     return replace(finest, level=finest.level.tightened(), **more)
 
 
-def _sample(plan: Plan, run: Callable[[Plan], R], error: Callable[[R, R], float], truth: R, repeats: int) -> LevelCost:
+def _truths(kind: Kind, run: Callable[[Plan], R], alike: Alike) -> Callable[[Plan], R]:
+    """Return the truth for the result of a plan; plans that are alike share it."""
+
+    @cache
+    def truth(own: float) -> R:
+        same: dict[str, Any] = {alike: own} if alike else {}
+        return run(replace(beyond(kind), **same))
+
+    def of(plan: Plan) -> R:
+        return truth(getattr(plan, alike) if alike else 1.0)
+
+    # The costliest first: it fails if any does.
+    of(PLANS[kind][REFERENCE.name])
+    return of
+
+
+def _sample(
+    plan: Plan, run: Callable[[Plan], R], error: Callable[[R, R], float], truth: Callable[[Plan], R], repeats: int
+) -> LevelCost:
+    exact = truth(plan)
     best = float("inf")
     for _ in range(repeats):
         go_on()
         start = time.perf_counter()
         result = run(plan)
         best = min(best, time.perf_counter() - start)
-    return LevelCost(plan.level.name, 1e3 * best, error(result, truth), plan.share >= 1.0 and plan.cells >= 1.0)
+    return LevelCost(plan.level.name, 1e3 * best, error(result, exact), plan.share >= 1.0 and plan.cells >= 1.0)
 
 
 def measure(
-    kind: Kind, run: Callable[[Plan], R], error: Callable[[R, R], float], repeats: int = 1
+    kind: Kind, run: Callable[[Plan], R], error: Callable[[R, R], float], repeats: int = 1, alike: Alike = ""
 ) -> tuple[LevelCost, ...]:
     """Measure a computation at each level, cheapest first.
 
     error(result, truth) : distance of a result from that of the plan `beyond`; repeats : number of runs, of which the
-    fastest counts.  Raises what `run` raises.
+    fastest counts; alike : as in `Alike`, for results at other points than those of another level.  Raises what `run`
+    raises.
     """
-    truth = run(beyond(kind))
+    truth = _truths(kind, run, alike)
     return tuple(_sample(PLANS[kind][name], run, error, truth, repeats) for name in LEVELS)
 
 
-def measure_until(kind: Kind, run: Callable[[Plan], R], error: Callable[[R, R], float], largest: float) -> str:
+def measure_until(
+    kind: Kind, run: Callable[[Plan], R], error: Callable[[R, R], float], largest: float, alike: Alike = ""
+) -> str:
     """Return the level that `enough` would choose, without running the levels above it."""
-    truth = run(beyond(kind))
+    truth = _truths(kind, run, alike)
     return enough((_sample(PLANS[kind][name], run, error, truth, 1) for name in LEVELS), largest)
 
 

@@ -1,10 +1,13 @@
-"""The Suslov problem with e on a principal axis in a potential U(γ1, γ2) (`eqs03`): a generalised Kharlamova case.
+"""The plane problem: the Suslov problem with e on a principal axis, as a point in a potential inside an ellipse.
 
-    U = ½(c1γ1² + c2γ2²) + λ(γ1²γ2 − γ2³/3) + μγ1²γ2².
+With q = (√I11 γ2, −√I22 γ1), p = (√I11 ω1, √I22 ω2) and the time τ, dτ = γ3 dt, a potential U(γ1, γ2) gives a natural
+Hamiltonian system in the plane (`eqs03`), H = ½p² + V(q), V(q) = U, inside the ellipse γ3² = 1 − γ1² − γ2² ≥ 0; at its
+edge the orbit reverses with the other sign of γ3 and dτ < 0.  `kharlamova` is the case of a linear U, in closed form;
+`quartic` has another plane, for U = b3γ3.  The others are
 
-With q = (√I11 γ2, −√I22 γ1), p = (√I11 ω1, √I22 ω2) and the time τ, dτ = γ3 dt, it is a natural Hamiltonian system
-in the plane, H = ½p² + V(q), V(q) = U, inside the ellipse γ3² = 1 − γ1² − γ2² ≥ 0; at its edge the orbit reverses
-with the other sign of γ3 and dτ < 0.  Three choices, see `POTENTIALS`:
+    U = ½(c1γ1² + c2γ2²) + λ(γ1²γ2 − γ2³/3) + μγ1²γ2²,
+
+of which there are three choices, see `POTENTIALS`:
 
 - quadratic, λ = μ = 0: the variables separate, and F2 = ½(I11ω1² + c2γ2²) is an integral besides E and F1, for all I11,
   I22, c1, c2.  The paper quotes this case from V. V. Kozlov.
@@ -25,41 +28,135 @@ import numpy as np
 
 from hess_mechanics.dynamics.orbit import solve
 from hess_mechanics.dynamics.sampling import PIXELS, sampled_orbit
-from hess_mechanics.dynamics.system import System, in_units_of_time
-from hess_mechanics.errors import InvalidParameter, OutsideRegion
+from hess_mechanics.dynamics.section import Plane, section
+from hess_mechanics.dynamics.system import Body, System, in_units_of_time
 from hess_mechanics.numerics.accuracy import Accuracy
-from hess_mechanics.numerics.results import Array, Mask, Orbit, frozen
+from hess_mechanics.numerics.results import Array, Orbit, frozen
 from hess_mechanics.rigid_body.inertia import require_comparable, require_finite, require_positive_definite
+from hess_mechanics.suslov import equations
 
 __all__ = [
+    "MOST_SAMPLES",
     "POTENTIALS",
     "PlaneMotion",
+    "PlaneProblem",
     "PotentialBody",
     "equator_energy",
     "forbidden",
     "level_curve",
+    "missed",
     "motion_from",
     "separable_integral",
-    "state_at",
 ]
 
-_ROUND = 721
+MOST_SAMPLES = 6000
+"""Largest number of samples of an orbit in a plot."""
+_EITHER_WAY = Plane((0.0, 0.0, 0.0, 0.0, 1.0), sense=0)
 
 
 @dataclass(frozen=True)
-class PotentialBody:
-    """Body with I13 = I23 = 0 and the coefficients of U.  Raises `InvalidParameter`, `NotPositiveDefinite`."""
+class PlaneProblem(Body):
+    """Body with I13 = I23 = 0 whose motion is that of a point in the plane.
+
+    Parameters
+    ----------
+    I11 : float
+        Moment of inertia about the first axis, I11 > 0.
+    I22 : float
+        Moment of inertia about the second axis, I22 > 0.
+
+    Raises
+    ------
+    InvalidParameter
+        If a parameter is not finite.
+    NotPositiveDefinite
+        If I11 ≤ 0 or I22 ≤ 0.
+
+    References
+    ----------
+    `eqs03`, `Biz1360`.
+    """
 
     I11: float
     I22: float
-    c1: float
-    c2: float
-    cubic: float = 0.0
-    quartic: float = 0.0
 
     def __post_init__(self) -> None:
         require_finite(**vars(self))
         require_positive_definite(self.I11, self.I22)
+
+    @property
+    def system(self) -> System:
+        """The equations of motion."""
+        return equations.SYSTEM
+
+    @property
+    def axes(self) -> tuple[float, float]:
+        """The semi-axes √I11, √I22 of the ellipse (`Biz1360`)."""
+        return math.sqrt(self.I11), math.sqrt(self.I22)
+
+    def energy(self, state: Sequence[float]) -> float:
+        """Return the energy E of a state.
+
+        Parameters
+        ----------
+        state : sequence of five floats
+            State (ω1, ω2, γ1, γ2, γ3).
+
+        Returns
+        -------
+        float
+            The energy.
+        """
+        return float(self.system.integrals(state, self.parameters)["E"])
+
+    def place(self, u: Array) -> Array:
+        """Return the point q of the plane for u = (γ1, γ2).
+
+        Parameters
+        ----------
+        u : ndarray of float, shape (m, 2)
+            Components γ1 and γ2.
+
+        Returns
+        -------
+        ndarray of float, shape (m, 2)
+            Points q = (√I11 γ2, −√I22 γ1).
+        """
+        r1, r2 = self.axes
+        return np.column_stack([r1 * u[:, 1], -r2 * u[:, 0]])
+
+    def to_plane(self, states: Array) -> tuple[Array, Array]:
+        """Return q and p of states.
+
+        Parameters
+        ----------
+        states : ndarray of float, shape (m, 5)
+            States (ω1, ω2, γ1, γ2, γ3).
+
+        Returns
+        -------
+        q : ndarray of float, shape (m, 2)
+            Points of the plane.
+        p : ndarray of float, shape (m, 2)
+            Their momenta.
+        """
+        return self.place(states[:, 2:4]), states[:, :2] * np.array(self.axes)
+
+
+def missed(body: Body, start: Sequence[float], period: float, accuracy: Accuracy) -> float:
+    """Return the distance between the start (5,) of an orbit and its state after one period, in the maximum norm."""
+    after = solve(body, start, [period], accuracy).states[0]
+    return float(np.abs(after - np.array(start)).max())
+
+
+@dataclass(frozen=True)
+class PotentialBody(PlaneProblem):
+    """Plane problem with the coefficients of U.  Raises `InvalidParameter`, `NotPositiveDefinite`."""
+
+    c1: float
+    c2: float
+    cubic: float = 0.0
+    quartic: float = 0.0
 
     @property
     def system(self) -> System:
@@ -69,7 +166,7 @@ class PotentialBody:
     @property
     def parameters(self) -> tuple[float, ...]:
         """The parameters p = (I11, I22, c1, c2, λ, μ)."""
-        return self.I11, self.I22, self.c1, self.c2, self.cubic, self.quartic
+        return tuple(vars(self).values())
 
     @property
     def separates(self) -> bool:
@@ -79,10 +176,6 @@ class PotentialBody:
     def potential(self, u: Array) -> Array:
         """Return U at u = (γ1, γ2), (..., 2)."""
         return np.asarray(potential(u[..., 0], u[..., 1], self.parameters))
-
-    def gradient(self, u: Array) -> Array:
-        """Return ∂U/∂u at u = (γ1, γ2), (..., 2); same shape."""
-        return np.stack(np.broadcast_arrays(*gradient(u[..., 0], u[..., 1], self.parameters)), axis=-1)
 
 
 POTENTIALS: Mapping[str, tuple[float, float, float, float]] = {
@@ -164,84 +257,54 @@ def separable_integral(body: PotentialBody, states: Array) -> Array:
 
 def equator_energy(body: PotentialBody) -> float:
     """Return the minimum of U on the equator: motions with less energy stay on one side of it."""
-    angle = np.linspace(-math.pi, math.pi, _ROUND)
-    values = body.potential(np.stack([np.cos(angle), np.sin(angle)], axis=-1))
-    i = int(np.argmin(values[:-1]))
-    # Vertex of the parabola through the least value and its neighbours.
-    before, least, after = values[i - 1 if i else -2], values[i], values[i + 1]
-    curvature = before - 2.0 * least + after
-    return float(least - (before - after) ** 2 / (8.0 * curvature) if curvature > 0.0 else least)
-
-
-def state_at(body: PotentialBody, E: float, g2: float, w1: float) -> tuple[float, ...]:
-    """Return the state (5,) with energy E, γ1 = 0, these γ2 and ω1, and γ3 > 0, where γ1 increases: ω2 < 0.
-
-    Raises `InvalidParameter`, or `OutsideRegion` if the energy does not allow it.
-    """
-    require_finite(E=E, g2=g2, w1=w1)
-    if not abs(g2) < 1.0:
-        raise InvalidParameter(f"γ2 = {g2:g}, but γ is a unit vector: choose |γ2| < 1.")
-    left = 2.0 * (E - float(body.potential(np.array([0.0, g2])))) - body.I11 * w1 * w1
-    if not left > 0.0:
-        raise OutsideRegion(
-            f"At γ2 = {g2:.6g}, ω1 = {w1:.6g} no motion with the energy E = {E:.6g} crosses γ1 = 0: choose a larger E."
-        )
-    return (w1, -math.sqrt(left / body.I22), 0.0, g2, math.sqrt(1.0 - g2 * g2))
+    angle, width = 0.0, math.pi
+    for _ in range(3):
+        angles = angle + np.linspace(-width, width, 721)
+        values = body.potential(np.stack([np.cos(angles), np.sin(angles)], axis=-1))
+        angle, width = angles[np.argmin(values)], 0.01 * width
+    return float(values.min())
 
 
 # ---- Plots ------------------------------------------------------------------------------------------------------
 
-MOST_SAMPLES = 6000
-_NEWTON = 4
 _BISECTIONS = 32
+_EDGE = 1.0 - 1e-9
+"""Radius from which a point lies on the equator."""
 
 
 @dataclass(frozen=True)
 class PlaneMotion:
     """One motion: its energy, and whether it is periodic.
 
-    crossings : number of crossings of the equator; period : 2(t2 − t1) of two successive ones, None if there are fewer;
+    period : 2(t2 − t1) of two successive crossings of the equator, None if there are fewer;
     missed : distance from the start after one period; fixed : True if the state is an equilibrium.
     integral : range of F2 of a quadratic potential along the motion, relative to its largest value.
     """
 
     orbit: Orbit
     energy: float
-    crossings: int
     period: float | None
     missed: float
     fixed: bool
     integral: float
 
 
-def motion_from(body: PotentialBody, start: tuple[float, ...], span: float, level: Accuracy) -> PlaneMotion:
-    """Return the motion from a state (5,) over the time `span`, sampled for a plot of the plane.
+def motion_from(body: PotentialBody, start: tuple[float, ...], duration: float, level: Accuracy) -> PlaneMotion:
+    """Return the motion from a state (5,), sampled for a plot of the plane.
 
     Raises `InvalidParameter`, `WorkLimit`.
     """
-    orbit = sampled_orbit(body, start, span, (0.0, 0.0, *(0.5 * PIXELS,) * 3), level, MOST_SAMPLES)
-    energy = float(SYSTEM.integrals(start, body.parameters)["E"])
+    orbit = sampled_orbit(body, start, duration, (0.0, 0.0, *(0.5 * PIXELS,) * 3), level, MOST_SAMPLES)
     fixed = not np.any(np.array(SYSTEM.field(start, body.parameters)))
     F2 = separable_integral(body, orbit.states)
     integral = float(np.ptp(F2)) / max(float(np.abs(F2).max()), 1e-300)
-    g3 = orbit.states[:, 4]
-    after = np.flatnonzero((g3[1:] * g3[:-1] < 0.0) | (g3[:-1] == 0.0))
-    if fixed or after.size < 2:
-        return PlaneMotion(orbit, energy, 0 if fixed else int(after.size), None, math.inf, fixed, integral)
-
-    def crossed(i: int) -> float:
-        t = float(orbit.times[i] + (orbit.times[i + 1] - orbit.times[i]) * g3[i] / (g3[i] - g3[i + 1]))
-        for _ in range(_NEWTON if t else 0):
-            y = solve(body, start, [t], level).states[0]
-            t -= float(y[4] / SYSTEM.field(y, body.parameters)[4])
-        return t
-
-    first, second = (crossed(int(i)) for i in after[:2])
-    period = 2.0 * (second - first)
-    back = solve(body, start, [period], level).states[0]
-    return PlaneMotion(
-        orbit, energy, int(after.size), period, float(np.abs(back - np.array(start)).max()), False, integral
-    )
+    period, left = None, math.inf
+    if not fixed:
+        times = section(body, start, _EITHER_WAY, duration, level, crossings=2).times
+        if len(times) == 2:
+            period = 2.0 * float(times[1] - times[0])
+            left = missed(body, start, period, level)
+    return PlaneMotion(orbit, body.energy(start), period, left, fixed, integral)
 
 
 def _radius(body: PotentialBody, value: float) -> tuple[Array, Array]:
@@ -262,19 +325,12 @@ def _radius(body: PotentialBody, value: float) -> tuple[Array, Array]:
 def level_curve(body: PotentialBody, value: float) -> list[Array]:
     """Return the parts u (m, 2) of the curve U = value inside γ1² + γ2² = 1, for one of the `POTENTIALS`."""
     along, radius = _radius(body, value)
-    inside: Mask = radius < 1.0 - 1e-9
-    cuts = np.flatnonzero(inside[1:] != inside[:-1]) + 1
-    curve = radius[:, None] * along
-    return [
-        frozen(part)
-        for part, kept in zip(np.split(curve, cuts), np.split(inside, cuts), strict=True)
-        if kept[0] and len(part) > 1
-    ]
+    cuts = np.flatnonzero(np.diff(radius < _EDGE)) + 1
+    parts = np.split(radius[:, None] * along, cuts)
+    return [frozen(part) for part in parts if len(part) > 1 and math.hypot(*part[0]) < _EDGE]
 
 
 def forbidden(body: PotentialBody, energy: float) -> list[Array]:
     """Return the part of the disk where U > energy, as closed curves u (m, 2), for one of the `POTENTIALS`."""
     along, radius = _radius(body, energy)
-    if np.all(radius >= 1.0 - 1e-9):
-        return []
-    return [frozen(np.concatenate([along, (radius[:, None] * along)[::-1]]))]
+    return [] if np.all(radius >= _EDGE) else [frozen(np.concatenate([along, (radius[:, None] * along)[::-1]]))]

@@ -22,14 +22,11 @@ from hess_mechanics.numerics.accuracy import Accuracy
 from hess_mechanics.numerics.results import Array, Orbit, frozen
 from hess_mechanics.suslov.equations import SYSTEM, SuslovBody
 
-__all__ = ["BRACKETS", "Conformal", "conformal", "divergence", "energy_gradient", "poisson_matrix"]
-
-BRACKETS = ("{ω1, γ2}", "{ω2, γ1}", "{ω1, γ3}", "{ω2, γ3}")
-"""The brackets that are not 0 (`Biz133`): two constants, and two that are infinite on the equator."""
+__all__ = ["Conformal", "conformal", "divergence", "energy_gradient", "poisson_matrix"]
 
 
 def poisson_matrix(y: Sequence[Any], p: Sequence[Any]) -> tuple[tuple[Any, ...], ...]:
-    """Return {x_i, x_j} (`Biz133`) of x = (ω1, ω2, γ1, γ2, γ3); singular on the equator γ3 = 0, of rank 4 elsewhere."""
+    """Return {x_i, x_j} (`Biz133`) of x = (ω1, ω2, γ1, γ2, γ3): of rank 4, singular on the equator γ3 = 0."""
     _, _, g1, g2, g3 = y
     I11, I22 = p[0], p[1]
     one = (0, 0, 0, -1 / I11, g2 / (I11 * g3))
@@ -52,15 +49,13 @@ def divergence(y: Sequence[Any], p: Sequence[Any]) -> Any:
 class Conformal:
     """One motion in the times t and τ.
 
-    orbit : at equidistant times t; tau : τ (n,), 0 at t = 0; brackets : (n, 4), see `BRACKETS`, ±∞ on the equator;
-    tau_error : largest estimated error of τ from its quadrature, besides that of the orbit;
+    orbit : at equidistant times t; tau : τ (n,), 0 at t = 0; brackets : {ω1, γ3}, {ω2, γ3} (n, 2), ±∞ on the equator;
     left_over : largest |ẋ − γ3{x, E}| off the equator, relative to the largest |ẋ|: round-off.
     """
 
     orbit: Orbit
     tau: Array
     brackets: Array
-    tau_error: float
     left_over: float
 
     @property
@@ -71,45 +66,32 @@ class Conformal:
 
 
 _SPACING = 0.04
-"""Distance between two samples in units of 1/ν: the quadrature of γ3 is then exact to about 1e-11 of the span."""
+"""Distance between two samples in units of 1/ν: the quadrature of γ3 is then exact to about 1e-11 of the duration."""
 _MOST = 100_000
 
 
-def conformal(body: SuslovBody, start: Sequence[float], span: float, level: Accuracy) -> Conformal:
-    """Return the motion from `start` (5,) over the time `span` ≠ 0 (negative: backwards), with τ and the brackets.
+def conformal(body: SuslovBody, start: Sequence[float], duration: float, level: Accuracy) -> Conformal:
+    """Return the motion from `start` (5,) over the time `duration` ≠ 0 (negative: backwards), with τ and the brackets.
 
     Raises `InvalidParameter` unless I13 = I23 = 0, `WorkLimit`.
     """
     if body.I13 != 0.0 or body.I23 != 0.0:
         raise InvalidParameter("The conformally Hamiltonian form needs I13 = I23 = 0: set these to 0.")
-    if not (math.isfinite(span) and span != 0.0):
+    if not (math.isfinite(duration) and duration != 0.0):
         raise InvalidParameter("The time span must be a finite number other than 0.")
     p = body.parameters
     nu = float(SYSTEM.frequency(np.array(start, float), np.array(p)))
-    pairs = max(8.0, abs(span) * nu / (2.0 * _SPACING))
+    pairs = max(8.0, abs(duration) * nu / (2.0 * _SPACING))
     if not pairs <= _MOST / 2:
         raise WorkLimit(f"The motion needs more than {_MOST} samples: choose a shorter time span.")
-    count = 2 * math.ceil(pairs) + 1
-    orbit = solve(SYSTEM.at(p), start, np.linspace(0.0, span, count), level)
-    y = orbit.states.T
-    tau, coarse = (_integral(span, y[4, ::step], np.asarray(SYSTEM.field(list(y[:, ::step]), p)[4])) for step in (1, 2))
+    orbit = solve(body, start, np.linspace(0.0, duration, 2 * math.ceil(pairs) + 1), level)
+    y = list(orbit.states.T)
+    g3, rates, step = y[4], np.array(SYSTEM.field(y, p)), orbit.times[1]
+    # Cubic Hermite interpolation of γ3.
+    pieces = 0.5 * step * (g3[1:] + g3[:-1]) + step * step / 12.0 * (rates[4, :-1] - rates[4, 1:])
     with np.errstate(divide="ignore", invalid="ignore"):
-        P = poisson_matrix(list(y), p)
-        values = [np.broadcast_to(np.asarray(value, float), count) for value in (P[0][3], P[1][2], P[0][4], P[1][4])]
-        gradient = energy_gradient(list(y), p)
-        by_brackets = np.array([y[4] * sum(a * b for a, b in zip(row, gradient, strict=True)) for row in P])
-    rates = np.array(SYSTEM.field(list(y), p))
-    away = np.abs(by_brackets - rates)[:, y[4] != 0.0].max(initial=0.0) / max(float(np.abs(rates).max()), 1e-300)
-    return Conformal(
-        orbit, frozen(tau), frozen(np.stack(values, axis=-1)), float(np.abs(tau[::2] - coarse).max()), float(away)
-    )
-
-
-def _integral(span: float, values: Array, rates: Array) -> Array:
-    """Return ∫ from 0 to each of equidistant times over `span`, by cubic Hermite interpolation.
-
-    values, rates : (n,) of the integrand and of its derivative.
-    """
-    h = span / (values.size - 1)
-    pieces = 0.5 * h * (values[1:] + values[:-1]) + h * h / 12.0 * (rates[:-1] - rates[1:])
-    return np.concatenate([[0.0], np.cumsum(pieces)])
+        P, gradient = poisson_matrix(y, p), energy_gradient(y, p)
+        by_brackets = np.array([g3 * sum(a * b for a, b in zip(row, gradient, strict=True)) for row in P])
+    left_over = np.abs(by_brackets - rates)[:, g3 != 0.0].max(initial=0.0) / max(np.abs(rates).max(), 1e-300)
+    tau = np.concatenate([[0.0], np.cumsum(pieces)])
+    return Conformal(orbit, frozen(tau), frozen(np.stack([P[0][4], P[1][4]], axis=-1)), float(left_over))

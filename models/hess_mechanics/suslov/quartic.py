@@ -14,7 +14,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -28,8 +28,9 @@ from hess_mechanics.errors import InvalidParameter, NoField, OutsideRegion, Work
 from hess_mechanics.numerics.accuracy import Accuracy
 from hess_mechanics.numerics.results import Array, Mask
 from hess_mechanics.parameters import Parameter, plain
-from hess_mechanics.rigid_body.inertia import require_finite, require_positive_definite
+from hess_mechanics.rigid_body.inertia import require_finite
 from hess_mechanics.suslov.equations import SYSTEM
+from hess_mechanics.suslov.plane_potential import PlaneProblem
 
 __all__ = [
     "SECTION",
@@ -42,10 +43,10 @@ __all__ = [
     "spread_section",
     "start_on_section",
     "state_at",
-    "state_on_section",
     "visited",
 ]
 
+_GOLDEN = (math.sqrt(5.0) - 1.0) / 2.0
 _TURNS = 120.0
 """Time limit per crossing, in units in which ω is at most 1; few orbits take longer."""
 _EDGE = 1e-9
@@ -57,7 +58,7 @@ _MOST_SIZE = 1e30
 
 
 @dataclass(frozen=True)
-class QuarticBody:
+class QuarticBody(PlaneProblem):
     """Body with I13 = I23 = 0 and b = (0, 0, b3), at the energy h.
 
     Parameters
@@ -94,14 +95,11 @@ class QuarticBody:
     [2.1909, 2.7928]
     """
 
-    I11: float
-    I22: float
     b3: float
     h: float
 
     def __post_init__(self) -> None:
-        require_finite(**vars(self))
-        require_positive_definite(self.I11, self.I22)
+        super().__post_init__()
         if self.b3 == 0.0:
             raise NoField("b3 = 0: without a field the energy does not determine γ₃. Choose b3 other than 0.")
         if not self.h > -abs(self.b3):
@@ -115,11 +113,6 @@ class QuarticBody:
             )
 
     @property
-    def system(self) -> System:
-        """The equations of motion."""
-        return SYSTEM
-
-    @property
     def parameters(self) -> tuple[float, ...]:
         """The parameters p of the system "suslov"."""
         return (self.I11, self.I22, 0.0, 0.0, 0.0, 0.0, self.b3)
@@ -130,11 +123,15 @@ class QuarticBody:
         size = 2.0 * (self.h + abs(self.b3))
         return math.sqrt(size * self.I22) / abs(self.b3), math.sqrt(size * self.I11) / abs(self.b3)
 
+    def _size(self, height: Array | float) -> Array:
+        """Return the size of the ellipse on which γ3 has a given value, in units of `axes`; 0 if there is none."""
+        size = abs(self.b3)
+        return np.sqrt(np.maximum(0.0, self.h - self.b3 * np.asarray(height)) / (self.h + size))
+
     @property
     def hole(self) -> float:
         """The size of the forbidden inner ellipse in units of `axes`; 0 for h ≤ |b3|."""
-        size = abs(self.b3)
-        return math.sqrt(max(0.0, self.h - size) / (self.h + size))
+        return float(self._size(math.copysign(1.0, self.b3)))
 
     @property
     def integrable(self) -> bool:
@@ -212,16 +209,6 @@ class QuarticBody:
         angle = np.linspace(0.0, 2.0 * math.pi, 181)
         return np.asarray(size * np.array(self.axes) * np.column_stack([np.cos(angle), np.sin(angle)]))
 
-    def holes(self) -> list[Array]:
-        """Return the boundary of the forbidden inner ellipse.
-
-        Returns
-        -------
-        list of ndarray of float, shape (181, 2)
-            One closed curve, or none if h ≤ |b3|.
-        """
-        return [self.ellipse(self.hole)] if self.hole > 0.0 else []
-
     def equipotentials(self, heights: Sequence[float]) -> list[Array]:
         """Return the curves on which γ3 has given values.
 
@@ -235,16 +222,23 @@ class QuarticBody:
         list of ndarray of float, shape (181, 2)
             Closed curves of points q, one for each value that occurs.
         """
-        share = [(self.h - self.b3 * g3) / (self.h + abs(self.b3)) for g3 in heights]
-        return [self.ellipse(math.sqrt(one)) for one in share if one > 0.0]
+        return [self.ellipse(size) for size in self._size(np.array(heights)).tolist() if size > 0.0]
+
+    def holes(self) -> list[Array]:
+        """Return the boundary of the forbidden inner ellipse.
+
+        Returns
+        -------
+        list of ndarray of float, shape (181, 2)
+            One closed curve, or none if h ≤ |b3|.
+        """
+        return self.equipotentials([math.copysign(1.0, self.b3)])
 
     @property
     def plane(self) -> Plane:
         """The section q_i = 0, i = `across`, crossed while q_i increases, in terms of ω."""
-        sense = 1 if self.b3 > 0.0 else -1
-        if self.across == 0:
-            return Plane((0.0, 1.0, 0.0, 0.0, 0.0), sense=sense)
-        return Plane((1.0, 0.0, 0.0, 0.0, 0.0), sense=-sense)
+        rising = self.across == 0
+        return Plane((float(not rising), float(rising), 0.0, 0.0, 0.0), sense=1 if rising == (self.b3 > 0.0) else -1)
 
     def height(self, q: Array) -> Array:
         """Return γ3 at points of the plane; the potential is V = γ3²/2.
@@ -280,6 +274,21 @@ class QuarticBody:
         q = np.column_stack([self.I22 * states[:, 1], -self.I11 * states[:, 0]]) / self.b3
         return q, states[:, 2:4].copy()
 
+    def omega(self, q: Any) -> tuple[Any, Any]:
+        """Return ω1, ω2 at the point q.
+
+        Parameters
+        ----------
+        q : tuple of two floats or arrays
+            Points of the plane.
+
+        Returns
+        -------
+        tuple of two floats or arrays
+            Components −b3 q2/I11, b3 q1/I22.
+        """
+        return -self.b3 * q[1] / self.I11, self.b3 * q[0] / self.I22
+
     def on_section(self, states: Array) -> Array:
         """Return the coordinates of states on the section.
 
@@ -297,42 +306,20 @@ class QuarticBody:
         along = 1 - self.across
         return np.column_stack([q[:, along], p[:, along]])
 
-    def section_boundary(self, count: int = 181) -> Array:
-        """Return the curve p² + γ3² = 1 that bounds the section.
-
-        Parameters
-        ----------
-        count : int, optional
-            Number of points, of one half if the curve is symmetric.
-
-        Returns
-        -------
-        ndarray of float, shape (n, 2)
-            Points (q, p) of a closed curve.
-
-        Notes
-        -----
-        For h > |b3| the section has two parts; this is the boundary of the right one.  The left part is its image under
-        q → −q.
-        """
-        size = abs(self.b3)
-        first = math.acos(self.h / size) if self.h < size else 0.0
-        angle = np.linspace(first, 2.0 * math.pi - first, count)
-        share = (self.h - size * np.cos(angle)) / (self.h + size)
-        x, y = self.longest * np.sqrt(np.maximum(0.0, share)), np.sin(angle)
-        right = np.column_stack([x, y])
-        return right if first == 0.0 else np.vstack([right, right[::-1] * np.array([-1.0, 1.0])])
-
     def section_boundaries(self) -> list[Array]:
-        """Return the curves that bound the section.
+        """Return the curves p² + γ3² = 1 that bound the section.
 
         Returns
         -------
         list of ndarray of float, shape (n, 2)
-            One closed curve, or two for h > |b3|.
+            One closed curve of points (q, p), or two for h ≥ |b3|, the right one first.
         """
-        right = self.section_boundary()
-        return [right, right * np.array([-1.0, 1.0])] if self.hole > 0.0 else [right]
+        size = abs(self.b3)
+        first = math.acos(self.h / size) if self.h < size else 0.0
+        angle = np.linspace(first, 2.0 * math.pi - first, 181)
+        right = np.column_stack([self.longest * self._size(math.copysign(1.0, self.b3) * np.cos(angle)), np.sin(angle)])
+        left = right * np.array([-1.0, 1.0])
+        return [np.vstack([right, left[::-1]])] if first else [right, left]
 
 
 def visited(body: QuarticBody, points: Array, cells: int) -> int:
@@ -344,8 +331,7 @@ def visited(body: QuarticBody, points: Array, cells: int) -> int:
 def level_error(body: QuarticBody, states: Array) -> float:
     """Return the largest |H − ½| of states (m, 5), where H = (p² + γ3²)/2 is ½ on all motions."""
     q, p = body.to_plane(states)
-    H = 0.5 * (np.sum(p * p, axis=1) + body.height(q) ** 2)
-    return float(np.abs(H - 0.5).max())
+    return float(0.5 * np.abs(np.sum(p * p, axis=1) + body.height(q) ** 2 - 1.0).max())
 
 
 def state_at(body: QuarticBody, q: Sequence[float], direction: float) -> tuple[float, ...]:
@@ -362,26 +348,15 @@ def state_at(body: QuarticBody, q: Sequence[float], direction: float) -> tuple[f
         )
     g3 = min(1.0, max(-1.0, g3))
     size = math.sqrt((1.0 - g3) * (1.0 + g3))
-    omega = (-body.b3 * q[1] / body.I11, body.b3 * q[0] / body.I22)
-    return (*omega, -size * math.cos(direction), -size * math.sin(direction), g3)
-
-
-def state_on_section(body: QuarticBody, x: float, y: float) -> tuple[float, ...]:
-    """Return the state (5,) at (x, y) of the section, see `on_section`.  Raises `OutsideRegion`."""
-    q = (x, 0.0) if body.across else (0.0, x)
-    g3 = float(body.height(np.array(q)))
-    left = (1.0 - g3) * (1.0 + g3) - y * y
-    if left < -_EDGE:
-        raise OutsideRegion("p² + γ₃² would exceed 1 there: choose a place that is not grey.")
-    # The q that is 0 increases where its p is negative.
-    other = -math.sqrt(max(0.0, left))
-    velocity = (-y, -other) if body.across else (-other, -y)
-    return state_at(body, q, math.atan2(velocity[1], velocity[0]))
+    return (*body.omega(q), -size * math.cos(direction), -size * math.sin(direction), g3)
 
 
 def start_on_section(body: QuarticBody, x: float, y: float) -> tuple[float, float, float]:
     """Return q1, q2 and the direction of q̇ for `state_at` at (x, y) of the section.  Raises `OutsideRegion`."""
-    (q,), (p,) = body.to_plane(np.array([state_on_section(body, x, y)]))
+    states, there = QuarticSection(body).states_at(x, y)
+    if not there[0]:
+        raise OutsideRegion("p² + γ₃² would exceed 1 there: choose a place that is not grey.")
+    (q,), (p,) = body.to_plane(states)
     return float(q[0]), float(q[1]), math.atan2(-p[1], -p[0])
 
 
@@ -393,18 +368,12 @@ def angular_momentum(body: QuarticBody, states: Array) -> Array:
 
 def seeds(body: QuarticBody, count: int) -> list[tuple[float, ...]]:
     """Return states of the section, spread over the part that the energy allows."""
-    golden = (math.sqrt(5.0) - 1.0) / 2.0
-    longest = body.longest
-    found = []
-    for i in range(count):
-        share = (i * golden) % 1.0
-        inner = body.hole**2
-        # Uniform in q² from the hole to the edge, and in p for this q.
-        x = longest * math.sqrt(inner + (1.0 - inner) * (0.002 + 0.996 * (i + 0.5) / count))
-        g3 = float(body.height(np.array((x, 0.0) if body.across else (0.0, x))))
-        size = math.sqrt(max(0.0, (1.0 - g3) * (1.0 + g3)))
-        found.append(state_on_section(body, x if i % 2 else -x, 0.98 * size * (2.0 * share - 1.0)))
-    return found
+    section, i, inner = QuarticSection(body), np.arange(count), body.hole**2
+    # Uniform in q² from the hole to the edge, and in p for this q.
+    x = body.longest * np.sqrt(inner + (1.0 - inner) * (0.002 + 0.996 * (i + 0.5) / count)) * np.where(i % 2, 1.0, -1.0)
+    largest = np.linalg.norm(section.states_at(x, 0.0 * x)[0][:, 2:4], axis=1)
+    states, _ = section.states_at(x, 0.98 * largest * (2.0 * (i * _GOLDEN % 1.0) - 1.0))
+    return list(map(tuple, states.tolist()))
 
 
 def quartic_section(
@@ -479,17 +448,17 @@ class QuarticSection(PoincareSection):
         """Return the section with another value of one constant."""
         return QuarticSection(replace(self.body, **{name: value}))
 
-    def states_at(self, q: Array, p: Array) -> tuple[Array, Mask]:
+    def states_at(self, q: Array | float, p: Array | float) -> tuple[Array, Mask]:
         """Return the states (n, 5) at (q, p) (n,), and the mask (n,) of the places with motion, p² + γ3² < 1."""
         q, p = np.array(q, float, ndmin=1), np.array(p, float, ndmin=1)
-        body, along, zero = self.body, 1 - self.body.across, np.zeros(q.shape)
-        place, momentum = np.stack([zero, q] if along else [q, zero]), np.empty((2, q.size))
-        g3 = body.height(place.T)
+        along = 1 - self.body.across
+        place, momentum = np.zeros((2, q.size)), np.zeros((2, q.size))
+        place[along], momentum[along] = q, p
+        g3 = self.body.height(place.T)
         left = (1.0 - g3) * (1.0 + g3) - p * p
         # The q that is 0 increases where its p is negative.
-        momentum[along], momentum[1 - along] = p, -np.sqrt(np.maximum(0.0, left))
-        omega = -body.b3 * place[1] / body.I11, body.b3 * place[0] / body.I22
-        return np.stack([*omega, *momentum, g3], axis=1), left > 0.0
+        momentum[1 - along] = -np.sqrt(np.maximum(0.0, left))
+        return np.stack([*self.body.omega(place), *momentum, g3], axis=1), left > 0.0
 
     def places_of(self, states: Array) -> Array:
         """Return (q, p) (n, 2) of states (n, 5) of the section."""

@@ -57,6 +57,20 @@ def test_measuring_until_one_is_enough_runs_no_finer_level():
     assert enough(measure(Kind.ORBIT, run, difference), 1e-7) == "standard"
 
 
+def test_a_result_at_other_points_has_a_truth_of_its_own():
+    truths = []
+
+    def run(plan):
+        if plan.level == beyond(Kind.MAP).level:
+            truths.append(plan.cells)
+        return plan.cells
+
+    samples = measure(Kind.MAP, run, difference, alike="cells")
+    assert [one.error for one in samples] == [0.0] * 4
+    # Levels with as many points share theirs.
+    assert sorted(truths) == sorted({plan.cells for plan in PLANS[Kind.MAP].values()})
+
+
 @pytest.mark.parametrize("kind", Kind)
 def test_the_truth_is_more_exact_than_every_level_and_has_other_points_where_these_matter(kind):
     truth, finest = beyond(kind), PLANS[kind]["reference"]

@@ -8,12 +8,10 @@ from typing import Any
 import numpy as np
 
 from hess_explorer.compute.cache import Task
-from hess_explorer.scenes.framework.windows import Window, frame_of
 from hess_explorer.scenes.framework.work import Work
-from hess_explorer.views.comparison import Cells
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["CELLS", "COARSE", "DENSITY", "Arguments", "changed", "found_by_rows", "look"]
+__all__ = ["CELLS", "COARSE", "DENSITY", "Arguments", "changed", "found_by_rows"]
 
 CELLS = (36, 24)
 """Cells across and up a section at the level `standard`."""
@@ -45,7 +43,7 @@ def found_by_rows(
     for stage, rows in enumerate(stages):
         # Every third row first, so that the whole window becomes finer.
         order = [i for begun in range(COARSE) for i in range(begun, len(rows), COARSE)]
-        found = {i: row for i in order if (row := work.ask(Task(row_of, rows[i]))) is not None}
+        found = {i: row for i in order if (row := work.need(Task(row_of, *rows[i]), preview=None)) is not None}
         left = len(rows) - len(found)
         if stage == 0:
             sooner()
@@ -61,8 +59,3 @@ def changed(cells: Array, truth: Array) -> float:
     """Return the percentage of cells (n, m) that differ at the points of the truth, in as many cells or finer ones."""
     rows, columns = (np.arange(fine) * coarse // fine for coarse, fine in zip(cells.shape, truth.shape, strict=True))
     return 100.0 * float(np.mean(cells[np.ix_(rows, columns)] != truth))
-
-
-def look(frame: Window, names: Sequence[str], cells: Array) -> Cells:
-    """Return cells of categories, −1 for none, for a comparison in which any change counts."""
-    return Cells(frame_of(frame, names), np.where(cells < 0.0, np.nan, cells), step=0.5)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from hess_explorer.compute.cache import CACHE, Task
+from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.parameters import Value
 from hess_explorer.scenes.framework.part import Sectioned
 from hess_explorer.scenes.framework.periodic_search import Closed, NotFound, Place, sought
@@ -57,11 +57,10 @@ class Begin:
         return self.family.map_at(self.value)
 
     @property
-    def search(self) -> Task:
+    def search(self) -> Task[Closed | NotFound]:
         """The computation that searches for the orbit at the start.  Raises `ModelError`."""
-        return Task(sought, (self.map, self.place, self.period, False))
+        return Task(sought, self.map, self.place, self.period, False)
 
     def orbit(self) -> Closed | NotFound:
         """Return the orbit at the start, or the reason why there is none.  Raises `ModelError`."""
-        found: Closed | NotFound = CACHE.get(self.search.function, *self.search.arguments)[0]
-        return found
+        return self.search.get()

@@ -67,7 +67,7 @@ class Part(Generic[H_co]):
         """Return the meanings, as `Number.means`, of the numbers whose meaning depends on a choice."""
         return {}
 
-    def carried(self, before: Self) -> Mapping[str, float]:
+    def carried(self, before: Self) -> Values:
         """Return the parameter changes that keep the motion continuous after a different choice."""
         return {}
 

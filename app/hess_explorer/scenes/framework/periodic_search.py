@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
-from hess_explorer.compute.cache import CACHE
+from hess_explorer.compute.cache import Task
 from hess_mechanics.dynamics.manifolds import Intersection, Manifold, crossings_of, manifold
 from hess_mechanics.dynamics.periodic import PeriodicOrbit, find_periodic
 from hess_mechanics.dynamics.return_map import ReturnMap
@@ -90,7 +90,8 @@ def sought(map_: ReturnMap, aim: Place, period: int | None, near: bool) -> Close
 
 def branch_of(search: Search, branch: BranchChoice, length: float, pixel: float) -> Manifold | NotFound:
     """Return one branch of a manifold, as far as it is right to half a pixel."""
-    found, _ = CACHE.get(sought, *search)
+    found = Task(sought, *search).get()
+    assert isinstance(found, Closed), "only a closed orbit has branches"
     place, stable, side = branch
     for part in _PARTS:
         try:
@@ -118,7 +119,7 @@ def crossings_between(
     search: Search, unstable: BranchChoice, stable: BranchChoice, length: float, pixel: float
 ) -> tuple[Intersection, ...]:
     """Return the crossings of two branches, as far as they are drawn."""
-    one, other = (CACHE.get(branch_of, search, branch, length, pixel)[0] for branch in (unstable, stable))
+    one, other = (Task(branch_of, search, branch, length, pixel).get() for branch in (unstable, stable))
     if isinstance(one, NotFound) or isinstance(other, NotFound):
         return ()
     return tuple(crossings_of(one, other, MOST_CROSSINGS))

@@ -12,6 +12,8 @@ from typing import Any, ClassVar, Generic, Self, TypeVar, cast
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.parameters import Choice, Number, Spec, Value, Values
+from hess_explorer.scenes.framework.chart import charting
+from hess_explorer.scenes.framework.chart_picture import chart_picture
 from hess_explorer.scenes.framework.charted import Charts
 from hess_explorer.scenes.framework.parameters import Slider, specs_of
 from hess_explorer.scenes.framework.part import Host, Part, part
@@ -70,7 +72,7 @@ class Report:
     derived: Sequence[str]
     status: str
     notes: Sequence[str]
-    todo: Sequence[Task]
+    todo: Sequence[Task[Any]]
     total: int
     summary: str
 
@@ -175,8 +177,7 @@ class Scene(Generic[S]):
 
     Parameters
     ----------
-    state : the class of its states; module : the file that declares it; its text and thumbnail are the Markdown and
-        SVG files of the same name.
+    state : the class of its states; module : the file that declares it; its text is the Markdown file of the same name.
     title, summary : a few words; a sentence for the menu.
     presets : named states; a new visitor sees the first one.
     views : its pictures.  Only the results that pictures in sight need are computed.
@@ -212,8 +213,8 @@ class Scene(Generic[S]):
         """Add the chart to states and pictures."""
         object.__setattr__(self, "charted", charts)
         if charts is not None:
-            object.__setattr__(self, "state", charts.added(self.state))
-            object.__setattr__(self, "views", (*self.views, charts.picture()))
+            object.__setattr__(self, "state", charting(self.state, charts))
+            object.__setattr__(self, "views", (*self.views, chart_picture(charts)))
 
     @cached_property
     def name(self) -> str:
@@ -242,14 +243,6 @@ class Scene(Generic[S]):
     def moves(self) -> str:
         """A sentence on the controls: which one moves what."""
         return self._text[0]
-
-    @cached_property
-    def thumbnail(self) -> str:
-        """The content of the 48 × 32 SVG thumbnail."""
-        drawing = Path(self.module).with_suffix(".svg").read_text(encoding="utf-8")
-        found = re.search(r"<svg[^>]*>(.*)</svg>", drawing, re.DOTALL)
-        assert found is not None, self.module
-        return found[1]
 
     def drawing(self, name: str) -> str:
         """Return an SVG file that the Markdown text refers to as an image."""
@@ -411,7 +404,7 @@ class Scene(Generic[S]):
         """Set the level of "auto": the cheapest one whose error is invisible in every picture in sight."""
         if not state.work.auto or state.dragging:
             return
-        found = [state.work.later(needed, trial, plain) for trial, plain in self.in_sight(state)]
+        found = [state.work.need(Task(needed, trial, plain), preview=None) for trial, plain in self.in_sight(state)]
         known = [name for name in found if name is not None]
         if known and len(known) == len(found):
             state.work.settle(max(known, key=[*LEVELS].index))

@@ -5,50 +5,44 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, Generic, TypeVar, cast
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 import numpy as np
 
 from hess_explorer.compute.budget import OverBudget
 from hess_explorer.scenes.framework.work import Work
-from hess_explorer.views.comparison import Difference, Frame, Look, Marks, compared
 from hess_explorer.views.layers import Axes
-from hess_explorer.views.picture import adapted
 from hess_mechanics.dynamics.orbit import solve
 from hess_mechanics.dynamics.sampling import PIXELS
-from hess_mechanics.dynamics.shadowing import HALF_A_PIXEL, errors_in_pixels, torn_away
-from hess_mechanics.dynamics.trade import LevelCost, measure, measure_until
+from hess_mechanics.dynamics.shadowing import HALF_A_PIXEL, away_from, errors_in_pixels, torn_away
+from hess_mechanics.dynamics.trade import Alike, LevelCost, measure, measure_until
 from hess_mechanics.dynamics.work_precision import longest_span
 from hess_mechanics.dynamics.work_precision import truth as exactly
 from hess_mechanics.errors import ModelError
-from hess_mechanics.numerics.accuracy import LEVELS, PLANS, STANDARD, Kind, Plan
+from hess_mechanics.numerics.accuracy import STANDARD, Kind, Plan
 from hess_mechanics.numerics.results import Array
 
 if TYPE_CHECKING:
     from hess_explorer.scenes.framework.scene import Motion, State
 
 __all__ = [
-    "COLOUR",
     "COLOUR_UNIT",
     "Refused",
     "Trial",
     "bare",
+    "boundary_error",
     "colour_error",
     "curve_error",
-    "differing",
     "measured",
     "needed",
-    "next_level",
     "orbit_trial",
     "section_error",
 ]
 
 S = TypeVar("S", bound="State")
-H = TypeVar("H")
-T = TypeVar("T")
 
 _SAMPLES = 400
-COLOUR = 1.0 / 256.0
+_COLOUR = 1.0 / 256.0
 """One step of a colour map that covers one turn of an angle."""
 COLOUR_UNIT = "steps of the colour, 99 of 100 cells"
 
@@ -58,32 +52,26 @@ def _always(shown: object) -> bool:
 
 
 @dataclass(frozen=True)
-class Trial(Generic[H]):
-    """One kind of computation of a scene, for a state or a part of it.
+class Trial(Generic[S]):
+    """One kind of computation of a scene.
 
     kind, pictures : the kind, and the pictures that show it; empty means all pictures.
     run(state, plan) : computes it as the scene does; error(state, result, truth) : its error in `unit`, NaN if there
     is nothing to compare.
-    look(state, result) : the result as a picture shows it, for comparisons.
+    alike : part of a plan in which the truth is computed as the measured level, because other points are not compared.
     seen : the largest invisible error; shown(state) : True if the pictures show it in this state.
-    alike : compare levels with the same number of points, because other points belong to other motions.
     most : limits of parameters for which it takes about a second.
     """
 
     kind: Kind
     pictures: tuple[str, ...]
-    run: Callable[[H, Plan], Any]
-    error: Callable[[H, Any, Any], float]
-    look: Callable[[H, Any], Look]
+    run: Callable[[S, Plan], Any]
+    error: Callable[[S, Any, Any], float]
     unit: str = "pixels"
+    alike: Alike = ""
     seen: float = HALF_A_PIXEL
-    shown: Callable[[H], bool] = _always
-    alike: bool = False
+    shown: Callable[[S], bool] = _always
     most: tuple[tuple[str, float], ...] = ()
-
-    def of_part(self, part: Callable[[S], H]) -> Trial[S]:
-        """Return the trial of a state, from this trial of a part of it."""
-        return cast("Trial[S]", adapted(self, part))
 
     def small(self, state: S) -> S:
         """Return the state with parameters limited to `most`, so that it is computed in about a second."""
@@ -106,56 +94,31 @@ def bare(state: S) -> S:
     return found
 
 
-def _unless_refused(found: Callable[[], T]) -> T | Refused:
-    """Return the result, or `Refused` for a model error; `OverBudget` is raised because a later attempt may succeed."""
+def measured(trial: Trial[S], state: S) -> tuple[LevelCost, ...] | Refused:
+    """Return time and error of each level, for a `bare` state.  Raises `OverBudget`."""
     try:
-        return found()
+        return measure(*_of(trial, state), alike=trial.alike)
     except OverBudget:
+        # A later attempt may succeed.
         raise
     except ModelError as error:
         return Refused(str(error))
 
 
-def measured(trial: Trial[S], state: S) -> tuple[LevelCost, ...] | Refused:
-    """Return time and error of each level, for a `bare` state.  Raises `OverBudget`."""
-
-    def found() -> tuple[LevelCost, ...]:
-        less = trial.small(state)
-        return measure(trial.kind, lambda plan: trial.run(less, plan), lambda *both: trial.error(less, *both))
-
-    return _unless_refused(found)
-
-
 def needed(trial: Trial[S], state: S) -> str:
     """Return the cheapest level with an invisible error; `standard` if it cannot be computed.  Raises `OverBudget`."""
     try:
-        less = trial.small(state)
-        return measure_until(
-            trial.kind, lambda plan: trial.run(less, plan), lambda *both: trial.error(less, *both), trial.seen
-        )
+        return measure_until(*_of(trial, state), trial.seen, trial.alike)
     except OverBudget:
         raise
     except ModelError:
         return STANDARD.name
 
 
-def next_level(name: str) -> str | None:
-    """Return the next more accurate level; None after the last one."""
-    names = [*LEVELS]
-    return next(iter(names[names.index(name) + 1 :]), None)
-
-
-def differing(trial: Trial[S], state: S, name: str, finer: str) -> Difference | Refused:
-    """Return the changes that a more exact level makes in a picture, for a `bare` state.  Raises `OverBudget`."""
-
-    def found() -> Difference:
-        less, plan, other = trial.small(state), PLANS[trial.kind][name], PLANS[trial.kind][finer]
-        if trial.alike:
-            other = replace(other, share=plan.share, cells=plan.cells)
-        one, exact = (trial.look(less, trial.run(less, each)) for each in (plan, other))
-        return compared(one, exact)
-
-    return _unless_refused(found)
+def _of(trial: Trial[S], state: S) -> tuple[Kind, Callable[[Plan], Any], Callable[[Any, Any], float]]:
+    """Return the kind, the run and the error of a trial, as `measure` takes them."""
+    less = trial.small(state)
+    return trial.kind, lambda plan: trial.run(less, plan), lambda *both: trial.error(less, *both)
 
 
 def _measured_span(motion: Motion) -> float:
@@ -178,24 +141,9 @@ def _orbit_error(state: State, states: Array, truth: object) -> float:
     return float(max(np.linalg.norm(part, axis=1).max() for part in (away[:, :first], away[:, first:])))
 
 
-def _orbit_look(state: State, states: Array) -> Marks:
-    """Return the orbit in the plane of the angular velocities, or of γ if no picture of the scene shows that plane."""
-    motion = state.motion()
-    assert motion is not None
-    weights, first = np.asarray(motion.weights), motion.system.angular_velocities
-    i = 0 if weights[0] > 0.0 else first
-    places = states[:, i : i + 2]
-    # Half the width of a picture in these units, or more if the orbit needs it.
-    x, y = np.maximum(0.5 * PIXELS / weights[i : i + 2], 1.02 * np.abs(places).max(axis=0))
-    pixels = states * weights
-    one, other = motion.system.variables[i : i + 2]
-    frame = Frame(Axes((-float(x), float(x)), (-float(y), float(y))), (one, other))
-    return Marks(frame, (places,), elsewhere=((pixels[:, :first], pixels[:, first:]),))
-
-
 def orbit_trial() -> Trial[Any]:
     """Return the trial of the motion on show."""
-    return Trial(Kind.ORBIT, (), _orbit, _orbit_error, _orbit_look)
+    return Trial(Kind.ORBIT, (), _orbit, _orbit_error)
 
 
 def curve_error(values: Array, exact: Array, height: float, period: float = math.inf) -> float:
@@ -206,9 +154,20 @@ def curve_error(values: Array, exact: Array, height: float, period: float = math
     return PIXELS / height * float(np.abs(away).max())
 
 
+def boundary_error(curve: Array, exact: Array, axes: Axes) -> float:
+    """Return the largest distance in pixels of the points (n, 2) of a curve within the axes from another polyline.
+
+    NaN without a point or a polyline.
+    """
+    (x, y), (low, high) = exact.T, np.array([axes.x, axes.y]).T
+    there = exact[(x >= low[0]) & (x <= high[0]) & (y >= low[1]) & (y <= high[1])]
+    pixels = PIXELS / (high - low)
+    return float(away_from(there * pixels, curve * pixels).max()) if len(curve) and len(there) else math.nan
+
+
 def colour_error(values: Array, exact: Array) -> float:
     """Return the 99th percentile of the error, in steps of a colour map that covers one turn; NaN without values."""
-    return float(np.percentile(np.abs(values - exact), 99.0)) / COLOUR if values.size else math.nan
+    return float(np.percentile(np.abs(values - exact), 99.0)) / _COLOUR if values.size else math.nan
 
 
 def section_error(

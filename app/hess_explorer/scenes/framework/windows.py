@@ -5,11 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from hess_explorer.protocol.parameters import Value, Values, places, written
-from hess_explorer.views.comparison import Frame
-from hess_explorer.views.layers import Axes
 from hess_mechanics.dynamics.cells import Window
 
-__all__ = ["Window", "boxed", "frame_of", "inside", "tidy_window", "window_of"]
+__all__ = ["Window", "boxed", "inside", "tidy_window", "window_of"]
 
 
 def tidy_window(text: Value) -> str:
@@ -25,12 +23,6 @@ def window_of(text: Value, full: Window) -> Window:
     """Return the window of an admitted text; `full` if the text is empty."""
     corners = places(text)
     return (corners[0], corners[1]) if len(corners) == 2 else full
-
-
-def frame_of(window: Window, names: Sequence[str]) -> Frame:
-    """Return the axes of a picture of a window."""
-    (x0, y0), (x1, y1) = window
-    return Frame(Axes((x0, x1), (y0, y1)), (names[0], names[1]))
 
 
 def inside(points: Sequence[tuple[float, float]], window: Window) -> list[tuple[float, float]]:

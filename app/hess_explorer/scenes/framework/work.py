@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
-from typing import Any, ParamSpec, TypeVar, cast
+from types import EllipsisType
+from typing import Any, TypeVar, cast, overload
 
 from hess_explorer.compute.cache import CACHE, Task
 from hess_mechanics.dynamics.sampling import HALF_A_PIXEL
@@ -24,7 +25,6 @@ _NOTED = 0.1
 AUTO = "auto"
 """The accuracy that is set by measurement."""
 
-P = ParamSpec("P")
 T = TypeVar("T")
 
 
@@ -41,15 +41,15 @@ class Work:
         self.dragging = dragging
         self.auto, self._settled = accuracy == AUTO, False
         self.chosen = STANDARD.name if self.auto else accuracy
-        self._todo: list[Task] = []
-        self._refinements: list[Task] = []
+        self._todo: list[Task[Any]] = []
+        self._refinements: list[Task[Any]] = []
         self.pieces = 0
         chosen = level(self.chosen)
         # While a slider is dragged, use the cheapest level that is right to half a pixel.
         self.level: Level = min(chosen, cheapest(HALF_A_PIXEL), key=lambda rung: rung.order) if dragging else chosen
 
     @property
-    def todo(self) -> list[Task]:
+    def todo(self) -> list[Task[Any]]:
         """The computations of missing results, in their order: refinements of pictures once all others are there."""
         return self._todo or self._refinements
 
@@ -74,25 +74,30 @@ class Work:
         soon = "computed when the slider is released." if self.dragging else "being computed."
         return f"{what} {soon}" if what else soon.capitalize()
 
-    def get(self, function: Callable[P, T], *arguments: P.args, **none: P.kwargs) -> T:
-        """Return the result of function(*arguments), from the cache if it is known."""
-        value, hit = CACHE.get(function, *arguments)
-        self._misses += not hit
-        return cast(T, value)
+    @overload
+    def need(self, task: Task[T], preview: Task[T] | EllipsisType = ...) -> T: ...
 
-    def later(self, function: Callable[P, T], *arguments: P.args, **none: P.kwargs) -> T | None:
-        """Return the result if it is cached; else None, and add the computation to `todo`."""
-        self.pieces += 1
-        value = CACHE.peek(function, *arguments)
-        if value is None:
-            self._todo.append(Task(function, arguments))
-        return cast("T | None", value)
+    @overload
+    def need(self, task: Task[T], preview: Task[T] | EllipsisType | None) -> T | None: ...
 
-    def known(self, function: Callable[P, T], *arguments: P.args, **none: P.kwargs) -> T | None:
-        """Return the result if it is cached, else None."""
-        return cast("T | None", CACHE.peek(function, *arguments))
+    def need(self, task: Task[T], preview: Task[T] | EllipsisType | None = ...) -> T | None:
+        """Return the result of a task; until it is known, that of its preview, which is computed at once.
 
-    def newest(self, chains: Sequence[Sequence[Task]], last: bool = False) -> list[Any]:
+        preview : by default the task itself; None for no result.  A task with another preview is added to `todo` unless
+        a slider is held.  Then a smaller preview is shown even if the result is known.
+        """
+        if preview in (..., task):
+            value, hit = CACHE.get(task.function, *task.arguments)
+            self._misses += not hit
+            return cast(T, value)
+        known = None if self.dragging and preview else CACHE.peek(task.function, *task.arguments)
+        if not self.dragging:
+            self.pieces += 1
+            if known is None:
+                self._todo.append(task)
+        return self.need(preview) if known is None and isinstance(preview, Task) else cast("T | None", known)
+
+    def newest(self, chains: Sequence[Sequence[Task[T]]], last: bool = False) -> list[T | None]:
         """Return the last cached result of each chain of tasks, or None, and add the tasks after it to `todo`.
 
         Each task of a chain continues the one before.  The earlier ones need not be cached any more.  With
@@ -107,29 +112,6 @@ class Work:
         self.pieces += sum(map(len, chains))
         (self._refinements if last else self._todo).extend(task for _, task in sorted(waiting, key=lambda one: one[0]))
         return found
-
-    def soon(self, function: Callable[P, T], *arguments: P.args, **none: P.kwargs) -> T | None:
-        """Return the result as `get` while a slider is held, when it is small; else as `later`."""
-        get = self.get if self.dragging else self.later
-        return get(function, *arguments, **none)
-
-    def sooner(self, whole: Task, few: Task) -> Any:
-        """Return the result of `whole` if it is cached; else that of `few`, and add `whole` to `todo`.
-
-        While a slider is held, return that of `few` and leave `todo` as it is.
-        """
-        known = None if self.dragging else CACHE.peek(whole.function, *whole.arguments)
-        if known is not None:
-            self.pieces += 1
-            return known
-        found = self.get(few.function, *few.arguments)
-        if not self.dragging:
-            self.later(whole.function, *whole.arguments)
-        return found
-
-    def ask(self, task: Task) -> Any:
-        """Return the result of `task` if it is cached; else None, and add it to `todo` unless a slider is held."""
-        return (self.known if self.dragging else self.later)(task.function, *task.arguments)
 
     def _spent(self) -> tuple[float, float]:
         """Return the seconds spent so far, and those spent compiling kernels, which happens once."""

@@ -9,8 +9,7 @@ from typing import Protocol, TypeVar
 
 import numpy as np
 
-from hess_explorer.compute.cache import CACHE, Task
-from hess_explorer.scenes.framework.cells import look
+from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.part import Host, Part
 from hess_explorer.scenes.framework.periodic_search import Closed, Search, branch_of, sought
 from hess_explorer.scenes.framework.scene import State
@@ -104,7 +103,7 @@ class _Sought:
 
     def attractors(self) -> Attractors:
         """Return the attractors of the whole section, whatever the window."""
-        found: Attractors = CACHE.get(attractors, self.section, self.long, self.level)[0]
+        found: Attractors = Task(attractors, self.section, self.long, self.level).get()
         return found
 
 
@@ -141,7 +140,7 @@ class Basins(Part[_Host]):
         """The newest known stage; −1 before the first one."""
         if self._what is None:
             return -1
-        chains = [[Task(_piece, (self._what, stage, i)) for stage in range(_STAGES)] for i in range(_PARTS)]
+        chains = [[Task(_piece, self._what, stage, i) for stage in range(_STAGES)] for i in range(_PARTS)]
         pieces: list[_Piece | None] = self.work.newest(chains)
         return min(-1 if one is None else one.stage for one in pieces)
 
@@ -155,7 +154,7 @@ class Basins(Part[_Host]):
         """The attractor and the time of arrival of each cell (n, m); coarse until all stages are known."""
         if self._what is None or self.stage < 0 or not self._what.attractors().count:
             return None
-        return self.work.get(_cells, self._what, self.stage)
+        return self.work.need(Task(_cells, self._what, self.stage))
 
     @cached_property
     def attractors(self) -> Attractors | None:
@@ -169,12 +168,12 @@ class Basins(Part[_Host]):
         """The searches that find the saddles on the boundaries; empty until these are known."""
         if self._what is None or not self.known:
             return ()
-        return self.work.later(_saddles, self._what) or ()
+        return self.work.need(Task(_saddles, self._what), preview=None) or ()
 
     @cached_property
     def saddles(self) -> list[PeriodicOrbit]:
         """The saddles on the boundaries."""
-        found = [self.work.later(sought, *search) for search in self._searches]
+        found = [self.work.need(Task(sought, *search), preview=None) for search in self._searches]
         return [one.orbit for one in found if isinstance(one, Closed)]
 
     @cached_property
@@ -184,7 +183,7 @@ class Basins(Part[_Host]):
             return []
         pixel = 1.0 / max(self.section.pixels)
         found = [
-            self.work.later(branch_of, search, (place, True, side), self.host.reach, pixel)
+            self.work.need(Task(branch_of, search, (place, True, side), self.host.reach, pixel), preview=None)
             for search in self._searches
             for place in range(search[2] or 1)
             for side in (1, -1)
@@ -244,14 +243,14 @@ def _piece(what: _Sought, stage: int, i: int) -> _Piece:
 
 
 def _before(what: _Sought, stage: int) -> Arrivals | None:
-    found: Arrivals | None = None if stage == 0 else CACHE.get(_cells, what, stage - 1)[0]
+    found: Arrivals | None = None if stage == 0 else Task(_cells, what, stage - 1).get()
     return found
 
 
 def _cells(what: _Sought, stage: int) -> Arrivals:
     """Return the arrivals from all cells (n, m) of a stage."""
     before = _before(what, stage)
-    pieces = [(slice(i, None, _PARTS), CACHE.get(_piece, what, stage, i)[0].found) for i in range(_PARTS)]
+    pieces = [(slice(i, None, _PARTS), Task(_piece, what, stage, i).get().found) for i in range(_PARTS)]
     return joined(before, what.divided(stage, before), pieces)
 
 
@@ -272,7 +271,7 @@ def _sampled(what: _Sought) -> Arrivals:
     return arrivals(what.orbits, there.sets, *(low + _SPREAD * (high - low)).T)
 
 
-def _error(s: Basins, cells: Array, truth: Array) -> float:
+def _error(cells: Array, truth: Array) -> float:
     """Return the percentage of the points of the truth that lie in a cell (n, m) of another colour."""
     columns, rows = (_SPREAD * cells.shape[::-1]).astype(int).T
     return 100.0 * float(np.mean(cells[rows, columns] != truth))
@@ -280,7 +279,7 @@ def _error(s: Basins, cells: Array, truth: Array) -> float:
 
 def _saddles(what: _Sought) -> tuple[Search, ...]:
     """Return searches, each of which finds a saddle on a boundary: none is found twice."""
-    number = CACHE.get(_cells, what, _STAGES - 1)[0].number
+    number = Task(_cells, what, _STAGES - 1).get().number
     left, right = number[:, :-1], number[:, 1:]
     pairs = np.argwhere((left != right) & (left >= 0) & (right >= 0))
     (x0, y0), (x1, y1) = what.window
@@ -310,13 +309,12 @@ S = TypeVar("S", bound=State)
 
 def basins_trial(of: Callable[[S], Basins]) -> Trial[S]:
     """Return the trial of the basins, computed at each level."""
-    return Trial[Basins](
+    return Trial(
         Kind.BASINS,
         ("section",),
-        lambda s, plan: (_sampled if plan.level.aside else _at_once)(s.sought(plan)).number.astype(float),
-        _error,
-        lambda s, cells: look(s.section.frame, s.host.poincare.names, cells),
+        lambda s, plan: (_sampled if plan.level.aside else _at_once)(of(s).sought(plan)).number.astype(float),
+        lambda s, cells, truth: _error(cells, truth),
         unit="% of the cells that change",
         seen=3.0,
-        shown=lambda s: s.wanted,
-    ).of_part(of)
+        shown=lambda s: of(s).wanted,
+    )

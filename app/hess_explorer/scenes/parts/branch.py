@@ -10,7 +10,7 @@ from typing import Any, Protocol, Self, TypeVar
 
 import numpy as np
 
-from hess_explorer.compute.cache import CACHE, Task
+from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.parameters import Number, Values
 from hess_explorer.scenes.framework.families import Begin, Family
 from hess_explorer.scenes.framework.parameters import Slider, choice, number, specs_of
@@ -156,7 +156,7 @@ class Continuation(Part[_Host]):
         """The orbit that is continued, or why there is none; None until known."""
         if self.host.begin is None:
             return None
-        found: Closed | NotFound | None = self.work.ask(self.host.begin.search)
+        found: Closed | NotFound | None = self.work.need(self.host.begin.search, preview=None)
         return found
 
     @property
@@ -177,7 +177,7 @@ class Continuation(Part[_Host]):
             if begin.value == begin.ends[upwards]:
                 continue
             for k in range(_PARTS):
-                one: mechanics.Branch | NotFound | None = self.work.ask(Task(_part, (begin, upwards, k)))
+                one: mechanics.Branch | NotFound | None = self.work.need(Task(_part, begin, upwards, k), preview=None)
                 if one is None or isinstance(one, NotFound):
                     failed += [] if one is None else [one.reason]
                     whole = whole and one is not None
@@ -527,34 +527,37 @@ S = TypeVar("S", bound=State)
 def branch_picture(of: Callable[[S], Branch]) -> Picture[S]:
     """Return the picture of the branch over its parameter."""
 
-    def at_the_value(s: Branch, axes: Axes) -> list[Array]:
-        return [] if s.upwards_range is None else [np.array([[s.at, axes.y[0]], [s.at, axes.y[1]]])]
+    def at_the_value(s: S, axes: Axes) -> list[Array]:
+        return [] if of(s).upwards_range is None else [np.array([[of(s).at, y] for y in axes.y])]
 
-    def shown(s: Branch, axes: Axes) -> Array | None:
-        here = s.here
-        return None if here is None else seen(here[::-1].T, s.continuation.turn, Axes(axes.y, axes.x))[:, ::-1].T
+    def shown(s: S, axes: Axes) -> Array | None:
+        here = of(s).here
+        return None if here is None else seen(here[::-1].T, of(s).continuation.turn, Axes(axes.y, axes.x))[:, ::-1].T
 
-    def upwards(s: Branch) -> Range | None:
+    def upwards(s: S) -> Range | None:
         # Without a branch the axes are not those of an earlier one.
-        return s.host.poincare.window[s.side] if s.message else s.upwards_range
+        one = of(s)
+        return one.host.poincare.window[one.side] if one.message else one.upwards_range
 
-    return Plot[Branch](
+    return Plot(
         name="branch",
         title="Branch of the periodic orbit",
-        caption=lambda s: s.caption,
+        caption=lambda s: of(s).caption,
         folded="Show the branch of the periodic orbit",
-        axes=lambda s: (s.host.over, s.host.upwards),
-        message=lambda s: s.message,
-        on_click=Branch.choose,
-        on_box=Branch.boxed,
-        on_hover=lambda s, x, y: s.continuation.about(x, y),
-        x=lambda s: s.ends,
+        axes=lambda s: (of(s).host.over, of(s).host.upwards),
+        message=lambda s: of(s).message,
+        on_click=lambda s, x, y: of(s).choose(x, y),
+        on_box=lambda s, corners: of(s).boxed(corners),
+        on_hover=lambda s, x, y: of(s).continuation.about(x, y),
+        x=lambda s: of(s).ends,
         y=upwards,
         layers=(
             curves(
                 "value", within=at_the_value, color=theme.INK, width=1.5, label="state on show", tag="state on show"
             ),
-            *view.layers(lambda s: s.continuation.branches, lambda s: s.side, lambda s: s.continuation.turn),
+            *view.layers(
+                lambda s: of(s).continuation.branches, lambda s: of(s).side, lambda s: of(s).continuation.turn
+            ),
             points(
                 "shown",
                 within=shown,
@@ -565,7 +568,7 @@ def branch_picture(of: Callable[[S], Branch]) -> Picture[S]:
                 label="the periodic orbit on show",
             ),
         ),
-    ).of_part(of)
+    )
 
 
 def _symmetries(map_: Map, places: Array, near: float) -> tuple[str, ...]:
@@ -585,7 +588,8 @@ def _part(begin: Begin, upwards: bool, k: int) -> mechanics.Branch | NotFound:
             return continued(
                 family.map_at, found.orbit, family.symbol, begin.value, end, points, _symmetries, edge, _STEP
             )
-        before, _ = CACHE.get(_part, begin, upwards, k - 1)
+        before = Task(_part, begin, upwards, k - 1).get()
+        assert not isinstance(before, NotFound), "pieces are continued one after the other"
         return gone_on(family.map_at, before, end, edge, points, _symmetries, _STEP)
     except ModelError as error:
         go_on()

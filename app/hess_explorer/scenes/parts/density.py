@@ -9,7 +9,7 @@ from typing import Protocol, TypeVar
 
 import numpy as np
 
-from hess_explorer.compute.cache import CACHE, Task
+from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.part import Part, Sectioned, Start
 from hess_explorer.scenes.framework.points import stages_of
 from hess_explorer.scenes.framework.scene import State
@@ -65,7 +65,7 @@ class Density(Part[_Host]):
     @cached_property
     def _kinds(self) -> list[tuple[int, tuple[Start, ...]]]:
         """Kind and starts of each group of orbits; there are at least two groups, for two cores."""
-        starts = self.work.get(_starts, self.host.poincare, self.host.frame)
+        starts = self.work.need(Task(_starts, self.host.poincare, self.host.frame))
         kinds = self.kind_of(np.array(starts)) if starts else np.zeros(0)
         there = np.unique(kinds).tolist()
         parts = 2 if len(there) == 1 else 1
@@ -83,7 +83,7 @@ class Density(Part[_Host]):
         where = self.host.poincare, self.host.frame
         return self.work.newest(
             [
-                [Task(_stage, (*where, starts, self.ways[kind], self.later, number)) for number in range(self._stages)]
+                [Task(_stage, *where, starts, self.ways[kind], self.later, number) for number in range(self._stages)]
                 for kind, starts in self._kinds
             ]
         )
@@ -146,6 +146,6 @@ def _stage(
     """Return the visits of some orbits up to a stage, or with `later` in this stage alone."""
     if number == 0:
         return visits(section, window, _PIXELS, starts, _FIRST, forward, _LEVEL)
-    before: Visits = CACHE.get(_stage, section, window, starts, forward, later, number - 1)[0]
+    before: Visits = Task(_stage, section, window, starts, forward, later, number - 1).get()
     found = visits(section, window, _PIXELS, before.ends, _FIRST << number, forward, _LEVEL)
     return found if later else found.after(before)

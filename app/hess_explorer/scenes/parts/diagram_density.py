@@ -9,7 +9,7 @@ from typing import Protocol, TypeVar
 
 import numpy as np
 
-from hess_explorer.compute.cache import CACHE, Task
+from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.families import Family
 from hess_explorer.scenes.framework.part import Host, Part
 from hess_explorer.scenes.framework.periodic_search import Place
@@ -91,7 +91,7 @@ class DiagramDensity(Part[_Host]):
     def _columns(self) -> int:
         return _COLUMNS * self.host.along_values.size
 
-    def _chains(self, way: str) -> list[list[Task]]:
+    def _chains(self, way: str) -> list[list[Task[Visits]]]:
         """Return the stages of each group of columns of a way."""
         (x0, y0), (x1, y1) = self.host.frame
         ends = self._ends[way]
@@ -105,17 +105,15 @@ class DiagramDensity(Part[_Host]):
             [
                 Task(
                     _stage,
-                    (
-                        self.host.family,
-                        tuple(values[some].tolist()),
-                        self.host.side,
-                        (y0, y1),
-                        tuple(map(tuple, starts[some].tolist())),
-                        first,
-                        self.forward[way],
-                        level,
-                        number,
-                    ),
+                    self.host.family,
+                    tuple(values[some].tolist()),
+                    self.host.side,
+                    (y0, y1),
+                    tuple(map(tuple, starts[some].tolist())),
+                    first,
+                    self.forward[way],
+                    level,
+                    number,
                 )
                 for number in range(stages)
             ]
@@ -203,7 +201,7 @@ def _stage(
     """Return the visits of some columns up to a stage."""
     if number == 0:
         return visits_over(family, values, side, reach, _ROWS, starts, _SKIPPED, first, forward, level)
-    before: Visits = CACHE.get(_stage, family, values, side, reach, starts, first, forward, level, number - 1)[0]
+    before: Visits = Task(_stage, family, values, side, reach, starts, first, forward, level, number - 1).get()
     return visits_over(
         family, values, side, reach, _ROWS, before.ends, 0, first * _GROWTH**number, forward, level
     ).after(before)

@@ -9,14 +9,14 @@ from typing import Protocol, TypeVar
 
 import numpy as np
 
+from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.part import Host, Part, Start
 from hess_explorer.scenes.framework.periodic_search import NotFound
 from hess_explorer.scenes.framework.scene import State
 from hess_explorer.scenes.framework.trial import Trial
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.comparison import Curves, Frame
-from hess_explorer.views.graph import over_time, settled_range, thinned, with_room
+from hess_explorer.views.graph import over_time, thinned, with_room
 from hess_explorer.views.layers import Axes, Range
 from hess_explorer.views.picture import Picture
 from hess_explorer.views.plot import Plot
@@ -92,7 +92,9 @@ class Exponent(Part[_Host]):
         if self.later:
             return None
         plan = self.work.plan(Kind.EXPONENT)
-        return self.work.later(_exponent, self.host.body, self.host.start, plan.share * self.host.long, plan.level)
+        return self.work.need(
+            Task(_exponent, self.host.body, self.host.start, plan.share * self.host.long, plan.level), preview=None
+        )
 
     @property
     def found(self) -> lyapunov.Exponent | None:
@@ -154,34 +156,27 @@ S = TypeVar("S", bound=State)
 
 def exponent_picture(of: Callable[[S], Exponent], folded: str = "") -> Picture[S]:
     """Return the picture of the mean growth rate over time."""
-    return Plot[Exponent](
+    return Plot(
         name="exponent",
         title="Largest Lyapunov exponent",
-        caption=lambda s: s.caption,
+        caption=lambda s: of(s).caption,
         axes=("t", "λ"),
         folded=folded,
         first=Axes((0.0, 200.0), (0.0, 1.0)),
-        x=lambda s: (0.0, s.host.long),
-        y=lambda s: s.axis,
-        layers=(over_time("lambda", lambda s: s.rates, color=theme.ORBIT),),
-    ).of_part(of)
+        x=lambda s: (0.0, of(s).host.long),
+        y=lambda s: of(s).axis,
+        layers=(over_time("lambda", lambda s: of(s).rates, color=theme.ORBIT),),
+    )
 
 
 def exponent_trial(of: Callable[[S], Exponent]) -> Trial[S]:
     """Return the trial of the exponent, computed at each level."""
-
-    def look(s: Exponent, found: lyapunov.Exponent) -> Curves:
-        # The range fits all but the first tenth of the time.
-        axes = Axes((0.0, s.host.long), settled_range([found.rates]))
-        return Curves(Frame(axes, ("t", "λ")), (np.column_stack(thinned(found.times, found.rates)),))
-
-    return Trial[Exponent](
+    return Trial(
         Kind.EXPONENT,
         ("exponent",),
-        Exponent.at,
+        lambda s, plan: of(s).at(plan),
         lambda s, found, truth: abs(found.value - truth.value) / max(truth.spread, 1e-12),
-        look,
         unit="of what it changes by in the second half of its time",
         seen=10.0,
         most=(("long", _LONG),),
-    ).of_part(of)
+    )

@@ -18,11 +18,10 @@ from hess_explorer.scenes.framework.part import Host, Part, Start
 from hess_explorer.scenes.framework.periodic_search import Closed
 from hess_explorer.scenes.framework.scene import State
 from hess_explorer.scenes.framework.trial import Trial, section_error
-from hess_explorer.scenes.framework.windows import Window, boxed, frame_of, inside, tidy_window, window_of
+from hess_explorer.scenes.framework.windows import Window, boxed, inside, tidy_window, window_of
 from hess_explorer.scenes.framework.work import drift_status, kept_status
 from hess_explorer.views import density, layered_section, theme
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.comparison import Marks
 from hess_explorer.views.layers import Axes, Layer
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.section_plane import joined
@@ -133,7 +132,7 @@ class _Host(Host, Protocol):
     def density(self) -> _Density:
         """The density shown in place of the points of the orbits that fill the window."""
 
-    def batch(self, starts: tuple[Start, ...], crossings: int, forward: bool, level: Level) -> Task:
+    def batch(self, starts: tuple[Start, ...], crossings: int, forward: bool, level: Level) -> Task[OrbitBatch]:
         """Return the computation of an `OrbitBatch`: so many crossings of the orbits from these states."""
 
 
@@ -199,7 +198,7 @@ class FilledSection(Part[_Host]):
 
     def _follow(self, starts: tuple[Start, ...], forward: bool) -> OrbitBatch | None:
         task = self.host.batch(starts, self.wanted[1], forward, self.work.plan(Kind.SECTION).level)
-        found: OrbitBatch | None = self.work.soon(task.function, *task.arguments)
+        found: OrbitBatch | None = self.work.need(task, preview=task if self.work.dragging else None)
         return found
 
     @cached_property
@@ -249,12 +248,12 @@ class FilledSection(Part[_Host]):
         return self.aim if closed is None else _place(closed.orbit.places[0])
 
     def _spread(self, count: int) -> tuple[Start, ...]:
-        return self.work.get(_seeds, self.host.poincare, self.frame, count)
+        return self.work.need(Task(_seeds, self.host.poincare, self.frame, count))
 
     @cached_property
     def impossible(self) -> Array:
         """Cells (m, n) over the window: 1 if no motion is possible."""
-        return self.work.get(_impossible, self.host.poincare, self.frame)
+        return self.work.need(Task(_impossible, self.host.poincare, self.frame))
 
     @cached_property
     def _followed(self) -> tuple[list[OrbitBatch | None], list[OrbitBatch | None]]:
@@ -341,7 +340,7 @@ class FilledSection(Part[_Host]):
         level = self.work.plan(Kind.SECTION).level.tightened()
         some = [*in_batches(self._spread(self.wanted[0]))][:_COMPARED]
         tasks = [self.host.batch(starts, self.wanted[1], True, level) for starts in ((self.picked.states[-1],), *some)]
-        fine: list[OrbitBatch | None] = [self.work.later(task.function, *task.arguments) for task in tasks]
+        fine: list[OrbitBatch | None] = [self.work.need(task, preview=None) for task in tasks]
         coarse = [own[-1], *around[:: len(self.ways)]]
         counts = [
             right_crossings(one.orbits, other.orbits, self.pixels, _PERIODS)
@@ -422,14 +421,13 @@ def _place(found: Array) -> Place:
 def filled_trial(of: Callable[[S], FilledSection]) -> Trial[S]:
     """Return the trial of the section, computed at each level."""
 
-    return Trial[FilledSection](
+    return Trial(
         Kind.SECTION,
         ("section",),
-        FilledSection.orbits_at,
-        lambda s, orbits, truth: section_error(orbits, truth, s.pixels, _PERIODS),
-        lambda s, orbits: Marks(frame_of(s.frame, s.poincare.names), tuple(orbits), _PERIODS, crossings=True),
+        lambda s, plan: of(s).orbits_at(plan),
+        lambda s, orbits, truth: section_error(orbits, truth, of(s).pixels, _PERIODS),
         most=_LARGE,
-    ).of_part(of)
+    )
 
 
 def filled_picture(

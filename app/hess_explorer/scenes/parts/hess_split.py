@@ -9,6 +9,7 @@ from typing import TypeVar
 
 import numpy as np
 
+from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.part import Host, Part
 from hess_explorer.scenes.framework.periodic_search import NotFound
 from hess_explorer.scenes.framework.scene import State
@@ -53,12 +54,11 @@ class HessSplit(Part[Host]):
     def _splits(self) -> list[Split | NotFound] | None:
         """The splits at the values of ε of the graph and of the slope; None until all are known."""
         asked = dict.fromkeys([*(self.reach * _QUARTERS).tolist(), *_CLOSE])
-        ask = self.work.known if self.work.dragging else self.work.later
         # Without separatrices at ε = 0 nothing can split.
-        first = ask(_split, self.torus, 0.0)
+        first = self.work.need(Task(_split, self.torus, 0.0), preview=None)
         if first is None or isinstance(first, NotFound):
             return None if first is None else [first]
-        found = [ask(_split, self.torus, value) for value in asked]
+        found = [self.work.need(Task(_split, self.torus, value), preview=None) for value in asked]
         known = [one for one in found if one is not None]
         return known if len(known) == len(found) else None
 
@@ -123,38 +123,38 @@ S = TypeVar("S", bound=State)
 def split_picture(of: Callable[[S], HessSplit]) -> Picture[S]:
     """Return the picture of the split over ε."""
 
-    def values(s: HessSplit) -> Array:
-        return np.array([(one.away, one.value) for one in s.splits()]).reshape(-1, 2).T
+    def values(s: S) -> Array:
+        return np.array([(one.away, one.value) for one in of(s).splits()]).reshape(-1, 2).T
 
-    def slope(s: HessSplit, axes: Axes) -> list[Array]:
-        found = s.slope
+    def slope(s: S, axes: Axes) -> list[Array]:
+        found = of(s).slope
         return [] if found is None else [np.array([[x, found[0] * x] for x in axes.x])]
 
-    def here(s: HessSplit) -> list[tuple[float, float]]:
-        split = s.split
+    def here(s: S) -> list[tuple[float, float]]:
+        split = of(s).split
         return [] if split is None else [(split.away, split.value)]
 
-    return Plot[HessSplit](
+    return Plot(
         name="split",
         title="Split of the separatrices",
-        caption=HessSplit.caption,
+        caption=lambda s: of(s).caption(),
         folded="Show the split of the separatrices",
         axes=("ε", "split in L/G"),
         first=Axes((-_WIDE, _WIDE), (-1.0, 1.0)),
-        message=HessSplit.message,
+        message=lambda s: of(s).message(),
         on_click=lambda s, x, y: {"away": x},
-        x=lambda s: (-1.1 * s.reach, 1.1 * s.reach),
-        y=lambda s: about_0(values(s)[1], 1e-12) if s.splits() else None,
+        x=lambda s: (-1.1 * of(s).reach, 1.1 * of(s).reach),
+        y=lambda s: about_0(values(s)[1], 1e-12) if of(s).splits() else None,
         layers=(
-            levels("levels", lambda s: [0.0] if s.splits() else []),
+            levels("levels", lambda s: [0.0] if of(s).splits() else []),
             curves("slope", within=slope, color=theme.MUTED, dash="dashed", label="linear, with the slope at ε = 0"),
             points(
                 "splits",
-                lambda s: values(s) if s.splits() else None,
+                lambda s: values(s) if of(s).splits() else None,
                 color=theme.UNSTABLE,
                 size=10,
                 label="distance of the separatrices",
             ),
             ring("here", here, color=theme.INK),
         ),
-    ).of_part(of)
+    )

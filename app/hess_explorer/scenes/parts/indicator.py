@@ -9,7 +9,8 @@ from typing import Any, Protocol, TypeVar
 
 import numpy as np
 
-from hess_explorer.scenes.framework.cells import CELLS, COARSE, DENSITY, Arguments, changed, found_by_rows, look
+from hess_explorer.compute.cache import Task
+from hess_explorer.scenes.framework.cells import CELLS, COARSE, DENSITY, Arguments, changed, found_by_rows
 from hess_explorer.scenes.framework.parameters import choice
 from hess_explorer.scenes.framework.part import Part, Sectioned
 from hess_explorer.scenes.framework.scene import State
@@ -17,7 +18,6 @@ from hess_explorer.scenes.framework.trial import Trial
 from hess_explorer.scenes.framework.windows import Window
 from hess_explorer.views import layered_section
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.comparison import Cells
 from hess_explorer.views.layers import Layer
 from hess_explorer.views.text import digits
 from hess_mechanics.dynamics.megno import CHAOTIC, REGULAR
@@ -70,7 +70,7 @@ class Indicator(Part[_Host]):
     @cached_property
     def time(self) -> float:
         """The time span of the motion from each cell."""
-        return self.work.get(time_of, self.host.poincare, _TURNS)
+        return self.work.need(Task(time_of, self.host.poincare, _TURNS))
 
     def rows(self, plan: Plan, coarse: int = 1) -> list[Arguments]:
         """Return the arguments of `row_of_cells` for each row of cells as wide as `coarse` of the finest."""
@@ -146,18 +146,12 @@ def indicator_layer(of: Callable[[S], Indicator]) -> Layer[S]:
 
 def indicator_trial(of: Callable[[S], Indicator]) -> Trial[S]:
     """Return the trial of the cells, computed at each level."""
-
-    def look_of(s: Indicator, cells: Array) -> Cells:
-        host = s.host
-        return look(host.frame, host.poincare.names, cells)
-
-    return Trial[Indicator](
+    return Trial(
         Kind.INDICATOR,
         ("section",),
-        lambda s, plan: np.stack([row_of_cells(*row)[1] for row in s.rows(plan)]),
+        lambda s, plan: np.stack([row_of_cells(*row)[1] for row in of(s).rows(plan)]),
         lambda s, cells, truth: changed(cells, truth),
-        look_of,
         unit="% of the cells that change",
         seen=3.0,
-        shown=lambda s: s.wanted,
-    ).of_part(of)
+        shown=lambda s: of(s).wanted,
+    )

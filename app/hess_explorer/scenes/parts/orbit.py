@@ -57,17 +57,17 @@ class Orbit(Part[_Host]):
     max_step: float = 0.0
 
     @property
-    def finding(self) -> Task:
+    def finding(self) -> Task[results.Orbit]:
         """The computation of its samples."""
         host = self.host
         level = self.work.level if self.accuracy is None else self.accuracy()
         step = self.max_step or None
-        return Task(sampled_orbit, (host.body, host.start, host.lasts, host.weights, level, self.most, step))
+        return Task(sampled_orbit, host.body, host.start, host.lasts, host.weights, level, self.most, step)
 
     @cached_property
     def path(self) -> results.Orbit:
         """Its samples: `times` (n,) and `states` (n, d)."""
-        found: results.Orbit = self.work.get(self.finding.function, *self.finding.arguments)
+        found: results.Orbit = self.work.need(self.finding)
         return found
 
     def motion(self) -> Motion:
@@ -106,13 +106,13 @@ def orbit_picture(
 ) -> Picture[S]:
     """Return the picture of the orbit in the plane of two variables; the scene has `columns` as its track "orbit"."""
 
-    def room_for(name: str) -> Callable[[Orbit], Range]:
-        return lambda s: with_room(s.columns[name], 0.06, 1e-3)
+    def room_for(name: str) -> Callable[[S], Range]:
+        return lambda s: with_room(of(s).columns[name], 0.06, 1e-3)
 
-    return Plot[Orbit](
+    return Plot(
         name=name,
         title=title,
-        caption=lambda s: s.caption,
+        caption=lambda s: of(s).caption,
         axes=(x, y),
         x=room_for(x),
         y=room_for(y),
@@ -120,4 +120,4 @@ def orbit_picture(
         layers=(
             line("orbit", track="orbit", columns=(x, y), color=theme.ORBIT, width=2.5, label="orbit", tag="orbit"),
         ),
-    ).of_part(of)
+    )

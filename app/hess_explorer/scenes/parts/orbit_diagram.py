@@ -11,7 +11,7 @@ from typing import Protocol, TypeVar
 
 import numpy as np
 
-from hess_explorer.compute.cache import CACHE, Task
+from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.parameters import Values, places, written
 from hess_explorer.scenes.framework.families import Begin, Family
 from hess_explorer.scenes.framework.parameters import TURN, specs_of
@@ -194,8 +194,8 @@ class OrbitDiagram(Part[_Host]):
         (left, low), (right, high) = self._window
         if self.host.window:
             return low, high
-        cropped = Task(_cropped, (self.family, self.name, (left, right), self.place, self.side, (low, high)))
-        found: Range | None = self.work.ask(cropped)
+        cropped = Task(_cropped, self.family, self.name, (left, right), self.place, self.side, (low, high))
+        found: Range | None = self.work.need(cropped, preview=None)
         return found
 
     @cached_property
@@ -253,7 +253,8 @@ class OrbitDiagram(Part[_Host]):
         pieces = product(self._courses, range(self._courses[_RISING].pieces))
         # The way back comes last, because it starts where the way there ends.
         for way, number in sorted(pieces, key=lambda one: (one[0] == _FALLING, one[1])):
-            found[way].append(self.work.soon(_piece, self._courses[way], number))
+            task = Task(_piece, self._courses[way], number)
+            found[way].append(self.work.need(task, preview=task if self.work.dragging else None))
         return {way: [one for one in parts if one is not None] for way, parts in found.items()}
 
     def points(self, way: str) -> Array | None:
@@ -281,7 +282,7 @@ class OrbitDiagram(Part[_Host]):
     @cached_property
     def cascade(self) -> Cascade | str | None:
         """The period doublings from the first one seen, or why none was located; None if unknown or none is seen."""
-        return (self.work.later(_cascade, self._courses[_RISING]) or None) if self._locates else None
+        return (self.work.need(Task(_cascade, self._courses[_RISING]), preview=None) or None) if self._locates else None
 
     @property
     def flips(self) -> Array:
@@ -376,14 +377,14 @@ def _reached(course: _Course, number: int) -> tuple[float, ...]:
     """Return the last place of the orbit on the section before a piece."""
     if number == 0:
         return course.place if course.before is None else _reached(course.before, course.before.pieces)
-    before: Diagram = CACHE.get(_piece, course, number - 1)[0]
+    before: Diagram = Task(_piece, course, number - 1).get()
     ends = before.ends[np.isfinite(before.ends).all(axis=1)]
     return tuple(ends[-1].tolist()) if len(ends) else _reached(course, number - 1)
 
 
 def _cascade(course: _Course) -> Cascade | str:
     """Return the doublings from the first one seen on a course, or why none was located; "" if none is seen."""
-    seen = doubling_seen([CACHE.get(_piece, course, number)[0] for number in range(course.pieces)])
+    seen = doubling_seen([Task(_piece, course, number).get() for number in range(course.pieces)])
     if seen is None:
         return ""
     value, places, end = seen

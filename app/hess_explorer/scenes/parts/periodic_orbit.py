@@ -9,6 +9,7 @@ from typing import Any, Protocol, TypeVar
 
 import numpy as np
 
+from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.parameters import Value
 from hess_explorer.scenes.framework.cells import DENSITY
 from hess_explorer.scenes.framework.parameters import choice, number
@@ -126,7 +127,10 @@ class PeriodicOrbit(Part[_Host]):
 
     @cached_property
     def _result(self) -> Closed | NotFound | None:
-        return None if self._search is None else self.work.soon(sought, *self._search)
+        if self._search is None:
+            return None
+        task = Task(sought, *self._search)
+        return self.work.need(task, preview=task if self.work.dragging else None)
 
     @property
     def looking(self) -> bool:
@@ -174,7 +178,7 @@ class PeriodicOrbit(Part[_Host]):
         if self.work.dragging:
             return None
         search, branches, pixel = self._drawn
-        found = [self.work.later(branch_of, search, one, self.reach, pixel) for one in branches]
+        found = [self.work.need(Task(branch_of, search, one, self.reach, pixel), preview=None) for one in branches]
         known = [one for one in found if one is not None]
         return tuple(known) if len(known) == len(found) else None
 
@@ -190,7 +194,7 @@ class PeriodicOrbit(Part[_Host]):
             return None
         search, branches, pixel = self._drawn
         found = [
-            self.work.later(crossings_between, search, one, other, self.reach, pixel)
+            self.work.need(Task(crossings_between, search, one, other, self.reach, pixel), preview=None)
             for one in branches
             if not one[1]
             for other in branches

@@ -9,7 +9,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from hess_explorer.compute.cache import CACHE, Task
+from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.parameters import choice
 from hess_explorer.scenes.framework.part import Host, Part
 from hess_explorer.scenes.framework.scene import Motion
@@ -56,7 +56,7 @@ class ProvedError:
 
 class _Host(Host, Protocol):
     @property
-    def finding(self) -> Task:
+    def finding(self) -> Task[Orbit | Track]:
         """The computation of the orbit on show, an `Orbit` or a `Track`.  Raises `ModelError`."""
 
     def motion(self) -> Motion:
@@ -80,7 +80,7 @@ class Proof(Part[_Host]):
             return None
         if not has_flint():
             return ProvedError("proofs need python-flint: pip install 'hess-explorer[prove]'")
-        return self.work.later(judged, self.host.finding, self.host.motion(), self.units)
+        return self.work.need(Task(judged, self.host.finding, self.host.motion(), self.units), preview=None)
 
     @property
     def band(self) -> list[list[Array]]:
@@ -99,9 +99,9 @@ class Proof(Part[_Host]):
             yield self.error.sentence
 
 
-def judged(finding: Task, motion: Motion, units: tuple[float, float]) -> ProvedError:
+def judged(finding: Task[Orbit | Track], motion: Motion, units: tuple[float, float]) -> ProvedError:
     """Return the error of the computed orbit that the tube of its motion proves."""
-    found: Orbit | Track = CACHE.get(finding.function, *finding.arguments)[0]
+    found: Orbit | Track = finding.get()
     orbit, omega, gamma = (
         (found.orbit, found.omega, found.gamma)
         if isinstance(found, Track)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Protocol, cast
+from typing import Protocol
 
 import numpy as np
 
@@ -43,7 +43,8 @@ class Regime(Part[_Host]):
     def sets(self) -> Sets | None:
         """Attractor and repeller; None until known."""
         few = (60, 120) if self.work.dragging else (500, 1500)
-        return self.work.soon(sets_of, self.host.poincare, self.host.place, *few, self.work.plan(Kind.SECTION).level)
+        task = Task(sets_of, self.host.poincare, self.host.place, *few, self.work.plan(Kind.SECTION).level)
+        return self.work.need(task, preview=task if self.work.dragging else None)
 
     @property
     def attractor(self) -> Array:
@@ -61,10 +62,9 @@ class Regime(Part[_Host]):
         if self.work.dragging:
             return None
         t, level = self.work.plan(Kind.EXPONENT).share * self.long, self.work.plan(Kind.SECTION).level
-        task = Task(at_state, (self.host.poincare, self.host.place, 500, 1500, t, level))
+        task = Task(at_state, self.host.poincare, self.host.place, 500, 1500, t, level)
         # It takes as long as the diagram, whose orbits and doublings come first.
-        (found,) = self.work.newest([[task]], last=True)
-        return cast("Dynamics | None", found)
+        return self.work.newest([[task]], last=True)[0]
 
     @property
     def caption(self) -> Caption:

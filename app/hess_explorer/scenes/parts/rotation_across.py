@@ -10,14 +10,13 @@ from typing import Protocol, TypeVar
 import numpy as np
 
 from hess_explorer.compute.cache import Task
-from hess_explorer.scenes.framework.orbit_batches import in_batches
+from hess_explorer.scenes.framework.orbit_batches import OrbitBatch, in_batches
 from hess_explorer.scenes.framework.part import Host, Part, Start
 from hess_explorer.scenes.framework.scene import State
 from hess_explorer.scenes.framework.trial import Trial
 from hess_explorer.scenes.framework.windows import Window
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.comparison import Curves, Frame
 from hess_explorer.views.graph import with_room
 from hess_explorer.views.layers import Axes, Range, curves, points, region
 from hess_explorer.views.picture import Picture
@@ -57,7 +56,7 @@ class _Host(Host, Protocol):
     def count(self) -> float:
         """The number of crossings of each orbit of the section."""
 
-    def batch(self, starts: tuple[Start, ...], crossings: int, forward: bool, level: Level) -> Task:
+    def batch(self, starts: tuple[Start, ...], crossings: int, forward: bool, level: Level) -> Task[OrbitBatch]:
         """Return the computation of an `OrbitBatch`: so many crossings of the orbits from these states."""
 
 
@@ -92,11 +91,11 @@ class RotationAcross(Part[_Host]):
         """The known orbits with the positions of their starts along the line, and whether they are complete."""
         plan = self.work.plan(Kind.ROTATION)
         count, crossings = _HELD[:2] if self.work.dragging else (plan.side(_ACROSS), self._crossings_on_line(plan))
-        starts = self.work.get(on_line, self.host.poincare, self.ends, count)
+        starts = self.work.need(Task(on_line, self.host.poincare, self.ends, count))
         found: list[tuple[float, Array]] = []
         for some in in_batches(starts):
             task = self.host.batch(tuple(state for _, state in some), crossings, True, plan.level)
-            piece = self.work.soon(task.function, *task.arguments)
+            piece = self.work.need(task, preview=task if self.work.dragging else None)
             if piece is not None:
                 found += zip((share for share, _ in some), piece.orbits, strict=True)
         return found, len(found) == len(starts)
@@ -198,19 +197,14 @@ S = TypeVar("S", bound=State)
 
 def rotation_trial(of: Callable[[S], RotationAcross]) -> Trial[S]:
     """Return the trial of the rotation numbers, computed at each level."""
-
-    def look(s: RotationAcross, found: RotationProfile) -> Curves:
-        return Curves(Frame(Axes(s.along, _axis_of(found)), s.names), tuple(_branches(found)))
-
-    return Trial[RotationAcross](
+    return Trial(
         Kind.ROTATION,
         ("rotation",),
-        RotationAcross.at,
+        lambda s, plan: of(s).at(plan),
         lambda s, found, truth: found.distance(truth),
-        look,
         unit="turns, the median",
         seen=RESOLVED,
-    ).of_part(of)
+    )
 
 
 def _branches(found: RotationProfile) -> list[Array]:
@@ -219,34 +213,34 @@ def _branches(found: RotationProfile) -> list[Array]:
 
 def rotation_picture(of: Callable[[S], RotationAcross]) -> Picture[S]:
     """Return the picture of ρ along the line: its branches, the orbits it comes from, and the parts without it."""
-    return Plot[RotationAcross](
+    return Plot(
         name="rotation",
         title="Rotation number across the section",
-        caption=RotationAcross.caption,
-        axes=lambda s: s.names,
+        caption=lambda s: of(s).caption(),
+        axes=lambda s: of(s).names,
         first=Axes((-1.0, 1.0), (-0.5, 0.5)),
-        message=RotationAcross.message,
-        x=lambda s: s.along,
-        y=lambda s: _axis_of(s.found),
+        message=lambda s: of(s).message(),
+        x=lambda s: of(s).along,
+        y=lambda s: _axis_of(of(s).found),
         layers=(
             region(
                 "sea",
-                within=RotationAcross.parts_at_sea,
+                within=lambda s, axes: of(s).parts_at_sea(axes),
                 color=theme.MUTED + "38",
                 moving=True,
                 label="ρ does not settle",
             ),
             points(
                 "standing",
-                lambda s: (s.found.standing, np.zeros(s.found.standing.size)),
+                lambda s: (of(s).found.standing, np.zeros(of(s).found.standing.size)),
                 size=7,
                 hollow=True,
                 color=theme.MUTED,
                 edge_width=1.5,
                 label="no rotation: 0 turns",
             ),
-            curves("rho", lambda s: _branches(s.found), color=theme.ORBIT),
+            curves("rho", lambda s: _branches(of(s).found), color=theme.ORBIT),
             # An orbit between two gaps is a curve of one point, which only a mark shows.
-            points("orbits", lambda s: (s.found.places, s.found.numbers), size=4, color=theme.ORBIT),
+            points("orbits", lambda s: (of(s).found.places, of(s).found.numbers), size=4, color=theme.ORBIT),
         ),
-    ).of_part(of)
+    )

@@ -16,11 +16,10 @@ from hess_explorer.scenes.framework.part import Part, Sectioned, Start
 from hess_explorer.scenes.framework.periodic_search import Closed, none_closed
 from hess_explorer.scenes.framework.scene import State
 from hess_explorer.scenes.framework.trial import Trial, section_error
-from hess_explorer.scenes.framework.windows import Window, boxed, frame_of, tidy_window, window_of
+from hess_explorer.scenes.framework.windows import Window, boxed, tidy_window, window_of
 from hess_explorer.scenes.framework.work import drift_status, kept_status
 from hess_explorer.views import section_plane
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.comparison import Marks
 from hess_explorer.views.layers import Axes, Range
 from hess_explorer.views.picture import Picture
 from hess_explorer.views.plot import Plot
@@ -99,7 +98,7 @@ class Section(Part[_Host]):
     """
 
     start: Callable[[], Start]
-    crossing: Callable[[int, Level], tuple[Task, Task]] | None = None
+    crossing: Callable[[int, Level], tuple[Task[SectionPoints], Task[SectionPoints]]] | None = None
     axes: Callable[[], Axes] | None = None
     closed: Callable[[], Closed | None] = none_closed
     later: bool = False
@@ -144,12 +143,12 @@ class Section(Part[_Host]):
         """The number of crossings of each orbit."""
         return self.work.plan(Kind.SECTION).part(self.host.count, _FEW)
 
-    def _tasks(self, crossings: int, level: Level) -> tuple[Task, Task]:
+    def _tasks(self, crossings: int, level: Level) -> tuple[Task[SectionPoints], Task[SectionPoints]]:
         if self.crossing is not None:
             return self.crossing(crossings, level)
         return (
-            Task(_crossings, (self.poincare, (self.given,), crossings, level)),
-            Task(_spread, (self.poincare, self.frame, crossings, level)),
+            Task(_crossings, self.poincare, (self.given,), crossings, level),
+            Task(_spread, self.poincare, self.frame, crossings, level),
         )
 
     @cached_property
@@ -159,8 +158,8 @@ class Section(Part[_Host]):
         few, whole = (self._tasks(count, level) for count in (min(self.wanted, _FEW), self.wanted))
         mine = few[0] if self.work.dragging else whole[0]
         try:
-            own: SectionPoints = self.work.get(mine.function, *mine.arguments)
-            return _Crossed(own, self.work.sooner(whole[1], few[1]), "")
+            own: SectionPoints = self.work.need(mine)
+            return _Crossed(own, self.work.need(whole[1], preview=few[1]), "")
         except WorkLimit as error:
             return _Crossed(None, None, f"The section is left out: {error}")
 
@@ -221,7 +220,7 @@ class Section(Part[_Host]):
         if self.work.dragging or self.closed() is not None or crossed.own is None or crossed.others is None:
             return None
         tight: list[SectionPoints | None] = [
-            self.work.later(task.function, *task.arguments)
+            self.work.need(task, preview=None)
             for task in self._tasks(self.wanted, self.work.plan(Kind.SECTION).level.tightened())
         ]
         if self.work.todo:
@@ -308,39 +307,33 @@ def section_picture(of: Callable[[S], Section], start: str, title: str = "Poinca
     start : the name of the parameter that holds its place, see `places`.
     """
 
-    def range_of(axis: int) -> Callable[[Section], Range]:
-        return lambda s: (s.frame[0][axis], s.frame[1][axis])
+    def range_of(axis: int) -> Callable[[S], Range]:
+        return lambda s: (of(s).frame[0][axis], of(s).frame[1][axis])
 
-    def names(s: Section) -> tuple[str, str]:
-        first, second = s.poincare.names
+    def names(s: S) -> tuple[str, str]:
+        first, second = of(s).poincare.names
         return first, second
 
-    return Plot[Section](
+    return Plot(
         name="section",
         title=title,
-        caption=lambda s: s.caption,
+        caption=lambda s: of(s).caption,
         axes=names,
         x=range_of(0),
         y=range_of(1),
-        message=lambda s: s.reason,
+        message=lambda s: of(s).reason,
         on_click=lambda s, x, y: {start: written([(x, y)])},
         starts=True,
-        layers=section_plane.layers(lambda s: s.points, others=lambda s: s.others, ended=lambda s: s.ended),
-    ).of_part(of)
+        layers=section_plane.layers(lambda s: of(s).points, others=lambda s: of(s).others, ended=lambda s: of(s).ended),
+    )
 
 
 def section_trial(of: Callable[[S], Section]) -> Trial[S]:
     """Return the trial of the section, computed at each level."""
-
-    def look(s: Section, orbits: list[Array]) -> Marks:
-        first, second = s.poincare.turns
-        return Marks(frame_of(s.frame, s.poincare.names), tuple(orbits), (first, second), crossings=True)
-
-    return Trial[Section](
+    return Trial(
         Kind.SECTION,
         ("section",),
-        Section.orbits_at,
-        lambda s, orbits, truth: section_error(orbits, truth, s.pixels, s.poincare.turns),
-        look,
+        lambda s, plan: of(s).orbits_at(plan),
+        lambda s, orbits, truth: section_error(orbits, truth, of(s).pixels, of(s).poincare.turns),
         most=(("count", _MOST_COMPARED),),
-    ).of_part(of)
+    )

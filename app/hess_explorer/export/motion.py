@@ -1,0 +1,101 @@
+"""The times of the frames of a film or a loop, and the lines below a loop."""
+
+from __future__ import annotations
+
+import textwrap
+
+import numpy as np
+
+from hess_explorer.export.figure import densities
+from hess_explorer.export.picture_data import PictureData
+from hess_explorer.views.body import BodyInSpace
+from hess_explorer.views.cloud import CloudPlane
+from hess_explorer.views.plot import Plot
+from hess_explorer.views.poisson_sphere import Sphere
+from hess_explorer.views.torus_in_space import TorusInSpace
+from hess_mechanics.numerics.results import Array
+
+__all__ = ["film_times", "loop_lines", "loop_times", "moves", "period"]
+
+_CLOSE, _AWAY = 0.01, 0.1
+"""A motion has returned within the first share of its extent, after it was further away than the second."""
+_LETTERS, _LINES = 96, 3
+"""Letters of a line below the picture; most lines of the link."""
+
+
+def _end(data: PictureData) -> float:
+    """Return the last time of the orbit or of the clouds; 0 if nothing moves."""
+    clouds = (one["times"] for one in data.columns.values() if "frames0" in one)
+    tracks = (data.columns.get("data-orbit", {}).get("t", ()), *clouds)
+    return max((float(times[-1]) for times in tracks if len(times) > 1), default=0.0)
+
+
+def moves(data: PictureData) -> bool:
+    """Return True if the picture changes with time."""
+    picture = data.picture
+    follows = (
+        bool(picture.followers)
+        or bool(densities(data))
+        or isinstance(picture, (BodyInSpace, CloudPlane, TorusInSpace))
+        or (isinstance(picture, Sphere) and ("orbit" in picture.looks or bool(picture.clouds)))
+    )
+    return follows and _end(data) > 0.0
+
+
+def film_times(data: PictureData, count: int) -> Array:
+    """Return the times of the frames (count,), evenly spread over the whole motion, both ends included."""
+    return np.linspace(0.0, _end(data), count)
+
+
+def period(data: PictureData) -> float | None:
+    """Return the time after which a picture repeats itself, or None.
+
+    Only a point on a still picture repeats itself: trails, clouds and bodies remember where they came from.
+    """
+    picture, track = data.picture, data.columns.get("data-orbit", {})
+    stands = isinstance(picture, Plot) or (isinstance(picture, Sphere) and not picture.clouds)
+    names = [name for name in track if name != "t"]
+    if not stands or not names or len(track["t"]) < 4:
+        return None
+    columns = []
+    for name in names:
+        values = np.asarray(track[name], float)
+        if name in data.scene.angles:
+            columns += [np.cos(values), np.sin(values)]
+        else:
+            columns.append((values - values.min()) / (np.ptp(values) or 1.0))
+    return _first_return(np.asarray(track["t"], float), np.stack(columns, axis=1))
+
+
+def _first_return(times: Array, states: Array) -> float | None:
+    """Return the time at which the polygon of states (n, k) first comes back to its start in the same direction."""
+    start, along = states[0], np.diff(states, axis=0)
+    lengths = np.maximum(np.sum(along**2, axis=1), 1e-300)
+    share = np.clip(np.sum((start - states[:-1]) * along, axis=1) / lengths, 0.0, 1.0)
+    far = np.linalg.norm(states[:-1] + share[:, None] * along - start, axis=1)
+    gone = np.maximum.accumulate(np.linalg.norm(states[:-1] - start, axis=1)) > _AWAY
+    # The orbit has passed its start where the next stretch is further away.
+    nearest = np.append(far[:-1] <= far[1:], False)
+    found = np.flatnonzero(gone & nearest & (far < _CLOSE) & (along @ along[0] > 0.0))
+    if not found.size:
+        return None
+    lasts = float(times[found[0]] + share[found[0]] * np.diff(times)[found[0]])
+    # A motion near a saddle or in a chaotic sea also returns once, but does not repeat itself from then on.
+    later = times >= lasts
+    again = np.stack([np.interp(times[later] - lasts, times, column) for column in states.T], axis=1)
+    return lasts if np.max(np.linalg.norm(states[later] - again, axis=1)) < 5.0 * _CLOSE else None
+
+
+def loop_times(data: PictureData, count: int) -> Array:
+    """Return the times of the frames (count,): over a period of the motion, or there and back, slower at both ends."""
+    phase = np.arange(count) / count
+    lasts = period(data)
+    return lasts * phase if lasts is not None else 0.5 * _end(data) * (1.0 - np.cos(2.0 * np.pi * phase))
+
+
+def loop_lines(data: PictureData, home: str) -> list[str]:
+    """Return one line of caption and the link; the tags of the file have a link that is too long to be shown."""
+    link = f"{home}?{data.link}"
+    lines = [link[i : i + _LETTERS] for i in range(0, len(link), _LETTERS)]
+    shown = lines if len(lines) <= _LINES else [*lines[: _LINES - 1], f"{lines[_LINES - 1][:-1]}…"]
+    return [textwrap.shorten(data.caption, _LETTERS, placeholder=" …"), *shown]

@@ -1,0 +1,221 @@
+"""The chart of a scene: a number of the catalogue over two of the scene's parameters, as one of its pictures.
+
+A scene declares the computations and their arguments in a state (`Charts`).  From them come the choices of a chart, as
+parameters of its states, and the picture.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, make_dataclass
+from functools import cached_property
+from typing import Any, Self
+
+import numpy as np
+
+from hess_explorer.compute.cache import Task
+from hess_explorer.compute.cells import Outcome
+from hess_explorer.protocol.parameters import Choice, Number, Places, Spec, Values
+from hess_explorer.scenes.framework.cells import COARSE, found_by_rows
+from hess_explorer.scenes.framework.chart_cells import STORED, Cells, Side, row_of_cells, swept
+from hess_explorer.scenes.framework.charted import Charts, Numbers
+from hess_explorer.scenes.framework.parameters import declared, specs_of
+from hess_explorer.scenes.framework.part import Part, part
+from hess_explorer.scenes.framework.trial import bare
+from hess_explorer.scenes.framework.windows import Window, boxed, inside, tidy_window, window_of
+from hess_explorer.views.caption import Caption
+from hess_explorer.views.layers import CellGrid, Positions
+from hess_explorer.views.picture import Corners
+from hess_explorer.views.text import digits, ranging, with_error
+from hess_mechanics import catalogue
+from hess_mechanics.errors import InvalidParameter
+from hess_mechanics.numerics.accuracy import level
+from hess_mechanics.numerics.results import Array
+
+__all__ = ["charting"]
+
+_FIRST, _STAGES = 8, 3
+"""Cells along a side of the first stage, and the number of stages; one more where many cells are computed at once."""
+_BEYOND = 0.01
+"""Share of the numbers beyond each end of the colours: without it one outlier would take all colours."""
+_FAR, _LARGEST = 1e6, 1e38
+"""Bound of windows; largest number in single precision."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Chart(Part[Any]):
+    """The chart of a state, from the numbers by option and the sides by symbol."""
+
+    numbers: Numbers
+    sides: Mapping[str, Side]
+
+    @property
+    def axes(self) -> tuple[Side, Side]:
+        """Both sides."""
+        return self.sides[self.host.chart_x], self.sides[self.host.chart_y]
+
+    @property
+    def place(self) -> tuple[float, float]:
+        """The place of this state."""
+        return self.axes[0].of(self.host), self.axes[1].of(self.host)
+
+    def carried(self, before: Self) -> Values:
+        """Return the whole window after a change of an axis."""
+        return {} if self.axes == before.axes else {"chart_window": ""}
+
+    @property
+    def number(self) -> catalogue.Number:
+        """The number on show."""
+        charted, number = self.numbers[self.host.chart]
+        return charted.computation.number(number)
+
+    @cached_property
+    def reason(self) -> str:
+        """The reason why there is no chart; an empty string if there is one."""
+        (charted, _), (x, y) = self.numbers[self.host.chart], self.axes
+        of: Any = type(self.host)
+        over = swept(of, charted, tuple(self.sides.values()))
+        for one in (x, y):
+            if one.symbol not in over:
+                return f"{self.host.chart} does not depend on {one.symbol}: choose among {', '.join(over)}."
+        return f"Both axes are {x.symbol}: choose two different parameters." if x == y else ""
+
+    @cached_property
+    def key(self) -> Cells:
+        """The cells; the values of both sides in this state belong to the ring and not to them."""
+        x, y = self.axes
+        state = y.put(x.put(bare(self.host), x.ends[0]), y.ends[0])
+        return Cells(*self.numbers[self.host.chart], x, y, state, level(self.work.chosen))
+
+    @cached_property
+    def window(self) -> Window:
+        """The visible window."""
+        x, y = self.axes
+        whole = (x.ends[0], y.ends[0]), (x.ends[1], y.ends[1])
+        return window_of(tidy_window(self.host.chart_window), STORED.get(self.key, ((), whole))[1])
+
+    @cached_property
+    def _found(self) -> tuple[Array, int, Window] | None:
+        """Rows (n, 3, m), the number of those that are still coarse, and the window of the cells."""
+        if self.key in STORED:
+            cells, window = STORED[self.key]
+            return cells, 0, window
+        if self.reason:
+            return None
+        # The number of this state comes first.
+        _ = self.own
+        more = self.key.charted.computation.many is not None
+        counts = [_FIRST * COARSE**stage for stage in range(_STAGES + more)]
+        rows = [[(self.key, self.window, count, row) for row in range(count)] for count in counts]
+        found = found_by_rows(self.work, row_of_cells, rows)
+        return None if found is None else (*found, self.window)
+
+    @cached_property
+    def own(self) -> Array | None:
+        """Value, error and status (3, 1) in this state; None until known."""
+        if self.reason:
+            return None
+        found: Array | None = self.work.need(Task(row_of_cells, self.key, (self.place, self.place), 1, 0), preview=None)
+        return found
+
+    @cached_property
+    def cells(self) -> CellGrid | None:
+        """The cells; their ends are one turn, all numbers but outliers, or None for categories."""
+        if self._found is None:
+            return None
+        values, _, ((x0, y0), (x1, y1)) = self._found
+        number, values = self.number, np.where(np.abs(values[:, 0]) < _LARGEST, values[:, 0], np.nan)
+        known, ends = values[np.isfinite(values)], None
+        if number.turn:
+            values, ends = values - number.turn * np.round(values / number.turn), (-number.turn / 2, number.turn / 2)
+        elif not number.named and known.size:
+            low, high = np.quantile(known, (_BEYOND, 1.0 - _BEYOND)).tolist()
+            room = max(1e-6 * abs(low), 1e-9) if low == high else 0.0
+            ends = low - room, high + room
+        return CellGrid(values, (x0, x1), (y0, y1), ends)
+
+    def here(self) -> Positions:
+        """Return the place of the state, if it is in sight."""
+        return inside([self.place], self.window)
+
+    def choose(self, x: float, y: float) -> Values:
+        """Return the parameters at a place.  Raises `ModelError` if no number is possible there."""
+        if self.reason:
+            raise InvalidParameter(self.reason)
+        across, up = self.axes
+        state = up.put(across.put(self.host, x), y)
+        self.key.charted.values(state)
+        return {one.name: getattr(state, one.name) for one in (across, up)}
+
+    def look_closer(self, corners: Corners) -> Values:
+        """Return the window of a box."""
+        (x0, x1), (y0, y1) = (one.bounds for one in self.axes)
+        return boxed(corners, ((x0, y0), (x1, y1)), "chart_window")
+
+    def _says(self, value: float, error: float, status: float) -> str:
+        outcome, number = Outcome(int(status)), self.number
+        if not math.isfinite(value):
+            return f"No number: {(outcome if outcome >= Outcome.OUTSIDE_REGION else Outcome.NO_VALUE).words}."
+        said = number.named.get(round(value)) or (with_error(value, error) if error > 0.0 else digits(value))
+        unit = "" if number.unit == "1" else f" {number.unit}"
+        return f"{number.symbol} = {said}{unit}{'' if outcome is Outcome.OK else f' ({outcome.words})'}."
+
+    def about(self, x: float, y: float) -> str:
+        """Return a line about the cell at a place."""
+        if self._found is None:
+            return ""
+        cells, _, window = self._found
+        at = zip((x, y), *window, (cells.shape[2], cells.shape[0]), strict=True)
+        column, row = (min(max(int((one - low) / (high - low) * n), 0), n - 1) for one, low, high, n in at)
+        across, up = self.axes
+        return f"{across.symbol} = {digits(x)}, {up.symbol} = {digits(y)}: {self._says(*cells[row, :, column])}"
+
+    @property
+    def caption(self) -> Caption:
+        """The number in this state, and what is known of the cells."""
+        verdict = "" if self.own is None else self._says(*self.own[:, 0])
+        if self._found is None or self.cells is None:
+            return Caption(verdict, self.reason or self.work.awaited("The chart is"))
+        cells, coarse, _ = self._found
+        rows, _, columns = cells.shape
+        said = [f"{columns} × {rows} cells" + f", {rows - coarse} rows known" * (coarse > 0)]
+        if self.cells.ends is not None:
+            said.append(f"colours {ranging(*self.cells.ends, 3)}")
+        missing = cells[:, 2][cells[:, 2] >= Outcome.OUTSIDE_REGION].astype(int)
+        if missing.size:
+            most = Outcome(int(np.bincount(missing).argmax()))
+            said.append(f"{digits(100.0 * missing.size / (rows * columns), 2)} % have none: {most.words}")
+        return Caption(verdict, f"{'; '.join(said)}.")
+
+
+def _sides(charts: Charts, state: type[Any]) -> Mapping[str, Side]:
+    found = []
+    for spec in specs_of(state):
+        if isinstance(spec, Number):
+            found.append(Side(spec.symbol, spec.name, spec.softbounds, spec.bounds))
+        elif isinstance(spec, Places) and spec.name == charts.placed[0]:
+            ends = zip(spec.low, spec.high, strict=True)
+            found += [Side(charts.placed[1][i], spec.name, both, both, i) for i, both in enumerate(ends)]
+    return {one.symbol: one for one in found}
+
+
+def charting(state: type[Any], charts: Charts) -> type[Any]:
+    """Return the class of states with the choices of a chart, which do not change other results."""
+    numbers, sides = charts.numbers, _sides(charts, state)
+    x, y = (next(symbol for symbol, side in sides.items() if one in (symbol, side.name)) for one in charts.over)
+    along = "Parameter along this axis."
+    specs: tuple[Spec, ...] = (
+        Choice("chart", "Number", (*numbers,), next(iter(numbers)), "Number on show, as in commands.", "Chart"),
+        Choice("chart_x", "Across", (*sides,), x, along, "Chart"),
+        Choice("chart_y", "Up", (*sides,), y, along, "Chart"),
+        Places("chart_window", "The window of the chart", 2, (-_FAR, -_FAR), (_FAR, _FAR)),
+    )
+
+    return make_dataclass(
+        state.__name__,
+        [(spec.name, str, declared(spec, compare=False)) for spec in specs],
+        bases=(state,),
+        frozen=True,
+        namespace={"__module__": state.__module__, "charting": part(lambda s: _Chart(s, numbers, sides))},
+    )

@@ -1,0 +1,108 @@
+"""Cells of a chart: a number of the catalogue at values of two parameters of a scene."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cache
+from typing import Any
+
+import numpy as np
+
+from hess_explorer.compute.cache import Task
+from hess_explorer.compute.cells import evaluate, refused
+from hess_explorer.protocol.parameters import places, written
+from hess_explorer.scenes.framework.charted import Arguments, Charted
+from hess_explorer.scenes.framework.windows import Window
+from hess_explorer.views.layers import Range
+from hess_mechanics.dynamics.cells import centres
+from hess_mechanics.errors import ModelError
+from hess_mechanics.numerics.accuracy import Level
+from hess_mechanics.numerics.results import Array, frozen
+
+__all__ = ["STORED", "Cells", "Side", "row_of_cells", "swept"]
+
+
+@dataclass(frozen=True)
+class Side:
+    """A parameter of the scene as a side of a chart, or a coordinate of its last place.
+
+    ends : the usual range; bounds : the largest one; axis : index of the coordinate.
+    """
+
+    symbol: str
+    name: str
+    ends: Range
+    bounds: Range
+    axis: int | None = None
+
+    def of(self, state: Any) -> float:
+        """Return the value in a state."""
+        value = getattr(state, self.name)
+        return float(value) if self.axis is None else places(value)[-1][self.axis]
+
+    def put(self, state: Any, value: float) -> Any:
+        """Return the state with another value; of several places only the last one is kept."""
+        if self.axis is None:
+            return state.changed({self.name: value})
+        place = [*places(getattr(state, self.name))[-1]]
+        place[self.axis] = value
+        return state.changed({self.name: written([tuple(place)])})
+
+
+@dataclass(frozen=True)
+class Cells:
+    """A number over two parameters, the others as in a state: the cache key of its cells."""
+
+    charted: Charted
+    number: str
+    x: Side
+    y: Side
+    state: Any
+    level: Level
+
+    def arguments(self, x: float, y: float) -> Arguments:
+        """Return the arguments at a place.  Raises `ModelError`."""
+        return self.charted.values(self.y.put(self.x.put(self.state, x), y))
+
+
+def _evaluated(charted: Charted, number: str, chosen: Level, cells: tuple[Any, ...]) -> Array:
+    columns = {name: np.array([cell[i][1] for cell in cells]) for i, (name, _) in enumerate(cells[0])}
+    found = evaluate(charted.computation, (number,), columns, chosen)
+    errors = found.errors.get(number, np.full(len(cells), np.nan))
+    return frozen(np.stack([found.values[number], errors, found.status]))
+
+
+def row_of_cells(cells: Cells, window: Window, count: int, row: int) -> Array:
+    """Return values, estimated errors and status (3, count) of a row of `count` × `count` cells."""
+    (x0, y0), (x1, y1) = window
+    y = float(centres(y0, y1, count)[row])
+    found, known = np.full((3, count), np.nan), dict[int, tuple[tuple[str, float], ...]]()
+    for i, x in enumerate(centres(x0, x1, count).tolist()):
+        try:
+            known[i] = tuple(cells.arguments(x, y).items())
+        # An error in one cell must not stop the others.
+        except Exception as error:
+            found[2, i], _ = refused(error, {cells.x.name: x, cells.y.name: y})
+    if known:
+        # By the arguments, which not every parameter of the scene changes.
+        found[:, [*known]] = Task(_evaluated, cells.charted, cells.number, cells.level, tuple(known.values())).get()
+    return frozen(found)
+
+
+STORED: dict[Cells, tuple[Array, Window]] = {}
+"""Values, errors and status (n, 3, m) of stored sweeps on show, and their windows."""
+
+
+@cache
+def swept(of: Any, charted: Charted, sides: tuple[Side, ...]) -> tuple[str, ...]:
+    """Return the symbols of the parameters that change the arguments, by trial."""
+
+    def tried(state: Any) -> object:
+        try:
+            return charted.arguments(state)
+        except ModelError as error:
+            return str(error)
+
+    state = of()
+    before = tried(state)
+    return tuple(one.symbol for one in sides if any(tried(one.put(state, end)) != before for end in one.ends))
