@@ -361,7 +361,6 @@ def continued_orbit(map_: ReturnMap, orbit: PeriodicOrbit, parameter: str, to: f
         map_.constant(parameter),
         to,
         as_whole("points", points, 2, 2000),
-        lambda one, places, near: one.symmetries_of(places, near) if isinstance(one, ReturnMap) else (),
     )
     along = zip(branch.values.tolist(), branch.places, strict=True)
     times = [abs(map_.moved(parameter, value).time_of(places)) for value, places in along]

@@ -84,6 +84,9 @@ class Map(Protocol):
     def inverse(self) -> Map:
         """Return P⁻¹."""
 
+    def symmetries_of(self, places: Array, near: float) -> Sequence[str]:
+        """Return the names of the symmetries that take an orbit (m, d) to itself, to within a distance."""
+
     def tightened(self) -> Map:
         """Return the same map, computed more accurately and with other roundings."""
 
