@@ -10,11 +10,11 @@ from .computations import (
 from .dynamics.continuation import Branch
 from .dynamics.ensemble import ensemble
 from .dynamics.lyapunov import Exponent, lyapunov_exponent
-from .dynamics.manifolds import Manifold
+from .dynamics.manifolds import Manifold, manifold
 from .dynamics.megno import Megno, megno
 from .dynamics.megno_map import MegnoMap, megno_map
 from .dynamics.orbit import solve
-from .dynamics.orbit_diagram import Cascade, Diagram
+from .dynamics.orbit_diagram import Cascade, Diagram, Hysteresis
 from .dynamics.periodic import PeriodicOrbit
 from .dynamics.regime import Dynamics, Regime, dynamics_of, regime
 from .dynamics.return_map import ReturnMap
@@ -32,12 +32,10 @@ from .numerics.accuracy import LEVELS, Level, Status, level
 from .numerics.results import Cost, Ensemble, Orbit, SectionCrossings
 from .return_maps import (
     Basins,
-    Hysteresis,
     PlanePoints,
     basins,
     continued_orbit,
     hysteresis,
-    manifold,
     orbit_diagram,
     period_doublings,
     periodic_orbit,

@@ -219,27 +219,25 @@ class System:
     ) -> None:
         if not isinstance(name, str) or not name:
             raise InvalidParameter(f'{name!r} is not the name of a system: give a text such as "henon-heiles".')
-        known = {
-            "name": name,
-            "title": title or name,
-            "field": field,
-            "variables": _names(name, "variables", variables),
-            "parameters": _names(name, "parameters", parameters),
-            "source": source,
-            "labels": _names(name, "labels", labels),
-            "integrals": integrals,
-            "frequency": frequency,
-            "rescale": rescale,
-            "angular_velocities": angular_velocities,
-            "unit": unit,
-            "tolerance": tolerance,
-            "angles": _names(name, "angles", angles),
-            "symmetries": symmetries,
-        }
-        for key, value in known.items():
-            object.__setattr__(self, key, value)
+        vars(self).update(
+            name=name,
+            title=title or name,
+            field=field,
+            variables=_names(name, "variables", variables),
+            parameters=_names(name, "parameters", parameters),
+            source=source,
+            labels=_names(name, "labels", labels),
+            integrals=integrals,
+            frequency=frequency,
+            rescale=rescale,
+            angular_velocities=angular_velocities,
+            unit=unit,
+            tolerance=tolerance,
+            angles=_names(name, "angles", angles),
+            symmetries=symmetries,
+        )
         values = tuple(parameters.values()) if isinstance(parameters, Mapping) else (1.0,) * len(self.parameters)
-        object.__setattr__(self, "example", self._checked_example(example, values))
+        vars(self).update(example=self._checked_example(example, values))
         self._check_field()
         self._check_scaling()
         self._check_angles()
@@ -416,6 +414,24 @@ class System:
         except (TypeError, ValueError, ArithmeticError, LookupError):
             return None
         return found if found.shape == y.shape and np.all(np.isfinite(found)) else None
+
+    def rates(self, states: Array, parameters: Sequence[float] | Array) -> Array:
+        """Return the field at states.
+
+        Parameters
+        ----------
+        states : ndarray, shape (n, d)
+            States.
+        parameters : sequence of float, shape (q,)
+            Values of the parameters.
+
+        Returns
+        -------
+        ndarray, shape (n, d)
+            The rates.
+        """
+        found = self.field(list(states.T), np.asarray(parameters).tolist())
+        return np.stack([np.broadcast_to(rate, len(states)) for rate in found], axis=1)
 
     @cached_property
     def recursion(self) -> Recursion:

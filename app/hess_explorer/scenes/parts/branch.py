@@ -29,8 +29,7 @@ from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import conjugates, digits
 from hess_mechanics.dynamics import continuation as mechanics
 from hess_mechanics.dynamics.continuation import Bifurcation, continued, gone_on
-from hess_mechanics.dynamics.periodic import Map, apart, find_periodic
-from hess_mechanics.dynamics.return_map import ReturnMap
+from hess_mechanics.dynamics.periodic import apart, find_periodic
 from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.errors import ModelError
 from hess_mechanics.numerics.patience import go_on
@@ -571,11 +570,6 @@ def branch_picture(of: Callable[[S], Branch]) -> Picture[S]:
     )
 
 
-def _symmetries(map_: Map, places: Array, near: float) -> tuple[str, ...]:
-    assert isinstance(map_, ReturnMap)
-    return tuple(map_.symmetries_of(places, near))
-
-
 def _part(begin: Begin, upwards: bool, k: int) -> mechanics.Branch | NotFound:
     """Return piece k of the branch, towards larger values of the parameter (`upwards`) or smaller ones."""
     found = begin.orbit()
@@ -585,12 +579,10 @@ def _part(begin: Begin, upwards: bool, k: int) -> mechanics.Branch | NotFound:
     points = max(6, _TOGETHER // found.orbit.period)
     try:
         if k == 0:
-            return continued(
-                family.map_at, found.orbit, family.symbol, begin.value, end, points, _symmetries, edge, _STEP
-            )
+            return continued(family.map_at, found.orbit, family.symbol, begin.value, end, points, edge, _STEP)
         before = Task(_part, begin, upwards, k - 1).get()
         assert not isinstance(before, NotFound), "pieces are continued one after the other"
-        return gone_on(family.map_at, before, end, edge, points, _symmetries, _STEP)
+        return gone_on(family.map_at, before, end, edge, points, _STEP)
     except ModelError as error:
         go_on()
         return NotFound(str(error))
