@@ -6,10 +6,9 @@ import numpy as np
 from pytest import approx, mark, raises
 
 from hess_explorer.scenes import scenes
-from hess_mechanics import lyapunov_spectrum, section
+from hess_mechanics import lyapunov_spectrum
 from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody
 from hess_mechanics.chaplygin_ball.section import (
-    EQUATOR,
     ball_section,
     coordinates,
     forbidden_band,
@@ -20,7 +19,7 @@ from hess_mechanics.dynamics.ensemble import ensemble
 from hess_mechanics.dynamics.lyapunov import lyapunov_exponent
 from hess_mechanics.dynamics.section import occupied_cells
 from hess_mechanics.errors import InvalidParameter, OutsideRegion, WorkLimit
-from support.ball import divergence, first_returns, occupied
+from support.ball import divergence, occupied
 from support.deviations import deviations
 from support.refusals import refused
 from support.thorough import sample
@@ -116,13 +115,6 @@ def test_seeds_cover_what_the_energy_allows(h):
 # ---- points -----------------------------------------------------------------------------------------------------
 
 
-@bodies
-def test_the_first_crossings_are_those_of_another_integrator(body):
-    (start,) = seeds(body, 1.5, 1)
-    points = ball_section(body, 1.5, [start], 4, "precise").states[0]
-    assert np.max(np.abs(points - first_returns(vars(body), start, 4))) <= 1e-7
-
-
 def test_cells_are_counted_as_those_of_a_histogram():
     points = np.random.default_rng(2).uniform(size=(3000, 2)) * [2.0 * pi, pi] - [pi, 0.0]
     assert occupied_cells(points) == len(occupied(points))
@@ -149,29 +141,6 @@ def test_an_orbit_that_stops_crossing_is_not_followed_to_the_end():
 
 
 # ---- what the examples are --------------------------------------------------------------------------------------
-
-
-@mark.parametrize(
-    "body",
-    [
-        BallBody(1.0, 2.0, 0.0, 0.0, 1.0, 1.0, 0.5, 0.0),
-        BallBody(0.3, 2.0, 0.0, 0.0, 20.0, -0.4, 0.9, 0.0),
-        example("Every orbit closes")[0],
-    ],
-    ids=str,
-)
-def test_with_b3_and_I13_and_I23_zero_every_orbit_closes_after_one_turn(body):
-    for h in (-0.3, 1.7):
-        for start in seeds(body, h, 6):
-            found = section(body, start, EQUATOR, 1000.0, "precise", crossings=3)
-            assert len(found.states) == 3
-            assert np.max(np.abs(found.states - start)) <= 1e-8
-            assert found.error_estimate <= 1e-8
-    # b3 = 0.3 is enough to open them.
-    open_body = BallBody(*body.parameters[:7], 0.3)
-    start = seeds(open_body, 1.7, 12)[5]
-    found = section(open_body, start, EQUATOR, 1000.0, "precise", crossings=1)
-    assert np.max(np.abs(found.states[0] - start)) > 1e-3
 
 
 @mark.chaotic

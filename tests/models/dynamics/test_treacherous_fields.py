@@ -5,7 +5,7 @@ The truth is a closed form, a quadrature, or SciPy at 1e-13 with small steps.
 
 from functools import cache
 from itertools import pairwise
-from math import cos, erf, exp, expm1, inf, pi, sin, sqrt
+from math import cos, erf, exp, inf, pi, sin, sqrt
 
 import numpy as np
 import pytest
@@ -35,35 +35,6 @@ def integrated(field, start, t, longest, **options):
     return solve_ivp(lambda _, y: field(y), (0.0, t), start, **options).y[:, -1]
 
 
-def gates(V):
-    """The rates α, β of the gates m, h, n of Hodgkin and Huxley, without 0/0."""
-    ratio = lambda x: 1.0 if x == 0.0 else x / -expm1(-x)  # noqa: E731
-    return (
-        (ratio((V + 40) / 10), 4 * exp(-(V + 65) / 18)),
-        (0.07 * exp(-(V + 65) / 20), 1 / (1 + exp(-(V + 35) / 10))),
-        (0.1 * ratio((V + 55) / 10), 0.125 * exp(-(V + 65) / 80)),
-    )
-
-
-def membrane(y, current):
-    V, m, h, n = y
-    rates = [a * (1 - x) - b * x for (a, b), x in zip(gates(V), (m, h, n), strict=True)]
-    return current - 120 * m**3 * h * (V - 50) - 36 * n**4 * (V + 77) - 0.3 * (V + 54.387), *rates
-
-
-def written_membrane(y, p):
-    """The same as it is usually written, with 0/0 at V = −40 and V = −55."""
-    V, m, h, n = y
-    am = 0.1 * (V + 40) / (1 - f.exp(-(V + 40) / 10))
-    an = 0.01 * (V + 55) / (1 - f.exp(-(V + 55) / 10))
-    return (
-        p[0] - 120 * m**3 * h * (V - 50) - 36 * n**4 * (V + 77) - 0.3 * (V + 54.387),
-        am * (1 - m) - 4 * f.exp(-(V + 65) / 18) * m,
-        0.07 * f.exp(-(V + 65) / 20) * (1 - h) - h / (1 + f.exp(-(V + 35) / 10)),
-        an * (1 - n) - 0.125 * f.exp(-(V + 65) / 80) * n,
-    )
-
-
 def chain(y, p):
     return (1, *(x * x for x in y[:-1]))
 
@@ -82,35 +53,23 @@ def small_spring(y):
     return y[1], -4 * sin(y[0] / 2) ** 2 / y[0] if y[0] else 0.0
 
 
-def small_exponential(y):
-    x = y[0]
-    series = sum(x**k / np.prod(np.arange(1.0, k + 3)) for k in range(12))
-    return y[1], -2 * x * series
-
-
 FIELDS = {
     "friction": (lambda y, p: (y[1], -f.tanh(y[1] / p[0])), "x v", "eps"),
     "saturated spring": (lambda y, p: (y[1], -f.tanh(p[0] * y[0])), "x v", "k"),
     "kinked spring": (lambda y, p: (y[1], -y[0] / f.sqrt(y[0] ** 2 + p[0] ** 2)), "x v", "delta"),
     "kinked slope": (lambda y, p: (y[1], -y[0] - f.sqrt(y[0] ** 2)), "x v", ""),
     "pulse": (lambda y, p: (-y[0] + f.exp(-(((y[1] - p[1]) / p[0]) ** 2)) / (p[0] * sqrt(pi)), 1), "u tau", "s at"),
-    "sech pulse": (lambda y, p: (-y[0] + 1 / (2 * p[0] * f.cosh((y[1] - 1) / p[0]) ** 2), 1), "u tau", "s"),
     "step": (lambda y, p: (-y[0] + 1 / (1 + f.exp((y[1] - 1) / p[0])), 1), "u tau", "s"),
     "rational pulse": (lambda y, p: (-y[0] + p[0] / pi / ((y[1] - 1) ** 2 + p[0] ** 2), 1), "u tau", "s"),
-    "flat pulse": (lambda y, p: (-y[0] + 1 / (1 + ((y[1] - 1) / p[0]) ** 20), 1), "u tau", "s"),
     "stiff": (lambda y, p: (-p[0] * (y[0] - f.cos(y[1])), 1), "v tau", "k"),
     "cancelling": (lambda y, p: (y[1], -2 * (1 - f.cos(y[0])) / y[0]), "x v", ""),
-    "cancelling exponential": (lambda y, p: (y[1], -2 * (f.exp(y[0]) - 1 - y[0]) / y[0]), "x v", ""),
     "large constant": (lambda y, p: (y[1], -((y[0] + p[0]) - p[0])), "x v", "c"),
     "sinc": (lambda y, p: (f.sin(y[1]) / y[1], 1), "u tau", ""),
-    "exponential quotient": (lambda y, p: (y[0] * (1 - f.exp(-y[1])) / y[1], 1), "u tau", ""),
-    "membrane": (written_membrane, "V m h n", "current"),
     "near collision": (
         lambda y, p: (y[2], y[3], *(-x / (y[0] ** 2 + y[1] ** 2 + p[0] ** 2) ** 1.5 for x in y[:2])),
         "x y vx vy",
         "eps",
     ),
-    "high power": (lambda y, p: (y[1] ** 40, 1), "x tau", ""),
     "chain of squares": (chain, "a b c d e", ""),
     "almost not analytic": (lambda y, p: (f.exp(-1 / y[1] ** 2), 1), "x tau", ""),
     "square root": (lambda y, p: (-f.sqrt(y[0]),), "x", ""),
@@ -133,10 +92,6 @@ def stiff_at(k, t):
     """v̇ = −k (v − cos t), v(0) = 0."""
     size = k / (k * k + 1)
     return size * (k * cos(t) + sin(t)) - size * k * exp(-k * t)
-
-
-def sech(x):
-    return 1 / np.cosh(x) if abs(x) < 700 else 0.0
 
 
 def fermi(x):
@@ -162,32 +117,20 @@ ROWS = [
     *(("pulse", (s, at), (1.0, 0.0), t, lambda s=s, at=at, t=t: (pulse_at(s, at, t),))
       for s, at, t in ((0.1, 1.0, 2.0), (0.02, 1.0, 2.0), (0.005, 1.0, 2.0), (1e-3, 1.0, 2.0), (1e-4, 1.0, 2.0),
                        (0.005, 199.0, 200.0))),
-    *(("sech pulse", (s,), (1.0, 0.0), 2.0,
-       lambda s=s: (decaying(lambda x: sech((x - 1) / s) ** 2 / (2 * s), 1.0, s, 2.0),)) for s in (0.05, 0.005, 0.001)),
     *(("step", (s,), (1.0, 0.0), 2.0, lambda s=s: (decaying(lambda x: fermi((x - 1) / s), 1.0, s, 2.0),))
       for s in (0.01, 1e-3, 1e-4)),
     *(("rational pulse", (s,), (1.0, 0.0), 2.0,
        lambda s=s: (decaying(lambda x: s / pi / ((x - 1) ** 2 + s * s), 1.0, s, 2.0),)) for s in (1e-2, 1e-3, 1e-5)),
-    *(("flat pulse", (s,), (1.0, 0.0), 2.0,
-       lambda s=s: (decaying(lambda x: 1 / (1 + ((x - 1) / s) ** 20), 1.0, s, 2.0),)) for s in (0.2, 0.05)),
     *(("stiff", (k,), (0.0, 0.0), 2.0, lambda k=k: (stiff_at(k, 2.0),)) for k in (10.0, 1e3, 1e4)),
     *(("cancelling", (), (x, 0.0), 1.0, lambda x=x: integrated(small_spring, (x, 0.0), 1.0, 0.01, atol=1e-13 * x))
       for x in (1e-6, 1e-4, 1e-2)),
     ("cancelling", (), (1.0, 0.0), 4.0, lambda: integrated(small_spring, (1.0, 0.0), 4.0, 0.01)),
-    *(("cancelling exponential", (), (x, 0.0), 1.0,
-       lambda x=x: integrated(small_exponential, (x, 0.0), 1.0, 0.01, atol=1e-13 * x)) for x in (1e-6, 1e-3)),
     *(("large constant", (c,), (1e-6, 0.0), 1.0, lambda: (1e-6 * cos(1.0), -1e-6 * sin(1.0))) for c in (1e8, 1e4)),
     *(("sinc", (), (0.0, a), 2.5, lambda a=a: (sici(a + 2.5)[0] - sici(a)[0],)) for a in (-1.0, -1.0 + 1e-9, -1e-3)),
-    ("exponential quotient", (), (1.0, -1.0), 2.0,
-     lambda: (exp(quad(lambda x: -expm1(-x) / x, -1.0, 1.0, points=[0.0], epsabs=1e-14)[0]),)),
-    *(("membrane", (current,), (V, 0.05, 0.6, 0.32), 20.0,
-       lambda current=current, V=V: integrated(lambda y: membrane(y, current), (V, 0.05, 0.6, 0.32), 20.0, 0.02))
-      for current, V in ((10.0, -65.0), (10.0, -55.0 + 1e-9), (0.0, -50.0))),
     *(("near collision", (eps,), (1.0, 0.0, 0.0, 0.05), 3.0,
        lambda eps=eps: integrated(
            lambda y: (*y[2:], *(-y[:2] / (y[0] ** 2 + y[1] ** 2 + eps**2) ** 1.5)), (1.0, 0.0, 0.0, 0.05), 3.0, 0.01))
       for eps in (0.1, 0.02)),
-    ("high power", (), (0.0, 0.0), 1.0, lambda: (1 / 41,)),
     ("chain of squares", (), (0.0,) * 5, 2.0, lambda: (2.0, 8 / 3, 2.0**7 / 63, 2.0**15 / (15 * 63**2), chain_at(2.0))),
     *(("almost not analytic", (), (0.0, a), 1.0 - a,
        lambda a=a: (quad(lambda x: exp(-1 / x**2) if x else 0.0, a, 1.0, points=[0.0], epsabs=1e-14)[0],))
@@ -203,7 +146,7 @@ def system(name):
     return System(name, field, variables, parameters)
 
 
-REFUSED = {("square root", ()), ("sech pulse", (0.001,)), ("step", (1e-3,)), ("step", (1e-4,))}
+REFUSED = {("square root", ()), ("step", (1e-3,)), ("step", (1e-4,))}
 """A motion that ends, and functions that exceed the range of double precision."""
 
 

@@ -7,7 +7,7 @@ import sympy
 from pytest import approx, mark
 from scipy.integrate import solve_ivp
 
-from hess_mechanics import Plane, section, section_points, solve, systems
+from hess_mechanics import section, solve, systems
 from hess_mechanics.chaplygin_ball.section import EQUATOR
 from hess_mechanics.dynamics.lyapunov import lyapunov_exponent
 from hess_mechanics.errors import NotPositiveDefinite, OutsideRegion
@@ -24,7 +24,6 @@ from hess_mechanics.suslov.plane_potential import (
     state_at,
 )
 from support.deviations import deviations
-from support.mechanics import scipy_crossings
 from support.refusals import refused
 
 SUSLOV = systems()["suslov"]
@@ -180,18 +179,6 @@ def test_equipotentials_and_what_is_forbidden(name):
     for share, where in ((0.5, 1), (100.0, 0)):
         areas = forbidden(body, share * edge)
         assert len(areas) == where
-
-
-@every_potential
-def test_points_of_the_section_are_those_of_scipy(name):
-    body = body_of(name, 1.3, 0.8)
-    E = 0.8 * equator_energy(body)
-    start = state_at(body, E, 0.15, 0.05)
-    assert SYSTEM.integrals(start, body.parameters) == approx({"E": E, "F1": 1.0}, abs=1e-14)
-    assert SYSTEM.field(start, body.parameters)[2] > 0.0
-    times, exact = scipy_crossings(lambda y: SYSTEM.field(y, body.parameters), start, lambda y: y[2], 120.0, 1)
-    found = section_points(body, [start], Plane((0.0, 0.0, 1.0, 0.0, 0.0)), float(times[-1]), "precise", 5)
-    assert found.states[0] == approx(exact[:5], abs=1e-6)
 
 
 test_what_is_wrong_is_said = refused(

@@ -7,7 +7,6 @@ import sympy
 from pytest import approx, mark
 
 from hess_mechanics import level, return_map, solve, systems
-from hess_mechanics.dynamics.lyapunov import lyapunov_exponent
 from hess_mechanics.errors import NoField, NotPositiveDefinite, OutsideRegion, WorkLimit
 from hess_mechanics.numerics.accuracy import STANDARD
 from hess_mechanics.suslov.quartic import (
@@ -18,7 +17,6 @@ from hess_mechanics.suslov.quartic import (
     state_at,
     state_on_section,
 )
-from support.deviations import deviations
 from support.mechanics import every_level
 from support.refusals import refused
 
@@ -126,17 +124,6 @@ def test_points_of_the_section_are_what_they_say(body):
             assert state_on_section(body, x, along) == approx(y, abs=2e-4)
             count += 1
     assert count > 10
-
-
-@mark.chaotic
-def test_it_is_chaotic_for_different_moments_and_not_for_equal_ones():
-    rates = [
-        [lyapunov_exponent(body, state_at(body, (0.9, 1.2), 1.0 + 0.02 * k), 1000.0).value for k in range(16)]
-        for body in (QuarticBody(3.0, 1.0, 1.0, 1.2), QuarticBody(1.0, 1.0, 1.0, 1.2))
-    ]
-    # Of a regular motion it falls as ln(t)/t.
-    assert deviations(rates[0], 0.08) > 5.0
-    assert deviations(rates[1], 0.01) < -5.0
 
 
 test_what_is_no_motion_is_refused = refused(

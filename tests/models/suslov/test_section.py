@@ -3,22 +3,19 @@
 The equations are written out here and integrated by SciPy; nothing is compared with itself.
 """
 
-from math import hypot, pi
+from math import pi
 
 import numpy as np
 from pytest import approx, mark, raises
 
-from hess_mechanics import SuslovBody, ensemble
+from hess_mechanics import SuslovBody
 from hess_mechanics.dynamics.attraction import arrivals
 from hess_mechanics.dynamics.basins import SectionOrbits, attractors
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import DRAFT, PRECISE, STANDARD
 from hess_mechanics.suslov.section import SuslovSection
-from support.deviations import deviations
-from support.diagrams import settled
 from support.mechanics import differences, scipy_crossings
 from support.refusals import refused
-from support.suslov import divergence as divergence_of_field
 from support.suslov import energy, field, permanent_rotations
 
 BODY = SuslovBody(1.5, 3.0, 0.4, -0.7, -0.5, 0.6, 0.7)
@@ -135,38 +132,6 @@ def test_what_attracts_forward_are_permanent_rotations_and_their_mirror_images_a
             rates = np.sort(np.linalg.eigvals(jacobian).real * (1.0 if forward else -1.0))
             assert rates[2] < -1e-3
             assert rates[3:] == approx([0.0, 0.0], abs=1e-4)
-
-
-# ---- divergence --------------------------------------------------------------------------------------------------
-
-
-def test_the_divergence_is_that_of_the_field():
-    states = np.random.default_rng(3).normal(size=(40, 5))
-    assert BODY.system.divergence(states, BODY.parameters) == approx(
-        [divergence_of_field(BODY, y) for y in states], abs=1e-12
-    )
-    assert not BODY.system.divergence(states, SuslovBody(1.0, 2.0, 0.0, 0.0, 1.0).parameters).any()
-
-
-# ---- exponents ---------------------------------------------------------------------------------------------------
-
-
-SHRINKING = SuslovBody(1.5, 1.7, 0.1, -0.3, -1.7, 1.0, 2.0)
-
-
-@mark.chaotic
-def test_the_chaotic_seas_of_the_scenes_keep_no_volume():
-    """The example “A chaotic sea” of the orbit diagram."""
-    body = SHRINKING
-    section = SuslovSection(body, 1.9 - hypot(body.b1, body.b2, body.b3), 3)
-    starts = [section.state_at(*place) for place in settled(section, 48, 1, 100)[:, 0]]
-    slopes = np.array([divergence_of_field(body, one) for one in np.eye(5)])
-    for expected, sense in ((-0.0069, 1.0), (0.0064, -1.0)):
-        times = sense * np.linspace(0.0, 2000.0, 8001)
-        # Without a transient: backward in time motions leave the attractor for the repeller.
-        means = [np.mean(orbit[2000:] @ slopes) for orbit in ensemble(body, starts, times, DRAFT).states]
-        assert sense * deviations(means, 0.0) < -5.0
-        assert abs(deviations(means, expected, 4e-4)) < 5.0
 
 
 # ---- basins ------------------------------------------------------------------------------------------------------
