@@ -29,6 +29,7 @@ from .euler_poisson.equations import HeavyBody
 from .euler_poisson.hess_isomorphism import Bridge
 from .euler_poisson.loxodromic_pendulum import LoxodromicMotion, LoxodromicPendulum, loxodromic_motion
 from .numerics.accuracy import LEVELS, Level, Status, level
+from .numerics.arguments import unit_vector
 from .numerics.results import Cost, Ensemble, Orbit, SectionCrossings
 from .return_maps import (
     Basins,
@@ -45,7 +46,7 @@ from .return_maps import (
 from .rigid_body.inertia import BodyCheck, check_body
 from .rigid_body.own_body import OwnBody, Polynomial
 from .suslov.additional_integral import AdditionalIntegral, additional_integral
-from .suslov.equations import SuslovBody, unit_vector
+from .suslov.equations import SuslovBody
 from .suslov.free import FreeMotion, free_motion
 from .suslov.kharlamova import PlaneBody
 from .suslov.quartic import QuarticBody

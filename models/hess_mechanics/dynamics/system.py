@@ -16,6 +16,7 @@ from dataclasses import dataclass, replace
 from functools import cache, cached_property
 from importlib.metadata import entry_points
 from threading import RLock
+from types import ModuleType
 from typing import Any, Protocol
 
 import numpy as np
@@ -37,7 +38,7 @@ from hess_mechanics.numerics.tracing import Field, check, divergence, expression
 from hess_mechanics.numerics.variation_kernels import Variation, products, variation, variation_integrator
 from hess_mechanics.parameters import plain
 
-__all__ = ["Body", "ParametrizedSystem", "Problem", "System", "in_units_of_time", "systems"]
+__all__ = ["Body", "ParametrizedSystem", "Problem", "System", "declared", "in_units_of_time", "systems"]
 
 
 _CANCELS = 64.0 * 2.0**-52
@@ -752,6 +753,18 @@ class ParametrizedSystem:
 
 
 @cache
+def _modules() -> tuple[ModuleType, ...]:
+    package = importlib.import_module("hess_mechanics")
+    names = (module.name for module in pkgutil.walk_packages(package.__path__, f"{package.__name__}."))
+    return tuple(importlib.import_module(name) for name in names)
+
+
+def declared(name: str) -> list[object]:
+    """Return what the modules of the package define under a name, such as SYSTEM."""
+    return [getattr(module, name) for module in _modules() if hasattr(module, name)]
+
+
+@cache
 def systems() -> dict[str, System]:
     """Return all systems.
 
@@ -772,12 +785,7 @@ def systems() -> dict[str, System]:
     >>> "suslov" in systems()
     True
     """
-    package = importlib.import_module("hess_mechanics")
-    found = {}
-    for module in pkgutil.walk_packages(package.__path__, f"{package.__name__}."):
-        system = getattr(importlib.import_module(module.name), "SYSTEM", None)
-        if isinstance(system, System):
-            found[system.name] = system
+    found = {one.name: one for one in declared("SYSTEM") if isinstance(one, System)}
     for brought in entry_points(group="hess_mechanics.systems"):
         system = brought.load()
         if not isinstance(system, System) or system.name in found:

@@ -260,36 +260,3 @@ def test_narrow_bands_beyond_a_cascade_are_chaotic_after_any_transient(transient
     assert found.kind is MotionKind.CHAOTIC
     several = [lyapunov_spectrum(P.section, P.state_at(place), 2e4).values[0] for place in found.places[::-40][:6]]
     assert deviations(several, 0.0) > 5.0
-
-
-def a_periodic_one():
-    return return_map(SuslovBody(1.1, 2.9, -0.9, 0.1, -1.7, -1.6, 1.2), E=-0.3248), (0.7248, 1.8925)
-
-
-def a_quasi_periodic_one():
-    return return_map(SuslovBody(1.5, 1.7, 0.03, -0.05, -0.3, 0.2, 2.0), E=0.5), (2.66, 1.58)
-
-
-def a_chaotic_one():
-    return return_map(STRANGE, E=STRANGE_E, accuracy="standard"), (1.0, 1.0)
-
-
-@mark.parametrize(
-    ("motion", "kind"),
-    [
-        (a_periodic_one, MotionKind.PERIODIC),
-        (a_quasi_periodic_one, MotionKind.QUASI_PERIODIC),
-        (a_chaotic_one, MotionKind.CHAOTIC),
-    ],
-)
-def test_a_verdict_survives_twice_the_time_another_start_and_a_rounding(motion, kind):
-    P, place = motion()
-    found = regime(P, place)
-    others = [
-        regime(P, place, kept=400, t=400.0),
-        regime(P, found.places[7]),
-        regime(P, np.nextafter(place, 10.0)),
-        regime(P, np.nextafter(place, -10.0)),
-    ]
-    assert {(one.kind, one.period) for one in others} == {(kind, found.period)}
-    assert len({one.volume for one in (found, *others)} - {0}) <= 1

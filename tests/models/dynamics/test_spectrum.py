@@ -18,7 +18,7 @@ from support.deviations import deviations, mean_of
 from support.moved import from_moved_starts
 from support.thorough import examples
 
-SUSLOV, HEAVY = systems()["suslov"], systems()["euler-poisson"]
+SUSLOV = systems()["suslov"]
 STRANGE = (0.8, 1.3, 0.6, 0.0, 0.8), (1.7, 3.0, 0.3, 0.1, -2.0, -2.1, 2.6)
 """State and parameters on a strange attractor, found in a search of random bodies."""
 CHAOTIC = HeavyBody((1.0, 1.6, 2.1), (0.3, -0.5, 0.7), 6.0)
