@@ -156,8 +156,7 @@ class Continuation(Part[_Host]):
         """The orbit that is continued, or why there is none; None until known."""
         if self.host.begin is None:
             return None
-        found: Closed | NotFound | None = self.work.need(self.host.begin.search, preview=None)
-        return found
+        return self.work.need(self.host.begin.search, preview=None)
 
     @property
     def closed(self) -> Closed | None:
