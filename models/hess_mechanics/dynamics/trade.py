@@ -7,7 +7,7 @@ import time
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from functools import cache
-from typing import Literal, TypeVar
+from typing import Any, Literal, TypeVar
 
 from hess_mechanics.numerics.accuracy import LEVELS, PLANS, REFERENCE, STANDARD, Kind, Plan
 from hess_mechanics.numerics.patience import go_on
@@ -56,7 +56,8 @@ def _truths(kind: Kind, run: Callable[[Plan], R], alike: Alike) -> Callable[[Pla
 
     @cache
     def truth(own: float) -> R:
-        return run(replace(beyond(kind), **{alike: own}) if alike else beyond(kind))
+        same: dict[str, Any] = {alike: own} if alike else {}
+        return run(replace(beyond(kind), **same))
 
     def of(plan: Plan) -> R:
         return truth(getattr(plan, alike) if alike else 1.0)
