@@ -116,8 +116,7 @@ class _Chart(Part[Any]):
         """Value, error and status (3, 1) in this state; None until known."""
         if self.reason:
             return None
-        found: Array | None = self.work.need(Task(row_of_cells, self.key, (self.place, self.place), 1, 0), preview=None)
-        return found
+        return self.work.need(Task(row_of_cells, self.key, (self.place, self.place), 1, 0), preview=None)
 
     @cached_property
     def cells(self) -> CellGrid | None:
