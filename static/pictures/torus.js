@@ -49,7 +49,10 @@ function densityOf({ re, im }) {
  */
 export function torus(el, options, source, isShown) {
   const own = source(options.name)
-  const surface = createRevolved()
+  // Shaded for the screen and for files.
+  const [onScreen, inFiles] = [createRevolved(), createRevolved()]
+  /** @param {Pick<Sheet, "isFine">} sheet */
+  const surfaceOf = ({ isFine }) => (isFine ? inFiles : onScreen)
   let t = 0
   const turned = turnable(el, "torus", {
     name: options.name, title: "The torus in space", what: "torus", isShown,
@@ -67,7 +70,7 @@ export function torus(el, options, source, isShown) {
     const { radius, height } = own.data
     if (!(radius?.length > 2)) return
     const sheet = createSheet(ctx, look, turn)
-    const image = surface.shade(sheet, radius, height, turn, densityOf(own.data))
+    const image = surfaceOf(sheet).shade(sheet, radius, height, turn, densityOf(own.data))
     const on = onSurface(sheet)
     const edge = outline(radius, height, ...turn)
     const ring = circle([0, 0, 1], 0).map((column, k) => (k < 2 ? scaled(column, radius[0]) : column))
@@ -89,7 +92,7 @@ export function torus(el, options, source, isShown) {
       ctx.globalAlpha = 1
       /** @type {Vector} */
       const place = path.map((column) => column[column.length - 1])
-      drawPoint(sheet, place, surface.shows(...sheet.at(place), sheet.depth(...place), ON_IT))
+      drawPoint(sheet, place, surfaceOf(sheet).shows(...sheet.at(place), sheet.depth(...place), ON_IT))
     }
   }
 
@@ -105,7 +108,8 @@ export function torus(el, options, source, isShown) {
    * @param {boolean} near
    * @param {number} slack
    */
-  function strokeAll({ ctx, px, py, depth, addParts }, list, near, slack) {
+  function strokeAll({ ctx, px, py, depth, addParts, isFine }, list, near, slack) {
+    const surface = surfaceOf({ isFine })
     ctx.beginPath()
     for (const [X, Y, Z] of list) {
       addParts([X, Y, Z], (i) => {
@@ -163,13 +167,5 @@ export function torus(el, options, source, isShown) {
       }
     }
   })
-  return {
-    ...ghost,
-    shoot(look) {
-      const sheet = turned.shoot(look)
-      // The surface on the screen has other pixels.
-      request()
-      return sheet
-    },
-  }
+  return { shoot: turned.shoot, ...ghost }
 }
