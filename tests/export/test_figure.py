@@ -7,13 +7,13 @@ from math import cos, nan, pi, sin
 
 import numpy as np
 import pytest
+from hess_explorer.export.sphere_canvas import seen
 from PIL import Image
 from pytest import approx
 from scipy.spatial.transform import Rotation
 
 from hess_explorer.export.figure import as_file
 from hess_explorer.export.picture_data import picture_data
-from hess_explorer.export.sphere_canvas import seen
 from hess_mechanics.errors import ModelError
 
 DRAFT = "accuracy=draft"

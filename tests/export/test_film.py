@@ -8,13 +8,13 @@ import tempfile
 
 import numpy as np
 import pytest
+from hess_explorer.export.film import as_film, pictures_at, times_of
+from hess_explorer.export.loop import footer, loop_times, period
 from pytest import approx
 from scipy import ndimage
 
 from hess_explorer.__main__ import main
-from hess_explorer.export.film import as_film, pictures_at, times_of
 from hess_explorer.export.formats import Loop, holding
-from hess_explorer.export.loop import footer, loop_times, period
 from hess_explorer.export.picture_data import picture_data
 from hess_mechanics.errors import ModelError
 from support.films import frames_of, tags_of

@@ -4,16 +4,16 @@ from math import cos, exp, floor, log, pi, sin
 
 import numpy as np
 import pytest
+from hess_explorer.export.moment import clouds_at, density_at
+from hess_explorer.export.sphere_canvas import seen
+from hess_explorer.export.torus import sides
 from matplotlib.colors import to_hex
 from matplotlib.patches import Circle
 from pytest import approx
 
 from hess_explorer.export import revolved, solid
 from hess_explorer.export.figure import draw
-from hess_explorer.export.moment import clouds_at, density_at
 from hess_explorer.export.picture_data import picture_data
-from hess_explorer.export.sphere_canvas import seen
-from hess_explorer.export.torus import sides
 from support.ball import TENSOR, rates
 from support.mechanics import followed
 from support.suslov import HESS_BODY, field
