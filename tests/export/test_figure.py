@@ -7,7 +7,6 @@ from math import nan
 
 import numpy as np
 import pytest
-from hess_explorer.export.sphere_canvas import seen
 from PIL import Image
 from pytest import approx
 

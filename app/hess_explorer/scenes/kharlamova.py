@@ -401,7 +401,7 @@ SCENE = Scene(
             ),
         ),
         plane_potential.picture(
-            lambda s: s.potential, lambda s: s.body, lambda s: s.other_body, lambda s: s.other, Kharlamova.half_width
+            lambda s: s.potential, lambda s: s.other_body, lambda s: s.other, Kharlamova.half_width
         ),
         Plot(
             name="curve",

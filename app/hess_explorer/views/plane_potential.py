@@ -15,11 +15,9 @@ from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits
 from hess_explorer.views.velocity_plane import about_origin
 from hess_mechanics.numerics.results import Array
-from hess_mechanics.suslov.kharlamova import PlaneBody
 from hess_mechanics.suslov.plane_potential import (
     PlaneMotion,
     PotentialBody,
-    equator_energy,
     forbidden,
     level_curve,
 )
@@ -46,7 +44,7 @@ def about(body: PotentialBody, motion: PlaneMotion) -> Caption:
         if body.separates
         else f"F₂ changes by {digits(100.0 * motion.integral, 2)} %."
     )
-    if motion.energy < equator_energy(body):
+    if motion.one_sided:
         return Caption("Too slow to reach the equator.", f"It stays on one side. {integral}")
     return Caption(
         "Fewer than two equator crossings.", f"Up to t = {digits(float(motion.orbit.times[-1]))}. {integral}"
@@ -60,7 +58,6 @@ def _largest(body: PotentialBody) -> float:
 
 def picture(
     name: Callable[[S], str],
-    plane: Callable[[S], PlaneBody],
     body: Callable[[S], PotentialBody],
     motion: Callable[[S], PlaneMotion],
     half_width: Callable[[S], float],
@@ -69,17 +66,17 @@ def picture(
 
     def edge(state: S) -> Array:
         angle = np.linspace(0.0, 2.0 * np.pi, 241)
-        return plane(state).place(np.stack([np.cos(angle), np.sin(angle)], axis=-1))
+        return body(state).place(np.stack([np.cos(angle), np.sin(angle)], axis=-1))
 
     def levels(state: S) -> list[Array]:
         top = _largest(body(state))
-        return [plane(state).place(part) for share in _LEVELS for part in level_curve(body(state), share * top)]
+        return [body(state).place(part) for share in _LEVELS for part in level_curve(body(state), share * top)]
 
     def too_high(state: S) -> list[Array]:
-        return [plane(state).place(part) for part in forbidden(body(state), motion(state).energy)]
+        return [body(state).place(part) for part in forbidden(body(state), motion(state).energy)]
 
     def orbit(state: S) -> tuple[Array, Array]:
-        q = plane(state).place(motion(state).orbit.states[:, 2:4])
+        q = body(state).place(motion(state).orbit.states[:, 2:4])
         return q[:, 0], q[:, 1]
 
     def start(state: S) -> list[tuple[float, float]]:

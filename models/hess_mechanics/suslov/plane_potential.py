@@ -41,7 +41,6 @@ __all__ = [
     "PlaneMotion",
     "PlaneProblem",
     "PotentialBody",
-    "equator_energy",
     "forbidden",
     "level_curve",
     "missed",
@@ -255,16 +254,6 @@ def separable_integral(body: PotentialBody, states: Array) -> Array:
     return np.asarray(0.5 * (body.I11 * states[..., 0] ** 2 + body.c2 * states[..., 3] ** 2))
 
 
-def equator_energy(body: PotentialBody) -> float:
-    """Return the minimum of U on the equator: motions with less energy stay on one side of it."""
-    angle, width = 0.0, math.pi
-    for _ in range(3):
-        angles = angle + np.linspace(-width, width, 721)
-        values = body.potential(np.stack([np.cos(angles), np.sin(angles)], axis=-1))
-        angle, width = angles[np.argmin(values)], 0.01 * width
-    return float(values.min())
-
-
 # ---- Plots ------------------------------------------------------------------------------------------------------
 
 _BISECTIONS = 32
@@ -278,6 +267,7 @@ class PlaneMotion:
 
     period : 2(t2 − t1) of two successive crossings of the equator, None if there are fewer;
     missed : distance from the start after one period; fixed : True if the state is an equilibrium.
+    one_sided : True if its energy keeps it from the equator.
     integral : range of F2 of a quadratic potential along the motion, relative to its largest value.
     """
 
@@ -286,6 +276,7 @@ class PlaneMotion:
     period: float | None
     missed: float
     fixed: bool
+    one_sided: bool
     integral: float
 
 
@@ -304,7 +295,9 @@ def motion_from(body: PotentialBody, start: tuple[float, ...], duration: float, 
         if len(times) == 2:
             period = 2.0 * float(times[1] - times[0])
             left = missed(body, start, period, level)
-    return PlaneMotion(orbit, body.energy(start), period, left, fixed, integral)
+    energy = body.energy(start)
+    one_sided = bool(np.all(_radius(body, energy)[1] < _EDGE))
+    return PlaneMotion(orbit, energy, period, left, fixed, one_sided, integral)
 
 
 def _radius(body: PotentialBody, value: float) -> tuple[Array, Array]:

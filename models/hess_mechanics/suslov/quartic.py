@@ -289,23 +289,6 @@ class QuarticBody(PlaneProblem):
         """
         return -self.b3 * q[1] / self.I11, self.b3 * q[0] / self.I22
 
-    def on_section(self, states: Array) -> Array:
-        """Return the coordinates of states on the section.
-
-        Parameters
-        ----------
-        states : ndarray of float, shape (n, 5)
-            States of the section.
-
-        Returns
-        -------
-        ndarray of float, shape (n, 2)
-            The q that is not 0 on the section, and its p.
-        """
-        q, p = self.to_plane(states)
-        along = 1 - self.across
-        return np.column_stack([q[:, along], p[:, along]])
-
     def section_boundaries(self) -> list[Array]:
         """Return the curves p² + γ3² = 1 that bound the section.
 
@@ -462,7 +445,9 @@ class QuarticSection(PoincareSection):
 
     def places_of(self, states: Array) -> Array:
         """Return (q, p) (n, 2) of states (n, 5) of the section."""
-        return self.body.on_section(states)
+        q, p = self.body.to_plane(states)
+        along = 1 - self.body.across
+        return np.column_stack([q[:, along], p[:, along]])
 
 
 SECTION = on_section(

@@ -9,6 +9,8 @@ import numpy as np
 from pytest import approx, mark, raises
 
 from hess_mechanics import SuslovBody, ensemble
+from hess_mechanics.dynamics.attraction import arrivals
+from hess_mechanics.dynamics.basins import SectionOrbits, attractors
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import DRAFT, PRECISE
 from hess_mechanics.suslov.section import SuslovSection
@@ -22,6 +24,7 @@ from support.suslov import energy, field
 BODY = SuslovBody(1.5, 3.0, 0.4, -0.7, -0.5, 0.6, 0.7)
 SEA = SuslovBody(1.5, 3.0, 0.4, 0.4, -0.5, -0.5, 0.7), 0.005
 
+TWO = SuslovBody(1.5, 1.0, 0.4, 0.0, 0.3, -0.5, 1.0), 1.842
 SEEN = SuslovSection(BODY, 0.6, 3)
 WHOLE = ((-pi, 0.0), (pi, pi))
 
@@ -116,9 +119,6 @@ def test_the_first_points_are_those_of_scipy(k, forward, count):
     assert found == approx(exact[:count], abs=1e-6)
 
 
-# ---- divergence --------------------------------------------------------------------------------------------------
-
-
 # ---- exponents ---------------------------------------------------------------------------------------------------
 
 
@@ -141,3 +141,18 @@ def test_the_chaotic_seas_of_the_scenes_keep_no_volume():
 
 
 # ---- basins ------------------------------------------------------------------------------------------------------
+
+
+def test_the_basins_of_the_example_are_those_that_scipy_finds():
+    body, E = TWO
+    orbits = SectionOrbits(SuslovSection(body, E, 3), DRAFT)
+    starts = orbits.section.spread(WHOLE, 6)
+    which = arrivals(orbits, attractors(orbits.section, 1000.0, DRAFT).sets, *orbits.places_of(np.array(starts)).T)
+    assert set(which.number) == {0, 1}
+    exact = []
+    for start in starts:
+        times, states = scipy_crossings(lambda y: field(body, y), start, lambda y: y[4], 400.0, 1, rtol=1e-8, atol=1e-9)
+        exact.append(states[times > 300.0, 0].mean())
+    # The first attractor is the one with ω₁ > 0 in the mean.
+    assert np.array_equal(np.array(exact) < 0.0, which.number)
+    assert np.ptp(exact) > 0.1
