@@ -422,8 +422,7 @@ def _closes(map_: ReturnMap, places: Array, m: int) -> bool:
 
 def _at_rest(map_: ReturnMap, place: Array, precision: float) -> bool:
     problem = Problem.of(map_.section, map_.state_at(place)[None])
-    rates = map_.section.system.field(problem.states[0].tolist(), problem.parameters.tolist())
-    return float(np.abs(rates).max()) <= precision
+    return float(np.abs(problem.system.rates(problem.states, problem.parameters)).max()) <= precision
 
 
 def _ensemble(map_: ReturnMap, places: Array) -> Array:

@@ -431,8 +431,11 @@ class System:
         ndarray, shape (n, d)
             The rates.
         """
-        found = self.field(list(states.T), np.asarray(parameters).tolist())
-        return np.stack([np.broadcast_to(rate, len(states)) for rate in found], axis=1)
+        found = np.empty(states.shape)
+        for i, rate in enumerate(self.field(list(states.T), np.asarray(parameters).tolist())):
+            # A rate may be a plain number.
+            found[:, i] = rate
+        return found
 
     @cached_property
     def recursion(self) -> Recursion:

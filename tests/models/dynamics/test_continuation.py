@@ -89,7 +89,9 @@ def test_an_invariant_curve_is_born():
 
 
 def mirrored(r):
-    return replace(pitchfork(r), symmetries_of=lambda x, near: ["x → −x"] * (np.abs(x[:, 0]).max() < 0.01 * near))
+    return replace(
+        pitchfork(r), symmetries_of=lambda x, near: ["x → −x"] if np.abs(x[:, 0]).max() < 0.01 * near else []
+    )
 
 
 def test_a_pitchfork_is_one_only_where_a_symmetry_is_broken():
