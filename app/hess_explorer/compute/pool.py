@@ -28,6 +28,9 @@ class Pool:
     """Runs requests, those of the sessions in rotation, and background tasks when a core is free."""
 
     def __init__(self, cores: int) -> None:
+        # One thread more than cores, so that a slow request does not block the others.  Many more threads would delay
+        # the event loop, which competes with them for the interpreter lock.
+        self._requests = ThreadPoolExecutor(cores + 1, thread_name_prefix="request")
         self._waiting: list[RequestQueue] = []
         self._busy = 0
         self._changed = threading.Condition()
@@ -36,9 +39,6 @@ class Pool:
     def use(self, cores: int) -> None:
         """Set the number of cores, which is also the maximum number of running background tasks."""
         self.cores = max(1, cores)
-        # One thread more than cores, so that a slow request does not block the others.  Many more threads would delay
-        # the event loop, which competes with them for the interpreter lock.
-        self._requests = ThreadPoolExecutor(self.cores + 1, thread_name_prefix="request")
         self._tasks = ThreadPoolExecutor(self.cores, thread_name_prefix="background")
 
     def answer(self, queue: RequestQueue) -> None:
