@@ -1,6 +1,6 @@
 """Measure the speed of the page and write the results to its README: `python tests/benchmarks/benchmark_page.py`.
 
-Drag: the mouse moves every 16 ms whether or not the page follows.  Sliders: "benchmark_plain.py".
+Drag: the mouse moves every 16 ms whether or not the page follows.
 """
 
 import asyncio
