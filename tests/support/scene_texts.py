@@ -415,6 +415,6 @@ ROWS = {
         "at three tolerances": (len(work_precision._TOLERANCES),),
         "order 36 in pairs": (doubled_kernels.ORDER,),
     },
-    "rotation-number-accuracy": {"the four levels": (len(LEVELS),), "$1/256$ of all": (trial.COLOUR,)},
+    "rotation-number-accuracy": {"the four levels": (len(LEVELS),), "$1/256$ of all": (trial._COLOUR,)},
 }
 """A phrase of a scene's text → the numbers in it, or a function that computes them from the step."""
