@@ -1,4 +1,4 @@
-"""Limit the messages of a websocket, and close all websockets when the server shuts down.
+"""Limit the sessions and the messages of a websocket, and close all websockets when the server shuts down.
 
 A page requests the next state only after the last one is painted.  A client that sends more than a page can is
 disconnected with a reason.
@@ -9,9 +9,10 @@ from __future__ import annotations
 import asyncio
 import time
 
+import panel as pn
 from tornado.websocket import WebSocketHandler
 
-__all__ = ["MESSAGE_LIMIT", "OPEN_SOCKETS", "RateLimit", "say_goodbye"]
+__all__ = ["MESSAGE_LIMIT", "OPEN_SOCKETS", "Capacity", "RateLimit", "say_goodbye"]
 
 MESSAGE_LIMIT = 256 * 1024
 """Maximum size of a frame in bytes; slider values and clicks are far smaller."""
@@ -26,6 +27,33 @@ ENDING = "The server is shutting down or restarting: open the page again in a mo
 
 OPEN_SOCKETS: set[WebSocketHandler] = set()
 """The open websockets of this process."""
+
+
+class Capacity:
+    """Counts the open sessions of one process, because each takes memory; used only in the thread of the event loop."""
+
+    def __init__(self, most: int) -> None:
+        self.most = most
+        self.there = 0
+
+    def take(self) -> bool:
+        """Count the session that is being opened until it is destroyed; return False if the server is full."""
+        if self.there >= self.most:
+            return False
+        self.there += 1
+        pn.state.on_session_destroyed(self._gone)
+        return True
+
+    def _gone(self, context: object) -> None:
+        self.there -= 1
+
+    @property
+    def sentence(self) -> str:
+        """The message for users who find the server full."""
+        return (
+            f"The explorer is full: this server can have at most {self.most} open pages. Try again in a minute, or "
+            "install the explorer on your own machine."
+        )
 
 
 class RateLimit:

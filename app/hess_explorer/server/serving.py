@@ -26,11 +26,10 @@ from hess_explorer.lessons.lesson import Lesson
 from hess_explorer.page.page import page
 from hess_explorer.rooms.messages import CODE
 from hess_explorer.rooms.registry import Rooms
-from hess_explorer.server.capacity import Capacity
 from hess_explorer.server.export import Export
 from hess_explorer.server.handlers import replace_handlers
 from hess_explorer.server.hosts import Hosts
-from hess_explorer.server.limits import MESSAGE_LIMIT, OPEN_SOCKETS
+from hess_explorer.server.limits import MESSAGE_LIMIT, OPEN_SOCKETS, Capacity
 from hess_explorer.server.liveness import is_alive
 from hess_explorer.server.modules import module_routes
 from hess_explorer.server.qr_code import QrCode

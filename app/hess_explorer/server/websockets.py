@@ -20,9 +20,8 @@ from hess_explorer.lessons.lesson import Lesson
 from hess_explorer.page.connection import Connection
 from hess_explorer.page.opening import query_of
 from hess_explorer.protocol.messages import ALIVE
-from hess_explorer.server.capacity import Capacity
 from hess_explorer.server.hosts import is_allowed_origin
-from hess_explorer.server.limits import OPEN_SOCKETS, RateLimit
+from hess_explorer.server.limits import OPEN_SOCKETS, Capacity, RateLimit
 
 __all__ = ["PanelSocket", "StateSocket"]
 
