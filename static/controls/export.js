@@ -14,8 +14,6 @@ import { slowFileOf } from "./slow_file.js"
 // [least, most, first] number of values of a slider.
 /** @type {[number, number, number]} */
 const VALUES = [2, 400, 40]
-// More megabytes than most mail takes.
-const LARGE = 20
 const FLAGS = new Set(["black", "grid"])
 
 /** @typedef {Record<string, string> & {picture: string, format: string}} Wanted */
@@ -38,9 +36,6 @@ export function exportDialog(files) {
   let scene = null
   /** @type {AbortController | null} */
   let running = null
-  // The size of a page with one state and that of the state in it, for the last query and pictures.
-  /** @type {{query: string, sizes: Promise<{why: string, whole: number, state: number}>}} */
-  let measured = { query: "", sizes: null }
   const picture = element("select.param-picture", { onchange: writePython })
   const format = element("select.param-format", ...optionsOf(files.formats))
   /** @param {string} name @param {number} step @param {[number, number, number]} limits */
@@ -114,8 +109,7 @@ export function exportDialog(files) {
     film.hidden = !isFilm(format.value)
     page.hidden = !isAll()
     const what = wanted()
-    if (isAll()) saySize(what)
-    else save.disabled = running !== null
+    states.textContent = countOfStates() === 1 ? "One state." : `About ${countOfStates()} states.`
     const options = Object.entries(what).filter(([, value]) => value !== "").flatMap(([name, value]) => {
       if (FLAGS.has(name)) return ` --${name}`
       return (name === "vary" ? value.split(",") : [value]).map((one) => ` --${name} ${one}`)
@@ -123,29 +117,10 @@ export function exportDialog(files) {
     command.value = `hess-explorer export --state '${state().replaceAll("'", "%27")}'${options} --out ${fileName(what)}`
   }
 
-  /**
-   * Say how large a page will be: the other states are about as large as the one on show, or smaller as differences from it.
-   * @param {Wanted} what
-   */
-  async function saySize({ picture: pictures }) {
-    const query = `${state()} ${pictures}`
-    if (measured.query !== query) {
-      measured = { query, sizes: fetched({ picture: pictures, format: "html" }).then(async ({ file, why = "" }) => ({
-        why, whole: file?.size ?? 0,
-        state: [...(await file?.text() ?? "").matchAll(/ id="strip-\d+">([^<]*)/g)].reduce((sum, [, strip]) => sum + strip.length, 0),
-      })) }
-    }
-    states.textContent = "Measuring the size…"
-    save.disabled = true
-    const { why, whole, state: one } = await measured.sizes
-    if (measured.query !== query || !isAll()) return
-    if (why !== "") measured.query = ""
-    save.disabled = running !== null
+  /** Return how many states a page will have. */
+  function countOfStates() {
     const count = sliders().length
-    const all = count === 0 ? 1 : grid.checked ? values.valueAsNumber ** count : count * values.valueAsNumber
-    const megabytes = (whole + (all - 1) * one) / 1e6
-    states.textContent = why || `${all === 1 ? "One state" : `About ${all} states`}, ${Number(megabytes.toPrecision(2))} MB${
-      megabytes > LARGE ? ": too large for most mail, slow on phones. Choose fewer values or pictures" : ""}.`
+    return count === 0 ? 1 : grid.checked ? values.valueAsNumber ** count : count * values.valueAsNumber
   }
 
   // Answers may come in any order: keep the one for the picture that is chosen.

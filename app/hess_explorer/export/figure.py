@@ -224,12 +224,14 @@ def densities(data: PictureData) -> list[tuple[CloudPlane[Any], Layer[Any]]]:
 
 
 def _density(columns: Mapping[str, Any], t: float) -> tuple[Array, Array]:
-    """Return |s| and the density of the first cloud per unit of |s| in the frame nearest to t, in its bins of ln|s|."""
+    """Return |s| and the density of the first cloud per unit of |s| at time t, in its bins of ln|s|."""
     if "signs0" not in columns:
         return np.empty(0), np.empty(0)
     times, (first, wide, count) = columns["times"], columns["bins"]
     frames = np.asarray(columns["frames0"], float).reshape(len(times), 5, -1)
-    log_s = frames[np.argmin(np.abs(times - t)), 1]
+    place = np.interp(t, times, np.arange(len(times)))
+    i = min(int(place), len(times) - 2)
+    log_s = frames[i, 1] + (place - i) * (frames[i + 1, 1] - frames[i, 1])
     counts = np.histogram(log_s, first + wide * np.arange(count + 1))[0]
     s = np.exp(first + (np.arange(count) + 0.5) * wide)
     full = counts > 0

@@ -14,7 +14,7 @@ from queue import SimpleQueue
 from threading import Thread
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from hess_explorer.export.figure import Drawing
+from hess_explorer.export.figure import Drawing, densities
 from hess_explorer.export.formats import WIDTHS
 from hess_explorer.export.picture_data import PictureData
 from hess_explorer.headless.browser import BrowserError, launched, wait_ready
@@ -112,7 +112,8 @@ def page_of(data: PictureData) -> Iterator[Callable[[str, Any], Any]]:
     """
     if scenes().get(data.scene.name) is not data.scene:
         add(data.scene, data.scene.name)
-    _, page = state_page(data.link, [data.picture.name])
+    # The plane of a cloud fills the density that another picture shows.
+    _, page = state_page(data.link, [data.picture.name, *(cloud.name for cloud, _ in densities(data))])
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "page.html"
         file.write_bytes(page)
