@@ -81,7 +81,7 @@ def debian(root: Path, suite: str, mirror: str = "") -> None:
 
 def wanted(port: int) -> list[str]:
     """The options of a replica of compose.yaml, as an engine takes them; and its command, at this port."""
-    service = yaml.safe_load((PROJECT / "compose.yaml").read_text("utf-8"))["services"]["explorer-1"]
+    service = yaml.safe_load((PROJECT / "app/deployment/compose.yaml").read_text("utf-8"))["services"]["explorer-1"]
     kernels = next(one for one in service["volumes"] if one.startswith("kernels:"))
     command = [re.sub(r"^\$\{.*\}$", f"localhost:{port}", word) for word in service["command"]]
     command[command.index("--port") + 1] = str(port)

@@ -136,7 +136,7 @@ def main():
         config = folder / "Caddyfile"
         config.write_text(
             "{\n\tauto_https disable_redirects\n\tskip_install_trust\n\tadmin off\n}\n"
-            + (ROOT / "Caddyfile").read_text()
+            + (ROOT / "app/deployment/Caddyfile").read_text()
         )
         proxy = stack.enter_context(
             subprocess.Popen(

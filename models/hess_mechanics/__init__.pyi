@@ -10,11 +10,11 @@ from .computations import (
 from .dynamics.continuation import Branch
 from .dynamics.ensemble import ensemble
 from .dynamics.lyapunov import Exponent, lyapunov_exponent
-from .dynamics.manifolds import Manifold
+from .dynamics.manifolds import Manifold, manifold
 from .dynamics.megno import Megno, megno
 from .dynamics.megno_map import MegnoMap, megno_map
 from .dynamics.orbit import solve
-from .dynamics.orbit_diagram import Cascade, Diagram
+from .dynamics.orbit_diagram import Cascade, Diagram, Hysteresis
 from .dynamics.periodic import PeriodicOrbit
 from .dynamics.regime import Dynamics, Regime, dynamics_of, regime
 from .dynamics.return_map import ReturnMap
@@ -29,15 +29,14 @@ from .euler_poisson.equations import HeavyBody
 from .euler_poisson.hess_isomorphism import Bridge
 from .euler_poisson.loxodromic_pendulum import LoxodromicMotion, LoxodromicPendulum, loxodromic_motion
 from .numerics.accuracy import LEVELS, Level, Status, level
+from .numerics.arguments import unit_vector
 from .numerics.results import Cost, Ensemble, Orbit, SectionCrossings
 from .return_maps import (
     Basins,
-    Hysteresis,
     PlanePoints,
     basins,
     continued_orbit,
     hysteresis,
-    manifold,
     orbit_diagram,
     period_doublings,
     periodic_orbit,
@@ -47,7 +46,7 @@ from .return_maps import (
 from .rigid_body.inertia import BodyCheck, check_body
 from .rigid_body.own_body import OwnBody, Polynomial
 from .suslov.additional_integral import AdditionalIntegral, additional_integral
-from .suslov.equations import SuslovBody, unit_vector
+from .suslov.equations import SuslovBody
 from .suslov.free import FreeMotion, free_motion
 from .suslov.kharlamova import PlaneBody
 from .suslov.quartic import QuarticBody

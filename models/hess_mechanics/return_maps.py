@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
@@ -18,13 +19,10 @@ from hess_mechanics.dynamics.attraction import arrivals
 from hess_mechanics.dynamics.basins import Contraction, SectionOrbits, attractors
 from hess_mechanics.dynamics.cells import Window, centres, evenly
 from hess_mechanics.dynamics.continuation import Branch, continued
-from hess_mechanics.dynamics.manifolds import Manifold, grown
 from hess_mechanics.dynamics.megno_map import corners, require_plane
-from hess_mechanics.dynamics.orbit_diagram import COMPARED, Cascade, Diagram, cascade, diagram_over
-from hess_mechanics.dynamics.orbit_diagram import hysteresis as differing
+from hess_mechanics.dynamics.orbit_diagram import COMPARED, Cascade, Diagram, Hysteresis, cascade, diagram_over
 from hess_mechanics.dynamics.periodic import MAX_PERIOD, PeriodicOrbit, find_periodic, place_units
-from hess_mechanics.dynamics.return_map import PoincareSection, ReturnMap
-from hess_mechanics.dynamics.section import section_points
+from hess_mechanics.dynamics.return_map import PoincareSection, ReturnMap, section_crossings
 from hess_mechanics.dynamics.system import ParametrizedSystem, Problem
 from hess_mechanics.dynamics.variable_section import variable_section
 from hess_mechanics.errors import InvalidParameter, OutsideRegion, WorkLimit
@@ -32,7 +30,7 @@ from hess_mechanics.euler_poisson.andoyer import AndoyerSection
 from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.numerics.accuracy import Accuracy, Kind, plan
 from hess_mechanics.numerics.arguments import as_cells, as_level, as_number, as_pairs, as_place, as_whole
-from hess_mechanics.numerics.labelled import Labels, Result
+from hess_mechanics.numerics.labelled import Labels, Result, components
 from hess_mechanics.numerics.parallel import share
 from hess_mechanics.numerics.results import Array, angle_facts, frozen
 from hess_mechanics.suslov.equations import SuslovBody
@@ -43,12 +41,10 @@ from hess_mechanics.suslov_hess.section import TorusSection
 
 __all__ = [
     "Basins",
-    "Hysteresis",
     "PlanePoints",
     "basins",
     "continued_orbit",
     "hysteresis",
-    "manifold",
     "orbit_diagram",
     "period_doublings",
     "periodic_orbit",
@@ -96,7 +92,7 @@ class PlanePoints(Result):
         points = np.concatenate([np.empty((0, 2)), *self.orbits])
         return Labels(
             {"orbit": (("point",), number)},
-            {name: (("point",), points[:, i]) for i, name in enumerate(self.names)},
+            components(self.names, points, "point"),
             place_units(self.names),
             self.facts,
         )
@@ -250,15 +246,9 @@ def section_orbits(
         if len(starts)
         else _spread(section, as_whole("orbits", orbits, 1, _MOST_ORBITS))
     )
-    end = count * (map_.longest or _TURNS * section.slowness / Problem.of(section, states).nu)
-    found = section_points(
-        section,
-        states,
-        section.surface,
-        -end if map_.backward else end,
-        plan(Kind.SECTION, map_.accuracy).level,
-        count,
-    )
+    turns = _TURNS if map_.longest is None else map_.longest * Problem.of(section, states).nu / section.slowness
+    level = plan(Kind.SECTION, map_.accuracy).level
+    found = section_crossings(section, states, count, turns, level, map_.backward)
     x, y = section.names
     return PlanePoints(
         (x, y),
@@ -365,83 +355,16 @@ def continued_orbit(map_: ReturnMap, orbit: PeriodicOrbit, parameter: str, to: f
     ('stable node', 0)
     """
     branch = continued(
-        lambda value: map_.moved(parameter, value),
+        partial(map_.moved, parameter),
         orbit,
         parameter,
         map_.constant(parameter),
         to,
         as_whole("points", points, 2, 2000),
-        lambda one, places, near: one.symmetries_of(places, near) if isinstance(one, ReturnMap) else (),
     )
     along = zip(branch.values.tolist(), branch.places, strict=True)
     times = [abs(map_.moved(parameter, value).time_of(places)) for value, places in along]
     return replace(branch, times=frozen(np.array(times)))
-
-
-def manifold(
-    map_: ReturnMap,
-    saddle: PeriodicOrbit,
-    length: float,
-    *,
-    stable: bool = False,
-    side: int = 1,
-    place: int = 0,
-    sagitta: float = 1e-3,
-    longest: float = 0.1,
-) -> Manifold:
-    """Return one branch of the stable or unstable manifold of a saddle, up to a given length.
-
-    Parameters
-    ----------
-    map_ : ReturnMap
-        Return map of a section with two coordinates.
-    saddle : PeriodicOrbit
-        A saddle of this map.
-    length : float
-        Length along the curve at which the branch ends, in units of the coordinates.
-    stable : bool, default False
-        Return the stable manifold instead of the unstable one.
-    side : {1, -1}, default 1
-        Leave the saddle along its direction (1) or against it (−1).
-    place : int, default 0
-        Index of the point of the saddle orbit from which the branch starts.
-    sagitta : float, default 1e-3
-        Largest distance between the curve and the returned polyline.
-    longest : float, default 0.1
-        Longest chord of the polyline.
-
-    Returns
-    -------
-    Manifold
-        The branch, as a polyline.
-
-    Raises
-    ------
-    InvalidParameter
-        If the orbit is not a saddle, or a number is out of range.
-    WorkLimit
-        If the branch needs too many returns.
-    NoReturn
-        If the motion does not return to the section.
-
-    Examples
-    --------
-    >>> from hess_mechanics import HeavyBody, manifold, periodic_orbit, return_map
-    >>> P = return_map(HeavyBody.hess((1.0, 1.6, 4.0), 1.0), h=1.5, f=-0.76)
-    >>> saddle = periodic_orbit(P, (-2.84, 0.288), 1)
-    >>> manifold(P, saddle, 0.5).length >= 0.5
-    True
-    """
-    return grown(
-        map_,
-        saddle,
-        length,
-        stable,
-        side,
-        place,
-        sagitta,
-        longest,
-    )
 
 
 def orbit_diagram(
@@ -501,53 +424,11 @@ def orbit_diagram(
     transient, kept = as_whole("transient", transient, 0, 20_000), as_whole("kept", kept, 1, 20_000)
     if len(np.atleast_1d(values)) * kept > _MOST_PLACES:
         raise WorkLimit(f"An orbit diagram has at most {_MOST_PLACES} places: choose fewer values, or crossings kept.")
-    found = diagram_over(lambda value: map_.moved(parameter, value), parameter, values, place, transient, kept, follow)
+    found = diagram_over(partial(map_.moved, parameter), parameter, values, place, transient, kept, follow)
     if not any(map(len, found.places)):
         # Say why.
         map_.moved(parameter, float(found.values[0])).state_at(np.array(place))
     return found
-
-
-@dataclass(frozen=True)
-class Hysteresis(Result):
-    """Orbit diagrams over a parameter there and back.
-
-    Attributes
-    ----------
-    there, back : Diagram
-        The diagram over rising values, and over falling values from where the first one ends.
-    intervals : tuple of (float, float)
-        Intervals of values over which they differ.
-    """
-
-    there: Diagram
-    back: Diagram
-    intervals: tuple[tuple[float, float], ...]
-
-    def labels(self) -> Labels:
-        """Return the points of both diagrams, labelled with the way and the value of the parameter.
-
-        Returns
-        -------
-        Labels
-            The coordinates over the points.
-        """
-        one, other = self.there.labels(), self.back.labels()
-        way = [
-            np.full(len(each.coords[self.there.parameter][1]), name) for each, name in ((one, "there"), (other, "back"))
-        ]
-        both = {
-            name: (dims, np.concatenate([values, other.coords[name][1]])) for name, (dims, values) in one.coords.items()
-        }
-        return Labels(
-            {"way": (("point",), np.concatenate(way)), **both},
-            {
-                name: (dims, np.concatenate([values, other.variables[name][1]]))
-                for name, (dims, values) in one.variables.items()
-            },
-            one.units,
-            {"intervals": "; ".join(f"{low:.12g} to {high:.12g}" for low, high in self.intervals), **one.facts},
-        )
 
 
 def hysteresis(
@@ -601,7 +482,7 @@ def hysteresis(
     there = orbit_diagram(map_, parameter, values, at, transient=transient, kept=kept)
     ends = [end.tolist() for end, some in zip(there.ends, there.places, strict=True) if len(some)]
     back = orbit_diagram(map_, parameter, there.values[::-1], ends[-1], transient=transient, kept=kept)
-    return Hysteresis(there, back, differing(map_.turns, there, back))
+    return Hysteresis(there, back, map_.turns)
 
 
 def period_doublings(map_: ReturnMap, orbit: PeriodicOrbit, parameter: str, to: float, most: int = 6) -> Cascade:
@@ -643,7 +524,7 @@ def period_doublings(map_: ReturnMap, orbit: PeriodicOrbit, parameter: str, to: 
     ([1], 2.126)
     """
     return cascade(
-        lambda value: map_.moved(parameter, value),
+        partial(map_.moved, parameter),
         parameter,
         orbit,
         map_.constant(parameter),

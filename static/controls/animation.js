@@ -3,6 +3,7 @@
 
 import { button, element, icon, relabel } from "../base/elements.js"
 import { listen, tell } from "../base/bus.js"
+import { within } from "../base/numbers.js"
 
 // Milliseconds from one end to the other at pace 1.
 const SWEEP = 8000
@@ -59,7 +60,7 @@ export function animation(frame, { symbol, value, limits, stepOf, move }) {
     tell("animated", true)
     const [from, to] = limits()
     // The phase is 0 at the lower end and π at the upper end.
-    let phase = to > from ? Math.acos(1 - 2 * Math.min(1, Math.max(0, (value() - from) / (to - from)))) : 0
+    let phase = to > from ? Math.acos(1 - 2 * within((value() - from) / (to - from), 0, 1)) : 0
     /** @type {number | null} */
     let last = null
     /** @param {number} now */

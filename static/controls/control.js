@@ -1,17 +1,69 @@
 // @ts-check
 // The control of a parameter: a slider with a box, a menu, or a line for a formula.
 
-import { tell } from "../base/bus.js"
+import { listen, tell } from "../base/bus.js"
 import { element } from "../base/elements.js"
-import { choice } from "./choice.js"
+import { optionsOf } from "./dialog.js"
 import { number } from "./number.js"
+
+/**
+ * A control; show(value) shows the value of a state, refuse(why) marks an expression as refused, and follow(value) shows a
+ * change from elsewhere before the server answers.
+ * @typedef {{item: HTMLElement, show: (value: any) => void, refuse?: (why: string) => void, follow?: (value: any) => void}} Control
+ */
+
+/** @param {string[]} names @returns {[string, string][]} */
+export const twice = (names) => names.map((name) => [name, name])
+
+/**
+ * Return a menu.
+ * @param {string} name
+ * @param {string} label
+ * @param {[string, string][]} options value and text of each
+ * @param {string} help
+ * @param {(value: string) => void} choose
+ * @returns {Control}
+ */
+export function menu(name, label, options, help, choose) {
+  // A menu itself shows one line, and cuts it: the whole text lies over the menu.  An unseen copy of the longest one keeps
+  // its place, so that no choice moves the controls below.
+  const text = element("span", { ariaHidden: true })
+  const longest = options.reduce((most, [, one]) => (one.length > most.length ? one : most), "")
+  const say = () => { text.textContent = select.selectedOptions[0]?.textContent ?? "" }
+  const select = element("select", {
+    title: help, ariaLabel: label,
+    onchange: () => {
+      say()
+      choose(select.value)
+    },
+  }, ...optionsOf(options))
+  const item = element(`label.menu.param-${name}`, element("span", label),
+    element("span.whole", select, text, element("span.longest", { ariaHidden: true }, longest)))
+  /** @param {string} option */
+  const show = (option) => {
+    select.value = option
+    say()
+  }
+  say()
+  return { item, show, follow: show }
+}
+
+/**
+ * Return the control of a choice.
+ * @param {ControlDescription} description
+ * @returns {Control}
+ */
+function choice({ name, label, options, help }) {
+  const found = menu(name, label, twice(options), help, (option) => tell("change", { [name]: option }))
+  return { ...found, item: element("div", found.item, element("p.text.help", help)) }
+}
 
 const TYPE = "Press Enter to use it."
 
 /**
- * Return the line of a formula and the functions that show it and mark it as refused.
+ * Return the line of a formula.
  * @param {ControlDescription} description
- * @returns {[HTMLElement, import("./choice.js").Show, (why: string) => void]}
+ * @returns {Control}
  */
 function formula({ name, label, help }) {
   let shown = ""
@@ -51,15 +103,52 @@ function formula({ name, label, help }) {
     shown = value
   }
   const item = element("div", element(`label.menu.param-${name}`, element("span", label), line), element("p.text.help", help))
-  return [item, show, mark]
+  return { item, show, refuse: mark }
 }
 
 /**
- * Return the control of a parameter and its functions: show a value, refuse an expression, follow an animated number.
+ * Return the control of a parameter.
  * @param {ControlDescription} description
- * @returns {any[]}
+ * @returns {Control}
  */
 export function control(description) {
   if (description.kind === "number") return number(description)
   return description.kind === "choice" ? choice(description) : formula(description)
+}
+
+/** Return the function that puts controls, by name, in the place of those that followed the page until then. */
+export function followers() {
+  /** @type {Record<string, Control>} */
+  let parts = {}
+  // Latest values of the scene on show.
+  /** @type {Record<string, ControlValue>} */
+  let values = {}
+  /** @param {Record<string, ControlValue>} changed */
+  const show = (changed) => {
+    Object.assign(values, changed)
+    for (const [name, value] of Object.entries(changed)) parts[name]?.show(value)
+  }
+  listen({
+    enter() { values = {} },
+    controls: show,
+    change(changed) {
+      for (const [name, value] of Object.entries(changed)) {
+        const shown = values[name]
+        // The server sends a control again only when it is released.
+        if (shown !== undefined) values[name] = /** @type {ControlValue} */ (Array.isArray(shown) ? [value, ...shown.slice(1)] : value)
+        parts[name]?.follow?.(value)
+      }
+    },
+    // Key "error-" and the name of a number or formula: the reason that it is refused.
+    texts(texts) {
+      for (const [name, { refuse }] of Object.entries(parts)) {
+        const why = texts[`error-${name}`]
+        if (why !== undefined) refuse?.(why)
+      }
+    },
+  })
+  return (/** @type {Record<string, Control>} */ given) => {
+    parts = given
+    show(values)
+  }
 }

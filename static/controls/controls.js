@@ -8,9 +8,8 @@ import { sayDragMe } from "../base/handle.js"
 import { PHONE } from "../base/windows.js"
 import { gallery } from "../pictures/gallery.js"
 import { nameOf } from "../pictures/picture.js"
-import { menu, twice } from "./choice.js"
 import { comparison } from "./comparison.js"
-import { control as controlOf } from "./control.js"
+import { control, followers, menu, twice } from "./control.js"
 
 const EXAMPLES = "preset"
 
@@ -19,12 +18,7 @@ export function render({ el }) {
   const column = element("div.board")
   const chooser = element("div.chooser", { role: "group", ariaLabel: "Control at hand" })
   el.append(chooser, column, comparison())
-  /** @type {Record<string, import("./choice.js").Show>} */
-  let shows = {}
-  /** @type {Record<string, (sentence: string) => void>} */
-  let refusals = {}
-  /** @type {Record<string, (value: number) => void>} */
-  let follows = {}
+  const put = followers()
   // Groups that the user has unfolded, in any scene.
   const unfolded = new Set()
   /** @type {Map<string, HTMLElement>} */
@@ -59,39 +53,27 @@ export function render({ el }) {
   function build(scene) {
     /** @param {string} name */
     const isEssential = (name) => scene.essential.includes(name)
-    const [examples, showExample] = menu(EXAMPLES, "Example", [["", "Choose an example…"], ...twice(scene.presets)],
+    const example = menu(EXAMPLES, "Example", [["", "Choose an example…"], ...twice(scene.presets)],
       "Examples to start from", (name) => { if (name !== "") tell("preset", name) })
-    shows = { [EXAMPLES]: showExample }
-    refusals = {}
-    follows = {}
-    items = new Map([[EXAMPLES, /** @type {HTMLElement} */ (examples)]])
-    const signs = new Map([[EXAMPLES, "Example"]])
-    for (const control of scene.controls) {
-      const [item, show, refuse, follow] = controlOf(control)
-      shows[control.name] = show
-      refusals[`error-${control.name}`] = refuse
-      follows[control.name] = follow
-      items.set(control.name, item)
-      signs.set(control.name, control.symbol ?? control.label)
-    }
+    const parts = { [EXAMPLES]: example, ...Object.fromEntries(scene.controls.map((one) => [one.name, control(one)])) }
+    put(parts)
+    items = new Map(Object.entries(parts).map(([name, { item }]) => [name, item]))
+    const signs = new Map([[EXAMPLES, "Example"], ...scene.controls.map(
+      ({ name, symbol, label }) => /** @type {[string, string]} */ ([name, symbol ?? label]))])
     const further = scene.controls.filter(({ name }) => !isEssential(name))
     const groups = scene.groups
       .map((group) => /** @type {[string, ControlDescription[]]} */ ([group, further.filter((control) => control.group === group)]))
       .filter(([, members]) => members.length > 0)
-    examples.hidden = scene.presets.length === 0
+    example.item.hidden = scene.presets.length === 0
     column.replaceChildren(
-      element("div.column", examples, ...scene.essential.map((name) => items.get(name))),
+      element("div.column", example.item, ...scene.essential.map((name) => items.get(name))),
       ...groups.map(([group, members]) => groupOf(group, members.map(({ name }) => items.get(name)))))
-    const order = [...scene.essential, ...(examples.hidden ? [] : [EXAMPLES]), ...further.map(({ name }) => name)]
+    const order = [...scene.essential, ...(example.item.hidden ? [] : [EXAMPLES]), ...further.map(({ name }) => name)]
     chooser.replaceChildren(...order.map((name) => button(isEssential(name) ? "chip" : "chip.further", () => take(name), {
       dataset: { name },
     }, signs.get(name))))
     chooser.hidden = order.length === 0
     if (order.length > 0) take(isEssential(atHand) ? atHand : order[0])
-  }
-  /** @param {Record<string, ControlValue>} values */
-  const show = (values) => {
-    for (const [name, value] of Object.entries(values)) shows[name]?.(value)
   }
   // The choices of the chart are there while it is.
   function showCharts() {
@@ -118,14 +100,7 @@ export function render({ el }) {
   })
   listen({
     enter: build,
-    // Key "error-" and the name of a number or formula: the reason that it is refused.
-    texts(texts) { for (const [key, text] of Object.entries(texts)) refusals[key]?.(text) },
-    controls: show,
     painted: showCharts,
     folded: showCharts,
-    // A lesson animates a number.
-    change(values) {
-      for (const [name, value] of Object.entries(values)) if (typeof value === "number") follows[name]?.(value)
-    },
   })
 }

@@ -233,7 +233,8 @@ export function exportDialog(files) {
       controls = {}
     },
     open() {
-      // The address bar may lag behind the screen.
+      // The file shows the moment on the screen, and the address bar may lag behind it.
+      tell("run", null)
       tell("address")
       const open = gallery.openCells()
       const before = picture.value

@@ -5,6 +5,7 @@
 import { tell } from "../base/bus.js"
 import { onDrag } from "../base/drag.js"
 import { arrowOf } from "../base/keys.js"
+import { within } from "../base/numbers.js"
 import { element, update } from "../base/elements.js"
 import { animation } from "./animation.js"
 import { exactBox } from "./box.js"
@@ -44,19 +45,15 @@ function scaleOf([own, end], low, high, value) {
  */
 
 /**
- * Return the control, the function that shows a value, the function that refuses an expression, and the function that follows a
- * change from elsewhere before the server answers.
+ * Return the control.
  * @param {Extract<ControlDescription, {kind: "number"}>} description
- * @returns {[HTMLElement, (value: [number, number, number, number, boolean?]) => void, (sentence: string) => void,
- *   (value: number) => void]}
+ * @returns {import("./control.js").Control}
  */
 export function number({ name, label, symbol, help, range }) {
   /** @type {number | null} */
   let shown = null
   let [low, high] = range
   let track = ""
-  /** @param {number} value */
-  const within = (value) => Math.min(Math.max(value, low), high)
   // Slider and box follow, as in a drag.
   /** @param {number} value */
   const take = (value) => {
@@ -73,14 +70,14 @@ export function number({ name, label, symbol, help, range }) {
       exact.forget()
       tell("change", { [name]: value })
     },
-    nudge: (value) => take(tidy(value)), move: (value) => take(within(tidy(value))),
+    nudge: (value) => take(tidy(value)), move: (value) => take(within(tidy(value), low, high)),
   }
 
   const title = element("span.label.scrub", { title: help }, label)
   const slider = element("input.hand", {
     type: "range", title: help, ariaLabel: label, ariaDescription: help,
     oninput() {
-      const value = within(slider.valueAsNumber)
+      const value = within(slider.valueAsNumber, low, high)
       if (value !== slider.valueAsNumber) slider.valueAsNumber = value
       exact.put(value)
       controlled.change(value)
@@ -137,5 +134,5 @@ export function number({ name, label, symbol, help, range }) {
     slider.valueAsNumber = value
     exact.put(tidy(value))
   }
-  return [frame, show, exact.refuse, follow]
+  return { item: frame, show, refuse: exact.refuse, follow }
 }

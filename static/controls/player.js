@@ -5,6 +5,7 @@
 import { button, element, icon, relabel } from "../base/elements.js"
 import { listen, tell } from "../base/bus.js"
 import { arrowOf, isTaken } from "../base/keys.js"
+import { within } from "../base/numbers.js"
 import { gallery } from "../pictures/gallery.js"
 import { stateAt } from "../pictures/moment.js"
 import { CALM } from "../base/windows.js"
@@ -85,7 +86,7 @@ export function render({ el }) {
 
   /** @param {number} to */
   function move(to) {
-    t = Math.max(0, Math.min(end(), to))
+    t = within(to, 0, end())
     show()
   }
 

@@ -2,12 +2,11 @@
 // The animation of a lesson step: it moves a parameter of the scene, or the time of the player.
 
 import { tell } from "../base/bus.js"
+import { written } from "../base/numbers.js"
 
 const TIME = "time"
-/** Round to as many digits as a box can show. @param {number} value */
-const rounded = (value) => Number(value.toPrecision(4))
-/** @param {number} value */
-const shown = (value) => String(rounded(value)).replace("-", "−")
+// As many as a box can show.
+const DIGITS = 4
 
 /**
  * Return an animation with its label; a touch of the page stops it.
@@ -34,7 +33,7 @@ export function createAnimation({ name, start: from, end: to, seconds }) {
     const step = (now) => {
       const share = Math.min(1, (now - begun) / (1000 * seconds))
       // The newest value wins: the animation runs as fast as states are painted.
-      if (name !== TIME) tell("change", { [name]: share === 1 ? to : rounded(from + share * (to - from)) })
+      if (name !== TIME) tell("change", { [name]: share === 1 ? to : Number((from + share * (to - from)).toPrecision(DIGITS)) })
       if (share < 1) running = requestAnimationFrame(step)
       else stop()
     }
@@ -42,5 +41,5 @@ export function createAnimation({ name, start: from, end: to, seconds }) {
   }
 
   const what = name === TIME ? "t" : name
-  return { label: `Play: ${what} from ${shown(from)} to ${shown(to)}`, start, stop }
+  return { label: `Play: ${what} from ${written(from, DIGITS)} to ${written(to, DIGITS)}`, start, stop }
 }

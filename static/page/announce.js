@@ -5,14 +5,13 @@ import { gallery } from "../pictures/gallery.js"
 import { captionOf, nameOf } from "../pictures/picture.js"
 import { element } from "../base/elements.js"
 import { listen } from "../base/bus.js"
+import { written } from "../base/numbers.js"
 
 // Milliseconds without a new state until the hand rests.
 const REST = 700
 // Numbers of a larger change, such as an example, are not listed.
 const MOST = 2
-
-/** @param {number} value */
-const shown = (value) => String(Number(value.toPrecision(4))).replace("-", "−")
+const DIGITS = 4
 
 /**
  * Return the element, unseen, whose text screen readers announce.
@@ -35,7 +34,7 @@ export function announcer(sentence) {
   /** Return the numbers that the hand has changed, in words. */
   function changes() {
     const found = [...now].filter(([name, value]) => before.has(name) && before.get(name) !== value)
-      .map(([name, value]) => `${symbols.get(name)} ${shown(before.get(name))} → ${shown(value)}`)
+      .map(([name, value]) => `${symbols.get(name)} ${written(before.get(name), DIGITS)} → ${written(value, DIGITS)}`)
     before = new Map(now)
     return found.length > MOST ? [] : found
   }

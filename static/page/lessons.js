@@ -14,6 +14,7 @@ import { isEmbedded } from "../base/embedding.js"
 import { onKeys } from "../base/keys.js"
 import { button, element } from "../base/elements.js"
 import { browserStore } from "../base/stores.js"
+import { within } from "../base/numbers.js"
 import { CALM } from "../base/windows.js"
 
 const SECOND = 1000
@@ -198,7 +199,7 @@ export function render({ index, record, el }) {
    */
   function begin(given, number, isHere) {
     lesson = given
-    at = Math.max(0, Math.min(number, lesson.steps.length - 1))
+    at = within(number, 0, lesson.steps.length - 1)
     begun = performance.now()
     tick()
     clearInterval(ticking)

@@ -1,10 +1,8 @@
 // @ts-check
 // The guesses of an audience in a picture: the cloud, its median, the truth, and how far the audience was off.
 
-import { element } from "../base/elements.js"
-import { fit } from "./canvas.js"
 import { gallery } from "./gallery.js"
-import { along, apart, drawRing, GUESS, linesOf, nearest, TRUTH } from "./guess.js"
+import { drawRing, GUESS, inWords, linesOf, meanApart, nearest, overlay, TRUTH } from "./guess.js"
 import { circlePath } from "./looks.js"
 import { median, medianCurve, middleOf } from "./median.js"
 
@@ -20,10 +18,7 @@ const FAINT = "80"
 export function createAudience(prediction, cloud, say) {
   const plot = gallery.plot(prediction.picture)
   const isCurve = prediction.what === "curve"
-  /** @type {(place: number[]) => [number, number]} */
-  const toPixels = ([x, y]) => [plot.frame.x_scale.compute(x), plot.frame.y_scale.compute(y)]
-  /** @type {(place: number[]) => [number, number]} */
-  const toData = ([x, y]) => [plot.frame.x_scale.invert(x), plot.frame.y_scale.invert(y)]
+  const { draw, remove, toPixels, toData } = overlay(plot, "audience", { ariaHidden: true }, "pointer-events: none", paint)
   const points = cloud.flat()
   const middle = points.length === 0 ? [] : isCurve ? medianCurve(points) : [middleOf(points)]
   // The truth in pixels; it may come in pieces, later than the state, and a repainting moves it.
@@ -31,12 +26,11 @@ export function createAudience(prediction, cloud, say) {
   let lines = []
   /** @param {number[]} point */
   const truthOf = (point) => nearest(lines, toPixels(point))
-  const sheet = element("canvas.audience", { ariaHidden: true })
 
-  function draw() {
+  /** @param {CanvasRenderingContext2D} ctx */
+  function paint(ctx) {
     lines = linesOf(prediction).map((line) => line.map(toPixels))
     say(sentence())
-    const ctx = fit(sheet, plot.bbox.width, plot.bbox.height)
     ctx.fillStyle = GUESS + FAINT
     for (const point of points) {
       circlePath(ctx, ...toPixels(point), DOT)
@@ -59,29 +53,13 @@ export function createAudience(prediction, cloud, say) {
 
   function sentence() {
     if (cloud.length === 0) return "Revealed. Nobody in the audience guessed."
-    const { x_scale: xScale, y_scale: yScale, below: [below], left: [left] } = plot.model
     const many = `${cloud.length} guess${cloud.length === 1 ? "" : "es"} from the audience`
-    // How far each guess was off, on the average of its points.
-    const off = cloud.map((guess) => guess.reduce((sum, point) => {
-      const { place } = truthOf(point)
-      if (place === null) return sum
-      const truth = toData(place)
-      return [xScale, yScale].map((scale, i) => sum[i] + apart(scale, point[i], truth[i]) / guess.length)
-    }, [0, 0]))
     if (lines.every((line) => line.length === 0)) return `${many}; there is none here.`
-    const [x, y] = [0, 1].map((i) => median(off.map((one) => one[i])))
-    return `${many}. Median distance: ${along(xScale, below, x)} and ${along(yScale, left, y)}.`
+    const off = cloud.map((guess) => meanApart(plot, guess.map((point) => [point, toData(truthOf(point).place)])))
+    return `${many}. Median distance: ${inWords(plot, [0, 1].map((i) => median(off.map((one) => one[i]))))}.`
   }
 
-  sheet.style.cssText = "position: absolute; inset: 0; width: 100%; height: 100%; pointer-events: none"
-  plot.canvas_view.overlays.el.parentNode.append(sheet)
-  plot.repainted.connect(draw)
   draw()
-  return {
-    /** Remove the guesses from the picture. */
-    end() {
-      plot.repainted.disconnect(draw)
-      sheet.remove()
-    },
-  }
+  /** Remove the guesses from the picture. */
+  return { end: remove }
 }

@@ -31,7 +31,7 @@ const NEEDED = {
  * Return the names of missing parts.
  * @param {PlotView} plot
  */
-export const missing = (plot) => Object.keys(NEEDED).filter((name) => !NEEDED[name](plot))
+const missing = (plot) => Object.keys(NEEDED).filter((name) => !NEEDED[name](plot))
 
 let isChecked = false
 

@@ -6,6 +6,7 @@
 // the option `density`.
 
 import { listen, tell } from "../base/bus.js"
+import { written } from "../base/numbers.js"
 import { zoom } from "../base/presenting.js"
 import { squareCanvas } from "./canvas.js"
 import { cloudsOf } from "./cloud.js"
@@ -41,7 +42,7 @@ function drawAxes(ctx, { frame, w, h, half, x, y }, text) {
   ctx.strokeRect(frame.left, frame.top, w, h)
   ctx.font = "12px system-ui, sans-serif"
   /** @param {number} share */
-  const label = (share) => String(Number((share * half).toPrecision(3))).replace("-", "−")
+  const label = (share) => written(share * half, 3)
   drawTicks(ctx, frame, SHARES.map((share) => [x(share * half), label(share)]), SHARES.map((share) => [y(share * half), label(share)]),
     { length: 5, gap: 7, alpha: 0.75, isInside: true })
   ctx.globalAlpha = 1

@@ -1,7 +1,40 @@
 // @ts-check
-// Draws thousands of dots of one colour as squares; Bokeh would draw each as a circle with its own colours.
+// Draws thousands of dots of one colour as squares, where Bokeh would draw each as a circle with its own colours, and the points
+// that move in time on a canvas of their own: while a scene plays, Bokeh has nothing to paint.
 
-import { shade } from "./looks.js"
+import { circlePath, shade } from "./looks.js"
+
+/** Begin a path with a triangle that points downwards; its centre is at (x, y). @type {typeof circlePath} */
+function trianglePath(ctx, x, y, radius) {
+  const height = radius * Math.sqrt(3)
+  ctx.beginPath()
+  for (const [right, down] of [[-radius, -height / 3], [radius, -height / 3], [0, 2 * height / 3]]) ctx.lineTo(x + right, y + down)
+  ctx.closePath()
+}
+
+/** @type {Record<string, typeof circlePath>} */
+const PATHS = { circle: circlePath, inverted_triangle: trianglePath }
+
+/**
+ * Return the painter of moving points, see `frameCanvas`.
+ * @param {{source: string, marker: string, size: number, line_width: number, line_color: string, fill_color: string}[]} layers
+ * @param {FindSource} source
+ * @returns {PaintFrame}
+ */
+export function movingPointsPainter(layers, source) {
+  return (ctx, xScale, yScale, larger) => {
+    for (const { source: name, marker, size, line_width: width, line_color: line, fill_color: filling } of layers) {
+      const { x: [x] = [], y: [y] = [] } = source(name).data
+      if (x === undefined) continue
+      PATHS[marker](ctx, xScale.compute(x), yScale.compute(y), larger * size / 2)
+      ctx.fillStyle = shade(filling)
+      ctx.fill()
+      ctx.lineWidth = larger * width
+      ctx.strokeStyle = shade(line)
+      ctx.stroke()
+    }
+  }
+}
 
 // Side of a square with the area of Bokeh's marker "dot", whose diameter is a quarter of `size`.
 /** @param {number} size */

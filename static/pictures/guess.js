@@ -3,6 +3,7 @@
 
 import { arrowOf } from "../base/keys.js"
 import { element } from "../base/elements.js"
+import { within, written } from "../base/numbers.js"
 import { fit } from "./canvas.js"
 import { gallery } from "./gallery.js"
 import { circlePath } from "./looks.js"
@@ -14,17 +15,51 @@ export const TRUTH = "#009E73"
 const STEP = 8
 const FOCUS = "inset 0 0 0 2px #0072B2"
 
-/** @param {number} value */
-const shown = (value) => String(Number(value.toPrecision(2))).replace("-", "−")
-/** Return how far two values of an axis are apart, on a logarithmic one as the logarithm of their ratio. @type {(scale: {type: string}, a: number, b: number) => number} */
-export const apart = ({ type }, a, b) => Math.abs(type === "LogScale" ? Math.log(a / b) : a - b)
-/** Return such a distance in words. @type {(scale: {type: string}, axis: BokehModel, distance: number) => string} */
-export const along = ({ type }, { axis_label: name }, distance) => (
-  `${type === "LogScale" ? `a factor of ${shown(Math.exp(distance))}` : shown(distance)} in ${name}`)
 /** @param {number[]} values */
 const mean = (values) => values.reduce((sum, one) => sum + one, 0) / values.length
-/** @param {number} value @param {number} low @param {number} high */
-const within = (value, low, high) => Math.max(low, Math.min(high, value))
+
+/** @param {PlotView} plot @returns {[{type: string}, BokehModel][]} */
+const axesOf = ({ model: { x_scale: xScale, y_scale: yScale, below: [x], left: [y] } }) => [[xScale, x], [yScale, y]]
+
+/**
+ * Return how far places are apart on the average, along both axes; on a logarithmic axis it is the logarithm of a ratio.
+ * @param {PlotView} plot
+ * @param {[number[], number[]][]} pairs
+ */
+export const meanApart = (plot, pairs) => axesOf(plot).map(([{ type }], i) => (
+  mean(pairs.map(([a, b]) => Math.abs(type === "LogScale" ? Math.log(a[i] / b[i]) : a[i] - b[i])))))
+
+/** Return such distances in words. @param {PlotView} plot @param {number[]} distances */
+export const inWords = (plot, distances) => axesOf(plot).map(([{ type }, { axis_label: name }], i) => (
+  `${type === "LogScale" ? `a factor of ${written(Math.exp(distances[i]), 2)}` : written(distances[i], 2)} in ${name}`)).join(" and ")
+
+/**
+ * Lay a canvas over a plot, with which it is drawn again.
+ * @param {PlotView} plot
+ * @param {string} name its class
+ * @param {object} properties see `element`
+ * @param {string} style the style sheets of the page do not reach into the plot
+ * @param {(ctx: CanvasRenderingContext2D) => void} paint
+ */
+export function overlay(plot, name, properties, style, paint) {
+  const { frame } = plot
+  const sheet = element(`canvas.${name}`, properties)
+  const draw = () => paint(fit(sheet, plot.bbox.width, plot.bbox.height))
+  sheet.style.cssText = `position: absolute; inset: 0; width: 100%; height: 100%; ${style}`
+  plot.canvas_view.overlays.el.parentNode.append(sheet)
+  plot.repainted.connect(draw)
+  return {
+    sheet, draw,
+    /** @type {(place: number[]) => [number, number]} */
+    toPixels: ([x, y]) => [frame.x_scale.compute(x), frame.y_scale.compute(y)],
+    /** @type {(place: number[]) => [number, number]} */
+    toData: ([x, y]) => [frame.x_scale.invert(x), frame.y_scale.invert(y)],
+    remove() {
+      plot.repainted.disconnect(draw)
+      sheet.remove()
+    },
+  }
+}
 
 /**
  * Return the point of a polyline that is nearest to a place.
@@ -84,8 +119,8 @@ export function createGuess(prediction, say, guessed = null) {
   const isCurve = prediction.what === "curve"
   /** @type {PlotView | null} */
   let plot = null
-  /** @type {HTMLCanvasElement | null} */
-  let sheet = null
+  /** @type {ReturnType<typeof overlay> | null} */
+  let over = null
   // In data coordinates.
   /** @type {number[][]} */
   let clicks = []
@@ -95,29 +130,25 @@ export function createGuess(prediction, say, guessed = null) {
   /** The data of the truth when the guess was measured. @type {object | null} */
   let measured = null
 
-  /** @type {(place: number[]) => [number, number]} */
-  const toPixels = ([x, y]) => [plot.frame.x_scale.compute(x), plot.frame.y_scale.compute(y)]
-  /** @type {(place: number[]) => [number, number]} */
-  const toData = ([x, y]) => [plot.frame.x_scale.invert(x), plot.frame.y_scale.invert(y)]
-
   /** Say how near the guess was.  In some pictures the truth comes in pieces, later than the state: a repainting calls this again. */
   function measure() {
     const { data } = gallery.source(prediction.source)
     if (data === measured) return
     measured = data
+    const { toPixels, toData } = over
     const lines = linesOf(prediction).map((line) => line.map(toPixels))
     const found = clicks.map((click) => nearest(lines, toPixels(click)))
     if (found.length === 0) return say("Revealed. There was no guess.")
     if (found.some(({ place }) => place === null)) return say("Revealed: there is none here.")
     truth = found.map(({ place }) => toData(place))
-    const { x_scale: xScale, y_scale: yScale, below: [x], left: [y] } = plot.model
-    const [across, up] = [xScale, yScale].map((scale, i) => mean(clicks.map((click, j) => apart(scale, click[i], truth[j][i]))))
-    say(`${isCurve ? "On average" : "You were"} ${along(xScale, x, across)} and ${along(yScale, y, up)} away.`)
+    const distances = meanApart(plot, clicks.map((click, i) => [click, truth[i]]))
+    say(`${isCurve ? "On average" : "You were"} ${inWords(plot, distances)} away.`)
   }
 
-  function draw() {
+  /** @param {CanvasRenderingContext2D} ctx */
+  function paint(ctx) {
     if (isOver) measure()
-    const ctx = fit(sheet, plot.bbox.width, plot.bbox.height)
+    const { toPixels } = over
     for (const [i, click] of clicks.map(toPixels).entries()) {
       if (truth !== null) {
         const place = toPixels(truth[i])
@@ -137,9 +168,9 @@ export function createGuess(prediction, say, guessed = null) {
   /** Add a guess at a place of the picture, or at the nearest place in the frame. @param {number} x @param {number} y */
   function add(x, y) {
     const { x0, x1, y0, y1 } = plot.frame.bbox
-    const place = toData([within(x, x0, x1), within(y, y0, y1)])
+    const place = over.toData([within(x, x0, x1), within(y, y0, y1)])
     clicks = isCurve ? [...clicks, place].slice(-MOST) : [place]
-    draw()
+    over.draw()
     guessed?.(clicks)
     say(isCurve ? `Your curve: ${clicks.length} point${clicks.length === 1 ? "" : "s"}.` : "Your guess is set.")
   }
@@ -149,7 +180,7 @@ export function createGuess(prediction, say, guessed = null) {
     const arrow = arrowOf(event)
     if (arrow === undefined) return
     const { x0, x1, y0, y1 } = plot.frame.bbox
-    const [x, y] = clicks.length > 0 ? toPixels(clicks.at(-1)) : [(x0 + x1) / 2, (y0 + y1) / 2]
+    const [x, y] = clicks.length > 0 ? over.toPixels(clicks.at(-1)) : [(x0 + x1) / 2, (y0 + y1) / 2]
     add(x + STEP * arrow[0], y - STEP * arrow[1])
     event.preventDefault()
     event.stopPropagation()
@@ -160,22 +191,19 @@ export function createGuess(prediction, say, guessed = null) {
     /** Ask for a guess; the state of the step is on show. */
     begin() {
       plot = gallery.plot(prediction.picture)
-      sheet = element("canvas.guess", {
+      over = overlay(plot, "guess", {
         tabIndex: 0, role: "application", ariaLabel: "Your guess: click or use the arrow keys",
         title: isCurve ? "Click along the expected curve" : "Click where you expect it", onkeydown,
         onclick: (/** @type {MouseEvent} */ { offsetX, offsetY }) => { if (!this.isRevealed) add(offsetX, offsetY) },
-      })
-      // The style sheets of the page do not reach into the plot.
-      sheet.style.cssText = "position: absolute; inset: 0; width: 100%; height: 100%; cursor: crosshair; touch-action: manipulation; outline: none"
-      sheet.onfocus = () => { sheet.style.boxShadow = sheet.matches(":focus-visible") ? FOCUS : "" }
-      sheet.onblur = () => { sheet.style.boxShadow = "" }
-      plot.canvas_view.overlays.el.parentNode.append(sheet)
+        onfocus: () => { sheet.style.boxShadow = sheet.matches(":focus-visible") ? FOCUS : "" },
+        onblur: () => { sheet.style.boxShadow = "" },
+      }, "cursor: crosshair; touch-action: manipulation; outline: none", paint)
+      const { sheet } = over
       // The picture itself ignores these clicks and drags.
       for (const name of ["pointerdown", "pointermove", "pointerup", "wheel", "touchstart"]) {
         sheet.addEventListener(name, (event) => event.stopPropagation())
       }
-      plot.repainted.connect(draw)
-      draw()
+      over.draw()
       say(guessed === null ? `${sheet.title}, then reveal.` : `${sheet.title}.`)
     },
     /** Take no more clicks: the revealed state was requested. */
@@ -183,18 +211,14 @@ export function createGuess(prediction, say, guessed = null) {
     /** Draw the truth; the revealed state is on show. */
     reveal() {
       // The state of the step never came: the next one was asked for at once.
-      if (sheet === null) return say("Revealed. There was no guess.")
-      sheet.blur()
-      sheet.tabIndex = -1
-      sheet.style.pointerEvents = "none"
+      if (over === null) return say("Revealed. There was no guess.")
+      over.sheet.blur()
+      over.sheet.tabIndex = -1
+      over.sheet.style.pointerEvents = "none"
       isOver = true
-      draw()
+      over.draw()
     },
     /** Remove the guess from the picture. */
-    end() {
-      if (plot === null) return
-      plot.repainted.disconnect(draw)
-      sheet.remove()
-    },
+    end() { over?.remove() },
   }
 }

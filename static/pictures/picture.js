@@ -2,7 +2,14 @@
 // The cell of a picture: caption, corner button, host of the picture, and a line about the place under the mouse.
 
 import { element } from "../base/elements.js"
-import { unbroken } from "./unbroken.js"
+
+const EXPRESSION = /(\|[^|]{1,24}\||\([^()]{1,16}\)|[^\s|()]{1,12} [=≤≥<>±] [^\s|()]{1,12})/
+
+/**
+ * Return the parts of a text in order: those at odd indices are expressions like |Θ⁴ − id|, (h, f) and h = 1.5.
+ * @param {string} text
+ */
+export const unbroken = (text) => text.split(EXPRESSION)
 
 // Tooltips of pictures by what the mouse does there.
 /** @type {Record<string, string>} */

@@ -4,16 +4,22 @@
 import { listen } from "../base/bus.js"
 import { element } from "../base/elements.js"
 import { isPresenting } from "../base/presenting.js"
-import { startBokeh } from "./bokeh.js"
 import { checkBokeh, spareStyles, spareUnseen, waitLongForPress } from "./bokeh_private.js"
 import { frameCanvas } from "./canvas.js"
 import { cellsPainter } from "./cells.js"
-import { dotsPainter } from "./dots.js"
-import { movingPointsPainter } from "./moving_points.js"
+import { dotsPainter, movingPointsPainter } from "./dots.js"
 import { connectPicks } from "./picks.js"
 import { connectKeys } from "./plot_keys.js"
 import { tickFormatter } from "./ticks.js"
 import { connectTouch } from "./touch.js"
+
+/** Run BokehJS if the page is a file, which holds it as text: it takes longer to start than everything else. */
+function startBokeh() {
+  const held = document.getElementById("bokeh")
+  if (held === null) return
+  held.remove()
+  document.head.append(Object.assign(document.createElement("script"), { textContent: held.textContent }))
+}
 
 // Width of the frame, in pixels, for which the numbers of letters on the axes are given.
 const USUAL = 240

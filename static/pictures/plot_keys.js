@@ -5,12 +5,10 @@
 import { listen, tell } from "../base/bus.js"
 import { element } from "../base/elements.js"
 import { arrowOf } from "../base/keys.js"
+import { within } from "../base/numbers.js"
 import { choose } from "./picks.js"
 
 const FAR = 10
-
-/** @param {number} value @param {number} low @param {number} high */
-const within = (value, low, high) => Math.max(low, Math.min(high, value))
 
 /**
  * Let the keyboard choose in a plot.

@@ -29,8 +29,24 @@ export function createSheet(ctx, { edge, ratio, text, dark, isFine = false }, [a
   // Labels that were written: centre and half the width.
   /** @type {number[][]} */
   const taken = []
+  /**
+   * Add segments of a curve to the path.
+   * @param {Columns} curve
+   * @param {(i: number) => boolean} isThere whether the segment that ends at point i is added
+   */
+  function addParts([X, Y, Z], isThere) {
+    let drawing = false
+    for (let i = 1; i < X.length; i++) {
+      const is = isThere(i)
+      if (is) {
+        if (!drawing) ctx.moveTo(px(X[i - 1], Y[i - 1]), py(X[i - 1], Y[i - 1], Z[i - 1]))
+        ctx.lineTo(px(X[i], Y[i]), py(X[i], Y[i], Z[i]))
+      }
+      drawing = is
+    }
+  }
   return {
-    ctx, edge, ratio, text, dark, isFine, half, scale, px, py, depth, at,
+    addParts, ctx, edge, ratio, text, dark, isFine, half, scale, px, py, depth, at,
     /**
      * Return a point in the view: to the right, upwards, towards the eye.
      * @param {Vector} point
@@ -55,15 +71,7 @@ export function createSheet(ctx, { edge, ratio, text, dark, isFine = false }, [a
      */
     stroke([X, Y, Z], near, [U, V, W] = [X, Y, Z]) {
       ctx.beginPath()
-      let drawing = false
-      for (let i = 1; i < X.length; i++) {
-        const visible = depth(U[i] + U[i - 1], V[i] + V[i - 1], W[i] + W[i - 1]) >= 0 === near
-        if (visible) {
-          if (!drawing) ctx.moveTo(px(X[i - 1], Y[i - 1]), py(X[i - 1], Y[i - 1], Z[i - 1]))
-          ctx.lineTo(px(X[i], Y[i]), py(X[i], Y[i], Z[i]))
-        }
-        drawing = visible
-      }
+      addParts([X, Y, Z], (i) => depth(U[i] + U[i - 1], V[i] + V[i - 1], W[i] + W[i - 1]) >= 0 === near)
       ctx.stroke()
     },
     /**

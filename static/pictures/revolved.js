@@ -7,12 +7,12 @@
 import { element } from "../base/elements.js"
 import { LIGHT, HALFWAY } from "./solid.js"
 
-// Facets around the axis of a large surface, and the largest number of pixels on a side, in a file, at rest and while it turns.  A small
+// Facets around the axis of a large surface, and the largest number of pixels on a side, in a file and on the screen.  A small
 // surface has every second facet: their sides are then some ten pixels long too, and a quarter of a pixel inside a circle.
 const AROUND = 96
 const FINE = 2048
 const MOST = 640
-const QUICK = 420
+const SMALL = 420
 const BUCKETS = 1024
 
 // Tones of the outside, of the inside and of a dense part, and the brightness without direct light.
@@ -284,17 +284,16 @@ export function createRevolved() {
      * @param {ArrayLike<number>} height
      * @param {[number, number]} turn azimuth and elevation of the eye
      * @param {((i: number, phi: number) => number) | null} density see `place`
-     * @param {boolean} isQuick whether fewer pixels will do
      */
-    shade({ edge, ratio, scale, dark, isFine }, radius, height, turn, density, isQuick) {
-      const pixels = Math.min(isFine ? FINE : isQuick ? QUICK : MOST, Math.round(edge * ratio))
+    shade({ edge, ratio, scale, dark, isFine }, radius, height, turn, density) {
+      const pixels = Math.min(isFine ? FINE : MOST, Math.round(edge * ratio))
       perEdge = pixels / edge
       // Without a density the surface looks the same from all azimuths.
       const now = [pixels, dark, turn[1], density && turn[0]].join()
       if (now === key && radius === last) return canvas
       key = now
       last = radius
-      stride = pixels <= QUICK && radius.length % 2 === 1 ? 2 : 1
+      stride = pixels <= SMALL && radius.length % 2 === 1 ? 2 : 1
       const count = (radius.length - 1) / stride + 1
       begin(pixels, count)
       place(radius, height, turn, dark, scale * perEdge, density)

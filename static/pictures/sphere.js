@@ -10,12 +10,36 @@
 import { listen } from "../base/bus.js"
 import { bodyIn } from "./body.js"
 import { drawPoint } from "./body_parts.js"
-import { sphereClouds } from "./cloud_on_sphere.js"
+import { cloudsOf } from "./cloud.js"
 import { FAINT, squareGhost } from "./ghost.js"
 import { circlePath, drawMark, LOOKS } from "./looks.js"
+import { pointLayer } from "./point_layer.js"
 import { createSheet } from "./projection.js"
 import { turnable } from "./turnable.js"
 import { circle, graticule, scaled } from "./vectors.js"
+
+/**
+ * Return the guest that draws clouds of points on a sphere.
+ * @param {Source} source
+ * @returns {SphereGuest}
+ */
+function sphereClouds(source) {
+  const clouds = cloudsOf(source)
+  const layer = pointLayer()
+  let t = 0
+  return {
+    /** @param {number} value */
+    set t(value) { t = value },
+    paint({ ctx, edge, ratio, px, py, depth }, near) {
+      layer.draw(ctx, Math.round(edge * ratio), ratio, clouds.at(t), ({ count, g1, g2, g3 }, add) => {
+        for (let i = 0; i < count; i++) {
+          const [x, y, z] = [g1[i], g2[i], g3[i]]
+          if (depth(x, y, z) >= 0 === near) add(ratio * px(x, y), ratio * py(x, y, z))
+        }
+      })
+    },
+  }
+}
 
 /** @type {Vector[]} */
 const AXES = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]

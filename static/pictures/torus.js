@@ -18,8 +18,6 @@ import { circle, scaled } from "./vectors.js"
 // The orbit is thin, as it may fill the surface; its trail is not.
 const THIN = 1.3
 const HIDDEN = 0.55
-// Milliseconds after which a surface that was turned rests, and is shaded in full.
-const REST = 150
 // How far behind the surface curves may seem to lie, in radii of the unit sphere.  At its outline it is steep.
 const [ON_IT, AT_EDGE] = [0.05, 0.25]
 
@@ -51,21 +49,15 @@ function densityOf({ re, im }) {
  */
 export function torus(el, options, source, isShown) {
   const own = source(options.name)
-  const surface = createRevolved()
+  // Shaded for the screen and for files.
+  const [onScreen, inFiles] = [createRevolved(), createRevolved()]
+  /** @param {Pick<Sheet, "isFine">} sheet */
+  const surfaceOf = ({ isFine }) => (isFine ? inFiles : onScreen)
   let t = 0
-  /** @type {ReturnType<typeof setTimeout> | null} */
-  let turning = null
   const turned = turnable(el, "torus", {
     name: options.name, title: "The torus in space", what: "torus", isShown,
   }, paint, paintMoving)
   const { request } = turned
-  turned.onTurn(() => {
-    clearTimeout(turning)
-    turning = setTimeout(() => {
-      turning = null
-      request()
-    }, REST)
-  })
 
   /** Return [look, columns, times] of each curve. @returns {[string, Columns, ArrayLike<number> | undefined][]} */
   const curves = () => Object.entries(options.curves).map(([name, look]) => {
@@ -78,7 +70,7 @@ export function torus(el, options, source, isShown) {
     const { radius, height } = own.data
     if (!(radius?.length > 2)) return
     const sheet = createSheet(ctx, look, turn)
-    const image = surface.shade(sheet, radius, height, turn, densityOf(own.data), turning !== null)
+    const image = surfaceOf(sheet).shade(sheet, radius, height, turn, densityOf(own.data))
     const on = onSurface(sheet)
     const edge = outline(radius, height, ...turn)
     const ring = circle([0, 0, 1], 0).map((column, k) => (k < 2 ? scaled(column, radius[0]) : column))
@@ -100,7 +92,7 @@ export function torus(el, options, source, isShown) {
       ctx.globalAlpha = 1
       /** @type {Vector} */
       const place = path.map((column) => column[column.length - 1])
-      drawPoint(sheet, place, surface.shows(...sheet.at(place), sheet.depth(...place), ON_IT))
+      drawPoint(sheet, place, surfaceOf(sheet).shows(...sheet.at(place), sheet.depth(...place), ON_IT))
     }
   }
 
@@ -116,21 +108,14 @@ export function torus(el, options, source, isShown) {
    * @param {boolean} near
    * @param {number} slack
    */
-  function strokeAll({ ctx, px, py, depth }, list, near, slack) {
+  function strokeAll({ ctx, px, py, depth, addParts, isFine }, list, near, slack) {
+    const surface = surfaceOf({ isFine })
     ctx.beginPath()
     for (const [X, Y, Z] of list) {
-      let drawing = false
-      for (let i = 1; i < X.length; i++) {
-        const x = 0.5 * (X[i - 1] + X[i])
-        const y = 0.5 * (Y[i - 1] + Y[i])
-        const z = 0.5 * (Z[i - 1] + Z[i])
-        const drawn = surface.shows(px(x, y), py(x, y, z), depth(x, y, z), slack) === near
-        if (drawn) {
-          if (!drawing) ctx.moveTo(px(X[i - 1], Y[i - 1]), py(X[i - 1], Y[i - 1], Z[i - 1]))
-          ctx.lineTo(px(X[i], Y[i]), py(X[i], Y[i], Z[i]))
-        }
-        drawing = drawn
-      }
+      addParts([X, Y, Z], (i) => {
+        const [x, y, z] = [0.5 * (X[i - 1] + X[i]), 0.5 * (Y[i - 1] + Y[i]), 0.5 * (Z[i - 1] + Z[i])]
+        return surface.shows(px(x, y), py(x, y, z), depth(x, y, z), slack) === near
+      })
     }
     ctx.stroke()
   }
@@ -182,13 +167,5 @@ export function torus(el, options, source, isShown) {
       }
     }
   })
-  return {
-    ...ghost,
-    shoot(look) {
-      const sheet = turned.shoot(look)
-      // The surface on the screen has other pixels.
-      request()
-      return sheet
-    },
-  }
+  return { shoot: turned.shoot, ...ghost }
 }

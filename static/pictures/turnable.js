@@ -3,6 +3,7 @@
 
 import { listen, tell } from "../base/bus.js"
 import { onDrag } from "../base/drag.js"
+import { within } from "../base/numbers.js"
 import { arrowOf } from "../base/keys.js"
 import { squareCanvas } from "./canvas.js"
 import { RADIUS } from "./projection.js"
@@ -55,7 +56,7 @@ export function turnable(el, className, { name, title, what, isShown }, paint, p
   function rotate(azimuth, elevation) {
     const limit = Math.PI / 2
     const wrapped = Math.atan2(Math.sin(azimuth), Math.cos(azimuth))
-    turn = [wrapped, Math.max(-limit, Math.min(limit, elevation))]
+    turn = [wrapped, within(elevation, -limit, limit)]
     tell("url", { az: turn[0].toFixed(4), el: turn[1].toFixed(4) })
     tell("turned", [name, ...turn])
     request()

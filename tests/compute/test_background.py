@@ -13,7 +13,6 @@ from hess_explorer.compute.background import Background
 from hess_explorer.compute.cache import ResultCache, Task
 from hess_explorer.page.connection import Connection
 from hess_explorer.page.session import Session
-from hess_explorer.protocol.messages import Request
 from hess_explorer.protocol.parameters import MAX_QUERY, decode, encode, places, written
 from hess_explorer.scenes import euler_poisson
 from hess_explorer.scenes.framework.scene import Scene
@@ -99,15 +98,6 @@ def tasks(count, first=0, function=square):
 
 
 # ---- The background ---------------------------------------------------------------------------------------------
-
-
-def test_all_pieces_are_computed_once_into_the_cache(free_gate):
-    work = Background()
-    work.follow(tasks(50))
-    wait_until(lambda: work.left == 0)
-    assert [free_gate.peek(square, n) for n in range(50)] == [n * n for n in range(50)]
-    assert set(free_gate.calls.values()) == {1}
-    assert work.error == ""
 
 
 def test_pieces_are_begun_in_their_order_and_on_all_threads(gate):
@@ -242,29 +232,6 @@ def test_sessions_take_turns(gate):
 
 
 # ---- What waits and what is there --------------------------------------------------------------------------------
-
-
-def test_peek_computes_nothing_and_waits_for_nothing(gate):
-    assert gate.peek(square, 5) is None
-    started, go = threading.Event(), threading.Event()
-
-    def slow(n):
-        started.set()
-        assert go.wait(10.0)
-        return n
-
-    thread = threading.Thread(target=lambda: gate.get(slow, 1))
-    thread.start()
-    assert started.wait(10.0)
-    assert gate.peek(slow, 1) is None
-    go.set()
-    thread.join(10.0)
-    hits = gate.hits
-    assert gate.peek(slow, 1) == 1
-    assert gate.hits == hits + 1
-    with pytest.raises(ZeroDivisionError):
-        gate.get(fail, 1)
-    assert gate.peek(fail, 1) is None
 
 
 # ---- Places in the link -----------------------------------------------------------------------------------------
@@ -435,17 +402,6 @@ def test_a_new_state_is_computed_further_only_when_its_page_asks_again(monkeypat
     connection.end()
 
 
-def test_tasks_that_have_not_begun_can_be_stopped():
-    session = Session(EP, SMALL, [], {})
-    first = session.answer(Request(requested=0)).state
-    assert first.progress is not None
-    stopped = session.answer(Request(requested=1, stop=True)).state
-    assert stopped.progress is None
-    assert stopped.tree["texts"]["notes"].startswith("Stopped: 0 of ")
-    session.start_tasks()
-    assert session.background.left == 0
-
-
 def test_what_was_stopped_is_not_begun_again_by_a_picture_that_comes_into_sight(gate):
     browser = Browser(EP, SMALL)
     wait_until(lambda: len(gate.calls) == THREADS)
@@ -559,9 +515,3 @@ def test_tasks_of_a_state_end_before_another_one_is_computed(free_gate, monkeypa
     # A request for what has been found meanwhile ends nothing.
     browser.ask(2, values={})
     assert order.count("stop") == 1
-
-
-def test_a_step_back_to_an_unknown_scene_keeps_the_current_one(free_gate):
-    browser = Browser(EP, SMALL)
-    assert browser.ask(1, restore="scene=nowhere&h=1")["scene"] == EP.name
-    assert "Scene must be one of" in browser.texts["notes"]

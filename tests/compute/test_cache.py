@@ -99,17 +99,6 @@ def test_concurrent_misses_are_computed_once():
     assert sorted(was_there for _, was_there in results) == [False] + [True] * 7
 
 
-def test_other_questions_do_not_wait_for_a_slow_one():
-    cache, slow, quick = ResultCache(2**20), Slow(), Counted("quick")
-    with ThreadPoolExecutor(1) as pool:
-        waiting = pool.submit(cache.get, slow, 1.0)
-        assert slow.begun.wait(WAIT)
-        cache.get(quick, 1.0)
-        assert not waiting.done()
-        slow.may_end.set()
-        waiting.result(WAIT)
-
-
 def test_an_error_reaches_everyone_who_waited_and_is_not_kept():
     error = ValueError("no motion")
     cache, function = ResultCache(2**20), Slow(error)
@@ -158,16 +147,6 @@ def test_what_is_held_is_what_is_counted_and_never_exceeds_the_capacity(capacity
         assert cache.bytes <= capacity
     held = [key for key in last if keeps(cache, function, key)]
     assert cache.bytes == sum(size_of(last[key]) for key in held)
-
-
-def test_a_result_larger_than_the_cache_is_given_but_not_kept():
-    cache, function = ResultCache(10 * KILOBYTE), Counted()
-    cache.get(function, "small")
-    function.size = 20 * KILOBYTE
-    result, _ = cache.get(function, "large")
-    assert result.array.nbytes == 20 * KILOBYTE
-    assert cache.bytes <= 10 * KILOBYTE
-    assert not cache.get(function, "large")[1]
 
 
 def test_the_size_counts_the_arrays_wherever_they_are():

@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 import scipy.integrate
 
-from hess_explorer.compute import background
 from hess_explorer.compute.cache import ResultCache
+from hess_explorer.compute.pool import POOL
 from hess_explorer.scenes import suslov_hess
 from hess_explorer.server import warm
 from hess_mechanics.errors import InvalidParameter, WorkLimit
@@ -84,7 +84,7 @@ def nothing_later(monkeypatch):
 
     Disable proofs as well: a state that waits for its proof looks up all its results in the cache again.
     """
-    monkeypatch.setattr(background, "_pool", types.SimpleNamespace(submit=lambda job: None))
+    monkeypatch.setattr(POOL, "fill", lambda task: None)
     monkeypatch.setattr(suslov_hess, "has_flint", lambda: False)
 
 
@@ -125,13 +125,6 @@ def compute(scene, values, seen=None, dragging=False):
 
 
 # --- The Suslov–Hess case ----------------------------------------------------------------------------
-
-
-def test_the_first_view_computes_each_part_once_and_the_second_nothing(cache):
-    compute(HESS, HESS.defaults())
-    assert cache.take() == MOTION | ZONES
-    compute(HESS, HESS.defaults())
-    assert cache.take() == set()
 
 
 CHANGES = [

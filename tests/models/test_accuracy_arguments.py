@@ -35,7 +35,7 @@ def public():
                             yield f"{module.__name__}.{member.__qualname__}", member
 
 
-INTERNAL = {"integrated", "longest_step", "measured", "no_chaos", "plan_of"}
+INTERNAL = {"integrated", "longest_step", "measured", "no_chaos", "plan_of", "tangent"}
 """Functions that take a level that is already read, or its name in a store."""
 
 

@@ -8,10 +8,7 @@ from pytest import approx, mark
 from hess_mechanics import (
     Plane,
     SuslovBody,
-    ensemble,
-    lyapunov_exponent,
     lyapunov_spectrum,
-    megno,
     megno_map,
     regime,
     return_map,
@@ -25,7 +22,6 @@ from support.moved import FARTHEST, from_moved_starts, moved_starts
 
 BODY, START = systems()["suslov"].example_motion
 POINT = (0.3, 1.2)
-TIMES = np.linspace(0.0, 20.0, 21)
 EQUATOR = Plane((0.0, 0.0, 0.0, 0.0, 1.0), 0.0, 0)
 MAP = return_map(SuslovBody(1.5, 1.0, 0.4, 0.0, 0.3, -0.5, 1.0), E=1.842, accuracy="draft")
 
@@ -46,14 +42,10 @@ def test_every_component_moves_by_a_few_ulps_and_0_stays_0():
 
 
 ENTRIES = {
-    "ensemble": lambda: ensemble(BODY, [START], TIMES, "draft").states,
     "section_points": lambda: section_points(BODY, [START], EQUATOR, 20.0, "draft", 5).states[0],
-    "lyapunov_exponent": lambda: lyapunov_exponent(BODY, START, 20.0).rates,
     "lyapunov_spectrum": lambda: lyapunov_spectrum(BODY, START, 20.0).values,
-    "megno": lambda: megno(BODY, [START], 20.0).values,
     "megno_map": lambda: megno_map(MAP, cells=(2, 2), t=20.0).values,
     "mean_divergence": lambda: mean_divergence(SuslovBody(*BODY.parameters), START, 20.0).mean,
-    "orbit of a return map": lambda: MAP.orbit(np.array(POINT), 5),
     "regime": lambda: regime(MAP, POINT, 10, 20, 20.0).places,
 }
 

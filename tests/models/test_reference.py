@@ -2,22 +2,13 @@
 
 from pytest import approx, mark
 
-from hess_mechanics import circle_map, critical_a, lock_boundary_f, turning_points
+from hess_mechanics import circle_map, critical_a, lock_boundary_f
 from hess_mechanics.numerics.accuracy import Status
-from support.mechanics import REFERENCE, every_known_torus, numbers
+from support.mechanics import REFERENCE
 
 ladder = mark.parametrize(
     ("name", "bound"), [("draft", 1e-3), ("standard", 1e-6), ("precise", 1e-9), ("reference", 1e-9)]
 )
-
-
-@every_known_torus
-def test_turning_points_and_period_agree_with_the_reference(row):
-    turning = turning_points(float(row["h"]), float(row["f"]))
-    assert turning.roots == approx(numbers(row["n3_roots"]), abs=1e-9)
-    assert turning.period == approx(float(row["period"]), abs=1e-9)
-    result = circle_map(0.5, float(row["h"]), float(row["f"]), "draft")
-    assert result.period == turning.period
 
 
 @ladder

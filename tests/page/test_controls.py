@@ -8,7 +8,6 @@ import pytest
 from pytest import approx
 
 from hess_explorer.headless.browser import wait_ready
-from hess_mechanics import f_max
 from hess_mechanics.numerics.accuracy import LEVELS
 from support.page import DEFAULTS, FIND, MOMENT, POINTS, SLIDERS, wait_frames, wait_time
 from support.painted import yellow
@@ -34,27 +33,6 @@ def test_a_slider_obeys_the_keyboard(explorer, name):
     for key, end in (("End", "data-high"), ("Home", "data-low")):
         explorer.change(slider.press, key)
         assert explorer.shown(name)[0] == approx(float(slider.get_attribute(end)), abs=step)
-
-
-@numbers
-def test_a_slider_follows_the_mouse(explorer, name):
-    low, high = (float(explorer.slider(name).get_attribute(end)) for end in ("min", "max"))
-    box = explorer.slider(name).bounding_box()
-    middle = box["y"] + box["height"] / 2
-    mouse = explorer.page.mouse
-    before = explorer.state
-    mouse.move(box["x"] + 0.35 * box["width"], middle)
-    mouse.down()
-    for share in (0.4, 0.5, 0.6, 0.65, 0.7):
-        mouse.move(box["x"] + share * box["width"], middle)
-    mouse.up()
-    wait_ready(explorer.page, after=before)
-    value, slider = explorer.shown(name)
-    assert slider == approx(value, abs=1e-9)
-    # The middle of the thumb (16 px) is under the pointer.
-    share = (0.7 * box["width"] - 8) / (box["width"] - 16)
-    assert value == approx(low + share * (high - low), abs=0.02 * (high - low) + SLIDERS[name])
-    assert_orbit(explorer, {**DEFAULTS, name: value})
 
 
 @pytest.mark.parametrize(
@@ -121,20 +99,6 @@ def test_what_is_out_of_range_is_clamped_with_a_note_each_time(explorer, name, t
         assert explorer.shown(name)[0] == approx(value, rel=1e-12)
         assert note in explorer.text("notes")
         assert explorer.page.locator(".text.notes").is_visible()
-
-
-def test_the_f_slider_reaches_its_edge_finds_zero_and_writes_round_numbers_at_any_h(explorer):
-    for h in (1.01, 3.99):
-        explorer.change(lambda h=h: explorer.slide(h=h))
-        low, high, step = (
-            float(explorer.slider("f").get_attribute(name)) for name in ("data-low", "data-high", "step")
-        )
-        assert (-low, high) == approx((f_max(h), f_max(h)), abs=1.01 * step)
-        explorer.change(lambda: explorer.slide(f=0.37))
-        assert explorer.box("f").input_value() == "0.37"
-        explorer.change(lambda: explorer.slide(f=0.0))
-        assert explorer.box("f").input_value() == "0"
-        assert explorer.here()[1] == 0.0
 
 
 def test_a_box_reads_expressions_and_shows_their_numbers(explorer):

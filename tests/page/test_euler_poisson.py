@@ -2,7 +2,7 @@
 
 import math
 import re
-from urllib.parse import parse_qsl, urlencode, urlsplit
+from urllib.parse import parse_qsl, urlsplit
 
 import pytest
 from playwright.sync_api import expect
@@ -151,14 +151,3 @@ def test_a_long_section_fills_keeps_what_is_typed_in_its_box_and_can_be_stopped(
     done, total = map(int, found.groups())
     assert 0 < done < total
     box.wait_for(state="hidden")
-
-
-# --- Links and refusals ------------------------------------------------------------------------------
-
-
-def test_a_window_where_nothing_is_possible_is_cleared(page):
-    query = {"scene": EP.name, **SMALL, "h": -5.5, "f": 0.0, "starts": "3,0.85", "window": "3,0.8;3.1,0.9"}
-    page.change(page.page.evaluate, "query => hess.tell('restore', query)", urlencode(query))
-    assert "press Clear" in page.text("status")
-    page.change(page.page.locator(".param-clear").click)
-    assert "press Clear" not in page.text("status")

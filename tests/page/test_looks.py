@@ -3,7 +3,6 @@
 import base64
 import io
 import re
-from itertools import combinations
 
 import pytest
 from PIL import Image, ImageStat
@@ -11,7 +10,7 @@ from pytest import approx
 
 from hess_explorer.scenes import scenes
 from support.accessible import assert_accessible, contrast
-from support.page import HESS, HOMEWARDS, SLIDERS, Explorer, brought_on_phone, wait_frames
+from support.page import HESS, SLIDERS, Explorer, brought_on_phone, wait_frames
 from support.thorough import sample
 
 SIZES = {"wide": (1600, 950), "laptop": (1280, 720), "phone": (390, 844), "sideways": (844, 390)}
@@ -476,62 +475,3 @@ def test_on_a_phone_tools_without_room_in_the_bar_are_in_a_menu(look_at):
     labels = " · ".join(page.locator(".tools .label:visible").all_inner_texts())
     assert labels == "Undo · Redo · Clear · Reset · Pin · Share · Invite · Export · Present · Full screen · Theme"
     tab.resize(width, height)
-
-
-# --- Ticks -------------------------------------------------------------------------------------------
-
-
-def test_no_label_touches_the_next_on_tiny_axes_and_on_a_sphere(look_at):
-    tab = look_at("free-suslov", "laptop")
-    tab.change(tell, tab.page, "change", {"w1": 1e-4, "w2": 2e-4})
-    # Painted anew, as they stand: [text, left, top, right, bottom], of each plot.
-    plots = tab.page.evaluate(
-        WRITTEN,
-        """for (const plot of hess.plots) for (const axis of plot.model.below)
-      axis.setv({ axis_line_alpha: axis.axis_line_alpha === 0.4 ? 0.41 : 0.4 })""",
-    )
-    tab.change(tell, tab.page, "reset")
-    assert len(plots) >= 3
-    ticks = [[one for one in labels if re.fullmatch(r"−?[\d.]+(e−?\d+)?", one[0])] for labels in plots]
-    gaps = [gap for labels in ticks for gap in gaps_of(labels)]
-    assert len(gaps) > 20
-    # Bokeh keeps 4 pixels between what it measures; here a letter is as high as its type.
-    assert min(gaps) >= 3.0
-    assert max(len(text) for labels in ticks for text, *_ in labels) >= 5
-    canvases = tab.page.evaluate(WRITTEN, f"({HOMEWARDS})()")
-    # With I₁₃ = 0 the axis ξ is that of γ₁.
-    assert {"γ₁", "ξ"} <= {text for canvas in canvases for text, *_ in canvas}
-    assert min(gap for canvas in canvases if len(canvas) > 1 for gap in gaps_of(canvas)) >= 0.0
-
-
-WRITTEN = """async (change) => {
-  const own = CanvasRenderingContext2D.prototype.fillText
-  const written = new Map()
-  CanvasRenderingContext2D.prototype.fillText = function (text, x, y, ...rest) {
-    const wide = this.measureText(text).width
-    const high = parseFloat(/([\\d.]+)px/.exec(this.font)[1])
-    const left = x - ({ center: 0.5, right: 1, end: 1 }[this.textAlign] ?? 0) * wide
-    const top = y - ({ middle: 0.5, top: 0, hanging: 0 }[this.textBaseline] ?? 0.8) * high
-    const scale = this.canvas.getBoundingClientRect().width / this.canvas.width
-    const at = this.getTransform()
-    const corners = [[left, top], [left + wide, top + high]].map(([a, b]) => at.transformPoint({ x: a, y: b }))
-    const [xs, ys] = ["x", "y"].map((key) => corners.map((corner) => scale * corner[key]).sort((p, q) => p - q))
-    if (!written.has(this.canvas)) written.set(this.canvas, new Map())
-    const box = [text, xs[0], ys[0], xs[1], ys[1]]
-    written.get(this.canvas).set(`${text} ${Math.round(xs[0])} ${Math.round(ys[0])}`, box)
-    own.call(this, text, x, y, ...rest)
-  }
-  new Function(change)()
-  for (let i = 0; i < 4; i++) await new Promise(requestAnimationFrame)
-  CanvasRenderingContext2D.prototype.fillText = own
-  return [...written.values()].map((labels) => [...labels.values()])
-}"""
-"""Text on each canvas after a change: a list of [text, left, top, right, bottom] in pixels of CSS."""
-
-
-def gaps_of(labels):
-    """The distance of every two of them, along the axis along which they are further apart."""
-    return [
-        max(max(one[1], other[1]) - min(one[3], other[3]), max(one[2], other[2]) - min(one[4], other[4]))
-        for one, other in combinations(labels, 2)
-    ]

@@ -13,7 +13,6 @@ from pytest import approx
 
 from hess_explorer.headless.browser import wait_ready
 from hess_explorer.headless.screenshot import server_process
-from support.modules import SERVED
 from support.page import (
     DEFAULTS,
     FIRST,
@@ -59,16 +58,6 @@ def test_an_address_without_a_link_opens_the_first_scene_and_says_it_is_ready_on
     # Three planar pictures of three canvases each, the cells of one, the body, and the sphere and the torus of two.
     assert record[-1]["drawn"] == 15
     explorer.assert_quiet()
-
-
-def test_a_change_takes_the_flag_down_at_once_and_the_state_number_up(explorer):
-    for h in (0.9, 0.2, 3.3):
-        before = explorer.state
-        assert explorer.slide(h=h) == "false"
-        wait_ready(explorer.page, after=before)
-        # Once more with each part that came later, such as what is proved.
-        assert explorer.state - before in (1, 2, 3)
-        assert explorer.here() == (approx(h), 0.6)
 
 
 def test_an_answer_that_takes_long_is_said_to_be_under_way(with_websocket):
@@ -239,44 +228,6 @@ def test_whatever_a_text_of_the_page_is_told_to_say_it_shows_as_text(explorer):
 
 
 # --- What the page needs of Bokeh beyond its documentation ---------------------------------------------
-
-MISSING = """async (served) => {
-  const { "pictures/bokeh_private.js": { missing } } = await import(new URL(served, document.baseURI).href)
-  const { UIGestures } = Bokeh.require("core/ui_gestures")
-  const [plot] = hess.plots
-  const found = [missing(plot)]
-  const threshold = UIGestures.press_threshold
-  UIGestures.press_threshold = undefined
-  found.push(missing(plot))
-  UIGestures.press_threshold = threshold
-  const [view] = plot.computed_renderer_views
-  const { el, glyph } = view
-  view.el = undefined
-  found.push(missing(plot))
-  view.el = el
-  const { mask_data: mask } = glyph
-  glyph.set_visuals = glyph.mask_data = undefined
-  found.push(missing(plot))
-  delete glyph.set_visuals
-  glyph.mask_data = mask
-  const { muted_glyph: muted } = view
-  view.muted_glyph = undefined
-  found.push(missing(plot))
-  view.muted_glyph = muted
-  found.push(missing(plot))
-  return found
-}"""
-
-
-def test_each_private_member_of_bokeh_that_is_not_there_is_named(explorer):
-    assert explorer.page.evaluate(MISSING, SERVED) == [
-        [],
-        ["UIGestures.press_threshold"],
-        ["RendererView.el and update_position"],
-        ["GlyphRendererView.all_indices, GlyphView.set_visuals and after_visuals", "GlyphView.mask_data"],
-        ["GlyphRendererView.selection_glyph, nonselection_glyph, muted_glyph and decimated_glyph"],
-        [],
-    ]
 
 
 @pytest.mark.thorough

@@ -1,7 +1,7 @@
 """The pictures of the Suslov–Hess scene as they are painted, and their response to mouse, keys and finger."""
 
 from io import BytesIO
-from math import atan2, cos, hypot, pi, sin
+from math import cos, pi, sin
 
 import numpy as np
 import pytest
@@ -9,10 +9,8 @@ from PIL import Image
 from pytest import approx
 
 from hess_explorer.views import theme
-from hess_mechanics import turning_points
-from support.mechanics import angle_between, lifted_return
 from support.page import DEFAULTS, FIND, PICTURES, flat, wait_frames
-from support.pointer import HOME, STEP, assert_turned, at, click_on
+from support.pointer import HOME, STEP, assert_turned, at
 from support.suslov_hess import assert_orbit, body_of, exact_states
 
 a = DEFAULTS["I23"] / DEFAULTS["I22"]
@@ -78,19 +76,6 @@ def test_a_drag_in_the_bifurcation_diagram_is_followed(explorer):
     assert explorer.shown("h")[0] == approx(2.9, abs=wide)
 
 
-def test_a_click_in_the_circle_map_chooses_the_phase_under_it(explorer):
-    explorer.set_time(5.0)
-    wide, _ = click_on(explorer, "circle", -2.5, 1.0)
-    # The motion starts there; it stands because the browser of the tests prefers reduced motion.
-    assert explorer.time == 0.0
-    chosen = explorer.shown("phi0")[0]
-    assert explorer.data("circle-point")["x"] == approx([chosen], abs=1e-6)
-    assert chosen == approx(-2.5, abs=wide)
-    assert_orbit(explorer, {**DEFAULTS, "phi0": chosen})
-    cobweb = explorer.data("circle-cobweb")
-    assert (cobweb["phi"][0], cobweb["theta"][0]) == approx((chosen, chosen), abs=1e-6)
-
-
 # --- The sphere and the torus ------------------------------------------------------------------------
 
 
@@ -137,21 +122,6 @@ def test_a_picture_in_space_turns_with_the_mouse_as_if_it_were_held(explorer, ki
     assert (explorer.state, len(explorer.sent)) == (state, sent)
 
 
-def test_the_sphere_turns_with_the_arrow_keys_up_to_the_pole_and_home_again(explorer):
-    explorer.sphere.focus()
-    for key, times, turned in (
-        ("ArrowLeft", 2, (HOME[0] + 2 * STEP, HOME[1])),
-        ("ArrowRight", 3, (HOME[0] - STEP, HOME[1])),
-        ("ArrowUp", 1, (HOME[0] - STEP, HOME[1] + STEP)),
-        ("ArrowDown", 25, (HOME[0] - STEP, -pi / 2)),
-        ("Home", 1, HOME),
-    ):
-        for _ in range(times):
-            explorer.sphere.press(key)
-        assert_turned(explorer.sphere, *turned)
-    assert explorer.time == 0.0
-
-
 def projected(point, turn):
     """Project a point in an orthographic view: right and up."""
     azimuth, elevation = turn
@@ -180,25 +150,6 @@ def test_the_moving_point_is_at_the_state_seen_from_there(explorer, kind, place)
         half = box["width"] / 2
         found = ((columns.mean() + 0.5 - half) / radius(explorer), (half - rows.mean() - 0.5) / radius(explorer))
         assert found == approx((right, up), abs=0.02)
-
-
-def test_the_moving_point_is_at_the_state_of_its_time_in_every_plane(explorer):
-    t = 33.3
-    explorer.set_time(t)
-    state = exact_states(DEFAULTS, [t])[0]
-    w1, w2, n1, n2, n3 = body_of(DEFAULTS).in_units_of_b(body_of(DEFAULTS).to_reduced(state))
-    point = {name: explorer.data(f"{name}-point") for name in ("omega", "bifurcation", "circle")}
-    assert (point["omega"]["x"][0], point["omega"]["y"][0]) == approx(state[:2], abs=4e-3)
-    rate = n1 * w2 - n2 * w1
-    assert rate**2 == approx(2 * (1.5 + n3) * (1 - n3 * n3) - 0.36, abs=1e-9)
-    assert point["bifurcation"]["x"][0] == approx(1.5)
-    assert point["bifurcation"]["y"][0] == approx(hypot(0.6, rate), abs=6e-3)
-    # Above the phase with which this period began stands the phase of now.
-    phase = 0.5
-    for _ in range(int(t / turning_points(1.5, 0.6).period)):
-        phase = float(lifted_return(a, 1.5, 0.6, [phase])[0])
-    assert angle_between(point["circle"]["x"][0], phase) < 2e-3
-    assert angle_between(point["circle"]["y"][0], atan2(w1, w2)) < 5e-3
 
 
 # --- What is painted ---------------------------------------------------------------------------------
@@ -274,14 +225,6 @@ def test_what_is_called_painted_is_painted(explorer):
     # The first of them brings most of what is new.
     assert sum(old != new for old, new in zip(before, seen[0][1], strict=True)) >= 3
     assert [then == later for then, later in seen] == [True] * len(seen)
-
-
-def test_the_separatrix_is_said_in_the_middle_of_the_circle_map(explorer):
-    explorer.change(explorer.choose, "preset", "Separatrix: no return")
-    explorer.page.mouse.move(5, 5)
-    pixels = canvas_of(explorer, "circle")
-    assert not like(pixels, theme.MAP).any()
-    assert like(pixels[int(0.35 * len(pixels)) : int(0.6 * len(pixels)), 100:280], theme.MUTED, 60).sum() > 150
 
 
 def test_a_picture_that_is_folded_is_not_computed(explorer):

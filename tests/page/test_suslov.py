@@ -1,7 +1,6 @@
-"""The scenes "Suslov problem with gravity" and "rotation number" in a browser: cells and axes that are chosen."""
+"""The scene "Suslov problem with gravity" in a browser: the colours of cells."""
 
 import io
-import re
 
 import numpy as np
 import pytest
@@ -11,9 +10,9 @@ from hess_explorer.scenes import scenes
 from hess_mechanics.dynamics.cells import centres
 from support.page import brought, said
 from support.painted import assert_painted
-from support.pointer import at, frame
+from support.pointer import frame
 
-SUSLOV, ROTATION = scenes()["suslov"], scenes()["rotation-number"]
+SUSLOV = scenes()["suslov"]
 KINDS = (((86, 180, 233), 0x50 / 255), ((213, 94, 0), 0x60 / 255))
 """Colours of MEGNO, and how much of them is seen: regular and chaotic cells."""
 FEW = {"orbits": 8, "count": 40, "long": 50}
@@ -23,12 +22,6 @@ FEW = {"orbits": 8, "count": 40, "long": 50}
 def suslov(tab):
     brought(tab, SUSLOV).give(**FEW)
     yield tab
-    tab.assert_quiet()
-
-
-@pytest.fixture
-def rotation(tab):
-    yield brought(tab, ROTATION)
     tab.assert_quiet()
 
 
@@ -60,29 +53,4 @@ def test_cells_of_megno_are_seen_in_their_colours_under_the_points(suslov):
         mixed = (1.0 - share) * before[kinds == kind] + share * np.array(colour)
         # All but the cells over whose middles a point stands.
         assert np.mean(np.abs(after[kinds == kind] - mixed).max(axis=1) < 4.0) > 0.8
-    assert_painted(suslov, SUSLOV)
-
-
-def crossings(explorer):
-    return int(re.search(r"([\d,]+) points;", explorer.caption("section"))[1].replace(",", ""))
-
-
-def test_a_density_fills_a_window_and_a_click_starts_an_orbit_over_it(suslov):
-    whole = np.array(suslov.data("section-density-0")["image"][0])
-    # Two stages of 128 orbits.
-    assert crossings(suslov) == 12_288
-    assert "x" not in suslov.data("section-first") or not len(suslov.data("section-first")["x"])
-    # The sea lies in the middle of the section: neither paper nor the grey of impossible places.
-    assert np.ptp(colours_of_cells(suslov, "section", (40, 40))[5:35, 22:32], axis=(0, 1)).max() > 60.0
-    suslov.change(lambda: suslov.page.evaluate("hess.tell('change', { window: '0,1;1.5,2.5' })"))
-    closer = np.array(suslov.data("section-density-0")["image"][0])
-    assert 0 < crossings(suslov) < 12_288
-    assert closer.shape == whole.shape and not np.array_equal(closer, whole)
-    (x, y), _ = at(suslov, "section", 0.7, 1.7)
-    suslov.set_time(5.0)
-    suslov.change(lambda: suslov.page.mouse.click(x, y))
-    # The motion starts there.
-    assert suslov.time == 0.0
-    assert len(suslov.data("section-own")["x"]) == 2 * FEW["count"]
-    assert np.array_equal(np.array(suslov.data("section-density-0")["image"][0]), closer)
     assert_painted(suslov, SUSLOV)

@@ -91,10 +91,6 @@ def test_what_is_encoded_is_decoded_unchanged_and_without_a_note(name, values):
 DEFAULTS = {spec.name: spec.default for spec in SPECS}
 
 
-def test_keys_of_nobody_are_ignored():
-    assert decode("utm_source=mail&h=2.5&I22[]=7&__proto__=1&=", SPECS) == ({**DEFAULTS, "h": 2.5}, [])
-
-
 def test_a_page_names_keys_that_its_link_has_twice_or_that_nobody_knows():
     query = query_of({"hh": [b"1"], "H": [b"2"], "#scene": [b""], "h": [b"1", b"1.5"], "lesson": [b""]})
     opened = opening(query)
@@ -174,24 +170,6 @@ def test_there_is_one_note_for_each_key_whose_value_had_to_be_changed(given_text
             assert is_admissible(spec, values[spec.name])
     assert len(notes) == changed
     assert len(set(notes)) == changed
-
-
-@every_key
-@given(
-    values=states(SPECS),
-    text=st.one_of(
-        st.sampled_from(["nan", "inf", "-inf", "1e999", "-1e999", "", "<b>", "1e7", "-1e7"]), st.text(max_size=12)
-    ),
-)
-def test_a_key_that_makes_no_sense_leaves_the_others_alone(spec, values, text):
-    assume(understood(spec, text) is None)
-    query = encode(SCENE.name, {**values, spec.name: text})
-    assume(len(query) <= MAX_QUERY)
-    read, notes = decode(query, SPECS)
-    assert is_admissible(spec, read.pop(spec.name))
-    assert read == {name: value for name, value in values.items() if name != spec.name}
-    assert len(notes) == 1
-    assert (spec.symbol if isinstance(spec, Number) else spec.label) in notes[0]
 
 
 @every_number

@@ -75,15 +75,6 @@ def test_a_grid_tells_its_shape_and_a_row_of_numbers_none():
     assert columns == {"image": [{"at": 0, "n": 7500, "shape": [75, 100]}], "x": {"at": 7500, "n": 3}}
 
 
-def test_of_two_columns_for_one_source_the_last_count():
-    wire = Wire()
-    wire.put("orbit", {"x": np.arange(5.0), "old": np.arange(5.0)})
-    wire.put("orbit", {"x": np.arange(3.0)})
-    found, _, _, block = unpack(wire)
-    assert list(found["orbit"]) == ["x"]
-    assert len(block) == 12
-
-
 @given(st.tuples(*[st.floats(-1e300, 1e300)] * 4))
 def test_axes_arrive_in_double_precision_and_the_last_ones_count(ends):
     wire = Wire()

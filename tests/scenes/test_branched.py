@@ -112,7 +112,7 @@ def test_without_a_periodic_orbit_the_picture_says_what_to_do(name):
     # Out of sight it is not computed.
     few = {"count": 20.0, **({"orbits": 0.0} if name == "euler-poisson" else {})}
     hidden = View(scene, {**example(name), **few}, seen=["section"], whole=False)
-    assert not any("branch" in task.function.__module__ for task in hidden.report.todo)
+    assert not any("continuation" in task.function.__module__ for task in hidden.report.todo)
 
 
 @every

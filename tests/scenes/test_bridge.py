@@ -154,29 +154,6 @@ def test_a_change_of_sides_keeps_the_motion_and_one_back_the_values(values):
             assert browser.session.values[name] == approx({**BRIDGE.defaults(), **values}[name], rel=1e-14)
 
 
-def test_entered_from_another_scene_each_side_takes_only_numbers_of_its_own():
-    browser = Browser(BRIDGE)
-    browser.ask(preset="Two limit cycles, given in Suslov–Hess")
-    left = dict(browser.session.values)
-    # Energy and area integral of Euler–Poisson are other numbers, and its body is none of this side.
-    browser.ask(scene="hess-leak")
-    assert browser.session.values["h"] == LEAK.defaults()["h"]
-    browser.ask(values={"h": 60.0, "f": 4.0, "phi0": 0.75, "I3": 0.4})
-    browser.ask(scene="bridge")
-    assert browser.session.values == {**left, "phi0": 0.75}
-    # Those of the Suslov–Hess case, in units b = 1, are the same, and are taken along both ways.
-    browser.ask(scene="suslov-hess")
-    assert [browser.session.values[name] for name in ("h", "f", "phi0")] == [1.5, 0.6, 0.75]
-    browser.ask(values={"h": 2.5, "f": 1.0, "I22": 1.25})
-    browser.ask(scene="bridge")
-    assert browser.session.values == {**left, "phi0": 0.75, "h": 2.5, "f": 1.0, "I22": 1.25}
-    # On the other side what was its body is translated, and is not taken along; nor is h.
-    browser.ask(values={"given": "Euler–Poisson"})
-    browser.ask(scene="suslov-hess", values={})
-    assert [browser.session.values[name] for name in ("h", "f", "I22")] == [2.5, 1.0, 1.25]
-    assert browser.texts["notes"] == ""
-
-
 def test_what_is_said_with_the_side_is_not_translated():
     browser = Browser(BRIDGE)
     browser.ask(values={"given": "Suslov–Hess", "h": 6.0, "I22": 0.7})

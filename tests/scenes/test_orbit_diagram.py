@@ -62,7 +62,7 @@ def test_where_periods_double_the_diagram_has_twice_as_many_places():
 def test_attractors_and_repellers_are_what_their_examples_say(name, verdict):
     state, captions = complete(SCENE, name, ("section",))
     assert f"Chaotic. Looks {verdict}." in captions["section"]
-    known = state.regime.kind.dynamics
+    known = state.regime.kind
     div, error = known.motion.divergence, known.motion.divergence_error
     assert f"div = {digits(div, 2)} ± " in captions["section"]
     assert div + 3.0 * error < 0.0
@@ -155,7 +155,7 @@ def test_volume_that_is_kept_is_said(scene):
     assert "Volume is preserved: no attractors." in captions["diagram"]
     assert captions["diagram"].endswith(" points. One orbit for each value.")
     assert "Conservative: volume is preserved." in captions["section"]
-    assert state.regime.kind.regime.divergence == 0.0
+    assert state.regime.kind.motion.divergence == 0.0
 
 
 def test_a_click_chooses_a_state_that_is_there_and_a_box_looks_closer():

@@ -15,7 +15,6 @@ from hess_explorer.scenes import scenes
 from hess_mechanics import circle_map, f_max
 from hess_mechanics.numerics.accuracy import REFERENCE
 from hess_mechanics.suslov_hess.rotation_number import values_at
-from support.rotation_number import iterated
 from support.view import View
 from support.view import example as example_of
 
@@ -57,24 +56,6 @@ def test_the_rational_number_of_an_example_is_where_its_caption_says(name):
     assert {**vars(found), line: 0} == {**{key: view.values[key] for key in "ahf"}, line: 0}
     assert f"|Θ{'⁰¹²³⁴⁵⁶⁷⁸⁹'[rational.denominator]} − id|" in view.text["line"]
     assert defect < 1e-12
-
-
-@pytest.mark.parametrize("name", NAMES)
-def test_the_plateaus_of_the_other_family_are_those_of_plain_iteration(name):
-    view = example(name)
-    line, epsilon = view.values["line"], view.values["epsilon"]
-    torus = {key: float(view.values[key]) for key in "ahf"}
-    (text,) = (line for line in view.report.derived if line.startswith("plateaus"))
-    named = text.rpartition(": ")[2].split(", ")
-    assert len(named) >= 1
-    x, perturbed = view.result.x, view.result.perturbed
-    for step in named[:4]:
-        rho = float(Fraction(step.replace("−", "-")))
-        at = np.flatnonzero((np.abs(perturbed - rho) < 1e-6) & view.result.along.possible)
-        assert at.size >= 2
-        for i in at[[0, -1]]:
-            here = {**torus, line: float(x[i])}
-            assert iterated(*here.values(), epsilon, 1000) == approx(rho, abs=1.1e-3)
 
 
 def covered(region, x, y):

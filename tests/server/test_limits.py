@@ -83,16 +83,6 @@ def test_what_is_no_json_ends_the_websocket_with_a_sentence_and_whatever_is_json
     assert "h=1.25" in query
 
 
-def test_a_message_of_hundred_kilobytes_is_none_too_large(base):
-    async def visit():
-        visitor = await Visitor.open(base)
-        state = await visitor.ask(expressions={"h": "1" * 100_000})
-        await visitor.leave()
-        return state
-
-    assert "The expression is longer than 100 characters." in finished(visit())["tree"]["texts"]["error-h"]
-
-
 def answer(base, path, **options):
     """Return the status and text of a response, including refusals."""
 

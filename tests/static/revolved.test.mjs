@@ -43,7 +43,7 @@ test("along the outline the line of sight touches the surface", () => {
 })
 
 test("no line of sight is painted twice, or not, where facets meet", () => {
-  createRevolved().shade(SHEET, radius, height, [0.3, Math.PI / 2], null, false)
+  createRevolved().shade(SHEET, radius, height, [0.3, Math.PI / 2], null)
   // Along each row opacity changes smoothly, but at the edges.
   let inside = 0
   for (let at = 1; at < 200 * 200 - 1; at++) {
@@ -60,7 +60,7 @@ test("no line of sight is painted twice, or not, where facets meet", () => {
 test("it hides its own back, and shows what is before it", () => {
   const surface = createRevolved()
   for (const turn of [[0.6, 0.35], [-2, -1.1]]) {
-    surface.shade(SHEET, radius, height, turn, null, false)
+    surface.shade(SHEET, radius, height, turn, null)
     const [azimuth, elevation] = turn
     // The points of the tube nearest to the eye and farthest from it, on the side of the eye.
     for (const [sign, shown] of [[1, true], [-1, false]]) {

@@ -23,6 +23,7 @@ class Formula:
     level: str = "reference"
     is_floor: bool = True
     volume_kept: bool = False
+    symmetries_of: Callable = lambda places, near: ()
 
     def image(self, place):
         places = np.asarray(place, float)

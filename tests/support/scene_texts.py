@@ -21,7 +21,7 @@ from hess_mechanics import (
     period_doublings,
     periodic_orbit,
 )
-from hess_mechanics.dynamics import attraction, edge, lyapunov, megno, point_sets, regime, spectrum, work_precision
+from hess_mechanics.dynamics import attraction, edge, megno, point_sets, regime, spectrum, work_precision
 from hess_mechanics.dynamics.birkhoff import rotation_number
 from hess_mechanics.euler_poisson import andoyer, equations, rotation
 from hess_mechanics.numerics import doubled_kernels
@@ -272,7 +272,6 @@ SHARED = {
     "about a million crossings of 128 orbits": (density._ORBITS,),
     "negative by more than three times its error": (spectrum._ERRORS,),
     "needs more than 2000 points": (periodic_search.MOST_POINTS,),
-    "rescaled to a distance of $10^{-7}$": (lyapunov._DISTANCE,),
     "four levels": (len(LEVELS),),
 }
 """Rows of passages that are in several scenes."""

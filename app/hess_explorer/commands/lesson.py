@@ -7,7 +7,6 @@ from pathlib import Path
 
 from . import CommandError
 from .command import Command, Options, option
-from .output import write_file
 
 __all__ = ["COMMAND"]
 
@@ -17,7 +16,6 @@ _GUIDE = Path(str(files("hess_explorer"))) / "docs/guides/lesson.md"
 def _check(files: list[Path]) -> None:
     from hess_explorer.lessons.collection import examined, files_in
     from hess_explorer.lessons.lesson import LessonError
-    from hess_explorer.lessons.review import hints
 
     try:
         paths = files_in(files)
@@ -25,9 +23,6 @@ def _check(files: list[Path]) -> None:
         raise CommandError(str(error)) from error
     count = 0
     for path, lesson, problems in examined(paths):
-        if lesson is not None:
-            for hint in hints(lesson):
-                print(f"{path}:{hint.line}: Warning: {hint.message}")
         for problem in sorted(problems, key=lambda one: one.line):
             print(f"{path}:{problem.line}: {problem.message}")
         if lesson is not None and not problems:
@@ -41,9 +36,13 @@ def _new(files: list[Path]) -> None:
     from hess_explorer.lessons.example import EXAMPLE
 
     (file,) = files
-    if file.exists():
-        raise CommandError(f"{str(file)!r} exists: choose another name.")
-    write_file(file, EXAMPLE.encode())
+    try:
+        with file.open("x", encoding="utf-8") as new:
+            new.write(EXAMPLE)
+    except FileExistsError as error:
+        raise CommandError(f"{str(file)!r} exists: choose another name.") from error
+    except OSError as error:
+        raise CommandError(f"Cannot write {str(file)!r} ({error.strerror}): choose another file.") from error
     print(f"Wrote {file}.  Look at it: hess-explorer serve --lesson {file}")
 
 
@@ -58,7 +57,7 @@ COMMAND = Command(
     (
         option(
             "action",
-            "check: print all mistakes in lessons, each with file and line; the exit status is 1 if there is one.  "
+            "check: print the mistakes in lessons, each with file and line; the exit status is 1 if there is one.  "
             "new: write an example with comments, to be changed into your own lesson",
             choices=("check", "new"),
             metavar="ACTION",

@@ -1,1 +1,1 @@
-"""Cached computations, the scheduler of requests and background work."""
+"""Cached computations, and the pool of threads for requests and background work."""

@@ -5,19 +5,17 @@ from __future__ import annotations
 import logging
 import threading
 from collections import deque
-from collections.abc import Callable, Collection, Iterable
-from concurrent.futures import ThreadPoolExecutor
+from collections.abc import Collection, Iterable
 from typing import Any
 
 import numpy as np
 
 from hess_explorer.compute.budget import Abandoned, limited
 from hess_explorer.compute.cache import CACHE, Task
-from hess_explorer.compute.cores import CORES, queue_again
+from hess_explorer.compute.pool import POOL
 from hess_mechanics.errors import ModelError
-from hess_mechanics.numerics.parallel import THREADS
 
-__all__ = ["SECONDS", "Background", "run_in_steps"]
+__all__ = ["SECONDS", "Background"]
 
 SECONDS = 30.0
 """CPU time limit of one task in seconds, summed over all cores."""
@@ -26,20 +24,6 @@ WAIT = 600.0
 """Wall-clock limit of one task in seconds, for a busy machine."""
 
 logger = logging.getLogger("hess_explorer")
-
-_pool = ThreadPoolExecutor(max_workers=THREADS, thread_name_prefix="background")
-
-
-def run_in_steps(step: Callable[[], bool]) -> None:
-    """Call `step` repeatedly in the background until it returns False; each call queues behind waiting work."""
-
-    def one() -> None:
-        with CORES.fill():
-            more = step()
-        if more:
-            queue_again(_pool, one)
-
-    _pool.submit(one)
 
 
 class _Job:
@@ -82,8 +66,8 @@ class Background:
 
     def _run(self, count: int) -> None:
         job = self._job
-        for _ in range(min(THREADS, count)):
-            run_in_steps(lambda: self._step(job))
+        for _ in range(min(POOL.cores, count)):
+            POOL.fill(lambda: self._step(job))
 
     def stop(self) -> None:
         """Discard all tasks; running ones end at the next check of their budget."""
@@ -96,11 +80,11 @@ class Background:
                 if task not in but:
                     left.set()
 
-    def _step(self, job: _Job) -> bool:
-        """Run one task; return False when the queue is empty."""
+    def _step(self, job: _Job) -> None:
+        """Run one task, and queue the next one behind those of other sessions."""
         with self._lock:
             if not job.tasks:
-                return False
+                return
             task, left = begun = job.tasks.popleft(), threading.Event()
             job.running += 1
             self._begun.append(begun)
@@ -119,7 +103,7 @@ class Background:
         with self._lock:
             job.running -= 1
             self._begun.remove(begun)
-        return True
+        POOL.fill(lambda: self._step(job))
 
     @property
     def left(self) -> int:

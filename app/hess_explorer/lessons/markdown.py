@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from functools import cache
 from typing import Any
 from xml.etree import ElementTree
 
-from latex2mathml.commands import CONVERSION_MAP, LOCAL_FONTS, MATH_NON_FONT_COMMANDS
 from latex2mathml.converter import convert
 from markdown_it import MarkdownIt
 from markdown_it.common.utils import escapeHtml
@@ -23,63 +22,30 @@ _STOPS = re.compile(r'(<span class="math inline">.*?</span>)([.,;:!?)]+)', re.DO
 _ELEMENT = re.compile(r"\{http://www\.w3\.org/1998/Math/MathML\}(m[a-z]+)")
 _CHILDREN = {"mfrac": 2, "mroot": 2, "msub": 2, "msup": 2, "munder": 2, "mover": 2, "msubsup": 3, "munderover": 3}
 _COMMAND = re.compile(r"\\(?:[A-Za-z]+|.)")
-# Fonts and environments, whose arguments the library shows although it does not know them.
-_ARGUMENT = re.compile(r"\\math[a-z]+|\\begin\s*\{([^}]*)\}")
 
 
 class BadFormula(ValueError):
-    """The formula cannot be converted, or contains more than MathML.
-
-    mistakes : what is wrong, each with its place in the text; empty if that is not known.
-    """
-
-    def __init__(self, latex: str, mistakes: Sequence[tuple[str, int]] = ()) -> None:
-        self.mistakes = mistakes
-        super().__init__(latex)
+    """The formula cannot be converted, or contains more than MathML; the message says what to do."""
 
 
 def formula(latex: str, options: Mapping[str, Any]) -> str:
     """Return a formula as MathML; only elements of MathML are accepted, because the library does not escape text."""
-    mistakes = [*_unbalanced(latex)]
     try:
         found: str = convert(latex, display="block" if options["display_mode"] else "inline")
         parts = list(ElementTree.fromstring(found).iter())
     # The library raises errors of many types.
     except Exception as error:
-        raise BadFormula(latex, mistakes) from error
-    names = [_ELEMENT.fullmatch(part.tag) for part in parts]
-    if not all(name and "href" not in part.attrib for name, part in zip(names, parts, strict=True)):
-        raise BadFormula(latex)
-    # The library shows a command that it does not know as text.
-    shown = {one for part in parts for one in _COMMAND.findall(part.text or "")}
-    mistakes += [
-        (f"{one[0]} is not a known command.", one.start()) for one in _COMMAND.finditer(latex) if one[0] in shown
-    ]
-    mistakes += [
-        (f"{one[0]} is not known.", one.start())
-        for one in _ARGUMENT.finditer(latex)
-        if not {f"\\{one[1]}", one[0]} & {*CONVERSION_MAP, *LOCAL_FONTS, *MATH_NON_FONT_COMMANDS}
-    ]
-    if not mistakes and any(
-        name and len(part) != _CHILDREN.get(name[1], len(part)) for name, part in zip(names, parts, strict=True)
-    ):
-        mistakes.append(("the argument of a command is missing.", 0))
-    if mistakes:
-        raise BadFormula(latex, mistakes)
+        raise BadFormula("write it in LaTeX between dollars, and a dollar itself as \\$.") from error
+    for part in parts:
+        name = _ELEMENT.fullmatch(part.tag)
+        if not name or "href" in part.attrib:
+            raise BadFormula("only formulas are read here: leave out the HTML.")
+        # The library shows a command that it does not know as text.
+        if unknown := _COMMAND.search(part.text or ""):
+            raise BadFormula(f"{unknown[0]} is not a known command.")
+        if len(part) != _CHILDREN.get(name[1], len(part)):
+            raise BadFormula("the argument of a command is missing.")
     return found
-
-
-def _unbalanced(latex: str) -> Iterator[tuple[str, int]]:
-    """Yield the braces without a partner, which the library adds by itself."""
-    opened: list[int] = []
-    for one in re.finditer(r"\\.|[{}]", latex):
-        if one[0] == "{":
-            opened.append(one.start())
-        elif one[0] == "}" and opened:
-            opened.pop()
-        elif one[0] == "}":
-            yield "} has no { before it.", one.start()
-    yield from (("{ is not closed.", at) for at in opened)
 
 
 @cache

@@ -29,25 +29,28 @@ down.
 from __future__ import annotations
 
 import re
-from functools import partial
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
+
+import yaml
 
 from hess_explorer.lessons.checks import problems_in
 from hess_explorer.lessons.images import Images
 from hess_explorer.lessons.lesson import Lesson, LessonError, LessonStep, StateLink
-from hess_explorer.lessons.links import example_of, place_of
 from hess_explorer.lessons.markdown import parser
-from hess_explorer.lessons.parts import Fields, Part, fields_of, parts_of
-from hess_explorer.lessons.problems import Problems
-from hess_explorer.lessons.review import corrections
 from hess_explorer.lessons.settings import (
     animation_of,
     controls_of,
+    corrections,
+    example_of,
     hidden_of,
     is_number,
     look_of,
-    names_of,
+    only,
+    pictures_of,
+    place_of,
     prediction_of,
 )
 from hess_explorer.scenes import scenes
@@ -72,23 +75,27 @@ TRY_THIS = "Try this"
 KEYS = ("state", "example", "look", "pictures", "animate", "controls", "hide", "predict")
 """Names of the settings of a step."""
 _MOST_MINUTES = 600.0
+# The parser in C takes a tenth of the time of that in Python.
+_Loader: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 
 
 def read_file(path: Path) -> Lesson:
     """Return the lesson in a file, named after the file.  Raises `LessonError`."""
-    lesson, problems = examine(path)
-    if lesson is None or problems:
-        raise problems[0]
+    lesson, mistakes = examine(path)
+    if lesson is None or mistakes:
+        raise mistakes[0]
     return lesson
 
 
 def examine(path: Path) -> tuple[Lesson | None, list[LessonError]]:
-    """Return the lesson in a file as far as it can be read, and all mistakes, the one to begin with first."""
-    problems = Problems()
-    text = problems.attempt(None, _text, path)
-    lesson = None if text is None else _read(text, name_of(path), Images(path.parent), problems)
-    problems.found += [] if lesson is None else corrections(lesson.steps)
-    return lesson, [LessonError(one.message, one.line, path.name) for one in problems.found]
+    """Return the lesson in a file as far as it can be read, and its mistakes, one of the settings of each step."""
+    lesson = None
+    try:
+        lesson, mistakes = _read(_text(path), name_of(path), Images(path.parent))
+        mistakes += corrections(lesson.steps)
+    except LessonError as error:
+        mistakes = [error]
+    return lesson, [LessonError(one.message, one.line, path.name) for one in mistakes]
 
 
 def name_of(path: Path) -> str:
@@ -112,40 +119,37 @@ def _text(path: Path) -> str:
 
 def read(text: str, name: str) -> Lesson:
     """Return the lesson in a Markdown text, which has no images.  Raises `LessonError`."""
-    problems = Problems()
-    lesson = _read(text, name, Images(None), problems)
-    problems.raise_first()
+    lesson, mistakes = _read(text, name, Images(None))
+    if mistakes:
+        raise mistakes[0]
     return lesson
 
 
-def _read(text: str, name: str, images: Images, problems: Problems) -> Lesson:
-    """Return the lesson in a text as far as it can be read."""
-    first = next(iter(parser().parse(text)), None)
+def _read(text: str, name: str, images: Images) -> tuple[Lesson, list[LessonError]]:
+    """Return the lesson in a text as far as it can be read, and its mistakes."""
+    mistakes: list[LessonError] = []
     title, minutes = "", 0.0
+    try:
+        title, minutes = _facts(text)
+    except LessonError as error:
+        mistakes.append(error)
+    steps = _steps(text, 2, None, images, mistakes)
+    return Lesson(name, title, minutes, steps, images.urls), mistakes
+
+
+def _facts(text: str) -> tuple[str, float]:
+    """Return the title and the minutes."""
+    first = next(iter(parser().parse(text)), None)
     if first is None or first.type != "front_matter":
-        problems.add("the file must begin with front matter: the keys title and minutes between two lines ---.", 1)
-    else:
-        facts = fields_of(first.content, 2, ("title", "minutes"), problems)
-        title = problems.attempt("", _title, facts)
-        minutes = problems.attempt(0.0, _minutes, facts)
-    steps = _steps(text, 2, None, images, problems)
-    return Lesson(name, title, minutes, steps, images.urls)
-
-
-def _title(facts: Fields) -> str:
-    title = facts.get("title")
+        raise LessonError("the file must begin with front matter: the keys title and minutes between two lines ---.", 1)
+    facts = _fields(first.content, 2, ("title", "minutes"))
+    title, minutes = facts.get("title"), facts.get("minutes")
     if not isinstance(title, str) or not title.strip():
         raise LessonError("the front matter has no title; write one, like title: Two cycles are born.", 1)
-    return title.strip()
-
-
-def _minutes(facts: Fields) -> float:
-    minutes = facts.get("minutes")
     if not is_number(minutes) or not 0 < float(minutes) <= _MOST_MINUTES:
-        raise LessonError(
-            f"minutes must be a positive number up to {_MOST_MINUTES:g}, like minutes: 20.", facts.line_of("minutes")
-        )
-    return float(minutes)
+        why = f"minutes must be a positive number up to {_MOST_MINUTES:g}, like minutes: 20."
+        raise LessonError(why, facts.line_of("minutes"))
+    return title.strip(), float(minutes)
 
 
 def read_tries(scene: Scene[Any]) -> Lesson | None:
@@ -156,9 +160,10 @@ def read_tries(scene: Scene[Any]) -> Lesson | None:
         return None
     # Keep the line numbers of the file, for error messages.
     text = "\n" * (begin + 1) + "\n".join(lines[begin + 1 : end])
-    problems = Problems()
-    steps = _steps(text, 4, StateLink(scene.name, scene.defaults()), Images(None), problems)
-    problems.raise_first()
+    mistakes: list[LessonError] = []
+    steps = _steps(text, 4, StateLink(scene.name, scene.defaults()), Images(None), mistakes)
+    if mistakes:
+        raise mistakes[0]
     return Lesson(scene.name, f"{TRY_THIS}: {scene.title}", 0.0, steps)
 
 
@@ -177,89 +182,156 @@ def _section(lines: list[str]) -> tuple[int, int]:
 # ---- steps ----------------------------------------------------------------------------------------------------------
 
 
+@dataclass(frozen=True)
+class _Part:
+    """The text from a heading to the next one; line : number of its first line, from 1; fences : named `step`."""
+
+    title: str
+    text: str
+    line: int
+    fences: tuple[tuple[str, int], ...]
+
+
+def _parts(text: str, level: int) -> Iterator[_Part]:
+    """Yield the parts under the headings of one level."""
+    lines = text.split("\n")
+    tokens = [(token, token.map[0], token.map[1]) for token in parser().parse(text) if token.level == 0 and token.map]
+    heads = [(begin, end) for token, begin, end in tokens if token.type == "heading_open" and token.tag == f"h{level}"]
+    for (at, begin), (end, _) in zip(heads, [*heads[1:], (len(lines), 0)], strict=False):
+        fences = []
+        words = lines[begin:end]
+        for token, first, last in tokens:
+            if begin <= first < end and token.type == "fence" and token.info.split()[:1] == ["step"]:
+                fences.append((token.content, first + 2))
+                words[first - begin : last - begin] = [""] * (last - first)
+        yield _Part(re.sub(r"^#+\s*|\s*#*$", "", lines[at].strip()), "\n".join(words), begin + 1, tuple(fences))
+
+
+@dataclass(frozen=True)
+class _Fields:
+    """Settings by name, with their lines; line : first line of all."""
+
+    values: Mapping[str, Any] = field(default_factory=dict)
+    lines: Mapping[str, int] = field(default_factory=dict)
+    line: int = 1
+
+    def get(self, name: str) -> Any:
+        return self.values.get(name)
+
+    def line_of(self, name: str) -> int:
+        return self.lines.get(name, self.line)
+
+
+def _fields(text: str, line: int, allowed: tuple[str, ...]) -> _Fields:
+    """Return the settings in a YAML text that begins at a line."""
+    written = [(re.match(r"([^\s:#][^:]*?)\s*:", one), number) for number, one in enumerate(text.split("\n"), line)]
+    lines = {found[1].strip("\"'"): number for found, number in written if found}
+    values = _yaml(text, line)
+    wrong = next((str(key) for key in values if key not in allowed), "") if isinstance(values, dict) else ""
+    return _Fields(only(values, "this", allowed, lines.get(wrong, line)), lines, line)
+
+
+def _yaml(text: str, line: int) -> Any:
+    try:
+        # Aliases could expand a short text to a huge structure.
+        if any(isinstance(event, yaml.AliasEvent) for event in yaml.parse(text, _Loader)):
+            raise LessonError("YAML references (*) are not supported: write the value out.", line)
+        found = yaml.load(text, _Loader)
+    except (yaml.YAMLError, ValueError) as error:
+        mark = getattr(error, "problem_mark", None)
+        raise LessonError(
+            f"this is not YAML ({getattr(error, 'problem', None) or 'it cannot be read'}): write one "
+            f"“name: value” in a line, and quotes round a link.",
+            line + (mark.line if mark else 0),
+        ) from error
+    except RecursionError as error:
+        raise LessonError("this YAML is nested too deeply.", line) from error
+    return {} if found is None else found
+
+
 def _steps(
-    text: str, level: int, place: StateLink | None, images: Images, problems: Problems
+    text: str, level: int, place: StateLink | None, images: Images, mistakes: list[LessonError]
 ) -> tuple[LessonStep, ...]:
+    """Return the steps under the headings of a level; mistakes : gets those of the steps that are left out."""
+    parts = list(_parts(text, level))
     steps: list[LessonStep] = []
-    parts = list(parts_of(text, f"h{level}", problems))
     for part in parts[:MAX_STEPS]:
-        step = problems.attempt(None, _step, part, f"h{level + 1}", place, images, problems)
-        if step is not None:
-            steps.append(step)
-            place = step.at if step.prediction is None else step.prediction.then
+        mistakes += problems_in(part.title, part.line - 1, images)
+        mistakes += problems_in(part.text, part.line, images)
+        try:
+            fields = _settings(part)
+            place = _state(fields, place)
+            step = _step(part, level + 1, fields, place)
+        except LessonError as error:
+            mistakes.append(error)
+            # Without a first state, the other steps would only say that theirs is missing.
+            if place is None:
+                break
+            continue
+        steps.append(step)
+        place = step.at if step.prediction is None else step.prediction.then
     if not parts:
-        problems.add(f"there is no step: begin one with a heading, {'#' * level} Its title.", 1)
+        mistakes.append(LessonError(f"there is no step: begin one with a heading, {'#' * level} Its title.", 1))
     if len(parts) > MAX_STEPS:
-        problems.add(f"there are {len(parts)} steps; at most {MAX_STEPS} are allowed.", 1)
+        mistakes.append(LessonError(f"there are {len(parts)} steps; at most {MAX_STEPS} are allowed.", 1))
     return tuple(steps)
 
 
-def _step(part: Part, tag: str, before: StateLink | None, images: Images, problems: Problems) -> LessonStep | None:
-    """Return a step, None if it has no state; before : the state of the step before."""
-    if not part.title:
-        problems.add("the step has no title: write one after #.", part.line - 1)
-    fields = Fields() if part.fields is None else fields_of(part.fields, part.fields_line, KEYS, problems)
-    words, asked = _split(part, tag, problems)
-    for text, line in ((part.title, part.line - 1), *((one.text, one.line) for one in (words, *asked.values()))):
-        problems.found += [*problems_in(text, line, images, partial(place_of, problems=problems))]
-    place = _state(fields, part.fields_line or part.line, before, problems)
+def _settings(part: _Part) -> _Fields:
+    for _, line in part.fences[1:]:
+        raise LessonError("the step has two fences named step: keep one.", line - 1)
+    return _fields(*part.fences[0], KEYS) if part.fences else _Fields(line=part.line)
+
+
+def _state(fields: _Fields, place: StateLink | None) -> StateLink:
+    """Return the state of a step; place : that of the step before."""
+    get, line_of = fields.get, fields.line_of
+    if "state" in fields.values:
+        place = place_of(get("state"), line_of("state"))
+    if "example" in fields.values:
+        place = example_of(get("example"), place, line_of("example"))
     if place is None:
-        return None
+        example = 'state: "?scene=suslov-hess&h=1.5"'
+        why = f"the first step needs a state: a link of the page, like {example}, in a fence named step."
+        raise LessonError(why, fields.line)
+    return place
+
+
+def _step(part: _Part, level: int, fields: _Fields, place: StateLink) -> LessonStep:
+    """Return a step; level : that of the headings Question and Answer."""
+    if not part.title:
+        raise LessonError("the step has no title: write one after #.", part.line - 1)
+    get, line_of = fields.get, fields.line_of
     scene = scenes()[place.scene]
-    line_of = fields.line_of
-    animation = problems.attempt(None, animation_of, fields.get("animate"), scene, line_of("animate"), problems)
-    question, answer = (asked[name].text.strip() if name in asked else "" for name in ("question", "answer"))
+    animation = animation_of(get("animate"), scene, line_of("animate"))
+    text, question, answer = _words(part, level)
     return LessonStep(
         part.title,
-        words.text.strip(),
+        text,
         place,
-        problems.attempt("", look_of, fields.get("look"), scene, line_of("look")),
+        look_of(get("look"), scene, line_of("look")),
         animation,
         question,
         answer,
-        problems.attempt(None, prediction_of, fields.get("predict"), place, line_of("predict"), problems),
-        problems.attempt((), controls_of, fields.get("controls"), animation, scene, line_of("controls"), problems),
-        problems.attempt(None, hidden_of, fields.get("hide"), scene, line_of("hide"), problems),
-        names_of(fields.get("pictures"), "pictures", scene.pictures, line_of("pictures"), problems),
+        prediction_of(get("predict"), place, line_of("predict")),
+        controls_of(get("controls"), animation, scene, line_of("controls")),
+        hidden_of(get("hide"), scene, line_of("hide")),
+        pictures_of(get("pictures"), scene, line_of("pictures")),
         part.line - 1,
     )
 
 
-def _state(fields: Fields, line: int, before: StateLink | None, problems: Problems) -> StateLink | None:
-    """Return the state of a step, None if there is none."""
-    place, had = before, len(problems.found)
-    if "state" in fields.values:
-        place = place_of(fields.get("state"), fields.line_of("state"), problems) or before
-    if "example" in fields.values:
-        place = problems.attempt(place, example_of, fields.get("example"), place, fields.line_of("example"))
-    if place is None and len(problems.found) == had:
-        raise LessonError(
-            'the first step needs a state: a link of the page, like state: "?scene=suslov-hess&h=1.5", '
-            "in a fence named step.",
-            line,
-        )
-    return place
-
-
-def _split(part: Part, tag: str, problems: Problems) -> tuple[Part, dict[str, Part]]:
-    """Return the text before the question, and a mapping with "question" and "answer"."""
-    found = {
-        one.title.lower(): Part(one.title, one.text, part.line + one.line - 1)
-        for one in parts_of(part.text, tag, problems)
-    }
-    for name, one in found.items():
-        if name not in ("question", "answer"):
-            problems.add(
-                f"{one.title[:40]!r} is not a part of a step: use only the headings Question and Answer.",
-                one.line - 1,
-            )
-    asked = {name: one for name, one in found.items() if name in ("question", "answer")}
-    if len(asked) == 1:
-        problems.add(
-            "a step needs both a question and an answer, or neither: add the missing heading.",
-            next(iter(asked.values())).line - 1,
-        )
-    if not found:
-        return part, {}
-    end = min(one.line for one in found.values()) - part.line - 1
-    return Part(part.title, "\n".join(part.text.split("\n")[:end]), part.line), asked
+def _words(part: _Part, level: int) -> tuple[str, str, str]:
+    """Return the text, the question and the answer of a step."""
+    parts = list(_parts(part.text, level))
+    lines = [part.line + one.line - 2 for one in parts]
+    for one, line in zip(parts, lines, strict=True):
+        if one.title.lower() not in ("question", "answer"):
+            why = f"{one.title[:40]!r} is not a part of a step: use only the headings Question and Answer."
+            raise LessonError(why, line)
+    texts = {one.title.lower(): one.text.strip() for one in parts}
+    if len(texts) == 1:
+        why = "a step needs both a question and an answer, or neither: add the missing heading."
+        raise LessonError(why, lines[0])
+    text = "\n".join(part.text.split("\n")[: parts[0].line - 2]) if parts else part.text
+    return text.strip(), texts.get("question", ""), texts.get("answer", "")

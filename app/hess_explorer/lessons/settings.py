@@ -1,21 +1,44 @@
-"""The settings of a step: what its fence `step` says beside the state."""
+"""The settings of a step: states, and what its fence `step` says beside them.
+
+Each function reads one setting and raises `LessonError` with the line and what is allowed.
+"""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any, TypeGuard
+from urllib.parse import urlsplit
 
-from hess_explorer.lessons.lesson import TIME, Animation, HiddenLayer, LessonError, Prediction, StateLink
-from hess_explorer.lessons.links import not_one_of, place_of
-from hess_explorer.lessons.problems import Problems
-from hess_explorer.protocol.parameters import Controlled, Number
+from hess_explorer.lessons.lesson import (
+    TIME,
+    Animation,
+    HiddenLayer,
+    LessonError,
+    LessonStep,
+    Prediction,
+    StateLink,
+)
+from hess_explorer.protocol.parameters import Controlled, Link, Number, refusal
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Scene
 from hess_explorer.views.layers import Layer
 from hess_explorer.views.plot import Plot
+from hess_explorer.views.text import digits
 
-__all__ = ["animation_of", "controls_of", "hidden_of", "is_number", "look_of", "names_of", "only", "prediction_of"]
+__all__ = [
+    "animation_of",
+    "controls_of",
+    "corrections",
+    "example_of",
+    "hidden_of",
+    "is_number",
+    "look_of",
+    "only",
+    "pictures_of",
+    "place_of",
+    "prediction_of",
+]
 
 _MOST_SECONDS, _MOST_TIME = 600.0, 1e6
 _MOST_NAMES = 6
@@ -29,110 +52,140 @@ def is_number(value: Any) -> TypeGuard[float]:
     return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
 
 
-def only(found: Any, line: int, what: str, allowed: tuple[str, ...], problems: Problems) -> dict[str, Any]:
-    """Return the allowed keys of a mapping; the others are mistakes."""
+def only(found: Any, what: str, allowed: Sequence[str], line: int) -> dict[str, Any]:
+    """Return a mapping that has no other keys than those allowed."""
     if not isinstance(found, dict):
         raise LessonError(f"{what} must be a list of keys with values; the keys are {', '.join(allowed)}.", line)
     for key in found:
         if key not in allowed:
-            problems.add(f"{str(key)[:40]!r} is not a known key: choose from {', '.join(allowed)}.", line)
-    return {key: value for key, value in found.items() if key in allowed}
+            raise LessonError(f"{str(key)[:40]!r} is not a known key: choose from {', '.join(allowed)}.", line)
+    return found
+
+
+def _one_of(found: object, what: str, allowed: Sequence[str], line: int) -> str:
+    if not isinstance(found, str) or found not in allowed:
+        raise LessonError(f"{what} must be one of {', '.join(allowed)}, not {str(found)[:40]!r}.", line)
+    return found
+
+
+# ---- states ---------------------------------------------------------------------------------------------------------
+
+
+def place_of(text: object, line: int) -> StateLink:
+    """Return the state of a link, each value within its bounds."""
+    link = Link(urlsplit(text).query if isinstance(text, str) else "")
+    scene = scenes().get(link.given.get("scene", ""))
+    values = {} if scene is None else link.values(scene.specs)
+    if scene is not None:
+        link.require(scene.name, scene.specs)
+    if link.notes:
+        raise LessonError(f"the link is not valid. {' '.join(map(refusal, link.notes))}", line)
+    if scene is None:
+        names = ", ".join(name for name, one in scenes().items() if one.origin is None)
+        raise LessonError(f"a link of this page needs a scene, one of {names}.", line)
+    return StateLink(scene.name, values)
+
+
+def example_of(begins: object, before: StateLink | None, line: int) -> StateLink:
+    """Return the state of the example whose name begins with this text, in the scene of the step before."""
+    scene = next(iter(scenes().values())) if before is None else scenes()[before.scene]
+    found = [one for one in scene.presets if isinstance(begins, str) and begins and one.name.startswith(begins)]
+    if len(found) != 1:
+        names = ", ".join(preset.name for preset in scene.presets)
+        raise LessonError(f"example must match the beginning of exactly one example of {scene.name}: {names}.", line)
+    return StateLink(scene.name, scene.defaults() | scene.example(found[0]))
+
+
+def corrections(steps: Iterable[LessonStep]) -> Iterator[LessonError]:
+    """Yield the states that the scene would change, as a mistake with the nearest valid values."""
+    for step in steps:
+        for what, place in _places(step):
+            scene = scenes()[place.scene]
+            values, notes = scene.admit(place.values)
+            changed = ", ".join(
+                f"{name} = {digits(value, 6) if isinstance(value, float) else value}"
+                for name, value in values.items()
+                if value != place.values[name]
+            )
+            if notes:
+                yield LessonError(f"{what} is not possible: choose {changed}. {' '.join(notes)}", step.line)
+
+
+def _places(step: LessonStep) -> Iterator[tuple[str, StateLink]]:
+    """Yield the states that a step shows, with their names."""
+    yield "the state of this step", step.at
+    if step.prediction:
+        yield "the state of predict", step.prediction.then
+    if step.animation and step.animation.name != TIME:
+        for end in (step.animation.start, step.animation.end):
+            yield "an end of animate", StateLink(step.at.scene, {**step.at.values, step.animation.name: end})
+
+
+# ---- what is shown --------------------------------------------------------------------------------------------------
 
 
 def look_of(found: object, scene: Scene[Any], line: int) -> str:
     """Return the name of the picture to enlarge, "" for none."""
-    if found is None or found == "":
-        return ""
-    if found not in scene.pictures:
-        raise LessonError(not_one_of("look", found, scene.pictures), line)
-    return str(found)
+    return _one_of(found, "look", scene.pictures, line) if found else ""
 
 
-def animation_of(found: object, scene: Scene[Any], line: int, problems: Problems) -> Animation | None:
+def pictures_of(found: object, scene: Scene[Any], line: int) -> tuple[str, ...]:
+    """Return the names of the pictures that are shown alone, none for the whole page."""
+    return () if found is None else _names_of(found, "pictures", scene.pictures, line)
+
+
+def controls_of(found: object, animation: Animation | None, scene: Scene[Any], line: int) -> tuple[str, ...]:
+    """Return the names of the controls beside the text; by default that of the animated parameter."""
+    if found is None:
+        return (animation.name,) if animation and animation.name != TIME else ()
+    return _names_of(found, "controls", [spec.name for spec in scene.specs if isinstance(spec, Controlled)], line)
+
+
+def _names_of(found: object, key: str, allowed: Sequence[str], line: int) -> tuple[str, ...]:
+    if not isinstance(found, list) or len(found) > _MOST_NAMES:
+        example = f"{key}: [{', '.join(allowed[:2])}]"
+        raise LessonError(f"{key} must be a list of at most {_MOST_NAMES} names, like {example}.", line)
+    return tuple(dict.fromkeys(_one_of(name, f"a name in {key}", allowed, line) for name in found))
+
+
+def animation_of(found: object, scene: Scene[Any], line: int) -> Animation | None:
     """Return the animation of a step, None for none."""
     if found is None:
         return None
     names = ("name", "from", "to", "seconds")
-    given = only(found, line, "animate", names, problems)
+    given = only(found, "animate", names, line)
+    if len(given) < len(names):
+        example = "{name: h, from: 0.2, to: 1.5, seconds: 8}"
+        raise LessonError(f"animate needs name, from, to and seconds, like {example}.", line)
     bounds = {TIME: (0.0, _MOST_TIME), **{spec.name: spec.bounds for spec in scene.specs if isinstance(spec, Number)}}
-    name, start, end, seconds = (given.get(one, math.nan) for one in names)
-    known = isinstance(name, str) and name in bounds
-    low, high = bounds[name] if known else (-math.inf, math.inf)
-    ends = [given[one] for one in ("from", "to") if one in given]
-    mistakes = [
-        message
-        for wrong, message in (
-            (
-                len(given) < len(names),
-                "animate needs name, from, to and seconds, like {name: h, from: 0.2, to: 1.5, seconds: 8}.",
-            ),
-            ("name" in given and not known, not_one_of("name of animate", name, tuple(bounds))),
-            (
-                not all(is_number(one) and low <= one <= high for one in ends),
-                f"from and to of {name} must be numbers from {low:g} to {high:g}.",
-            ),
-            (
-                "seconds" in given and not (is_number(seconds) and 0 < seconds <= _MOST_SECONDS),
-                f"seconds must be a positive number up to {_MOST_SECONDS:g}.",
-            ),
-        )
-        if wrong
-    ]
-    for message in mistakes:
-        problems.add(message, line)
-    return None if mistakes else Animation(name, float(start), float(end), float(seconds))
+    name = _one_of(given["name"], "name of animate", tuple(bounds), line)
+    low, high = bounds[name]
+    if not all(is_number(given[one]) and low <= given[one] <= high for one in ("from", "to")):
+        raise LessonError(f"from and to of {name} must be numbers from {low:g} to {high:g}.", line)
+    if not is_number(given["seconds"]) or not 0 < given["seconds"] <= _MOST_SECONDS:
+        raise LessonError(f"seconds must be a positive number up to {_MOST_SECONDS:g}.", line)
+    return Animation(name, float(given["from"]), float(given["to"]), float(given["seconds"]))
 
 
-def controls_of(
-    found: object, animation: Animation | None, scene: Scene[Any], line: int, problems: Problems
-) -> tuple[str, ...]:
-    """Return the names of the controls beside the text; by default that of the animated parameter."""
-    if found is None:
-        return (animation.name,) if animation and animation.name != TIME else ()
-    return names_of(
-        found, "controls", [spec.name for spec in scene.specs if isinstance(spec, Controlled)], line, problems
-    )
-
-
-def names_of(found: object, key: str, allowed: Sequence[str], line: int, problems: Problems) -> tuple[str, ...]:
-    """Return the names of a list, each once; none without a list."""
-    if found is None:
-        return ()
-    listed = found if isinstance(found, list) else []
-    if listed is not found or len(listed) > _MOST_NAMES:
-        problems.add(
-            f"{key} must be a list of at most {_MOST_NAMES} names, like {key}: [{', '.join(allowed[:2])}].", line
-        )
-    for name in listed:
-        if name not in allowed:
-            problems.add(not_one_of(f"a name in {key}", name, allowed), line)
-    return tuple(dict.fromkeys(name for name in listed if name in allowed))
-
-
-def hidden_of(found: object, scene: Scene[Any], line: int, problems: Problems) -> HiddenLayer | None:
+def hidden_of(found: object, scene: Scene[Any], line: int) -> HiddenLayer | None:
     """Return the layer that a step leaves out, None for none."""
     if found is None:
         return None
-    plot, layer = _layer(only(found, line, "hide", ("picture", "layer"), problems), "hide", scene, line)
+    plot, layer = _layer(only(found, "hide", ("picture", "layer"), line), "hide", scene, line)
     return HiddenLayer(plot.name, plot.source_of(layer))
 
 
-def prediction_of(found: object, place: StateLink, line: int, problems: Problems) -> Prediction | None:
+def prediction_of(found: object, place: StateLink, line: int) -> Prediction | None:
     """Return the prediction of a step, None for none."""
     if found is None:
         return None
-    given = only(found, line, "predict", ("picture", "layer", "then"), problems)
-    then = (place_of(given["then"], line, problems) if "then" in given else None) or place
+    given = only(found, "predict", ("picture", "layer", "then"), line)
+    then = place_of(given["then"], line) if "then" in given else place
     if then.scene != place.scene:
-        problems.add(f"then must be a state of the same scene, {place.scene}.", line)
+        raise LessonError(f"then must be a state of the same scene, {place.scene}.", line)
     plot, layer = _layer(given, "predict", scenes()[place.scene], line, (*_CURVES, *_POINTS))
-    return Prediction(
-        plot.name,
-        plot.source_of(layer),
-        (layer.columns[0], layer.columns[1]),
-        "curve" if layer.glyph in _CURVES else "point",
-        then,
-    )
+    what: Any = "curve" if layer.glyph in _CURVES else "point"
+    return Prediction(plot.name, plot.source_of(layer), (layer.columns[0], layer.columns[1]), what, then)
 
 
 def _layer(
@@ -140,15 +193,10 @@ def _layer(
 ) -> tuple[Plot[Any], Layer[Any]]:
     """Return the picture and the layer that a mapping names; glyphs : the allowed kinds of layers, by default all."""
     plots = {view.name: view for view in scene.views if isinstance(view, Plot)}
-    name = given.get("picture")
-    if not isinstance(name, str) or name not in plots:
-        raise LessonError(not_one_of(f"picture of {key}", name, tuple(plots)), line)
+    plot = plots[_one_of(given.get("picture"), f"picture of {key}", tuple(plots), line)]
     layers = {
         layer.name: layer
-        for layer in plots[name].layers
+        for layer in plot.layers
         if (layer.glyph not in _PAINTED if glyphs is None else layer.glyph in glyphs)
     }
-    truth = given.get("layer")
-    if not isinstance(truth, str) or truth not in layers:
-        raise LessonError(not_one_of(f"layer of {key}", truth, tuple(layers)), line)
-    return plots[name], layers[truth]
+    return plot, layers[_one_of(given.get("layer"), f"layer of {key}", tuple(layers), line)]

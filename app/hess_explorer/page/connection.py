@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from functools import cached_property, partial
 
-from hess_explorer.compute.scheduler import RequestQueue
+from hess_explorer.compute.pool import RequestQueue
 from hess_explorer.lessons.lesson import Lesson
 from hess_explorer.page.opening import opening
 from hess_explorer.page.session import Session

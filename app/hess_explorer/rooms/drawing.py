@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
-from hess_explorer.compute.scheduler import RequestQueue
+from hess_explorer.compute.pool import RequestQueue
 from hess_explorer.lessons.lesson import Lesson, LessonStep
 from hess_explorer.page.descriptions import describe, without_gestures
 from hess_explorer.page.lesson_description import describe_lesson

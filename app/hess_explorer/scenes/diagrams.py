@@ -14,6 +14,7 @@ import numpy as np
 from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.parameters import Values, written
 from hess_explorer.scenes.framework.charted import Charted, Charts, parameters_of
+from hess_explorer.scenes.framework.continuation import Continuation
 from hess_explorer.scenes.framework.parameters import (
     accuracy_level,
     choice,
@@ -28,7 +29,6 @@ from hess_explorer.scenes.framework.periodic_search import NONE, PERIODS, Closed
 from hess_explorer.scenes.framework.scene import Motion, State
 from hess_explorer.scenes.framework.solid_body import Solid, constrained_solid, solid_body
 from hess_explorer.scenes.framework.windows import Window
-from hess_explorer.scenes.parts.branch import Continuation
 from hess_explorer.scenes.parts.diagram_density import DiagramDensity, diagram_density_layers
 from hess_explorer.scenes.parts.orbit import Orbit
 from hess_explorer.scenes.parts.orbit_diagram import (

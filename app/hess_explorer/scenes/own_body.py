@@ -48,11 +48,11 @@ _NO_WORK = 1e-10
 _CONSTRAINED, _FREE = "(a, ω) = 0", "none"
 
 
-def _component(symbol: str, label: str, default: float, doc: str, largest: float = 2.0) -> Any:
+def _component(symbol: str, label: str, default: float, doc: str) -> Any:
     return number(
         symbol,
         default,
-        (-largest, largest),
+        (-2.0, 2.0),
         0.01,
         bounds=(-1e3, 1e3),
         label=label,

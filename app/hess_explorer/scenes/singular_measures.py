@@ -154,8 +154,7 @@ class SingularMeasures(State):
         """The moving clouds."""
         plan = self.plan(Kind.CLOUD)
         count = plan.part(int(self.points), _FEW)
-        found: Clouds = self.work.need(self.task(count, plan.level), preview=self.task(min(count, _FEW), plan.level))
-        return found
+        return self.work.need(self.task(count, plan.level), preview=self.task(min(count, _FEW), plan.level))
 
     @cached_property
     def times(self) -> Array:

@@ -129,8 +129,7 @@ class SuslovHess(State):
     @cached_property
     def track(self) -> Track:
         """The orbit on show."""
-        found: Track = self.work.need(self.finding)
-        return found
+        return self.work.need(self.finding)
 
     @property
     def finding(self) -> Task[Track]:

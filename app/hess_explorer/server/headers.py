@@ -51,7 +51,6 @@ def policy(nonce: str, embedders: tuple[str, ...]) -> str:
             "img-src 'self' data: blob:",
             "font-src 'self' data:",
             "media-src 'self' blob:",
-            "worker-src 'self' blob:",
             # The websocket and that component.  The comparison of two states embeds the page itself twice.
             "connect-src 'self' blob:",
             "frame-src 'self'",

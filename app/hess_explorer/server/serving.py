@@ -20,7 +20,7 @@ from tornado.web import RequestHandler
 from tornado.websocket import WebSocketClosedError
 
 from hess_explorer.compute.cache import CACHE
-from hess_explorer.compute.cores import CORES
+from hess_explorer.compute.pool import POOL
 from hess_explorer.lessons import shipped
 from hess_explorer.lessons.lesson import Lesson
 from hess_explorer.page.page import page
@@ -28,7 +28,6 @@ from hess_explorer.rooms.messages import CODE
 from hess_explorer.rooms.registry import Rooms
 from hess_explorer.server.capacity import Capacity
 from hess_explorer.server.export import Export
-from hess_explorer.server.garbage import GARBAGE
 from hess_explorer.server.handlers import replace_handlers
 from hess_explorer.server.hosts import Hosts
 from hess_explorer.server.limits import MESSAGE_LIMIT, OPEN_SOCKETS
@@ -97,7 +96,6 @@ def _page(lessons: Sequence[Lesson], capacity: Capacity) -> Any:
     document = pn.state.curdoc
     if document is not None:
         document.add_next_tick_callback(lambda: _own_styles(document))
-    pn.state.on_session_destroyed(GARBAGE.page_gone)
     return page(lessons)
 
 
@@ -223,12 +221,9 @@ def serve(
         # Only one worker reports that the explorer is ready, and all end with the parent process.
         ready = ready if task_id() == 0 else lambda: None
         together.end_together(server.io_loop)
-        CORES.shared_by(workers)
+        POOL.use(POOL.cores // workers)
     # Compile kernels while the browser loads the page.
     threading.Thread(target=_prepare, args=(address, port, ready), name="warm", daemon=True).start()
-    threading.Thread(
-        target=GARBAGE.collect_when_quiet, args=(lambda: CACHE.asked, threading.Event()), name="garbage", daemon=True
-    ).start()
     server.start()
     server.io_loop.start()
     leave(server)

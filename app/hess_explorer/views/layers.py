@@ -330,7 +330,6 @@ def dots(
     size: float,
     alpha: float = 1.0,
     label: str = "",
-    tag: str = "",
     columns: tuple[str, str] = ("x", "y"),
     track: str | None = None,
 ) -> Layer[S]:
@@ -342,7 +341,6 @@ def dots(
         {"size": size, "color": color, "alpha": alpha},
         track=track,
         legend=_signed(label, "dot small", f"background: {color}"),
-        tag=tag,
     )
     return _layer(layer, lambda value: _positions(columns, value), data)
 

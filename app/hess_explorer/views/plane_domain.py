@@ -10,7 +10,7 @@ import numpy as np
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.graph import about_0, over_time
-from hess_explorer.views.layers import Axes, Columns, Layers, Regions, Sign, column, curves, line, region, ring
+from hess_explorer.views.layers import Axes, Columns, Layers, Regions, column, curves, line, region, ring
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.poisson_sphere import gamma_columns
 from hess_explorer.views.text import digits, staying
@@ -40,7 +40,6 @@ def picture(
     names: tuple[str, str],
     layers: Layers[S],
     dots: Mapping[str, tuple[str, str]] | None = None,
-    signs: tuple[Sign, ...] = (),
 ) -> Plot[S]:
     """Return the plot of the plane, with a point moving along the orbit; a click sets the parameters `names`."""
     return Plot(
@@ -52,7 +51,6 @@ def picture(
         y=about_origin(half_width),
         dot=("q1", "q2"),
         dots=dots,
-        signs=signs,
         layers=layers,
         on_click=lambda s, x, y: dict(zip(names, (x, y), strict=True)),
         starts=True,

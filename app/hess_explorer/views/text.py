@@ -56,9 +56,9 @@ def conjugates(value: complex) -> str:
     return digits(value.real) if not value.imag else f"{digits(value.real)} ± {digits(abs(value.imag))}i"
 
 
-def vector(components: Iterable[float], count: int = 4) -> str:
-    """Return the components in parentheses, with `count` digits each."""
-    return f"({', '.join(digits(one, count) for one in components)})"
+def vector(components: Iterable[float]) -> str:
+    """Return the components in parentheses."""
+    return f"({', '.join(map(digits, components))})"
 
 
 def superscript(number: int) -> str:

@@ -55,9 +55,9 @@ SHADES = {
 _NAMES = {light: name for name, (light, _) in SHADES.items()}
 
 
-def gradient(scale: tuple[str, ...], parts: int = 16) -> str:
+def gradient(scale: tuple[str, ...]) -> str:
     """Return a colour scale as a CSS gradient from left to right."""
-    return f"linear-gradient(90deg, {', '.join(scale[i * (len(scale) - 1) // parts] for i in range(parts + 1))})"
+    return f"linear-gradient(90deg, {', '.join(scale[i * (len(scale) - 1) // 16] for i in range(17))})"
 
 
 def in_css(style: str) -> str:

@@ -11,8 +11,6 @@ one problem in `of_problems`.
 
 from __future__ import annotations
 
-import importlib
-import pkgutil
 from collections.abc import Iterator, Mapping
 from difflib import get_close_matches
 from functools import cache
@@ -20,7 +18,7 @@ from functools import cache
 from hess_mechanics.catalogue import of_motions, of_problems, of_sections
 from hess_mechanics.catalogue.declared import Choice, Computation, Many, NoValue, Number
 from hess_mechanics.dynamics.motions import Motions, anywhere, section_of
-from hess_mechanics.dynamics.system import System, systems
+from hess_mechanics.dynamics.system import System, declared, systems
 from hess_mechanics.errors import InvalidParameter
 
 __all__ = [
@@ -41,11 +39,7 @@ __all__ = [
 def motions() -> Mapping[str, Motions]:
     """Return the motions of all systems by name: from any state, and from a point of each section."""
     found = {name: anywhere(system) for name, system in systems().items()}
-    package = importlib.import_module("hess_mechanics")
-    for module in pkgutil.walk_packages(package.__path__, f"{package.__name__}."):
-        section = getattr(importlib.import_module(module.name), "SECTION", None)
-        if isinstance(section, Motions):
-            found[section.name] = section
+    found |= {one.name: one for one in declared("SECTION") if isinstance(one, Motions)}
     sectioned = {one.system.name for one in found.values() if one.section is not None}
     for name, system in systems().items():
         if name not in sectioned and (section := section_of(system)) is not None:

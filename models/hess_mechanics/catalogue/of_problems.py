@@ -28,9 +28,10 @@ from hess_mechanics.computations import cloud
 from hess_mechanics.dynamics.motions import usual, whole
 from hess_mechanics.errors import OutsideRegion, Separatrix
 from hess_mechanics.numerics.accuracy import Kind, Level
+from hess_mechanics.numerics.arguments import unit_vector
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.parameters import Parameter
-from hess_mechanics.suslov.equations import SuslovBody, unit_vector
+from hess_mechanics.suslov.equations import SuslovBody
 from hess_mechanics.suslov.kharlamova import PlaneBody, arc
 from hess_mechanics.suslov.scattering import Scattering, cos_chi, scattering
 from hess_mechanics.suslov_hess.circle_map import CircleMap, FixedPoint, circle_map

@@ -20,9 +20,9 @@ from hess_mechanics.catalogue.declared import (
     returning,
 )
 from hess_mechanics.dynamics.continuation import Branch
-from hess_mechanics.dynamics.manifolds import Manifold
+from hess_mechanics.dynamics.manifolds import Manifold, manifold
 from hess_mechanics.dynamics.motions import Motions, usual, whole
-from hess_mechanics.dynamics.orbit_diagram import Cascade, Diagram
+from hess_mechanics.dynamics.orbit_diagram import Cascade, Diagram, Hysteresis
 from hess_mechanics.dynamics.periodic import MAX_PERIOD, PeriodicOrbit
 from hess_mechanics.dynamics.regime import MotionKind, Regime, dynamics_of, regime
 from hess_mechanics.dynamics.return_map import ReturnMap
@@ -30,12 +30,10 @@ from hess_mechanics.numerics.accuracy import Kind
 from hess_mechanics.parameters import Parameter
 from hess_mechanics.return_maps import (
     Basins,
-    Hysteresis,
     PlanePoints,
     basins,
     continued_orbit,
     hysteresis,
-    manifold,
     orbit_diagram,
     period_doublings,
     periodic_orbit,

@@ -16,8 +16,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hess_mechanics.dynamics.cells import centres
+from hess_mechanics.dynamics.return_map import PoincareSection
 from hess_mechanics.numerics.patience import go_on
-from hess_mechanics.numerics.results import Array, Mask, frozen
+from hess_mechanics.numerics.results import Array, frozen
 
 __all__ = ["CROSSINGS", "LOST", "NOWHERE", "Arrivals", "Orbits", "RecurrentSets", "arrivals", "recurrent_sets"]
 
@@ -40,21 +41,11 @@ _PIECES = (20, 40, 80, 100)
 
 
 class Orbits(Protocol):
-    """A plane map whose orbits are followed together."""
+    """The orbits of a section, followed together."""
 
     @property
-    def turns(self) -> tuple[float, ...]:
-        """Period of each coordinate, ∞ if it is not an angle."""
-
-    @property
-    def window(self) -> tuple[tuple[float, float], ...]:
-        """Range of each coordinate."""
-
-    def states_at(self, x: Array, y: Array) -> tuple[Array, Mask]:
-        """Return the states (n, d) at coordinates (n,), and a mask (n,) of the places with motion."""
-
-    def places_of(self, states: Array) -> Array:
-        """Return the coordinates (n, 2) of states (n, d)."""
+    def section(self) -> PoincareSection:
+        """The section."""
 
     def follow(self, starts: Array, crossings: int) -> Sequence[Array]:
         """Return the next crossings (n, d) of each orbit from `starts` (k, d); fewer where an orbit stops crossing."""
@@ -77,9 +68,9 @@ class RecurrentSets:
         kept = tuple(state for state, wanted in zip(self.states, which, strict=True) if wanted)
         return RecurrentSets(frozen(numbers[np.where(self.table < 0, -1, self.table)]), kept)
 
-    def of(self, orbits: Orbits, states: Array) -> NDArray[np.int16]:
+    def of(self, section: PoincareSection, states: Array) -> NDArray[np.int16]:
         """Return the number of the set at each state (n, d), or `LOST`."""
-        return np.asarray(self.table[_cells(orbits, states)])
+        return np.asarray(self.table[_cells(section, states)])
 
 
 @dataclass(frozen=True)
@@ -93,10 +84,10 @@ class Arrivals:
     crossings: NDArray[np.int16]
 
 
-def _cells(orbits: Orbits, states: Array) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+def _cells(section: PoincareSection, states: Array) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """Return row and column of the cells of states (n, d)."""
-    low, high = np.array(orbits.window).T
-    at = np.floor((orbits.places_of(states) - low) / (high - low) * _CELLS).astype(int)
+    low, high = np.array(section.window).T
+    at = np.floor((section.places_of(states) - low) / (high - low) * _CELLS).astype(int)
     column, row = (np.clip(one, 0, count - 1) for one, count in zip(at.T, _CELLS, strict=True))
     return row, column
 
@@ -122,21 +113,22 @@ def _joined(cells: Sequence[tuple[NDArray[np.int64], NDArray[np.int64]]]) -> NDA
 
 def recurrent_sets(orbits: Orbits) -> RecurrentSets:
     """Return the sets that at least two of 256 orbits approach, at most 12.  Raises as `orbits.follow`."""
-    (x0, x1), (y0, y1) = orbits.window
+    section = orbits.section
+    (x0, x1), (y0, y1) = section.window
     x, y = (one.ravel() for one in np.meshgrid(centres(x0, x1, _STARTS), centres(y0, y1, _STARTS)))
-    states, there = orbits.states_at(x, y)
+    states, there = section.states_at(x, y)
     found = [orbit for orbit in orbits.follow(states[there], CROSSINGS) if len(orbit) == CROSSINGS]
     table = np.full(_CELLS[::-1], LOST, np.int16)
     if not found:
         return RecurrentSets(frozen(table), ())
-    of_each = _joined([_cells(orbits, orbit[-CROSSINGS // 4 :]) for orbit in found])
+    of_each = _joined([_cells(section, orbit[-CROSSINGS // 4 :]) for orbit in found])
     sizes = np.bincount(of_each)
     largest = [one for one in np.argsort(-sizes, kind="stable")[:_MOST] if sizes[one] >= _FEWEST]
     ends = [found[int(np.argmax(of_each == one))][-1] for one in largest]
     long = [one[_TRANSIENT:] for one in orbits.follow(np.array(ends), _TRANSIENT + _LONG) if len(one) > _TRANSIENT]
     if not long:
         return RecurrentSets(frozen(table), ())
-    cells = [_cells(orbits, one) for one in long]
+    cells = [_cells(section, one) for one in long]
     # In the order of their first orbits, the largest set first.
     _, firsts, numbers = np.unique(_joined(cells), return_index=True, return_inverse=True)
     order = np.argsort(np.argsort(firsts))
@@ -145,7 +137,7 @@ def recurrent_sets(orbits: Orbits) -> RecurrentSets:
     from scipy import ndimage
 
     around = ndimage.maximum_filter(
-        table, 3, mode=["wrap" if np.isfinite(turn) else "nearest" for turn in orbits.turns[::-1]]
+        table, 3, mode=["wrap" if np.isfinite(turn) else "nearest" for turn in section.turns[::-1]]
     )
     states_on = tuple(tuple(map(float, long[i][-1])) for i in sorted(firsts))
     return RecurrentSets(frozen(np.where(table == LOST, around, table)), states_on)
@@ -153,7 +145,7 @@ def recurrent_sets(orbits: Orbits) -> RecurrentSets:
 
 def arrivals(orbits: Orbits, sets: RecurrentSets, x: Array, y: Array) -> Arrivals:
     """Return where the orbits from coordinates (n,) arrive within `CROSSINGS` crossings.  Raises as `orbits.follow`."""
-    states, there = orbits.states_at(x, y)
+    states, there = orbits.section.states_at(x, y)
     number = np.where(there, LOST, NOWHERE).astype(np.int16)
     crossings = np.full(number.shape, CROSSINGS, np.int16)
     left = np.flatnonzero(there)
@@ -168,7 +160,7 @@ def arrivals(orbits: Orbits, sets: RecurrentSets, x: Array, y: Array) -> Arrival
         if not left.size:
             break
         together = np.concatenate([orbit for orbit, kept in zip(found, whole, strict=True) if kept])
-        seen = np.hstack([before, sets.of(orbits, together).reshape(-1, piece)])
+        seen = np.hstack([before, sets.of(orbits.section, together).reshape(-1, piece)])
         rows = np.lib.stride_tricks.sliding_window_view(seen, _ROW, axis=1)
         arrived = (rows[..., 0] >= 0) & np.all(rows == rows[..., :1], axis=2)
         has, first = arrived.any(axis=1), np.argmax(arrived, axis=1)

@@ -15,12 +15,11 @@ import numpy as np
 from hess_mechanics.dynamics.attraction import RecurrentSets, recurrent_sets
 from hess_mechanics.dynamics.ensemble import complete
 from hess_mechanics.dynamics.orbit import solve
-from hess_mechanics.dynamics.return_map import PoincareSection
-from hess_mechanics.dynamics.section import section_points
+from hess_mechanics.dynamics.return_map import PoincareSection, section_crossings
 from hess_mechanics.dynamics.spectrum import volume_sign
-from hess_mechanics.dynamics.system import Body, Problem
+from hess_mechanics.dynamics.system import Body
 from hess_mechanics.numerics.accuracy import DRAFT, Accuracy
-from hess_mechanics.numerics.results import Array, Mask, frozen
+from hess_mechanics.numerics.results import Array, frozen
 
 __all__ = [
     "Attractors",
@@ -88,32 +87,13 @@ class SectionOrbits:
     section: PoincareSection
     level: Accuracy
 
-    @property
-    def turns(self) -> tuple[float, ...]:
-        """Period of each coordinate, ∞ if it is not an angle."""
-        return self.section.turns
-
-    @property
-    def window(self) -> tuple[tuple[float, float], ...]:
-        """Range of each coordinate."""
-        return self.section.window
-
-    def states_at(self, x: Array, y: Array) -> tuple[Array, Mask]:
-        """Return the states (n, d) at coordinates (n,), and the mask (n,) of the places with motion."""
-        return self.section.states_at(x, y)
-
-    def places_of(self, states: Array) -> Array:
-        """Return the coordinates (n, 2) of states (n, d)."""
-        return self.section.places_of(states)
-
     def follow(self, starts: Array, crossings: int) -> list[Array]:
         """Return the next crossings (n, d) of each orbit from `starts` (k, d).  Raises `WorkLimit`."""
         if not len(starts):
             return []
-        of = self.section
-        end = crossings * _TURNS * of.slowness / Problem.of(of, starts).nu
-        found = section_points(of, starts, of.surface, end, self.level, crossings, threads=1, most_steps=_MOST_STEPS)
-        return complete(found).states
+        return complete(
+            section_crossings(self.section, starts, crossings, _TURNS, self.level, threads=1, most_steps=_MOST_STEPS)
+        ).states
 
 
 @dataclass(frozen=True)

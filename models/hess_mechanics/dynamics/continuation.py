@@ -36,7 +36,7 @@ from hess_mechanics.numerics.measured import SAFETY
 from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array, Complex, frozen
 
-__all__ = ["Bifurcation", "Branch", "MapFamily", "Symmetric", "continued", "gone_on"]
+__all__ = ["Bifurcation", "Branch", "MapFamily", "continued", "gone_on"]
 
 _FIRST, _LONGEST, _SHORTEST = 0.01, 0.1, 1e-7
 """Steps along the branch, in units of the coordinates and of the width of the parameter's range."""
@@ -53,8 +53,6 @@ _SHARES, _HALVINGS = (0.5, 0.35, 0.65, 0.2, 0.8, 0.05, 0.95), 24
 MapFamily = Callable[[float], Map]
 """Function from λ to the map.  Raises a `ModelError` if there is none."""
 
-Symmetric = Callable[[Map, Array, float], Sequence[str]]
-"""Function of the map, the points (m, d) of an orbit and a distance that returns the names of its symmetries."""
 _ASIDE = 1e-3
 """Distance aside at which the other branch of a crossing is tested for symmetries."""
 
@@ -208,7 +206,6 @@ class _Track:
     level: str
     ends: tuple[float, float]
     shape: tuple[int, ...]
-    symmetries: Symmetric | None
     maps: dict[float, Map] = field(default_factory=dict)
 
     @property
@@ -308,7 +305,6 @@ def continued(
     start: float,
     end: float,
     points: int = 200,
-    symmetries: Symmetric | None = None,
     edge: float | None = None,
     longest: float = _LONGEST,
     until: str = "",
@@ -329,8 +325,6 @@ def continued(
         Values of λ at the start and at the end of the range.
     points : int, default 200
         Largest number of points.
-    symmetries : callable, optional
-        Function that returns the symmetries of an orbit.
     edge : float, optional
         Other end of the range, beyond `start`.  By default `start`.
     longest : float, optional
@@ -355,7 +349,7 @@ def continued(
     edge = start if edge is None else edge
     if not (all(map(math.isfinite, (start, end, edge))) and min(edge, end) <= start <= max(edge, end) and start != end):
         raise InvalidParameter(f"{parameter} runs from {start:g} to {end:g}: give two different finite numbers.")
-    track = _Track(family, parameter, orbit.names, orbit.level, (edge, end), orbit.places.shape, symmetries)
+    track = _Track(family, parameter, orbit.names, orbit.level, (edge, end), orbit.places.shape)
     along = np.zeros(orbit.places.size + 1)
     along[-1] = math.copysign(1.0, end - start)
     z = track.joined(orbit.places, start)
@@ -375,7 +369,6 @@ def gone_on(
     end: float,
     edge: float,
     points: int = 200,
-    symmetries: Symmetric | None = None,
     longest: float = _LONGEST,
 ) -> Branch:
     """Return the continuation of a branch that has a `heading`, between the same ends of the range.
@@ -385,7 +378,7 @@ def gone_on(
     if branch.heading is None:
         raise InvalidParameter(f"This branch cannot be continued: {branch.ended}")
     shape = branch.places.shape[1:]
-    track = _Track(family, branch.parameter, branch.names, branch.level, (edge, end), shape, symmetries)
+    track = _Track(family, branch.parameter, branch.names, branch.level, (edge, end), shape)
     along, step = branch.heading
     point = track.corrected(track.joined(branch.places[-1], float(branch.values[-1])), along)
     return _followed(track, point, point.tangent(along), points, step, longest)
@@ -509,8 +502,8 @@ def _located(track: _Track, kind: str, last: _Point, t: Array, ahead: float, aft
         # At a crossing of branches the equations are singular; the zero is bracketed by regular points.
         off, point = _closed_in(track, at, (low, high), point, t)
     places, value = track.split(point.z)
-    if kind == "branch point" and track.symmetries is not None:
-        kind = _pitchfork(track.at(value), places, point, track.symmetries)
+    if kind == "branch point" and _breaks_a_symmetry(track.at(value), places, point):
+        kind = "pitchfork"
     return Bifurcation(
         kind,
         value,
@@ -559,12 +552,12 @@ def _first_of(
     return None
 
 
-def _pitchfork(map_: Map, places: Array, point: _Point, symmetries: Symmetric) -> str:
-    """Return "pitchfork" if the orbit is symmetric and those of the other branch are not, else "branch point"."""
-    own = set(symmetries(map_, places, 1e-7))
+def _breaks_a_symmetry(map_: Map, places: Array, point: _Point) -> bool:
+    """Return True if the orbit has a symmetry that those of the other branch do not have."""
+    own = set(map_.symmetries_of(places, 1e-7))
     if not own:
-        return "branch point"
+        return False
     away = np.linalg.svd(point.shot.jacobian)[2][-1].reshape(places.shape)
     # A symmetry that shifts the phase is exact only to second order: it returns to the section along the motion.
-    aside = set(symmetries(map_, places + _ASIDE * away / np.abs(away).max(), 0.1 * _ASIDE))
-    return "pitchfork" if own - aside else "branch point"
+    aside = map_.symmetries_of(places + _ASIDE * away / np.abs(away).max(), 0.1 * _ASIDE)
+    return bool(own - set(aside))

@@ -11,7 +11,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from hess_mechanics.dynamics.periodic import Map, PeriodicOrbit, apart, find_periodic
+from hess_mechanics.dynamics.periodic import Map, PeriodicOrbit, apart, find_periodic, images_of
 from hess_mechanics.errors import ModelError, NotConverged
 from hess_mechanics.numerics.results import Array
 
@@ -35,7 +35,7 @@ def saddle_between(map_: Map, one: Array, other: Array, number_of: Callable[[Arr
     for _ in range(_HALVINGS):
         middle = 0.5 * (a + b)
         a, b = (middle, b) if number_of(middle) == own else (a, middle)
-    orbits = [_followed(map_, end) for end in (a, b)]
+    orbits = [images_of(map_, end, _CROSSINGS) for end in (a, b)]
     both = min(map(len, orbits))
     away = np.abs(apart(map_.turns, orbits[0][:both], orbits[1][:both])).max(axis=1)
     # The later the closer to the saddle, as long as both ends run together.
@@ -48,13 +48,3 @@ def saddle_between(map_: Map, one: Array, other: Array, number_of: Callable[[Arr
         if found.kind.startswith("saddle"):
             return found
     raise NotConverged(f"No saddle up to period {_MOST} is found on the boundary here.")
-
-
-def _followed(map_: Map, place: Array) -> Array:
-    orbit = [place]
-    try:
-        for _ in range(_CROSSINGS):
-            orbit.append(map_.image(orbit[-1]))
-    except ModelError:
-        pass
-    return np.array(orbit)

@@ -27,7 +27,7 @@ from hess_mechanics.numerics.measured import SAFETY
 from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array, frozen
 
-__all__ = ["MAX_RETURNS", "Intersection", "Manifold", "crossings_of", "grown", "heights_at", "split"]
+__all__ = ["MAX_RETURNS", "Intersection", "Manifold", "crossings_of", "heights_at", "manifold", "split"]
 
 MAX_RETURNS = 2_000_000
 _FIRST = 4
@@ -202,10 +202,11 @@ def _begun(map_: Map, orbit: PeriodicOrbit, side: int, place: int) -> _Curve:
     return replace(curve, first_error=error if math.isfinite(third) else math.inf)
 
 
-def grown(
+def manifold(
     map_: Map,
-    orbit: PeriodicOrbit,
+    saddle: PeriodicOrbit,
     length: float,
+    *,
     stable: bool = False,
     side: int = 1,
     place: int = 0,
@@ -214,26 +215,26 @@ def grown(
     most: int = 4000,
     returns: int = MAX_RETURNS,
 ) -> Manifold:
-    """Return a branch of a manifold of a saddle, up to a length along the curve.
+    """Return one branch of the stable or unstable manifold of a saddle, up to a given length.
 
     Parameters
     ----------
-    map_ : Map
-        The map.
-    orbit : PeriodicOrbit
-        The saddle.
+    map_ : ReturnMap or Map
+        Return map of a section with two coordinates, or another map of a plane.
+    saddle : PeriodicOrbit
+        A saddle of this map.
     length : float
-        Length of the branch.
+        Length along the curve at which the branch ends, in units of the coordinates.
     stable : bool, default False
-        Return the stable manifold.
+        Return the stable manifold instead of the unstable one.
     side : {1, -1}, default 1
-        Leave the saddle along its direction or against it.
+        Leave the saddle along its direction (1) or against it (−1).
     place : int, default 0
-        Index of the point of the orbit from which the branch starts.
+        Index of the point of the saddle orbit from which the branch starts.
     sagitta : float, default 1e-3
-        Largest distance between the curve and the polyline.
+        Largest distance between the curve and the returned polyline.
     longest : float, default 0.1
-        Longest chord.
+        Longest chord of the polyline.
     most : int, default 4000
         Largest number of points.
     returns : int, default 2 000 000
@@ -242,16 +243,24 @@ def grown(
     Returns
     -------
     Manifold
-        The branch.
+        The branch, as a polyline.
 
     Raises
     ------
     InvalidParameter
         If the orbit is not a saddle, or a number is out of range.
     WorkLimit
-        If the map needs too many steps.
+        If a return needs too many steps.
     NotConverged
         If the map has no inverse, or no image even close to the saddle.
+
+    Examples
+    --------
+    >>> from hess_mechanics import HeavyBody, manifold, periodic_orbit, return_map
+    >>> P = return_map(HeavyBody.hess((1.0, 1.6, 4.0), 1.0), h=1.5, f=-0.76)
+    >>> saddle = periodic_orbit(P, (-2.84, 0.288), 1)
+    >>> manifold(P, saddle, 0.5).length >= 0.5
+    True
     """
     if not (math.isfinite(length) and length > 0.0 and sagitta > 0.0 and longest > 0.0):
         raise InvalidParameter("The length of a manifold, its sagitta and its longest chord must be positive numbers.")
@@ -260,7 +269,7 @@ def grown(
     if len(map_.turns) != 2:
         raise InvalidParameter("Manifolds need a section with two coordinates: this one has a single coordinate.")
     forwards = map_.inverse() if stable else map_
-    curve = _begun(forwards, orbit, side, place)
+    curve = _begun(forwards, saddle, side, place)
     points, parameters, ended = _followed(curve, length, sagitta, longest, most, returns)
     lengths = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
     return Manifold(

@@ -18,17 +18,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from hess_mechanics.dynamics.birkhoff import window_rates
-from hess_mechanics.dynamics.orbit import (
-    MAX_STEPS,
-    checked_span,
-    end_of,
-    require_finite_neighbours,
-    require_finite_rates,
-    require_finite_states,
-    require_steps,
-)
+from hess_mechanics.dynamics.orbit import checked_span, require_finite_rates
 from hess_mechanics.dynamics.spectrum import batch_error, no_chaos, volume_sign
 from hess_mechanics.dynamics.system import Body, Problem
+from hess_mechanics.dynamics.variation import LONGEST, one_direction, tangent
 from hess_mechanics.errors import InvalidParameter, MotionEnds, WorkLimit
 from hess_mechanics.numerics.accuracy import STANDARD, Accuracy
 from hess_mechanics.numerics.arguments import as_level
@@ -49,7 +42,6 @@ _LONGEST = _SAMPLES * 100
 """Longest time span, in units of 1/ν."""
 _FEW = 8
 """Motions up to which a return to the start is looked for; the cells of a map start beside unstable periodic orbits."""
-_LIMIT = 1e6
 _SHARE = 4
 
 
@@ -193,8 +185,7 @@ def megno(
     samples = 60 * max(4, math.ceil(abs(span) * problem.nu / 60))
     t = span * problem.nu * np.arange(1, samples + 1) / samples
     first = samples // 5
-    direction = np.cos(1.0 + np.arange(size) ** 2)
-    frame = (direction / np.linalg.norm(direction))[:, None]
+    direction = one_direction(size)
     found, steps, no_chaos_because = np.empty((6, count)), np.zeros(count, int), [""] * count
     ends, reasons = np.full(count, abs(span)), [""] * count
 
@@ -207,40 +198,24 @@ def megno(
             ends[i] = abs(error.time) if isinstance(error, MotionEnds) else math.nan
 
     def follow(i: int) -> None:
-        along, frames = np.empty((samples, size)), np.empty((samples, size, 1))
-        grown, volume = np.empty((samples, 1)), np.empty(samples)
-        steps[i] = body.system.vary_one(
-            problem.states[i],
-            frame,
-            problem.parameters,
-            t,
-            level.order,
-            level.tolerance,
-            MAX_STEPS,
-            _LIMIT,
-            along,
-            frames,
-            grown,
-            volume,
-        )
-        too_long = f"This indicator needs more than {MAX_STEPS} steps: choose a shorter time span."
-        require_steps(steps[i], too_long, lambda: end_of(problem, problem.states[i], float(t[-1])))
-        require_finite_states(along)
-        require_finite_neighbours(frames, grown, volume)
-        length = np.concatenate([[0.0], grown[:, 0] + np.log(np.linalg.norm(frames[:, :, 0], axis=1))])
+        start = problem.states[i]
+        along = tangent(problem, start, direction, t, level, LONGEST)
+        steps[i] = along.steps
+        length = np.concatenate([[0.0], along.lengths[:, 0]])
         # ∫ s dL = tL − ∫ L ds, with sums for integrals, in units of the distance of samples.
         number = np.arange(1, samples + 1)
         below = np.cumsum(0.5 * (length[1:] + length[:-1]))
         y = 2.0 * (length[1:] - below / number)
         times = np.abs(t[first - 1 :]) / problem.nu
-        windows = window_rates(volume[first - 1 :], times)
+        volume = along.volume[first - 1 :]
+        windows = window_rates(volume, times)
         # The error of the steps, the scatter of stretches, and the remainder on tori, which no scatter shows.
         floor = (level.tolerance + 1e-15) * steps[i] / abs(span)
-        scatter = batch_error(volume[first - 1 :, None], times)[1][0]
+        scatter = batch_error(volume[:, None], times)[1][0]
         found[:, i] = y.mean(), *windows, max(scatter, float(np.abs(windows[1:] - windows[0]).max())) + floor
         require_finite_rates(found[:, i])
         grows = count <= _FEW and bool(y.mean() > CHAOTIC)
-        no_chaos_because[i] = no_chaos(body, problem, problem.states[i], along, float(t[-1]), level, grows)
+        no_chaos_because[i] = no_chaos(problem, start, along.states, float(t[-1]), level, grows)
 
     share(one, count, threads, _SHARE)
     return Megno(
@@ -253,5 +228,5 @@ def megno(
         frozen(ends),
         tuple(reasons),
         level.name,
-        Cost(int(np.maximum(steps, 0).sum()), (time.perf_counter() - begun) * 1e3),
+        Cost(int(steps.sum()), (time.perf_counter() - begun) * 1e3),
     )

@@ -15,6 +15,7 @@ import numpy as np
 from hess_mechanics import parameters as known
 from hess_mechanics.dynamics.system import Body, System
 from hess_mechanics.errors import InvalidParameter
+from hess_mechanics.numerics.arguments import unit_vector
 from hess_mechanics.parameters import Parameter
 
 if TYPE_CHECKING:
@@ -114,14 +115,10 @@ def anywhere(system: System) -> Motions:
     place = tuple(_parameter(system, name, value) for name, value in zip(names, system.example[0], strict=True))
 
     def start(values: Values) -> tuple[Body, Start]:
-        state = np.array([values[name] for name in names])
+        state = tuple(values[name] for name in names)
         if names[-3:] in (("g1", "g2", "g3"), ("n1", "n2", "n3")):
-            # The vertical is normalised.
-            size = float(np.linalg.norm(state[-3:]))
-            if size == 0.0:
-                raise InvalidParameter("The vertical has length 0: choose other components.")
-            state[-3:] /= size
-        return system.at([values[name] for name in system.parameters]), tuple(state.tolist())
+            state = (*state[:-3], *unit_vector(state[-3:])[0])
+        return system.at([values[name] for name in system.parameters]), state
 
     labels = ", ".join(system.labels)
     return Motions(system.name, system.title, system, body_parameters(system), place, start, source=labels)

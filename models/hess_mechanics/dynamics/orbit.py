@@ -30,6 +30,7 @@ __all__ = [
     "drift_of",
     "drifts_along",
     "end_of",
+    "followed",
     "require_finite_neighbours",
     "require_finite_rates",
     "require_finite_states",
@@ -94,12 +95,19 @@ def require_steps(steps: int, too_long: str, where: Callable[[], WorkLimit | Non
 
 def end_of(problem: Problem, state: Array, end: float) -> WorkLimit | None:
     """Return the error of the motion from `state` (d,) if it stops before the scaled time `end`, else None."""
-    system, out = problem.system, np.empty((1, state.size))
-    longest = system.longest_step(PRECISE, end)
-    steps, reached = system.orbit(
-        state, problem.parameters, np.array([end]), PRECISE.order, PRECISE.tolerance, longest, MAX_STEPS, out
-    )
+    steps, reached, out = followed(problem, state, np.array([end]))
     return unfinished(problem, steps, reached, out[0], MAX_STEPS) if steps < 0 else None
+
+
+def followed(problem: Problem, state: Array, times: Array) -> tuple[int, float, Array]:
+    """Return the steps, the time reached and the states (n, d) of one run at `precise`, from `state` (d,), scaled.
+
+    Beyond the time reached the states are 0.
+    """
+    system, out = problem.system, np.zeros((times.size, state.size))
+    longest = system.longest_step(PRECISE, float(times[-1]))
+    p, order, tolerance = problem.parameters, PRECISE.order, PRECISE.tolerance
+    return *system.orbit(state, p, times, order, tolerance, longest, MAX_STEPS, out), out
 
 
 def unfinished(problem: Problem, code: int, t: float, state: Array, max_steps: int) -> WorkLimit:

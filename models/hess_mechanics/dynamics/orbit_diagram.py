@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import groupby
 from operator import itemgetter
 from typing import Protocol
@@ -22,7 +23,7 @@ from hess_mechanics.dynamics.continuation import Bifurcation, continued
 from hess_mechanics.dynamics.periodic import MAX_PERIOD, Map, PeriodicOrbit, apart, find_periodic, place_units, shoot
 from hess_mechanics.dynamics.point_sets import set_distance
 from hess_mechanics.errors import InvalidParameter, ModelError, NotConverged, OutsideRegion, WorkLimit
-from hess_mechanics.numerics.labelled import Labels, Result, components
+from hess_mechanics.numerics.labelled import Labels, Named, Result, components
 from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array, Mask, frozen
 
@@ -33,10 +34,10 @@ __all__ = [
     "Cascade",
     "Diagram",
     "Followed",
+    "Hysteresis",
     "cascade",
     "diagram_over",
     "doubling_seen",
-    "hysteresis",
     "period_of",
 ]
 
@@ -304,20 +305,59 @@ def doubling_seen(parts: Sequence[Diagram]) -> tuple[float, Array, float] | None
     return None
 
 
-def hysteresis(turns: Sequence[float], there: Diagram, back: Diagram) -> tuple[tuple[float, float], ...]:
-    """Return the intervals of values (low, high) over which a diagram and the diagram of the way back differ.
+@dataclass(frozen=True)
+class Hysteresis(Result):
+    """Orbit diagrams over a parameter there and back.
 
-    They differ at a value if the distance between the two sets of points exceeds the distance between the halves of
-    each set, by three times the error.  Sets of fewer than 16 points are not compared.
+    Attributes
+    ----------
+    there, back : Diagram
+        The diagram over rising values, and over falling values from where the first one ends.
+    turns : tuple of float
+        Period of each coordinate, ∞ if it is not an angle.
     """
-    differ: list[tuple[float, bool]] = []
-    for value, one, other in zip(there.values, there.places, reversed(back.places), strict=True):
-        if min(len(one), len(other)) < COMPARED:
-            continue
-        found = set_distance(turns, one, other)
-        differ.append((float(value), found.distance > 3.0 * (found.grain + found.error) + 1e-3))
-    runs = [(is_other, [value for value, _ in run]) for is_other, run in groupby(sorted(differ), itemgetter(1))]
-    return tuple((run[0], run[-1]) for is_other, run in runs if is_other)
+
+    there: Diagram
+    back: Diagram
+    turns: tuple[float, ...]
+
+    @cached_property
+    def intervals(self) -> tuple[tuple[float, float], ...]:
+        """Intervals of values (low, high) over which the two diagrams differ.
+
+        They differ at a value if the distance between the two sets of points exceeds the distance between the halves of
+        each set, by three times the error.  Sets of fewer than 16 points are not compared.
+        """
+        differ: list[tuple[float, bool]] = []
+        there, back = self.there, self.back
+        for value, one, other in zip(there.values, there.places, reversed(back.places), strict=True):
+            if min(len(one), len(other)) < COMPARED:
+                continue
+            found = set_distance(self.turns, one, other)
+            differ.append((float(value), found.distance > 3.0 * (found.grain + found.error) + 1e-3))
+        runs = [(is_other, [value for value, _ in run]) for is_other, run in groupby(sorted(differ), itemgetter(1))]
+        return tuple((run[0], run[-1]) for is_other, run in runs if is_other)
+
+    def labels(self) -> Labels:
+        """Return the points of both diagrams, labelled with the way and the value of the parameter.
+
+        Returns
+        -------
+        Labels
+            The coordinates over the points.
+        """
+        one, other = self.there.labels(), self.back.labels()
+
+        def joined(first: Named, second: Named) -> Named:
+            return {name: (dims, np.concatenate([values, second[name][1]])) for name, (dims, values) in first.items()}
+
+        counts = [sum(map(len, way.places)) for way in (self.there, self.back)]
+        return Labels(
+            {"way": (("point",), np.repeat(["there", "back"], counts)), **joined(one.coords, other.coords)},
+            joined(one.variables, other.variables),
+            one.units,
+            {"intervals": "; ".join(f"{low:.12g} to {high:.12g}" for low, high in self.intervals), **one.facts},
+        )
 
 
 @dataclass(frozen=True)

@@ -13,14 +13,14 @@ import numpy as np
 
 from hess_mechanics.dynamics.orbit_diagram import Cascade, Diagram, cascade, diagram_over
 from hess_mechanics.dynamics.periodic import find_periodic
-from hess_mechanics.dynamics.regime import Dynamics, Regime, compared, regime
+from hess_mechanics.dynamics.regime import Dynamics, compared, regime
 from hess_mechanics.dynamics.return_map import PoincareSection, ReturnMap
 from hess_mechanics.errors import ModelError, NoReturn, WorkLimit
 from hess_mechanics.numerics.accuracy import PRECISE, Accuracy
 from hess_mechanics.numerics.arguments import as_level
 from hess_mechanics.numerics.results import Array, frozen
 
-__all__ = ["AtState", "Sets", "at_state", "diagram", "doublings", "nearest_place", "sets_of"]
+__all__ = ["Sets", "at_state", "diagram", "doublings", "nearest_place", "sets_of"]
 
 Place = tuple[float, ...]
 SectionFamily = Callable[[float], PoincareSection]
@@ -82,23 +82,17 @@ def sets_of(section: PoincareSection, start: Place, transient: int, kept: int, l
     return Sets(*(frozen(one.copy()) for one in found))
 
 
-@dataclass(frozen=True)
-class AtState:
-    """Regime of a motion, and the dynamics near it; None if the orbit does not return to the section."""
+def at_state(section: PoincareSection, start: Place, transient: int, kept: int, t: float, level: Accuracy) -> Dynamics:
+    """Classify the orbit from `start`; without comparisons if it does not return.  Raises `OutsideRegion`, `WorkLimit`.
 
-    regime: Regime
-    dynamics: Dynamics | None
-
-
-def at_state(section: PoincareSection, start: Place, transient: int, kept: int, t: float, level: Accuracy) -> AtState:
-    """Classify the orbit from `start`; t : averaging time.  Raises `OutsideRegion`, `WorkLimit`."""
-    level = as_level(level)
-    map_ = ReturnMap(section, level)
-    found = regime(map_, start, transient, min(kept, 400), t)
+    t : averaging time.
+    """
+    map_ = ReturnMap(section, as_level(level))
+    motion = regime(map_, start, transient, min(kept, 400), t)
     try:
-        return AtState(found, compared(map_, found, start, transient, kept))
+        return compared(map_, motion, start, transient, kept)
     except NoReturn:
-        return AtState(found, None)
+        return Dynamics(motion, motion.places[:0], motion.places[:0], ())
 
 
 def nearest_place(diagrams: Sequence[Diagram], i: int, value: float, y: float) -> tuple[float, Place] | None:

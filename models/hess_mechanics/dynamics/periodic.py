@@ -28,6 +28,7 @@ __all__ = [
     "Shot",
     "apart",
     "find_periodic",
+    "images_of",
     "kind_of",
     "multipliers_of",
     "place_units",
@@ -82,6 +83,9 @@ class Map(Protocol):
 
     def inverse(self) -> Map:
         """Return P⁻¹."""
+
+    def symmetries_of(self, places: Array, near: float) -> Sequence[str]:
+        """Return the names of the symmetries that take an orbit (m, d) to itself, to within a distance."""
 
     def tightened(self) -> Map:
         """Return the same map, computed more accurately and with other roundings."""
@@ -366,7 +370,7 @@ def find_periodic(
         return _measured(map_, *_converged(map_, places))
     if period is not None:
         return _of_period(map_, places[0], period, near)
-    orbit = _orbit_from(map_, places[0], most)
+    orbit = images_of(map_, places[0], most)
     for back in np.argsort(_closeness(map_, orbit[1:], orbit[0]), kind="stable")[: 1 if near else _TRIED]:
         try:
             return _measured(map_, *_converged(map_, orbit[: back + 1]))
@@ -380,7 +384,7 @@ def find_periodic(
 
 def _of_period(map_: Map, place: Array, m: int, near: bool) -> PeriodicOrbit:
     """Return the orbit with least period m, from the point or from where its orbit comes back closest."""
-    orbit = _orbit_from(map_, place, m - 1 if near else _FOLLOWED * m + m)
+    orbit = images_of(map_, place, m - 1 if near else _FOLLOWED * m + m)
     if len(orbit) < m:
         raise NotConverged(
             f"From here a motion returns only {len(orbit) - 1} times: start elsewhere for an orbit of period {m}."
@@ -407,7 +411,7 @@ def _closeness(map_: Map, a: Array, b: Array) -> Array:
     return np.asarray(np.abs(apart(map_.turns, a, b)).max(axis=1))
 
 
-def _orbit_from(map_: Map, place: Array, count: int) -> Array:
+def images_of(map_: Map, place: Array, count: int) -> Array:
     """Return the point and its images, as far as it returns.  Raises `NotConverged` if it never does."""
     orbit = [place]
     try:

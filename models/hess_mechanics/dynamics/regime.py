@@ -40,7 +40,6 @@ from hess_mechanics.numerics.arguments import as_number, as_place, as_whole
 from hess_mechanics.numerics.labelled import Labels, Result, components
 from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array, frozen
-from hess_mechanics.parameters import plain
 
 __all__ = ["Dynamics", "MotionKind", "Regime", "compared", "dynamics_of", "regime"]
 
@@ -173,25 +172,6 @@ class Regime(Result):
     def bound(self) -> float:
         """Upper bound of |mean divergence|: its value plus three errors."""
         return abs(self.divergence) + 3.0 * self.divergence_error
-
-    @property
-    def sentence(self) -> str:
-        """The result in one or two sentences."""
-        if self.kind is MotionKind.NO_RETURN:
-            return f"The motion did not return to the section within t = {plain(self.t, 4)}."
-        kind = f"periodic, period {self.period}" if self.kind is MotionKind.PERIODIC else self.kind.words
-        case = f" ({self.integrable})" if self.integrable else ""
-        if self.volume_kept:
-            return f"{kind[0].upper()}{kind[1:]}{case}; phase volume is conserved."
-        if self.measure:
-            return f"{kind[0].upper()}{kind[1:]}{case}; the mean divergence is exactly 0: {self.measure}."
-        if self.volume:
-            volume = f"phase volume {'shrinks' if self.volume < 0 else 'grows'}"
-            return (
-                f"{kind[0].upper()}{kind[1:]}{case}; {volume} about it: mean divergence {plain(self.divergence, 3)} ± "
-                f"{plain(self.divergence_error, 1)}."
-            )
-        return f"{kind[0].upper()}{kind[1:]}{case}; |mean divergence| < {plain(self.bound, 1)}."
 
     def labels(self) -> Labels:
         """Return the crossings, with the kind and the numbers that decided it.
@@ -442,8 +422,7 @@ def _closes(map_: ReturnMap, places: Array, m: int) -> bool:
 
 def _at_rest(map_: ReturnMap, place: Array, precision: float) -> bool:
     problem = Problem.of(map_.section, map_.state_at(place)[None])
-    rates = map_.section.system.field(problem.states[0].tolist(), problem.parameters.tolist())
-    return float(np.abs(rates).max()) <= precision
+    return float(np.abs(problem.system.rates(problem.states, problem.parameters)).max()) <= precision
 
 
 def _ensemble(map_: ReturnMap, places: Array) -> Array:
@@ -553,20 +532,6 @@ class Dynamics(Result):
             if all(one.shared >= _TOUCHING for one in self.settled):
                 return "mixed"
         return "not told apart"
-
-    @property
-    def sentence(self) -> str:
-        """The verdict with its evidence."""
-        if self.motion.volume_kept:
-            return "Conservative: the flow preserves volume."
-        if self.motion.measure:
-            return f"Conservative: {self.motion.measure}."
-        if self.verdict == "not told apart":
-            return f"Not told apart: |mean divergence| < {plain(self.motion.bound, 1)}."
-        return (
-            f"Looks {self.verdict}: attractor and repeller are {plain(self.distance, 2)} ± "
-            f"{plain(self.distance_error, 1)} apart and share {plain(100.0 * self.shared, 3)} % of their places."
-        )
 
     def labels(self) -> Labels:
         """Return the points of both sets, with the verdict.

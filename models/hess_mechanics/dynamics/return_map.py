@@ -24,18 +24,18 @@ import numpy as np
 from hess_mechanics.dynamics.cells import evenly
 from hess_mechanics.dynamics.orbit import MAX_STEPS, end_of, require_finite_states, require_steps, unfinished
 from hess_mechanics.dynamics.periodic import apart
-from hess_mechanics.dynamics.section import Surface
+from hess_mechanics.dynamics.section import SectionPoints, Surface, section_points
 from hess_mechanics.dynamics.symmetry import Mirror, symmetries
-from hess_mechanics.dynamics.system import Body, Problem, System
+from hess_mechanics.dynamics.system import Body, Problem
 from hess_mechanics.dynamics.variation import onto_surface
 from hess_mechanics.errors import InvalidParameter, NoReturn, OutsideRegion, WorkLimit
-from hess_mechanics.numerics.accuracy import Level
+from hess_mechanics.numerics.accuracy import Accuracy, Level
 from hess_mechanics.numerics.arguments import as_number, as_whole
 from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array, Mask
 from hess_mechanics.parameters import plain
 
-__all__ = ["PoincareSection", "ReturnMap"]
+__all__ = ["PoincareSection", "ReturnMap", "section_crossings"]
 
 _LONGEST = 400.0
 """Time limit for a return in Newton's method, which tries many points; in units of 1/ν times the slowness of the
@@ -117,6 +117,24 @@ class PoincareSection(Body, Protocol):
     def is_on(self, states: Array) -> Mask:
         """Return a mask (n,) of the states (n, d) on this sheet; all of them if there is a single sheet."""
         return np.ones(len(states), bool)
+
+
+def section_crossings(
+    section: PoincareSection,
+    starts: Array,
+    crossings: int,
+    turns: float,
+    level: Accuracy,
+    backward: bool = False,
+    **limits: int,
+) -> SectionPoints:
+    """Return the crossings of several orbits, see `section_points`, that follow each other within a time limit.
+
+    turns : the time limit per crossing, in units of 1/ν times the slowness of the section; limits : `threads` and
+    `most_steps`.
+    """
+    end = turns * crossings * section.slowness / Problem.of(section, starts).nu
+    return section_points(section, starts, section.surface, -end if backward else end, level, crossings, **limits)
 
 
 @dataclass(frozen=True)
@@ -458,7 +476,7 @@ class ReturnMap:
         flow, frame = self._flow(problem, times)
         onto = onto_surface(
             scale[:, None] * flow,
-            scale * problem.nu * _rates(section.system, ends, problem.parameters),
+            scale * problem.nu * section.system.rates(ends, problem.parameters),
             np.array([section.surface.gradient(state) for state in states]),
         )
         moved = onto @ frame.swapaxes(1, 2) @ (self._tangents(several) / scale).swapaxes(1, 2)
@@ -489,7 +507,7 @@ class ReturnMap:
         """
         system, accuracy = self.section.system, self.accuracy
         m, d = problem.states.shape
-        rates = _rates(system, problem.states, problem.parameters)[:, :, None]
+        rates = system.rates(problem.states, problem.parameters)[:, :, None]
         frames = np.linalg.qr(np.concatenate([rates, np.broadcast_to(np.eye(d), (m, d, d))], axis=2))[0][:, :, 1:]
         found = np.empty((m, d, d - 1))
         state, growth, volume = np.empty((1, d)), np.empty((1, d - 1)), np.empty(1)
@@ -609,17 +627,13 @@ class ReturnMap:
     def volume_kept(self) -> bool:
         """True if the divergence of the field is 0 everywhere, so that nothing attracts where motions are bounded.
 
-        It is computed by differences at a few states in general position, which are exact for fields of such low
-        degree.
+        It is computed at a few states in general position.
         """
-        system, p = self.section.system, list(self.section.parameters)
+        system, p = self.section.system, self.section.parameters
         d = len(system.variables)
         states = np.cos(1.0 + np.arange(3 * d).reshape(3, d) ** 2)
-        sides = states + np.array([1.0, -1.0])[:, None, None, None] * np.eye(d)[:, None]
-        rates = system.field(list(np.moveaxis(sides, -1, 0)), p)
-        total = sum(np.subtract(*np.broadcast_to(rate, sides.shape[:-1])[:, i]) for i, rate in enumerate(rates))
-        size = max(1.0, *(float(np.abs(one).max()) for one in system.field(list(states.T), p)))
-        return bool(np.abs(total).max() <= 1e-12 * size)
+        size = max(1.0, float(np.abs(system.rates(states, p)).max()))
+        return bool(np.abs(system.divergence(states, p)).max() <= 1e-12 * size)
 
     @cached_property
     def mirrors(self) -> tuple[Mirror, ...]:
@@ -700,11 +714,6 @@ class ReturnMap:
             ):
                 found.append(mirror.name)
         return tuple(found)
-
-
-def _rates(system: System, states: Array, parameters: Array) -> Array:
-    """Return the field at states (m, d)."""
-    return np.stack(np.broadcast_arrays(*system.field(list(states.T), parameters.tolist())), axis=1)
 
 
 def _times(count: int) -> str:

@@ -11,10 +11,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from hess_mechanics.dynamics.orbit import LARGEST, MAX_STEPS, end_of, solve
+from hess_mechanics.dynamics.orbit import LARGEST, end_of, followed, solve
 from hess_mechanics.dynamics.system import Body, Problem
 from hess_mechanics.errors import MotionEnds
-from hess_mechanics.numerics.accuracy import PRECISE, Accuracy, Status
+from hess_mechanics.numerics.accuracy import Accuracy, Status
 from hess_mechanics.numerics.results import Array, Orbit
 
 __all__ = ["HALF_A_PIXEL", "MOST_SAMPLES", "PIXELS", "SAGITTA", "sample_times", "sampled_orbit"]
@@ -45,17 +45,7 @@ def sample_times(body: Body, state: Array, span: float, weights: Array, sagitta:
     count = int(min(_MOST_COARSE, max(64.0, abs(span) * problem.nu / _COARSE))) + 1
     while True:
         even = np.linspace(0.0, span, count)
-        states = np.empty((count, problem.scale.size))
-        steps, _ = body.system.orbit(
-            problem.states[0],
-            problem.parameters,
-            even * problem.nu,
-            PRECISE.order,
-            PRECISE.tolerance,
-            body.system.longest_step(PRECISE, span * problem.nu),
-            MAX_STEPS,
-            states,
-        )
+        steps, _, states = followed(problem, problem.states[0], even * problem.nu)
         if steps < 0 or not np.all(np.isfinite(states)):
             return np.linspace(0.0, span, min(most, count))
         # Short steps mean that the motion is faster than its angular velocity suggests: sample it more densely.
@@ -63,11 +53,9 @@ def sample_times(body: Body, state: Array, span: float, weights: Array, sagitta:
         if count >= needed_count:
             break
         count = needed_count
-    field = body.system.field(list((states * problem.scale).T), list(body.parameters))
-    # A component may be a plain number.
-    rates = np.array(np.broadcast_arrays(*field))
-    accelerations = np.gradient(rates, span / (count - 1), axis=1) * weights[:, None]
-    density = np.sqrt(np.linalg.norm(accelerations, axis=0) / (8.0 * sagitta))
+    rates = body.system.rates(states * problem.scale, body.parameters)
+    accelerations = np.gradient(rates, span / (count - 1), axis=0) * weights
+    density = np.sqrt(np.linalg.norm(accelerations, axis=1) / (8.0 * sagitta))
     density = np.maximum(density, 16.0 / abs(span))  # some samples for a motion at rest too
     needed = np.concatenate([[0.0], np.cumsum(0.5 * (density[1:] + density[:-1]) * (abs(span) / (count - 1)))])
     samples = int(min(most - 1, np.ceil(needed[-1]))) + 1
@@ -109,10 +97,6 @@ def _drawn_until(body: Body, state: Sequence[float], end: float) -> float:
     """Return the time until which a motion that ends is drawn: before its variables are too large for a picture."""
     problem = Problem.of(body, [state])
     times = np.linspace(0.0, end, _MOST_COARSE)[:-1]
-    states = np.zeros((times.size, problem.scale.size))
-    p, longest = problem.parameters, body.system.longest_step(PRECISE, times[-1] * problem.nu)
-    body.system.orbit(
-        problem.states[0], p, times * problem.nu, PRECISE.order, PRECISE.tolerance, longest, MAX_STEPS, states
-    )
+    _, _, states = followed(problem, problem.states[0], times * problem.nu)
     large = np.abs(states).max(axis=1) > LARGEST
     return float(times[int(np.argmax(large)) if large.any() else -1])

@@ -11,8 +11,7 @@ from numpy.typing import NDArray
 
 from hess_mechanics.dynamics.cells import Window
 from hess_mechanics.dynamics.ensemble import complete
-from hess_mechanics.dynamics.return_map import PoincareSection
-from hess_mechanics.dynamics.section import section_points
+from hess_mechanics.dynamics.return_map import PoincareSection, section_crossings
 from hess_mechanics.errors import ModelError, WorkLimit
 from hess_mechanics.numerics.accuracy import Accuracy
 from hess_mechanics.numerics.results import Array, frozen
@@ -68,10 +67,7 @@ def visits(
     starts = np.asarray(starts, float)
     for first in range(0, len(starts), _TOGETHER):
         some = starts[first : first + _TOGETHER]
-        end = _limit(section, some, crossings)
-        found = complete(
-            section_points(section, some, section.surface, end if forward else -end, level, crossings, threads=1)
-        )
+        found = complete(section_crossings(section, some, crossings, _TURNS, level, not forward, threads=1))
         for states in found.states:
             places = section.places_of(states[section.is_on(states)])
             within = places[np.all((places >= low) & (places < high), axis=1)]
@@ -114,11 +110,8 @@ def visits_over(
             state, there = section.states_at(*np.array(start)[:, None])
             if not there[0]:
                 continue
-            end = _limit(section, state, skipped + crossings)
             found = complete(
-                section_points(
-                    section, state, section.surface, end if forward else -end, level, skipped + crossings, threads=1
-                )
+                section_crossings(section, state, skipped + crossings, _TURNS, level, not forward, threads=1)
             )
         except WorkLimit:
             raise
@@ -134,12 +127,6 @@ def visits_over(
         points += len(within)
         drift = _larger(drift, found.drift)
     return Visits(frozen(counts), frozen(ends), points, drift)
-
-
-def _limit(section: PoincareSection, starts: Array, crossings: int) -> float:
-    """Return the time limit of the orbits from some states."""
-    fastest = float(np.max(section.system.frequency(starts.T, np.array(section.parameters))))
-    return _TURNS * crossings * section.slowness / (fastest or 1.0)
 
 
 def _larger(one: Mapping[str, float], other: Mapping[str, float]) -> dict[str, float]:

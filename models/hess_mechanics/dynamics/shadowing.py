@@ -12,6 +12,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from hess_mechanics.dynamics.periodic import apart
 from hess_mechanics.numerics.results import Array
 
 __all__ = ["HALF_A_PIXEL", "away_from", "errors_in_pixels", "right_crossings", "torn_away", "typical"]
@@ -31,10 +32,7 @@ def errors_in_pixels(
     coordinate, ∞ if it is not an angle.
     """
     both = min(len(orbit), len(exact))
-    away = np.asarray(orbit[:both] - exact[:both])
-    for i, period in enumerate(periods):
-        if math.isfinite(period):
-            away[:, i] -= period * np.round(away[:, i] / period)
+    away = apart(periods, orbit[:both], exact[:both])
     return np.asarray(np.linalg.norm(away * np.asarray(pixels), axis=1), float)
 
 

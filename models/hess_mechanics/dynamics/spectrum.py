@@ -19,17 +19,9 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from hess_mechanics.dynamics.orbit import (
-    MAX_STEPS,
-    checked_span,
-    end_of,
-    require_finite_neighbours,
-    require_finite_rates,
-    require_finite_states,
-    require_steps,
-)
-from hess_mechanics.dynamics.system import Body, Problem, System
-from hess_mechanics.dynamics.variation import frame_ahead, neighbours
+from hess_mechanics.dynamics.orbit import MAX_STEPS, checked_span, end_of, require_finite_rates
+from hess_mechanics.dynamics.system import Body, Problem
+from hess_mechanics.dynamics.variation import Tangent, frame_ahead, tangent
 from hess_mechanics.numerics.accuracy import PLANS, STANDARD, Accuracy, Kind, Level, Status
 from hess_mechanics.numerics.arguments import as_level
 from hess_mechanics.numerics.labelled import Labels, Result
@@ -41,7 +33,6 @@ __all__ = [
     "Spectrum",
     "batch_error",
     "ensemble_mean",
-    "first_frame",
     "kaplan_yorke",
     "lyapunov_spectrum",
     "no_chaos",
@@ -89,8 +80,6 @@ class Spectrum(Result):
         Mean of tr J over the same time, and its error.
     integrals : int
         Number of first integrals of the system.
-    volume_kept : bool
-        True if the divergence was 0 all along the orbit.
     status : Status
         How the computation ended.
     cost : Cost
@@ -106,7 +95,6 @@ class Spectrum(Result):
     divergence: float
     divergence_error: float
     integrals: int
-    volume_kept: bool
     status: Status
     cost: Cost
 
@@ -127,27 +115,6 @@ class Spectrum(Result):
     def zeros(self) -> int:
         """Number of zero exponents: one per integral, and one for the direction of motion unless it is at rest."""
         return self.signs.count("0")
-
-    @property
-    def pairs(self) -> tuple[tuple[float, float], ...]:
-        """Sums λ_i + λ_(d+1−i) with their errors, the outermost pair first."""
-        half = self.values.size // 2
-        sums, errors = self.values + self.values[::-1], np.hypot(self.errors, self.errors[::-1])
-        return tuple(zip(sums[:half].tolist(), errors[:half].tolist(), strict=True))
-
-    @property
-    def paired(self) -> bool:
-        """True if each exponent has its negative, within three errors."""
-        return all(abs(total) <= _ERRORS * error for total, error in self.pairs)
-
-    @property
-    def pairs_forced(self) -> bool:
-        """True if the exponents must form pairs: volume is kept, and at most two are not zero by necessity.
-
-        A reversor maps the exponents of an attractor to those of its repeller with the opposite sign, so it forces
-        pairs only if the two coincide.
-        """
-        return self.volume_kept and self.values.size - self.integrals - 1 <= 2
 
     @cached_property
     def dimension(self) -> tuple[float, float]:
@@ -194,17 +161,15 @@ class Spectrum(Result):
         )
 
 
-def kaplan_yorke(
-    values: Array, errors: Array, total: float | None = None, total_error: float = 0.0
-) -> tuple[float, float]:
+def kaplan_yorke(values: Array, errors: Array, total: float, total_error: float = 0.0) -> tuple[float, float]:
     """Return the dimension k + Σ_(i≤k) λ_i/|λ_(k+1)| of exponents and its error.
 
     Parameters
     ----------
     values, errors : Array, shape (m,)
         The exponents, the largest first, and their errors.
-    total, total_error : float, optional
-        Their sum, the mean divergence, where it is known better than from them.
+    total, total_error : float
+        Their sum, the mean divergence, which is known better than from them.
 
     Returns
     -------
@@ -216,15 +181,12 @@ def kaplan_yorke(
     --------
     >>> import numpy as np
     >>> from hess_mechanics.dynamics.spectrum import kaplan_yorke
-    >>> round(kaplan_yorke(np.array([0.9056, 0.0, -14.572]), np.zeros(3))[0], 3)  # Lorenz
+    >>> round(kaplan_yorke(np.array([0.9056, 0.0, -14.572]), np.zeros(3), -13.6667)[0], 3)  # Lorenz
     2.062
     """
     if not values.size:
         return 0.0, 0.0
     sums = np.cumsum(values)
-    known = total is not None
-    if total is None:
-        total, total_error = float(sums[-1]), float(np.hypot.reduce(errors))
     last = abs(float(values[-1]))
     if total >= -_ERRORS * total_error:
         return float(values.size), (abs(total) + total_error) / last if last > 0.0 else 0.0
@@ -232,7 +194,7 @@ def kaplan_yorke(
         # Volume shrinks, but no exponent is negative: nothing is known.
         return float(values.size), float(values.size)
     k = int(np.argmax(sums < 0.0)) if np.any(sums < 0.0) else values.size - 1
-    if known and k == values.size - 1:
+    if k == values.size - 1:
         # The sum of the first m − 1 is the total less the last one.
         return values.size + total / last, math.hypot(total_error, total / last * float(errors[-1])) / last
     before, next_one = float(sums[k - 1]) if k else 0.0, abs(float(values[k]))
@@ -289,18 +251,17 @@ def ensemble_mean(values: Array) -> tuple[float, float]:
     return float(whole.mean()), math.hypot(scatter, math.sqrt(float(shared.max(initial=0.0))))
 
 
-def no_chaos(body: Body, problem: Problem, start: Array, states: Array, span: float, level: Level, grows: bool) -> str:
+def no_chaos(problem: Problem, start: Array, states: Array, span: float, level: Level, grows: bool) -> str:
     """Return why a motion is not chaotic, however its neighbours part; an empty string if there is no reason.
 
     start (d,), states (n, d) at even times and the span are in units of the problem.  Only if neighbours part, `grows`,
     is the motion searched for a return to its start.
     """
-    system, p = body.system, problem.parameters
-    if start.size - len(system.integrals((start * problem.scale).tolist(), list(body.parameters))) <= 2:
+    system, p = problem.system, problem.parameters
+    if start.size - len(system.integrals(start.tolist(), p.tolist())) <= 2:
         return "flows of two dimensions have no chaos"
-    last = states[-(len(states) // 4) - 1 :].T
     with np.errstate(all="ignore"):
-        rates = np.array(np.broadcast_arrays(*system.field(list(last), p.tolist()), last[0])[:-1])
+        rates = system.rates(states[-(len(states) // 4) - 1 :], p)
     if float(np.abs(rates).max()) < _RESTS:
         return "it rests"
     half = len(states) // 2
@@ -318,15 +279,6 @@ def no_chaos(body: Body, problem: Problem, start: Array, states: Array, span: fl
         if np.any(away[np.abs(times[: max(number, 0)]) > _RESTS] < _RESTS):
             return "it is periodic"
     return ""
-
-
-def first_frame(system: System, problem: Problem) -> tuple[Array, float]:
-    """Return orthonormal columns (d, d), the first one along the motion, the others in general position; and the speed.
-
-    If the motion is slow, all columns are in general position.
-    """
-    size = problem.states.shape[1]
-    return frame_ahead(system, problem, np.cos(1.0 + np.arange(size * size).reshape(size, size) ** 2), _SLOW)
 
 
 def lyapunov_spectrum(body: Body, state: Sequence[float] | Array, span: float, level: Accuracy = STANDARD) -> Spectrum:
@@ -372,43 +324,40 @@ def lyapunov_spectrum(body: Body, state: Sequence[float] | Array, span: float, l
     level = as_level(level)
     checked_span(span, "Lyapunov exponents")
     begun = time.perf_counter()
-    problem = Problem.of(body, [state])
-    system = body.system
-    y, (frame, speed) = problem.states[0], first_frame(system, problem)
+    problem, system = Problem.of(body, [state]), body.system
+    y, d, end = problem.states[0], len(system.variables), span * problem.nu
+    # Other columns in general position.
+    frame, speed = frame_ahead(problem, np.cos(1.0 + np.arange(d * d).reshape(d, d) ** 2), _SLOW)
     ahead = speed > _SLOW
-    part = span * problem.nu / _PARTS * np.arange(1, _SAMPLES + 1) / _SAMPLES
+    part = end / _PARTS * np.arange(1, _SAMPLES + 1) / _SAMPLES
     count = _PARTS * _SAMPLES
-    growth, volume = np.zeros((count + 1, y.size)), np.zeros(count + 1)
+    growth, volume = np.zeros((count + 1, d)), np.zeros(count + 1)
     steps = 0
 
-    def stretch(ahead: bool) -> tuple[Array, Array, Array, Array]:
+    def stretch() -> Tangent:
         nonlocal steps
-        taken, states, frames, logs, traces = neighbours(
-            system, y, frame, problem.parameters, part, level.order, level.tolerance, MAX_STEPS - steps, LIMIT, ahead
+        found = tangent(
+            problem, y, frame, part, level, LIMIT, ahead, steps, lambda: end_of(problem, problem.states[0], end)
         )
-        too_long = f"These exponents need more than {MAX_STEPS} steps: choose a shorter time span."
-        require_steps(taken, too_long, lambda: end_of(problem, problem.states[0], span * problem.nu))
-        steps += taken
-        require_finite_states(states)
-        require_finite_neighbours(frames, logs, traces)
-        return states, frames, logs, traces
+        steps += found.steps
+        return found
 
     for i in range(0, count, _SAMPLES):
         go_on()
-        states, frames, logs, traces = stretch(ahead)
+        found = stretch()
         if ahead:
-            speeds = speed * np.linalg.norm(frames[:, :, 0], axis=1)
+            speeds = speed * np.linalg.norm(found.vectors[:, :, 0], axis=1)
             speed = float(speeds[-1])
             if not speeds.min() > _SLOW:
                 # From here on f is integrated like all other vectors.
                 ahead = False
-                states, frames, logs, traces = stretch(ahead)
-        columns, lengths = np.linalg.qr(frames)
+                found = stretch()
+        columns, lengths = np.linalg.qr(found.vectors)
         diagonal = np.abs(np.diagonal(lengths, axis1=1, axis2=2))
         now = slice(i + 1, i + _SAMPLES + 1)
-        growth[now] = growth[i] + logs + np.log(np.maximum(diagonal, 1e-300))
-        volume[now] = volume[i] + traces
-        y, frame = states[-1].copy(), columns[-1]
+        growth[now] = growth[i] + found.removed + np.log(np.maximum(diagonal, 1e-300))
+        volume[now] = volume[i] + found.volume
+        y, frame = found.states[-1].copy(), columns[-1]
     times = abs(span) * np.arange(count + 1) / count
     first = _SETTLES * _SAMPLES
     together = np.column_stack([growth, volume])
@@ -432,7 +381,6 @@ def lyapunov_spectrum(body: Body, state: Sequence[float] | Array, span: float, l
         float(mean[-1]),
         float(error[-1]) + floor,
         number,
-        not np.any(volume),
         Status.OK if worst <= promise else Status.PROMISE_NOT_MET,
         Cost(steps, (time.perf_counter() - begun) * 1e3),
     )

@@ -57,16 +57,18 @@ def sign_symmetries(system: System, parameters: Sequence[float]) -> tuple[Mirror
     ['ω1, ω2, t → −']
     """
     d = len(system.variables)
-    states = np.cos(1.0 + np.arange(d * _TRIED).reshape(d, _TRIED) ** 2)
-    p = list(parameters)
-    rates = _rates(system, states, p)
+    states = np.cos(1.0 + np.arange(d * _TRIED).reshape(d, _TRIED) ** 2).T
+    # A field may be defined in a part of the space only.
+    with np.errstate(all="ignore"):
+        rates = system.rates(states, parameters)
     size = float(np.abs(rates).max()) or 1.0
     found = []
     for choice in itertools.product((1.0, -1.0), repeat=d):
         signs = np.array(choice)
         if np.all(signs > 0.0):
             continue
-        there, here = _rates(system, signs[:, None] * states, p), signs[:, None] * rates
+        with np.errstate(all="ignore"):
+            there, here = system.rates(signs * states, parameters), signs * rates
         for reverses, image in ((False, here), (True, -here)):
             if float(np.abs(there - image).max()) < 1e-13 * size:
                 changed = [name for name, sign in zip(system.variables, choice, strict=True) if sign < 0.0]
@@ -74,9 +76,3 @@ def sign_symmetries(system: System, parameters: Sequence[float]) -> tuple[Mirror
                     Mirror(f"{', '.join([*changed, *(['t'] if reverses else [])])} → −", partial(mul, signs), reverses)
                 )
     return tuple(found)
-
-
-def _rates(system: System, states: Array, p: list[float]) -> Array:
-    # A field may be defined in a part of the space only.
-    with np.errstate(all="ignore"):
-        return np.array([np.broadcast_to(rate, states.shape[1:]) for rate in system.field(list(states), p)])

@@ -16,6 +16,7 @@ from dataclasses import dataclass, replace
 from functools import cache, cached_property
 from importlib.metadata import entry_points
 from threading import RLock
+from types import ModuleType
 from typing import Any, Protocol
 
 import numpy as np
@@ -37,7 +38,7 @@ from hess_mechanics.numerics.tracing import Field, check, divergence, expression
 from hess_mechanics.numerics.variation_kernels import Variation, products, variation, variation_integrator
 from hess_mechanics.parameters import plain
 
-__all__ = ["Body", "ParametrizedSystem", "Problem", "System", "in_units_of_time", "systems"]
+__all__ = ["Body", "ParametrizedSystem", "Problem", "System", "declared", "in_units_of_time", "systems"]
 
 
 _CANCELS = 64.0 * 2.0**-52
@@ -219,27 +220,25 @@ class System:
     ) -> None:
         if not isinstance(name, str) or not name:
             raise InvalidParameter(f'{name!r} is not the name of a system: give a text such as "henon-heiles".')
-        known = {
-            "name": name,
-            "title": title or name,
-            "field": field,
-            "variables": _names(name, "variables", variables),
-            "parameters": _names(name, "parameters", parameters),
-            "source": source,
-            "labels": _names(name, "labels", labels),
-            "integrals": integrals,
-            "frequency": frequency,
-            "rescale": rescale,
-            "angular_velocities": angular_velocities,
-            "unit": unit,
-            "tolerance": tolerance,
-            "angles": _names(name, "angles", angles),
-            "symmetries": symmetries,
-        }
-        for key, value in known.items():
-            object.__setattr__(self, key, value)
+        vars(self).update(
+            name=name,
+            title=title or name,
+            field=field,
+            variables=_names(name, "variables", variables),
+            parameters=_names(name, "parameters", parameters),
+            source=source,
+            labels=_names(name, "labels", labels),
+            integrals=integrals,
+            frequency=frequency,
+            rescale=rescale,
+            angular_velocities=angular_velocities,
+            unit=unit,
+            tolerance=tolerance,
+            angles=_names(name, "angles", angles),
+            symmetries=symmetries,
+        )
         values = tuple(parameters.values()) if isinstance(parameters, Mapping) else (1.0,) * len(self.parameters)
-        object.__setattr__(self, "example", self._checked_example(example, values))
+        vars(self).update(example=self._checked_example(example, values))
         self._check_field()
         self._check_scaling()
         self._check_angles()
@@ -416,6 +415,27 @@ class System:
         except (TypeError, ValueError, ArithmeticError, LookupError):
             return None
         return found if found.shape == y.shape and np.all(np.isfinite(found)) else None
+
+    def rates(self, states: Array, parameters: Sequence[float] | Array) -> Array:
+        """Return the field at states.
+
+        Parameters
+        ----------
+        states : ndarray, shape (n, d)
+            States.
+        parameters : sequence of float, shape (q,)
+            Values of the parameters.
+
+        Returns
+        -------
+        ndarray, shape (n, d)
+            The rates.
+        """
+        found = np.empty(states.shape)
+        for i, rate in enumerate(self.field(list(states.T), np.asarray(parameters).tolist())):
+            # A rate may be a plain number.
+            found[:, i] = rate
+        return found
 
     @cached_property
     def recursion(self) -> Recursion:
@@ -736,6 +756,18 @@ class ParametrizedSystem:
 
 
 @cache
+def _modules() -> tuple[ModuleType, ...]:
+    package = importlib.import_module("hess_mechanics")
+    names = (module.name for module in pkgutil.walk_packages(package.__path__, f"{package.__name__}."))
+    return tuple(importlib.import_module(name) for name in names)
+
+
+def declared(name: str) -> list[object]:
+    """Return what the modules of the package define under a name, such as SYSTEM."""
+    return [getattr(module, name) for module in _modules() if hasattr(module, name)]
+
+
+@cache
 def systems() -> dict[str, System]:
     """Return all systems.
 
@@ -756,12 +788,7 @@ def systems() -> dict[str, System]:
     >>> "suslov" in systems()
     True
     """
-    package = importlib.import_module("hess_mechanics")
-    found = {}
-    for module in pkgutil.walk_packages(package.__path__, f"{package.__name__}."):
-        system = getattr(importlib.import_module(module.name), "SYSTEM", None)
-        if isinstance(system, System):
-            found[system.name] = system
+    found = {one.name: one for one in declared("SYSTEM") if isinstance(one, System)}
     for brought in entry_points(group="hess_mechanics.systems"):
         system = brought.load()
         if not isinstance(system, System) or system.name in found:

@@ -122,10 +122,6 @@ class VariableSection(PoincareSection):
         turns, middle = np.array(self.turns), np.mean(self.ranges, axis=1)
         return np.asarray(places - np.where(np.isinf(turns), 0.0, _TURN) * np.round((places - middle) / turns))
 
-    def is_on(self, states: Array) -> Mask:
-        """Return a mask (n,) of the states (n, d) that have a place here: all of them."""
-        return np.ones(len(states), bool)
-
     def _index(self, name: str) -> int:
         return self.system.variables.index(name)
 
@@ -282,12 +278,6 @@ def variable_section(
 def _controls(system: System, parameters: tuple[float, ...], variable: str) -> dict[str, float]:
     """Return how much the rate of a variable depends on each variable, at the example."""
     state, here = np.array(system.example[0]), system.variables.index(variable)
-    found = {}
-    for i, name in enumerate(system.variables):
-        ahead, behind = state.copy(), state.copy()
-        ahead[i] += _STEP
-        behind[i] -= _STEP
-        found[name] = abs(
-            float(system.field(list(ahead), parameters)[here] - system.field(list(behind), parameters)[here])
-        )
-    return found
+    steps = _STEP * np.eye(state.size)
+    ahead, behind = (system.rates(shifted, parameters)[:, here] for shifted in (state + steps, state - steps))
+    return dict(zip(system.variables, np.abs(ahead - behind).tolist(), strict=True))

@@ -10,7 +10,7 @@ d − 1 columns across f are integrated: for five variables four, which fill one
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -24,8 +24,8 @@ from hess_mechanics.dynamics.orbit import (
     require_steps,
 )
 from hess_mechanics.dynamics.section import Surface, section
-from hess_mechanics.dynamics.system import Body, Problem, System
-from hess_mechanics.errors import InvalidParameter
+from hess_mechanics.dynamics.system import Body, Problem
+from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import Accuracy, Level, Status
 from hess_mechanics.numerics.arguments import as_level
 from hess_mechanics.numerics.labelled import Labels, Printed, Result
@@ -33,16 +33,20 @@ from hess_mechanics.numerics.measured import measured
 from hess_mechanics.numerics.results import Array, Cost, facts_of, frozen
 
 __all__ = [
+    "LONGEST",
     "Return",
+    "Tangent",
     "Transition",
-    "followed",
     "frame_ahead",
-    "neighbours",
+    "one_direction",
     "onto_surface",
     "return_matrix",
+    "tangent",
     "transition_matrix",
 ]
 
+LONGEST = 1e6
+"""Length at which a single vector is normalised."""
 _MOVES = 0.1
 """Smallest |f(y(0))| for the shortcut, in units in which states are O(1): errors of f(y(t)) are divided by it."""
 
@@ -150,17 +154,10 @@ def transition_matrix(
     problems = (problem, problem.nearby())
 
     def run(level: Level, spent: int) -> tuple[tuple[Array, Array, Array], int]:
-        steps, states, frames, volume = followed(
-            system, problems[level.aside], scaled_times, level.order, level.tolerance, MAX_STEPS - spent
-        )
-        require_steps(
-            steps,
-            f"This motion needs more than {MAX_STEPS} steps: choose a shorter time span or a cheaper accuracy.",
-            lambda: end_of(problem, problem.states[0], scaled_times[-1]),
-        )
-        require_finite_states(states)
-        require_finite_neighbours(frames, volume)
-        return (states, frames, volume), steps
+        own = problems[level.aside]
+        basis, speed = frame_ahead(own, np.eye(len(system.variables)), _MOVES)
+        found = tangent(own, own.states[0], basis, scaled_times, level, ahead=speed > _MOVES, spent=spent)
+        return (found.states, found.vectors @ basis.T, found.volume), found.steps
 
     def apart(one: tuple[Array, Array, Array], other: tuple[Array, Array, Array]) -> float:
         largest = np.abs(other[1]).max(axis=(1, 2), keepdims=True)
@@ -185,36 +182,39 @@ def transition_matrix(
     )
 
 
-def followed(
-    system: System, problem: Problem, times: Array, order: int, tolerance: float, most_steps: int
-) -> tuple[int, Array, Array, Array]:
-    """Return the steps, the states (n, d), V (n, d, d) and ∫ tr J dt (n,) at the times (n,), in units of the problem.
+@dataclass(frozen=True)
+class Tangent:
+    """An orbit with k tangent vectors δ, δ̇ = J δ, at n times, in units of the problem.
 
-    The number of steps is `STEP_LIMIT_REACHED` if `most_steps` do not suffice.
+    steps : number of steps; states (n, d); vectors (n, d, k); removed (n, k) : logarithms of the lengths that were
+    removed from the vectors; volume (n,) : ∫ tr J dt.
     """
-    basis, speed = frame_ahead(system, problem, np.eye(len(system.variables)), _MOVES)
-    steps, states, frames, _, volume = neighbours(
-        system,
-        problem.states[0],
-        basis,
-        problem.parameters,
-        times,
-        order,
-        tolerance,
-        most_steps,
-        math.inf,
-        speed > _MOVES,
-    )
-    return steps, states, frames @ basis.T, volume
+
+    steps: int
+    states: Array
+    vectors: Array
+    removed: Array
+    volume: Array
+
+    @property
+    def lengths(self) -> Array:
+        """Logarithms (n, k) of the lengths of the vectors."""
+        return np.asarray(self.removed + np.log(np.linalg.norm(self.vectors, axis=1)))
 
 
-def frame_ahead(system: System, problem: Problem, frame: Array, slow: float) -> tuple[Array, float]:
+def one_direction(size: int) -> Array:
+    """Return a unit vector (d, 1) in a direction that no symmetry singles out."""
+    direction = np.cos(1.0 + np.arange(size) ** 2)
+    return np.asarray(direction / np.linalg.norm(direction))[:, None]
+
+
+def frame_ahead(problem: Problem, frame: Array, slow: float) -> tuple[Array, float]:
     """Return d orthonormal columns, the first one along f(y) at the start, the others from `frame`; and |f|.
 
     If |f| is at most `slow`, all columns come from the frame.  Raises `InvalidParameter` if |f| overflows.
     """
     try:
-        rate = [float(x) for x in system.field(problem.states[0].tolist(), problem.parameters.tolist())]
+        rate = [float(x) for x in problem.system.field(problem.states[0].tolist(), problem.parameters.tolist())]
     except ArithmeticError:
         rate = [math.inf]
     speed = math.hypot(*rate)
@@ -222,70 +222,72 @@ def frame_ahead(system: System, problem: Problem, frame: Array, slow: float) -> 
     return np.linalg.qr(np.column_stack([rate, frame]) if speed > slow else frame)[0], speed
 
 
-def neighbours(
-    system: System,
-    state: Array,
-    frame: Array,
-    parameters: Array,
+def tangent(
+    problem: Problem,
+    start: Array,
+    vectors: Array,
     times: Array,
-    order: int,
-    tolerance: float,
-    most_steps: int,
-    limit: float,
-    ahead: bool,
-) -> tuple[int, Array, Array, Array, Array]:
-    """Return steps, states (n, d), V (n, d, d), logarithms (n, d) of the lengths removed from V, and ∫ tr J dt (n,).
+    level: Level,
+    limit: float = math.inf,
+    ahead: bool = False,
+    spent: int = 0,
+    where: Callable[[], WorkLimit | None] | None = None,
+) -> Tangent:
+    """Integrate the orbit from a state with tangent vectors.
 
     Parameters
     ----------
-    system : System
-        The equations of motion.
-    state : ndarray, shape (d,)
-        State y at time 0.
-    frame : ndarray, shape (d, d)
-        Orthonormal V at time 0.
-    parameters : ndarray, shape (q,)
-        Parameters of the system.
+    problem : Problem
+        The equations of motion and their units.
+    start : ndarray, shape (d,)
+        State at time 0.
+    vectors : ndarray, shape (d, k)
+        Vectors at time 0, k = 1 or d.
     times : ndarray, shape (n,)
         Times, monotonic from 0.
-    order : int
-        Order of the Taylor series.
-    tolerance : float
-        Local error of a step.
-    most_steps : int
-        Largest number of steps.
-    limit : float
-        Condition of V at which its columns are orthonormalised; ∞ for never.
-    ahead : bool
-        True if the first column is parallel to f(y), f(y) ≠ 0.  This column is known and never normalised; at the
+    level : Level
+        Order and tolerance of the steps.
+    limit : float, default ∞
+        Condition of the vectors, or length of a single one, at which they are orthonormalised.
+    ahead : bool, default False
+        True if the first of d vectors is parallel to f(y), f(y) ≠ 0.  This vector is known and never normalised; at the
         `limit` the others are made orthogonal to it.
+    spent : int, default 0
+        Steps that other runs have used up.
+    where : callable, optional
+        Function that returns the error of a motion that stops.  By default that of the motion from `start`.
+
+    Returns
+    -------
+    Tangent
+        The orbit and its vectors.
+
+    Raises
+    ------
+    InvalidParameter, WorkLimit
+        If the motion or a neighbour cannot be followed to the last time.
     """
-    size = len(system.variables)
-    known = int(ahead and size > 1)
-    states, volume = np.tile(state, (times.size, 1)), np.empty(times.size)
-    frames, growth = np.empty((times.size, size, size - known)), np.empty((times.size, size - known))
-    steps = (system.vary_others if known else system.vary)(
-        state,
-        np.ascontiguousarray(frame[:, known:]),
-        parameters,
-        times,
-        order,
-        tolerance,
-        most_steps,
-        limit,
-        states,
-        frames,
-        growth,
-        volume,
+    system, p, (d, k) = problem.system, problem.parameters, vectors.shape
+    known = int(ahead and d > 1)
+    vary = system.vary_others if known else system.vary_one if k == 1 else system.vary
+    states, volume = np.empty((times.size, d)), np.empty(times.size)
+    found, removed = np.empty((times.size, d, k - known)), np.empty((times.size, k - known))
+    own, options = np.ascontiguousarray(vectors[:, known:]), (level.order, level.tolerance, MAX_STEPS - spent, limit)
+    steps = vary(start, own, p, times, *options, states, found, removed, volume)
+    require_steps(
+        steps,
+        f"This motion needs more than {MAX_STEPS} steps: choose a shorter time span or a cheaper accuracy.",
+        where or (lambda: end_of(problem, start, float(times[-1]))),
     )
+    require_finite_states(states)
     if known:
-        # The caller checks for overflow.
+        # An overflow is found below.
         with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-            rates = np.stack(np.broadcast_arrays(*system.field(list(states.T), parameters.tolist())), axis=1)
-        at_first = float(frame[:, 0] @ system.field(state.tolist(), parameters.tolist()))
-        frames = np.concatenate([(rates / at_first)[:, :, None], frames], axis=2)
-        growth = np.concatenate([np.zeros((times.size, 1)), growth], axis=1)
-    return steps, states, frames, growth, volume
+            along = system.rates(states, p) / (vectors[:, 0] @ system.field(start.tolist(), p.tolist()))
+        found = np.concatenate([along[:, :, None], found], axis=2)
+        removed = np.concatenate([np.zeros((times.size, 1)), removed], axis=1)
+    require_finite_neighbours(found, removed, volume)
+    return Tangent(steps, states, found, removed, volume)
 
 
 def onto_surface(matrix: Array, rate: Array, gradient: Array) -> Array:

@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from hess_mechanics.dynamics.manifolds import Manifold, grown, split
+from hess_mechanics.dynamics.manifolds import Manifold, manifold, split
 from hess_mechanics.dynamics.periodic import apart, find_periodic
 from hess_mechanics.dynamics.return_map import ReturnMap
 from hess_mechanics.errors import NotConverged, OutsideRegion
@@ -147,7 +147,7 @@ def _towards(map_: ReturnMap, places: Array, l: float, stable: bool) -> Manifold
     # `grown` takes the direction whose larger component is positive.
     d = curve[1] - curve[0]
     side = 1 if d[int(np.argmax(np.abs(d)))] > 0.0 else -1
-    found = grown(map_, orbit, length + _ROOM, stable, side, sagitta=_SAGITTA, longest=_CHORD)
+    found = manifold(map_, orbit, length + _ROOM, stable=stable, side=side, sagitta=_SAGITTA, longest=_CHORD)
     # The angles continue without jumps; shift them to the turn of l.
     shift = (l - from_) - way
     return replace(found, points=frozen(found.points + np.array([shift, 0.0])))

@@ -26,6 +26,7 @@ __all__ = [
     "as_place",
     "as_whole",
     "typed",
+    "unit_vector",
 ]
 
 P = ParamSpec("P")
@@ -236,3 +237,40 @@ def _short(value: Any) -> str:
     except ValueError:
         text = "a very large integer"
     return text if len(text) <= 80 else f"{text[:80]}…"
+
+
+def unit_vector(gamma: Sequence[float]) -> tuple[tuple[float, float, float], str | None]:
+    """Return γ normalised to length 1, and a note if its length was not 1.
+
+    Parameters
+    ----------
+    gamma : sequence of three floats
+        Direction of the vertical.
+
+    Returns
+    -------
+    vector : tuple of three floats
+        Unit vector.
+    note : str or None
+        Sentence that names the former length; None if it was 1 to round-off.
+
+    Raises
+    ------
+    InvalidParameter
+        If γ is 0 or not finite.
+
+    Examples
+    --------
+    >>> from hess_mechanics import unit_vector
+    >>> unit_vector((0.6, 0.0, 0.8))
+    ((0.6, 0.0, 0.8), None)
+    >>> unit_vector((0.0, 3.0, 4.0))[0]
+    (0.0, 0.6, 0.8)
+    """
+    gamma = as_place(("γ1", "γ2", "γ3"), gamma)
+    length = math.hypot(*gamma)
+    if not (math.isfinite(length) and length > 0):
+        raise InvalidParameter("γ must be a finite vector other than 0: it is the direction of the vertical.")
+    g1, g2, g3 = (g / length for g in gamma)
+    note = None if abs(length - 1) <= 1e-15 else f"γ had length {length:.12g}; it was normalised to 1."
+    return (g1, g2, g3), note

@@ -14,12 +14,10 @@ from typing import Any
 import numpy as np
 
 from hess_mechanics.dynamics.system import System, in_units_of_time
-from hess_mechanics.errors import InvalidParameter
-from hess_mechanics.numerics.arguments import as_place
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.rigid_body.inertia import require_comparable, require_finite, require_positive_definite
 
-__all__ = ["SYSTEM", "SuslovBody", "unit_vector"]
+__all__ = ["SYSTEM", "SuslovBody"]
 
 
 @dataclass(frozen=True)
@@ -82,43 +80,6 @@ class SuslovBody:
     def parameters(self) -> tuple[float, ...]:
         """The parameters p = (I11, I22, I13, I23, b1, b2, b3)."""
         return self.I11, self.I22, self.I13, self.I23, self.b1, self.b2, self.b3
-
-
-def unit_vector(gamma: Sequence[float]) -> tuple[tuple[float, float, float], str | None]:
-    """Return γ normalised to length 1, and a note if its length was not 1.
-
-    Parameters
-    ----------
-    gamma : sequence of three floats
-        Direction of the vertical.
-
-    Returns
-    -------
-    vector : tuple of three floats
-        Unit vector.
-    note : str or None
-        Sentence that names the former length; None if it was 1 to round-off.
-
-    Raises
-    ------
-    InvalidParameter
-        If γ is 0 or not finite.
-
-    Examples
-    --------
-    >>> from hess_mechanics import unit_vector
-    >>> unit_vector((0.6, 0.0, 0.8))
-    ((0.6, 0.0, 0.8), None)
-    >>> unit_vector((0.0, 3.0, 4.0))[0]
-    (0.0, 0.6, 0.8)
-    """
-    gamma = as_place(("γ1", "γ2", "γ3"), gamma)
-    length = math.hypot(*gamma)
-    if not (math.isfinite(length) and length > 0):
-        raise InvalidParameter("γ must be a finite vector other than 0: it is the direction of the vertical.")
-    g1, g2, g3 = (g / length for g in gamma)
-    note = None if abs(length - 1) <= 1e-15 else f"γ had length {length:.12g}; it was normalised to 1."
-    return (g1, g2, g3), note
 
 
 def field(y: Sequence[Any], p: Sequence[Any]) -> tuple[Any, ...]:

@@ -32,14 +32,14 @@ from hess_mechanics.dynamics.orbit import checked_times, drift_of, require_finit
 from hess_mechanics.dynamics.sampling import MOST_SAMPLES, SAGITTA
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import Accuracy, Level, Status
-from hess_mechanics.numerics.arguments import as_level, as_place
+from hess_mechanics.numerics.arguments import as_level, as_place, unit_vector
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.measured import measured, nearby
 from hess_mechanics.numerics.results import Array, Complex, Cost, facts_of, frozen, unit_of
 from hess_mechanics.parameters import plain
 from hess_mechanics.rigid_body.inertia import require_finite
 from hess_mechanics.suslov import additional_integral
-from hess_mechanics.suslov.equations import SYSTEM, SuslovBody, unit_vector
+from hess_mechanics.suslov.equations import SYSTEM, SuslovBody
 from hess_mechanics.suslov.free_kernels import integrate
 
 __all__ = [

@@ -26,6 +26,7 @@ class Mapped:
     top: float = inf
     turns: ClassVar = (2.0 * pi, inf)
     window: ClassVar = ((-pi, pi), (-1.0, 1.0))
+    section = property(lambda self: self)
 
     def states_at(self, x, y):
         return np.column_stack([x, y]), y <= self.top

@@ -1,5 +1,6 @@
 """Branches of periodic orbits of known maps: folds, flips, pitchforks and invariant curves where they have to be."""
 
+from dataclasses import replace
 from itertools import pairwise
 from math import asin, pi, sqrt
 
@@ -87,17 +88,19 @@ def test_an_invariant_curve_is_born():
     assert (found.kinds[0], found.kinds[-1]) == ("stable focus", "unstable focus")
 
 
-def mirrored(_, places, near):
-    return ("x → −x",) if np.abs(places[:, 0]).max() < 0.01 * near else ()
+def mirrored(r):
+    return replace(
+        pitchfork(r), symmetries_of=lambda x, near: ["x → −x"] if np.abs(x[:, 0]).max() < 0.01 * near else []
+    )
 
 
 def test_a_pitchfork_is_one_only_where_a_symmetry_is_broken():
-    found = branch(pitchfork, 0.5, (0.1, 0.1), 1.5, symmetries=mirrored)
+    found = branch(mirrored, 0.5, (0.1, 0.1), 1.5)
     assert [(one.kind, round(one.value, 9)) for one in found.bifurcations] == [("pitchfork", 1.0)]
     unaware = branch(pitchfork, 0.5, (0.1, 0.1), 1.5)
     assert [one.kind for one in unaware.bifurcations] == ["branch point"]
     # The branch that is born there, x² = r − 1, turns back in it and goes on as its own mirror image.
-    other = branch(pitchfork, 1.5, (0.7, 0.1), 0.5, points=80, symmetries=mirrored)
+    other = branch(mirrored, 1.5, (0.7, 0.1), 0.5, points=80)
     (one,) = other.bifurcations
     assert abs(one.value - 1.0) <= one.error < 1e-2
     assert other.places[-1, 0, 0] == approx(-sqrt(0.5), abs=1e-9)

@@ -5,7 +5,7 @@ import math
 import numpy as np
 from pytest import approx, mark, raises
 
-from hess_mechanics.dynamics.manifolds import crossings_of, grown, heights_at, split
+from hess_mechanics.dynamics.manifolds import crossings_of, heights_at, manifold, split
 from hess_mechanics.dynamics.periodic import find_periodic
 from hess_mechanics.errors import InvalidParameter, NoReturn, NotConverged
 from support.maps import arnold, bent_saddle, henon, pendulum, pitchfork
@@ -20,7 +20,7 @@ def length_of_parabola(x):
 def test_the_manifolds_of_a_bent_saddle_are_its_parabola_and_its_axis(side, stretch):
     m = bent_saddle(stretch)
     saddle = find_periodic(m, (0.1, 0.2), 1)
-    unstable = grown(m, saddle, 4.0, side=side)
+    unstable = manifold(m, saddle, 4.0, side=side)
     x, y = unstable.points.T
     assert np.abs(y - x * x).max() <= unstable.error_estimate < 1e-12
     assert side * x[-1] > 1.5
@@ -29,7 +29,7 @@ def test_the_manifolds_of_a_bent_saddle_are_its_parabola_and_its_axis(side, stre
     assert unstable.multiplier == approx(2.5 if stretch > 0 else 1.7**2, abs=1e-12)
     # W(τ + 1) = F(W(τ)): where x is multiplied.
     assert unstable.at(3.3)[0] / unstable.at(2.3)[0] == approx(unstable.multiplier, abs=1e-12)
-    stable = grown(m, saddle, 2.0, stable=True, side=side)
+    stable = manifold(m, saddle, 2.0, stable=True, side=side)
     assert np.abs(stable.points[:, 0]).max() <= stable.error_estimate < 1e-12
     assert side * stable.points[-1, 1] >= 2.0
 
@@ -39,7 +39,7 @@ def test_points_are_as_dense_as_the_curvature_asks():
     saddle = find_periodic(m, (0.6, 0.2), 1)
     counts = []
     for sagitta in (1e-2, 1e-4):
-        curve = grown(m, saddle, 12.0, sagitta=sagitta, longest=1.0)
+        curve = manifold(m, saddle, 12.0, sagitta=sagitta, longest=1.0)
         counts.append(len(curve.points))
         # A finer curve tells how far the polyline is from what it stands for.
         middles = [curve.at(0.5 * sum(curve.parameters[i : i + 2])) for i in range(1, len(curve.points) - 1)]
@@ -54,7 +54,7 @@ def test_points_are_as_dense_as_the_curvature_asks():
 def test_it_ends_after_so_many_returns():
     m = henon(1.4)
     saddle = find_periodic(m, (0.6, 0.2), 1)
-    whole, cut = (grown(m, saddle, 12.0, returns=returns) for returns in (1_000_000, 400))
+    whole, cut = (manifold(m, saddle, 12.0, returns=returns) for returns in (1_000_000, 400))
     assert cut.ended == "After 400 returns of the map."
     assert 0.0 < cut.length < 12.0 <= whole.length
     assert np.array_equal(cut.points, whole.points[: len(cut.points)])
@@ -63,8 +63,8 @@ def test_it_ends_after_so_many_returns():
 def test_homoclinic_points_of_henon_are_homoclinic():
     m = henon(1.4)
     saddle = find_periodic(m, (0.6, 0.2), 1)
-    unstable = grown(m, saddle, 6.0)
-    stable = [grown(m, saddle, 6.0, stable=True, side=side) for side in (1, -1)]
+    unstable = manifold(m, saddle, 6.0)
+    stable = [manifold(m, saddle, 6.0, stable=True, side=side) for side in (1, -1)]
     found = [one for branch in stable for one in crossings_of(unstable, branch)]
     assert len(found) >= 2
     for one in found[:4]:
@@ -83,7 +83,7 @@ def test_homoclinic_points_of_henon_are_homoclinic():
 def test_curves_that_run_together_do_not_cross_for_certain(ripple, there):
     m = pendulum(0.0, 1.5, ripple)
     saddle = find_periodic(m, (0.01, 0.01), 1)
-    unstable, stable = (grown(m, saddle, 2.0, stable=stable, sagitta=1e-3) for stable in (False, True))
+    unstable, stable = (manifold(m, saddle, 2.0, stable=stable, sagitta=1e-3) for stable in (False, True))
     found = [one for one in crossings_of(unstable, stable) if one.certain]
     assert bool(found) is there
     # (x, y) → (y, x) takes one curve to the other: of a homoclinic point that is its own image the places are equal.
@@ -98,7 +98,7 @@ def test_separatrices_split_in_proportion_to_a_perturbation(mu=1.5):
     for epsilon in (0.0, 1e-4, 2e-4):
         m = pendulum(epsilon, mu)
         saddle = find_periodic(m, (0.01, 0.01), 1)
-        unstable, stable = (grown(m, saddle, 3.0, stable=stable, sagitta=1e-4) for stable in (False, True))
+        unstable, stable = (manifold(m, saddle, 3.0, stable=stable, sagitta=1e-4) for stable in (False, True))
         if not epsilon:
             x, y = unstable.points.T
             assert np.abs(x * x + y * y + x * x * y * y - 2.0 * mu * x * y).max() < 1e-11
@@ -110,7 +110,7 @@ def test_separatrices_split_in_proportion_to_a_perturbation(mu=1.5):
 
 def test_where_a_manifold_comes_to():
     m = bent_saddle()
-    curve = grown(m, find_periodic(m, (0.1, 0.2), 1), 3.0)
+    curve = manifold(m, find_periodic(m, (0.1, 0.2), 1), 3.0)
     assert heights_at(curve, 0, 1.1) == approx([1.21], abs=1e-13)
     assert heights_at(curve, 1, 1.21) == approx([1.1], abs=1e-13)
     with raises(NotConverged, match="greater length"):
@@ -119,13 +119,13 @@ def test_where_a_manifold_comes_to():
 
 def test_what_has_no_manifolds_is_refused():
     with raises(InvalidParameter, match="Only a saddle"):
-        grown(henon(0.1), find_periodic(henon(0.1), (0.6, 0.2), 1), 1.0)
+        manifold(henon(0.1), find_periodic(henon(0.1), (0.6, 0.2), 1), 1.0)
     with raises(InvalidParameter, match="Manifolds need a section with two coordinates"):
-        grown(arnold(0.1), find_periodic(arnold(0.1), (0.3,), 1), 1.0)
+        manifold(arnold(0.1), find_periodic(arnold(0.1), (0.3,), 1), 1.0)
     m = bent_saddle()
     saddle = find_periodic(m, (0.1, 0.2), 1)
     with raises(InvalidParameter, match="The side must be 1"):
-        grown(m, saddle, 1.0, side=2)
-    assert grown(m, saddle, 1e9, most=40).ended == "After 40 points."
+        manifold(m, saddle, 1.0, side=2)
+    assert manifold(m, saddle, 1e9, most=40).ended == "After 40 points."
     with raises(NoReturn):
-        grown(pitchfork(1.5), find_periodic(pitchfork(1.5), (0.01, 0.0), 1), 1.0, stable=True)
+        manifold(pitchfork(1.5), find_periodic(pitchfork(1.5), (0.01, 0.0), 1), 1.0, stable=True)

@@ -5,8 +5,8 @@ import math
 import numpy as np
 from pytest import approx, raises
 
-from hess_mechanics import BallBody, HeavyBody, HessBody, SuslovBody, circle_map, return_map
-from hess_mechanics.dynamics.orbit_diagram import cascade, diagram_over, hysteresis, period_of
+from hess_mechanics import BallBody, HeavyBody, SuslovBody, return_map
+from hess_mechanics.dynamics.orbit_diagram import Hysteresis, cascade, diagram_over, period_of
 from hess_mechanics.dynamics.periodic import find_periodic
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from support.maps import Formula, henon
@@ -76,24 +76,11 @@ def test_the_way_back_is_another_one_between_the_folds():
     back = diagram_over(bistable, "r", values[::-1], there.ends[-1])
     fold = 2.0 / (3.0 * math.sqrt(3.0))
     inside = np.abs(values) < fold
-    ((low, high),) = hysteresis(PLANE, there, back)
+    ((low, high),) = Hysteresis(there, back, PLANE).intervals
     assert (low, high) == approx((values[inside][0], values[inside][-1]))
     # From the same place each time there is no memory.
     anew = [diagram_over(bistable, "r", some, (-1.0, 0.0), follow=False) for some in (values, values[::-1])]
-    assert hysteresis(PLANE, *anew) == ()
-
-
-def test_the_section_of_a_torus_comes_to_the_limit_cycle_of_the_moebius_matrix_and_backward_to_the_other():
-    a, values = 0.5, np.linspace(1.3, 1.7, 5)
-    P = return_map(HessBody(1.0, a, -math.hypot(1.0, a)), h=1.3, f=0.6)
-    forward = diagram_over(lambda h: P.moved("h", h), "h", values, (0.3,), 60, 16)
-    backward = diagram_over(lambda h: P.moved("h", h).inverse(), "h", values, (0.3,), 60, 16)
-    for h, attractor, repeller in zip(values, forward.places, backward.places, strict=True):
-        for places, point in zip((attractor, repeller), circle_map(a, h, 0.6, "reference").fixed_points, strict=True):
-            assert np.ptp(places) < 1e-8
-            slope = P.moved("h", h).with_derivative(places[-1])[1]
-            assert slope[0, 0] == approx(point.multiplier, rel=1e-7)
-    assert forward.periods.tolist() == backward.periods.tolist() == [1] * 5
+    assert Hysteresis(*anew, PLANE).intervals == ()
 
 
 def test_what_keeps_volume_says_that_nothing_attracts_there():

@@ -49,7 +49,6 @@ def test_the_multipliers_of_a_long_unstable_orbit_keep_the_small_one(a=1.4, b=0.
 
 def test_the_period_is_found_where_none_is_given():
     # At a = 0.95 the attractor of the map of Hénon with b = 0.3 has the period 4.
-    found = find_periodic(henon(0.95), (0.9, -0.1))
     place = np.array([0.0, 0.0])
     for _ in range(2000):
         place = henon(0.95).image(place)

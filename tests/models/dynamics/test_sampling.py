@@ -1,7 +1,6 @@
 """Samples of an orbit: few, but dense enough that the polyline looks like the curve at every time."""
 
 import math
-import time
 
 import numpy as np
 from hypothesis import assume, given, settings
@@ -14,7 +13,7 @@ from hess_mechanics.dynamics.orbit import solve
 from hess_mechanics.dynamics.sampling import SAGITTA, sample_times
 from hess_mechanics.suslov_hess.equations import SYSTEM
 from hess_mechanics.suslov_hess.torus import pixels_per_unit, start_of_track, track
-from support.thorough import examples, sample
+from support.thorough import examples
 
 REFERENCE = level("reference")
 MOST = 6000
@@ -122,24 +121,9 @@ def test_a_budget_is_spent_where_it_is_needed_too():
     assert shares_of_full == approx(np.linspace(0.0, 1.0, 200), abs=2.0 / len(full))
 
 
-@mark.parametrize("name", sample(systems(), 1))
-def test_absurd_spans_take_no_longer_than_the_budget_allows(name):
-    system = systems()[name]
-    state, parameters = map(np.array, system.example)
-    weights = np.full(len(state), 300.0)
-    sample_times(system.at(parameters), state, 1.0, weights, SAGITTA, MOST)
-    # The budget of steps ends all long spans alike.
-    for span in (-1e-300, 1e-12, -1e300):
-        before = time.process_time()
-        times = sample_times(system.at(parameters), state, span, weights, SAGITTA, MOST)
-        assert time.process_time() - before < 5.0
-        assert (times[0], times[-1]) == (0.0, span)
-        assert len(times) <= MOST
-        assert np.all(np.diff(times) * np.sign(span) > 0.0)
-
-
-def test_an_orbit_that_cannot_be_followed_is_asked_for_at_even_times():
+@mark.parametrize("span", [1e12, -1e300])
+def test_an_orbit_that_cannot_be_followed_is_asked_for_at_even_times(span):
     # Its computation proper then says why.
     state, parameters = map(np.array, SYSTEM.example)
-    times = sample_times(SYSTEM.at(parameters), state, 1e12, np.full(5, 300.0), SAGITTA, MOST)
-    assert np.diff(times) == approx(1e12 / (MOST - 1))
+    times = sample_times(SYSTEM.at(parameters), state, span, np.full(5, 300.0), SAGITTA, MOST)
+    assert np.diff(times) == approx(span / (MOST - 1))

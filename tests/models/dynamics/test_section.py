@@ -8,9 +8,9 @@ import numpy as np
 from pytest import approx, mark, raises
 from scipy.optimize import brentq
 
-from hess_mechanics import LEVELS, Level, ParametrizedSystem, Plane, Status, level, section, sections, solve
+from hess_mechanics import LEVELS, Level, Plane, Status, level, section, sections, solve
 from hess_mechanics.dynamics.section import MAX_CROSSINGS
-from hess_mechanics.errors import InvalidParameter, ModelError, WorkLimit
+from hess_mechanics.errors import InvalidParameter, WorkLimit
 from support.mechanics import EQUILIBRIA, SYSTEMS, every_level, every_system, scipy_crossings
 from support.refusals import refused
 from support.thorough import sample
@@ -298,16 +298,12 @@ def test_states_and_parameters_that_cannot_be_computed_raise_a_sentence(system):
     state, parameters = system.example
     given = {"body": system.at(parameters), "state": state, "plane": Plane(axis(system, 0)), "end": 1.0}
     too_long = r"more than 10000 steps, which reach t = .*: choose a shorter time span"
-    too_fast = "choose (less extreme parameters|a shorter time span)"
     for wrong, error, words in (
-        ({"state": state[:-1]}, InvalidParameter, r"takes \d numbers"),
-        ({"body": ParametrizedSystem(system, (*parameters[:-1], np.nan))}, InvalidParameter, "finite number"),
         ({"plane": Plane((1.0,))}, InvalidParameter, f"has {len(state)} components"),
         ({"end": np.nan}, InvalidParameter, "end is not a finite number"),
         ({"crossings": MAX_CROSSINGS + 1}, WorkLimit, f"between 1 and {MAX_CROSSINGS}"),
         ({"end": 1e308}, WorkLimit, too_long),
         ({"end": 1e5, "plane": Plane(axis(system, 0), 100.0)}, WorkLimit, too_long),
-        ({"state": (1e308, *state[1:]), "plane": Plane(axis(system, 1))}, ModelError, too_fast),
     ):
         with raises(error, match=words):
             section(**{**given, **wrong}, level="draft", max_steps=10_000)

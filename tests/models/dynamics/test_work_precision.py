@@ -9,7 +9,6 @@ from pytest import approx, mark, raises
 from scipy.integrate import solve_ivp
 
 from hess_explorer.scenes import scenes
-from hess_mechanics import systems
 from hess_mechanics.dynamics.orbit import solve
 from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.dynamics.system import Problem
@@ -110,19 +109,6 @@ def test_pixels_are_distances_in_the_pictures_of_the_scene(change):
     if not change:
         # A draft is right to a pixel over the first view.
         assert found.pixels["draft"].max() < 0.5
-
-
-@mark.parametrize("name", sample(systems(), 2))
-def test_every_system_can_be_looked_into(name):
-    state, parameters = systems()[name].example
-    arguments = (name, tuple(state), tuple(parameters), 10.0)
-    found = growth(*arguments, (1.0,) * len(state), SAMPLES)
-    initial = systems()[name].integrals(state, parameters)
-    for level in LEVELS.values():
-        assert found.errors[level.name].max() < level.promise
-        assert set(found.drifts[level.name]) == set(initial)
-    assert [point.setting for point in measure_levels(*arguments, SAMPLES)] == list(LEVELS)
-    assert all(point.error < 1.0 for point in measure_others(*arguments, SAMPLES))
 
 
 # --- Cost ------------------------------------------------------------------------------------------------------

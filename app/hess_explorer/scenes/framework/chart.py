@@ -18,7 +18,7 @@ from hess_explorer.compute.cache import Task
 from hess_explorer.compute.cells import Outcome
 from hess_explorer.protocol.parameters import Choice, Number, Places, Spec, Values
 from hess_explorer.scenes.framework.cells import COARSE, found_by_rows
-from hess_explorer.scenes.framework.chart_cells import STORED, Cells, Side, row_of_cells, swept
+from hess_explorer.scenes.framework.chart_cells import STORED, Cells, Side, chart_row, swept
 from hess_explorer.scenes.framework.charted import Charts, Numbers
 from hess_explorer.scenes.framework.parameters import declared, specs_of
 from hess_explorer.scenes.framework.part import Part, part
@@ -108,7 +108,7 @@ class _Chart(Part[Any]):
         more = self.key.charted.computation.many is not None
         counts = [_FIRST * COARSE**stage for stage in range(_STAGES + more)]
         rows = [[(self.key, self.window, count, row) for row in range(count)] for count in counts]
-        found = found_by_rows(self.work, row_of_cells, rows)
+        found = found_by_rows(self.work, chart_row, rows)
         return None if found is None else (*found, self.window)
 
     @cached_property
@@ -116,8 +116,7 @@ class _Chart(Part[Any]):
         """Value, error and status (3, 1) in this state; None until known."""
         if self.reason:
             return None
-        found: Array | None = self.work.need(Task(row_of_cells, self.key, (self.place, self.place), 1, 0), preview=None)
-        return found
+        return self.work.need(Task(chart_row, self.key, (self.place, self.place), 1, 0), preview=None)
 
     @cached_property
     def cells(self) -> CellGrid | None:

@@ -19,7 +19,7 @@ from hess_mechanics.errors import ModelError
 from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.results import Array, frozen
 
-__all__ = ["STORED", "Cells", "Side", "row_of_cells", "swept"]
+__all__ = ["STORED", "Cells", "Side", "chart_row", "swept"]
 
 
 @dataclass(frozen=True)
@@ -72,7 +72,7 @@ def _evaluated(charted: Charted, number: str, chosen: Level, cells: tuple[Any, .
     return frozen(np.stack([found.values[number], errors, found.status]))
 
 
-def row_of_cells(cells: Cells, window: Window, count: int, row: int) -> Array:
+def chart_row(cells: Cells, window: Window, count: int, row: int) -> Array:
     """Return values, estimated errors and status (3, count) of a row of `count` × `count` cells."""
     (x0, y0), (x1, y1) = window
     y = float(centres(y0, y1, count)[row])

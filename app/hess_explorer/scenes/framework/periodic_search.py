@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from hess_explorer.compute.cache import Task
-from hess_mechanics.dynamics.manifolds import Intersection, Manifold, crossings_of, grown
+from hess_mechanics.dynamics.manifolds import Intersection, Manifold, crossings_of, manifold
 from hess_mechanics.dynamics.periodic import PeriodicOrbit, find_periodic
 from hess_mechanics.dynamics.return_map import ReturnMap
 from hess_mechanics.errors import ModelError
@@ -95,17 +95,17 @@ def branch_of(search: Search, branch: BranchChoice, length: float, pixel: float)
     place, stable, side = branch
     for part in _PARTS:
         try:
-            curve = grown(
+            curve = manifold(
                 search[0],
                 found.orbit,
                 part * length,
-                stable,
-                side,
-                place,
-                _SAGITTA * pixel,
-                _CHORD * pixel,
-                MOST_POINTS,
-                _RETURNS,
+                stable=stable,
+                side=side,
+                place=place,
+                sagitta=_SAGITTA * pixel,
+                longest=_CHORD * pixel,
+                most=MOST_POINTS,
+                returns=_RETURNS,
             )
         except ModelError as error:
             go_on()

@@ -103,8 +103,7 @@ class _Sought:
 
     def attractors(self) -> Attractors:
         """Return the attractors of the whole section, whatever the window."""
-        found: Attractors = Task(attractors, self.section, self.long, self.level).get()
-        return found
+        return Task(attractors, self.section, self.long, self.level).get()
 
 
 @dataclass(frozen=True)

@@ -198,8 +198,7 @@ class FilledSection(Part[_Host]):
 
     def _follow(self, starts: tuple[Start, ...], forward: bool) -> OrbitBatch | None:
         task = self.host.batch(starts, self.wanted[1], forward, self.work.plan(Kind.SECTION).level)
-        found: OrbitBatch | None = self.work.need(task, preview=task if self.work.dragging else None)
-        return found
+        return self.work.need(task, preview=task if self.work.dragging else None)
 
     @cached_property
     def picked(self) -> _Chosen:

@@ -67,8 +67,7 @@ class Orbit(Part[_Host]):
     @cached_property
     def path(self) -> results.Orbit:
         """Its samples: `times` (n,) and `states` (n, d)."""
-        found: results.Orbit = self.work.need(self.finding)
-        return found
+        return self.work.need(self.finding)
 
     def motion(self) -> Motion:
         """Return the motion of the orbit, for "Speed and accuracy"."""

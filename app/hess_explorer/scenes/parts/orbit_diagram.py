@@ -195,8 +195,7 @@ class OrbitDiagram(Part[_Host]):
         if self.host.window:
             return low, high
         cropped = Task(_cropped, self.family, self.name, (left, right), self.place, self.side, (low, high))
-        found: Range | None = self.work.need(cropped, preview=None)
-        return found
+        return self.work.need(cropped, preview=None)
 
     @cached_property
     def frame(self) -> Window:

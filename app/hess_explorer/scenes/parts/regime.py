@@ -12,7 +12,8 @@ from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.part import Part, Sectioned
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.text import digits
-from hess_mechanics.dynamics.parameter_diagram import AtState, Sets, at_state, sets_of
+from hess_mechanics.dynamics.parameter_diagram import Sets, at_state, sets_of
+from hess_mechanics.dynamics.regime import Dynamics
 from hess_mechanics.numerics.accuracy import Kind
 from hess_mechanics.numerics.results import Array
 
@@ -56,7 +57,7 @@ class Regime(Part[_Host]):
         return _NOTHING if self.sets is None else self.sets.repeller
 
     @cached_property
-    def kind(self) -> AtState | None:
+    def kind(self) -> Dynamics | None:
         """The kind of motion and of dynamics; None until known."""
         if self.work.dragging:
             return None
@@ -71,11 +72,11 @@ class Regime(Part[_Host]):
         found = self.kind
         if found is None:
             return Caption(self.work.awaited())
-        motion = found.regime
+        motion = found.motion
         kind = f"Period {motion.period}" if motion.period else motion.kind.words.capitalize()
-        if found.dynamics is None:
+        if not found.comparisons:
             return Caption(f"{kind}.", "Attractor and repeller are not compared: the orbit leaves.")
-        if found.dynamics.verdict == "not told apart":
+        if found.verdict == "not told apart":
             return Caption(
                 f"{kind}.", f"Attractor and repeller not distinguished; |mean div| < {digits(motion.bound, 1)}."
             )
@@ -84,9 +85,9 @@ class Regime(Part[_Host]):
         if motion.measure:
             return Caption(f"{kind}. Conservative: mean div = 0.", f"{motion.measure[0].upper()}{motion.measure[1:]}.")
         div = f"div = {digits(motion.divergence, 2)} ± {digits(motion.divergence_error, 1)}"
-        away = f"{digits(found.dynamics.distance, 2)} ± {digits(found.dynamics.distance_error, 1)} away"
+        away = f"{digits(found.distance, 2)} ± {digits(found.distance_error, 1)} away"
         # Short enough for four lines in a small cell.
-        return Caption(f"{kind}. Looks {found.dynamics.verdict}.", f"{div}; repeller {away}.")
+        return Caption(f"{kind}. Looks {found.verdict}.", f"{div}; repeller {away}.")
 
 
 def few(found: Array) -> Array | None:

@@ -301,7 +301,7 @@ def _spread(poincare: PoincareSection, window: Window, crossings: int, level: Le
 S = TypeVar("S", bound=State)
 
 
-def section_picture(of: Callable[[S], Section], start: str, title: str = "Poincaré section") -> Picture[S]:
+def section_picture(of: Callable[[S], Section], start: str) -> Picture[S]:
     """Return the picture of a section, in which a click sets the start of the orbit.
 
     start : the name of the parameter that holds its place, see `places`.
@@ -316,7 +316,7 @@ def section_picture(of: Callable[[S], Section], start: str, title: str = "Poinca
 
     return Plot(
         name="section",
-        title=title,
+        title="Poincaré section",
         caption=lambda s: of(s).caption,
         axes=names,
         x=range_of(0),

@@ -1,16 +1,17 @@
-"""Requests run outside the serving thread: one at a time per session, in turn, within a budget."""
+"""Requests run outside the serving thread, one at a time per session, in rotation, within a budget; then the tasks."""
 
+import subprocess
+import sys
 import threading
 import time
-from concurrent.futures import ThreadPoolExecutor
 
 import numba
 import pytest
 
-from hess_explorer.compute import scheduler
+from hess_explorer.compute import pool
 from hess_explorer.compute.budget import Abandoned, OverBudget, check, limited
 from hess_explorer.compute.cache import ResultCache
-from hess_explorer.compute.scheduler import MOST, RequestQueue
+from hess_explorer.compute.pool import MOST, Pool, RequestQueue
 from hess_mechanics.dynamics.trade import measure
 from hess_mechanics.numerics.accuracy import Kind
 from hess_mechanics.numerics.parallel import share
@@ -26,101 +27,99 @@ def waited(event):
     assert event.wait(PATIENCE)
 
 
-def test_a_session_does_one_thing_at_a_time_in_order_and_elsewhere():
-    session, done, ended, begun = RequestQueue(), [], threading.Event(), []
-
-    def work(n):
-        begun.append(n)
-        assert threading.current_thread().name.startswith("request")
-        # This session starts nothing before its previous request has ended.
-        assert begun == [*done, n]
-        done.append(n)
-        if n == 9:
-            ended.set()
-
-    for n in range(10):
-        assert session.put(lambda n=n: work(n))
-    waited(ended)
-    assert done == list(range(10))
+@pytest.fixture
+def own(monkeypatch):
+    """Return a pool for this test alone, with one core."""
+    found = Pool(1)
+    monkeypatch.setattr(pool, "POOL", found)
+    return found
 
 
-def test_of_too_much_that_waits_the_newest_is_done():
+def occupied(own, task=False):
+    """Occupy a thread of the pool; return the event that frees it again."""
+    begun, end = threading.Event(), threading.Event()
+
+    def work():
+        begun.set()
+        waited(end)
+
+    (own.fill if task else RequestQueue().put)(work)
+    waited(begun)
+    return end
+
+
+def test_requests_of_a_session_run_in_order_one_at_a_time_and_of_too_many_the_newest():
     session, go, ended, done = RequestQueue(), threading.Event(), threading.Event(), []
     started = threading.Event()
-    session.put(lambda: (started.set(), go.wait(PATIENCE)))
+    session.put(lambda: (started.set(), waited(go)))
     waited(started)
     for n in range(MOST + 5):
-        assert session.put(lambda n=n: done.append(n)) == (n < MOST)
+        session.put(lambda n=n: done.append((n, threading.current_thread().name[:7])))
     session.put(ended.set)
     go.set()
     waited(ended)
-    assert done == list(range(6, MOST + 5))
+    assert done == [(n, "request") for n in range(6, MOST + 5)]
 
 
-def test_sessions_take_turns_and_an_error_ends_none(caplog):
-    sessions, ended = [RequestQueue() for _ in range(3)], threading.Semaphore(0)
-
+def test_the_session_that_was_served_least_recently_is_next_and_an_error_ends_none(own, caplog):
     def fail():
         raise ZeroDivisionError("secret")
 
-    for session in sessions:
-        session.put(fail)
-        session.put(ended.release)
-    for _ in sessions:
-        assert ended.acquire(timeout=PATIENCE)
+    done, ended = [], threading.Event()
+    sessions = [RequestQueue() for _ in range(3)]
+    ends = [occupied(own) for _ in range(2)]
+    for i, session in enumerate(sessions):
+        session.served = -i
+        for request in (lambda i=i: done.append(i), fail, lambda i=i: done.append(i)):
+            session.put(request)
+    sessions[0].put(ended.set)
+    ends[0].set()
+    waited(ended)
+    ends[1].set()
+    assert done == [2, 1, 0, 2, 1, 0]
     assert [record.exc_info[0] for record in caplog.records] == [ZeroDivisionError] * 3
 
 
-def test_turns_are_fair_in_seconds_and_not_in_number(monkeypatch):
-    monkeypatch.setattr(scheduler, "_pool", ThreadPoolExecutor(1, "request"))
-    began, done, everything = threading.Event(), [], threading.Semaphore(0)
-    dear, cheap = RequestQueue(), [RequestQueue() for _ in range(4)]
-
-    def work(name, seconds):
-        busy(seconds)
-        done.append(name)
-        everything.release()
-
-    dear.put(began.wait)
-    for _ in range(3):
-        dear.put(lambda: work("dear", 0.1))
-    for session in cheap:
-        for _ in range(5):
-            session.put(lambda: work("cheap", 0.001))
-    began.set()
-    for _ in range(23):
-        assert everything.acquire(timeout=PATIENCE)
-    # One of the dear things may come before the cheap ones: until then it has cost nothing.
-    assert done[-2:] == ["dear", "dear"]
-    # Later requests have no priority over waiting ones; the expensive one runs when no other is waiting.
-    assert done.count("cheap") == 20
+def test_tasks_wait_while_requests_occupy_the_cores_and_never_hold_up_a_request(own, monkeypatch):
+    monkeypatch.setattr(pool, "PATIENCE", PATIENCE)
+    begun, request = threading.Event(), occupied(own)
+    own.fill(begun.set)
+    assert not begun.wait(0.05)
+    request.set()
+    waited(begun)
+    tasks = occupied(own, task=True)
+    occupied(own).set()
+    tasks.set()
 
 
-def test_requests_do_not_compute_at_the_same_time(monkeypatch):
-    # Longer than any request on a slow machine.
-    monkeypatch.setattr(scheduler, "TURN", PATIENCE)
-    running, most, ended = [], [], threading.Semaphore(0)
-
-    def work():
-        running.append(None)
-        time.sleep(0.002)
-        most.append(len(running))
-        running.pop()
-        ended.release()
-
-    for session in [RequestQueue() for _ in range(6)]:
-        for _ in range(5):
-            session.put(work)
-    for _ in range(30):
-        assert ended.acquire(timeout=PATIENCE)
-    assert set(most) == {1}
+def test_under_any_load_tasks_go_on_but_no_more_at_a_time_than_cores(own, monkeypatch):
+    monkeypatch.setattr(pool, "PATIENCE", 0.01)
+    requests = [occupied(own) for _ in range(2)]
+    task, second = occupied(own, task=True), threading.Event()
+    own.fill(second.set)
+    assert not second.wait(0.1)
+    task.set()
+    waited(second)
+    for one in requests:
+        one.set()
+    own.use(0)
+    assert own.cores == 1
 
 
-def test_a_long_request_keeps_others_waiting_for_one_turn_and_no_longer():
-    long, other, began, ended = RequestQueue(), RequestQueue(), threading.Event(), threading.Event()
-    long.put(lambda: (waited(began), ended.set()))
-    other.put(began.set)
-    waited(ended)
+def test_a_program_that_ends_meanwhile_says_nothing():
+    program = """
+import time
+from hess_explorer.compute.background import Background
+from hess_explorer.compute.cache import Task
+from hess_explorer.compute.pool import RequestQueue
+Background().follow([Task(time.sleep, (0.2 + 0.001 * n,)) for n in range(9)])
+for _ in range(9):
+    RequestQueue().put(lambda: time.sleep(0.2))
+"""
+    ended = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, timeout=PATIENCE, check=False
+    )
+    assert (ended.returncode, ended.stdout, ended.stderr) == (0, "", "")
 
 
 def test_what_nobody_waits_for_is_not_begun_and_what_runs_ends_at_its_next_computation():
@@ -142,7 +141,7 @@ def test_what_nobody_waits_for_is_not_begun_and_what_runs_ends_at_its_next_compu
     session.end()
     go.set()
     waited(ended)
-    assert session.put(lambda: found.append("later"))
+    session.put(lambda: found.append("later"))
     other = threading.Event()
     RequestQueue().put(other.set)
     waited(other)

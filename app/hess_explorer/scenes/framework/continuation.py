@@ -1,0 +1,282 @@
+"""The continuation of a periodic orbit in a parameter, computed in pieces; the mouse finds its orbits."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Protocol
+
+import numpy as np
+
+from hess_explorer.compute.cache import Task
+from hess_explorer.scenes.framework.families import Begin
+from hess_explorer.scenes.framework.part import Host, Part
+from hess_explorer.scenes.framework.periodic_search import Closed, NotFound, Place
+from hess_explorer.scenes.framework.windows import Window
+from hess_explorer.views.branch import bifurcations
+from hess_explorer.views.caption import Caption
+from hess_explorer.views.text import conjugates, digits
+from hess_mechanics.dynamics import continuation as mechanics
+from hess_mechanics.dynamics.continuation import Bifurcation, continued, gone_on
+from hess_mechanics.dynamics.periodic import apart, find_periodic
+from hess_mechanics.dynamics.sampling import PIXELS
+from hess_mechanics.errors import ModelError
+from hess_mechanics.numerics.patience import go_on
+
+__all__ = ["Continuation"]
+
+_TOGETHER = 60
+"""Places of a branch computed at once: few enough to arrive soon."""
+_PARTS = 16
+"""Largest number of pieces of a branch in each direction."""
+_STEP = 0.02
+"""Largest step, as a share of the range: chords are then half a pixel off, as directions differ by 0.3."""
+_CREEPING = 1e-4
+"""Least advance of a piece, as a share of the range or in a coordinate: shorter pieces show no progress."""
+_NEAR = 12.0
+"""Largest distance of the mouse from a branch that it selects, in pixels."""
+_SAID = 8
+"""Largest number of bifurcations listed."""
+
+
+@dataclass(frozen=True)
+class _Nearest:
+    """The point of a branch nearest to the mouse.
+
+    away : its distance in pixels; i, share : its segment and the position there; j : its place on the periodic orbit.
+    """
+
+    away: float
+    branch: mechanics.Branch
+    i: int
+    share: float
+    j: int
+
+    @property
+    def value(self) -> float:
+        """The parameter at this point."""
+        a, b = self.branch.values[self.i : self.i + 2]
+        return float(a + self.share * (b - a))
+
+
+class _Host(Host, Protocol):
+    @property
+    def begin(self) -> Begin | None:
+        """The start of the branch; None if no branch is requested."""
+
+    @property
+    def side(self) -> int:
+        """Index of the coordinate drawn upwards."""
+
+    @property
+    def seen(self) -> Window | None:
+        """The visible window; None while the picture is empty."""
+
+
+@dataclass(frozen=True, eq=False)
+class Continuation(Part[_Host]):
+    """The known pieces of a branch; no more are computed while a slider is held."""
+
+    @property
+    def _symbol(self) -> str:
+        return self._begin.family.symbol
+
+    @property
+    def turns(self) -> tuple[float, ...]:
+        """The period of each coordinate, ∞ if it is not an angle.  Raises `ModelError`."""
+        return self._begin.map.turns
+
+    @property
+    def _begin(self) -> Begin:
+        assert self.host.begin is not None, "there is a branch"
+        return self.host.begin
+
+    @cached_property
+    def _found(self) -> Closed | NotFound | None:
+        """The orbit that is continued, or why there is none; None until known."""
+        if self.host.begin is None:
+            return None
+        return self.work.need(self.host.begin.search, preview=None)
+
+    @property
+    def closed(self) -> Closed | None:
+        """The orbit that is continued, if there is one."""
+        return self._found if isinstance(self._found, Closed) else None
+
+    @cached_property
+    def _known(self) -> tuple[list[mechanics.Branch], list[str], bool]:
+        """The known pieces of the branch, the reasons for missing ones, and whether none is pending."""
+        found: list[mechanics.Branch] = []
+        failed: list[str] = []
+        whole = True
+        if self.closed is None:
+            return found, failed, False
+        begin = self._begin
+        for upwards in (True, False):
+            if begin.value == begin.ends[upwards]:
+                continue
+            for k in range(_PARTS):
+                one: mechanics.Branch | NotFound | None = self.work.need(Task(_part, begin, upwards, k), preview=None)
+                if one is None or isinstance(one, NotFound):
+                    failed += [] if one is None else [one.reason]
+                    whole = whole and one is not None
+                    break
+                found.append(one)
+                if one.heading is None or self._creeps(one):
+                    break
+        return found, failed, whole
+
+    def _creeps(self, part: mechanics.Branch) -> bool:
+        """Return whether a piece hardly advances, as near a tangency with the section."""
+        low, high = self._begin.ends
+        return max(float(np.ptp(part.values)) / (high - low), float(np.ptp(part.places, axis=0).max())) < _CREEPING
+
+    @property
+    def branches(self) -> list[mechanics.Branch]:
+        """The known pieces of the branch."""
+        return self._known[0]
+
+    # ---- the mouse ----------------------------------------------------------------------------------------------
+
+    @property
+    def turn(self) -> float:
+        """The period of the coordinate drawn upwards."""
+        return self.turns[self.host.side]
+
+    def _nearest(self, x: float, y: float) -> _Nearest | None:
+        if self.closed is None or self.host.seen is None:
+            return None
+        (x0, y0), (x1, y1) = self.host.seen
+        scale = PIXELS / (x1 - x0), PIXELS / (y1 - y0)
+        best: _Nearest | None = None
+        for branch in self.branches:
+            if len(branch.values) < 2:
+                continue
+            for j in range(branch.period):
+                across = apart((self.turn,), branch.places[:, j, self.host.side, None], np.array([y]))[:, 0]
+                at = np.column_stack([(branch.values - x) * scale[0], across * scale[1]])
+                along = np.diff(at, axis=0)
+                length2 = np.maximum(np.sum(along**2, axis=1), 1e-300)
+                share = np.clip(-np.sum(at[:-1] * along, axis=1) / length2, 0.0, 1.0)
+                away = np.hypot(*(at[:-1] + share[:, None] * along).T)
+                i = int(np.argmin(away))
+                if best is None or away[i] < best.away:
+                    best = _Nearest(float(away[i]), branch, i, float(share[i]), j)
+        return best if best is not None and best.away <= _NEAR else None
+
+    def chosen(self, x: float, y: float) -> tuple[float, Place, int] | None:
+        """Return parameter, place and period of the branch's orbit at (x, y); None away from the branch."""
+        near = self._nearest(x, y)
+        if near is None:
+            return None
+        a, b = near.branch.places[near.i : near.i + 2]
+        between = np.roll(a + near.share * apart(self.turns, b, a), -near.j, axis=0)
+        value, m = near.value, near.branch.period
+        try:
+            place = find_periodic(self._begin.family.map_at(value), between, m).places[0]
+        except ModelError:
+            go_on()
+            value, place = float(near.branch.values[near.i]), a[near.j]
+        # The section has angles between −turn/2 and turn/2.
+        return (
+            value,
+            tuple(
+                float(one) if math.isinf(turn) else math.remainder(float(one), turn)
+                for one, turn in zip(place, self.turns, strict=True)
+            ),
+            m,
+        )
+
+    def about(self, x: float, y: float) -> str:
+        """Return a line on the bifurcation, or the orbit of the branch, under the mouse."""
+        if self.closed is None or self.host.seen is None:
+            return ""
+        (x0, y0), (x1, y1) = self.host.seen
+        for one in bifurcations(self.branches):
+            up = apart((self.turn,), one.places[:, self.host.side, None], np.array([y]))
+            if math.hypot((one.value - x) * PIXELS / (x1 - x0), float(np.abs(up).min()) * PIXELS / (y1 - y0)) <= _NEAR:
+                return self._named(one)
+        near = self._nearest(x, y)
+        if near is None:
+            return ""
+        i = near.i + round(near.share)
+        multipliers = ", ".join(conjugates(complex(one)) for one in near.branch.multipliers[i])
+        return (
+            f"{self._symbol} = {digits(float(near.branch.values[i]))}: period {near.branch.period}, "
+            f"{near.branch.kinds[i]}, μ = {multipliers}"
+        )
+
+    # ---- words --------------------------------------------------------------------------------------------------
+
+    def _named(self, one: Bifurcation) -> str:
+        value = f"{digits(one.value, 8)} ± {digits(one.error, 1)}"
+        return f"{one.kind} of period {len(one.places)} at {self._symbol} = {value}"
+
+    @property
+    def caption(self) -> Caption | None:
+        """The caption of the branch; None until the orbit itself is known."""
+        if self._found is None:
+            return None
+        if self.closed is None:
+            return Caption("No periodic orbit found from here.")
+        found, _, whole = self._known
+        orbit = self.closed.orbit
+        known = bifurcations(found)
+        some = f"{len(known)} bifurcation{'s' * (len(known) != 1)}" if known else "No bifurcation"
+        return Caption(
+            f"Period {orbit.period}, {orbit.kind} here.", f"{some} on its branch{'' if whole else ' so far'}."
+        )
+
+    def derived(self) -> Iterator[str]:
+        """Yield the bifurcations."""
+        found = bifurcations(self.branches) if self.asked("_known") else []
+        yield from map(self._named, found[:_SAID])
+        if len(found) > _SAID:
+            yield f"and {len(found) - _SAID} more bifurcations of the branch"
+
+    def status(self) -> Iterator[str]:
+        """Yield the size and the error of the branch."""
+        if self.asked("_known") and self.branches:
+            yield (
+                f"branch {sum(len(one.values) for one in self.branches)} points, places to "
+                f"{digits(max(one.error_estimate for one in self.branches), 1)}"
+            )
+
+    def notes(self) -> Iterator[str]:
+        """Yield the reasons why there is no branch, or why it ends within the range."""
+        if not self.asked("_known"):
+            return
+        if isinstance(self._found, NotFound):
+            yield self._found.reason
+        if self.closed is None:
+            return
+        found, failed, whole = self._known
+        yield from failed
+        if (
+            whole
+            and not failed
+            and sum(one.heading is None for one in found) < 2 - (self._begin.value in self._begin.ends)
+        ):
+            yield "The branch goes on: no more of it is computed."
+        ended = [one.ended for one in found if one.heading is None and "the end of the range" not in one.ended]
+        yield from (f"The branch ends. {why}" for why in ended)
+
+
+def _part(begin: Begin, upwards: bool, k: int) -> mechanics.Branch | NotFound:
+    """Return piece k of the branch, towards larger values of the parameter (`upwards`) or smaller ones."""
+    found = begin.orbit()
+    if isinstance(found, NotFound):
+        return found
+    family, end, edge = begin.family, begin.ends[upwards], begin.ends[not upwards]
+    points = max(6, _TOGETHER // found.orbit.period)
+    try:
+        if k == 0:
+            return continued(family.map_at, found.orbit, family.symbol, begin.value, end, points, edge, _STEP)
+        before = Task(_part, begin, upwards, k - 1).get()
+        assert not isinstance(before, NotFound), "pieces are continued one after the other"
+        return gone_on(family.map_at, before, end, edge, points, _STEP)
+    except ModelError as error:
+        go_on()
+        return NotFound(str(error))
