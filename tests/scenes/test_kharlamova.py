@@ -10,7 +10,7 @@ from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.periodic_search import NONE
 from hess_mechanics.numerics.accuracy import STANDARD
 from hess_mechanics.suslov.plane_potential import POTENTIALS
-from hess_mechanics.suslov.quartic import QuarticSection, quartic_section
+from hess_mechanics.suslov.quartic import quartic_section
 from hess_mechanics.suslov.quartic import visited as cells_visited
 from support.deviations import deviations
 from support.kharlamova import ARC, POINT
@@ -91,7 +91,7 @@ def test_an_example_of_the_quartic_potential_is_what_its_name_says(preset):
 
         def share():
             found = quartic_section(body, [tuple(view.result.start)], 200, STANDARD, 1_000_000).states[0]
-            return cells_visited(body, QuarticSection(body).places_of(found), 32) / len(found)
+            return cells_visited(body, view.result.poincare.places_of(found), 32) / len(found)
 
         # As for every other last bit, and by far.
         sure = deviations(from_moved_starts(share), 0.4)

@@ -334,13 +334,22 @@ def state_at(body: QuarticBody, q: Sequence[float], direction: float) -> tuple[f
     return (*body.omega(q), -size * math.cos(direction), -size * math.sin(direction), g3)
 
 
+def _on_axis(body: QuarticBody, x: float) -> tuple[tuple[float, float], float]:
+    """Return the point q of the major axis at x, and 1 − γ3² there."""
+    q = (x, 0.0) if body.across else (0.0, x)
+    g3 = float(body.height(np.array(q)))
+    return q, (1.0 - g3) * (1.0 + g3)
+
+
 def start_on_section(body: QuarticBody, x: float, y: float) -> tuple[float, float, float]:
     """Return q1, q2 and the direction of q̇ for `state_at` at (x, y) of the section.  Raises `OutsideRegion`."""
-    states, there = QuarticSection(body).states_at(x, y)
-    if not there[0]:
+    q, room = _on_axis(body, x)
+    left = room - y * y
+    if left < -_EDGE:
         raise OutsideRegion("p² + γ₃² would exceed 1 there: choose a place that is not grey.")
-    (q,), (p,) = body.to_plane(states)
-    return float(q[0]), float(q[1]), math.atan2(-p[1], -p[0])
+    # The q that is 0 increases.
+    rate = math.sqrt(max(0.0, left))
+    return (*q, math.atan2(rate, -y) if body.across else math.atan2(-y, rate))
 
 
 def angular_momentum(body: QuarticBody, states: Array) -> Array:
@@ -351,12 +360,14 @@ def angular_momentum(body: QuarticBody, states: Array) -> Array:
 
 def seeds(body: QuarticBody, count: int) -> list[tuple[float, ...]]:
     """Return states of the section, spread over the part that the energy allows."""
-    section, i, inner = QuarticSection(body), np.arange(count), body.hole**2
-    # Uniform in q² from the hole to the edge, and in p for this q.
-    x = body.longest * np.sqrt(inner + (1.0 - inner) * (0.002 + 0.996 * (i + 0.5) / count)) * np.where(i % 2, 1.0, -1.0)
-    largest = np.linalg.norm(section.states_at(x, 0.0 * x)[0][:, 2:4], axis=1)
-    states, _ = section.states_at(x, 0.98 * largest * (2.0 * (i * _GOLDEN % 1.0) - 1.0))
-    return list(map(tuple, states.tolist()))
+    found, inner = [], body.hole**2
+    for i in range(count):
+        # Uniform in q² from the hole to the edge, and in p for this q.
+        x = body.longest * math.sqrt(inner + (1.0 - inner) * (0.002 + 0.996 * (i + 0.5) / count))
+        size = math.sqrt(max(0.0, _on_axis(body, x)[1]))
+        *q, beta = start_on_section(body, x if i % 2 else -x, 0.98 * size * (2.0 * (i * _GOLDEN % 1.0) - 1.0))
+        found.append(state_at(body, q, beta))
+    return found
 
 
 def quartic_section(
