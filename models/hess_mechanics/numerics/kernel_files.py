@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from contextlib import suppress
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -27,7 +28,12 @@ class KernelFiles(FunctionCache):  # type: ignore[misc]  # numba has no types
 
     def __init__(self, function: Callable[..., Any]) -> None:
         super().__init__(function)
-        self._lock = FileLock(Path(self.cache_path, f"{function.__name__}.lock"), timeout=PATIENCE)
+        self._name = function.__name__
+
+    @cached_property
+    def _lock(self) -> FileLock:
+        """The lock of the kernel, made when it is needed: one made before a fork may not be used after it."""
+        return FileLock(Path(self.cache_path, f"{self._name}.lock"), timeout=PATIENCE)
 
     def load_overload(self, sig: Any, target_context: Any) -> Any:
         """Return the kernel for these argument types, if need be that which another process is compiling.
