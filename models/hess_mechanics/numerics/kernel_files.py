@@ -7,9 +7,9 @@ processes that start together compile each kernel twice.
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable
 from contextlib import suppress
-from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -28,12 +28,13 @@ class KernelFiles(FunctionCache):  # type: ignore[misc]  # numba has no types
 
     def __init__(self, function: Callable[..., Any]) -> None:
         super().__init__(function)
-        self._name = function.__name__
+        self._path = Path(self.cache_path, f"{function.__name__}.lock")
+        self._locks: dict[int, FileLock] = {}
 
-    @cached_property
+    @property
     def _lock(self) -> FileLock:
-        """The lock of the kernel, made when it is needed: one made before a fork may not be used after it."""
-        return FileLock(Path(self.cache_path, f"{self._name}.lock"), timeout=PATIENCE)
+        """The lock of the kernel in this process: one made before a fork may not be used after it."""
+        return self._locks.setdefault(os.getpid(), FileLock(self._path, timeout=PATIENCE))
 
     def load_overload(self, sig: Any, target_context: Any) -> Any:
         """Return the kernel for these argument types, if need be that which another process is compiling.
