@@ -256,6 +256,9 @@ def separable_integral(body: PotentialBody, states: Array) -> Array:
 
 # ---- Plots ------------------------------------------------------------------------------------------------------
 
+_ANGLE = np.linspace(0.0, 2.0 * math.pi, 241)
+_ALL_ROUND = np.stack([np.cos(_ANGLE), np.sin(_ANGLE)], axis=-1)
+"""Points (γ1, γ2) of the equator."""
 _BISECTIONS = 32
 _EDGE = 1.0 - 1e-9
 """Radius from which a point lies on the equator."""
@@ -296,34 +299,31 @@ def motion_from(body: PotentialBody, start: tuple[float, ...], duration: float, 
             period = 2.0 * float(times[1] - times[0])
             left = missed(body, start, period, level)
     energy = body.energy(start)
-    one_sided = bool(np.all(_radius(body, energy)[1] < _EDGE))
+    one_sided = bool(np.all(body.potential(_ALL_ROUND) > energy))
     return PlaneMotion(orbit, energy, period, left, fixed, one_sided, integral)
 
 
-def _radius(body: PotentialBody, value: float) -> tuple[Array, Array]:
-    """Return unit vectors (n, 2) in all directions, and the largest radius (n,) ≤ 1 with U ≤ value along each.
-
-    U increases along each direction.
-    """
-    angle = np.linspace(0.0, 2.0 * math.pi, 241)
-    along = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
-    low, high = np.zeros(angle.size), np.ones(angle.size)
+def _radius(body: PotentialBody, value: float) -> Array:
+    """Return the largest radius (n,) ≤ 1 with U ≤ value along each of `_ALL_ROUND`, where U increases outwards."""
+    low, high = np.zeros(_ANGLE.size), np.ones(_ANGLE.size)
     for _ in range(_BISECTIONS):
         middle = 0.5 * (low + high)
-        below = body.potential(middle[:, None] * along) <= value
+        below = body.potential(middle[:, None] * _ALL_ROUND) <= value
         low, high = np.where(below, middle, low), np.where(below, high, middle)
-    return along, low
+    return low
 
 
 def level_curve(body: PotentialBody, value: float) -> list[Array]:
     """Return the parts u (m, 2) of the curve U = value inside γ1² + γ2² = 1, for one of the `POTENTIALS`."""
-    along, radius = _radius(body, value)
+    radius = _radius(body, value)
     cuts = np.flatnonzero(np.diff(radius < _EDGE)) + 1
-    parts = np.split(radius[:, None] * along, cuts)
+    parts = np.split(radius[:, None] * _ALL_ROUND, cuts)
     return [frozen(part) for part in parts if len(part) > 1 and math.hypot(*part[0]) < _EDGE]
 
 
 def forbidden(body: PotentialBody, energy: float) -> list[Array]:
     """Return the part of the disk where U > energy, as closed curves u (m, 2), for one of the `POTENTIALS`."""
-    along, radius = _radius(body, energy)
-    return [] if np.all(radius >= _EDGE) else [frozen(np.concatenate([along, (radius[:, None] * along)[::-1]]))]
+    radius = _radius(body, energy)
+    return (
+        [] if np.all(radius >= _EDGE) else [frozen(np.concatenate([_ALL_ROUND, (radius[:, None] * _ALL_ROUND)[::-1]]))]
+    )
