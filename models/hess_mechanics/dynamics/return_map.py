@@ -26,7 +26,7 @@ from hess_mechanics.dynamics.orbit import MAX_STEPS, end_of, require_finite_stat
 from hess_mechanics.dynamics.periodic import apart
 from hess_mechanics.dynamics.section import SectionPoints, Surface, section_points
 from hess_mechanics.dynamics.symmetry import Mirror, symmetries
-from hess_mechanics.dynamics.system import Body, Problem
+from hess_mechanics.dynamics.system import Problem, System
 from hess_mechanics.dynamics.variation import onto_surface
 from hess_mechanics.errors import InvalidParameter, NoReturn, OutsideRegion, WorkLimit
 from hess_mechanics.numerics.accuracy import Accuracy, Level
@@ -63,8 +63,16 @@ _AT_ONCE = 1e-8
 _Search = Callable[[Array, int, float], tuple[int, Array, Array]]
 
 
-class PoincareSection(Body, Protocol):
-    """A section of a system at fixed values of its integrals, in coordinates that cover it."""
+class PoincareSection(Protocol):
+    """A section of a system at fixed values of its integrals, in coordinates that cover it; it is a `Body` too."""
+
+    @property
+    def system(self) -> System:
+        """The equations of motion."""
+
+    @property
+    def parameters(self) -> tuple[float, ...]:
+        """Values of the parameters of the equations."""
 
     def __hash__(self) -> int:
         """Return a hash: sections are values and serve as cache keys."""
