@@ -29,11 +29,11 @@ const tree = (h) => ({
 })
 const recording = {
   families: [
-    { ...LINES, scene: "hess", fixed: "b = 1", example: "", queries: LINES.points.map(([h, f]) => query(h, f)),
+    { ...LINES, scene: "hess", fixed: "b = 1", queries: LINES.points.map(([h, f]) => query(h, f)),
       states: LINES.points.map((_, at) => [0, at]) },
-    { scene: "hess", names: [], points: [[]], fixed: "", example: "Two cycles", queries: [query(7, 7)], states: [[1, 0]] },
+    { scene: "hess", names: [], points: [[]], fixed: "", queries: [query(7, 7)], states: [[1, 0]] },
     // A state of the first line, with a slider of its own.
-    { ...LINES, scene: "hess", names: ["b"], points: [[1], [2]], fixed: "", example: "", queries: [query(2, 0.5), query(8, 8)],
+    { ...LINES, scene: "hess", names: ["b"], points: [[1], [2]], fixed: "", queries: [query(2, 0.5), query(8, 8)],
       states: [[0, 2], [1, 0]] },
   ],
   picks: { hess: { plane: ["h", "f"] } }, sources: { hess: { curve: ["x"], label: ["x"] } },
@@ -53,11 +53,10 @@ test("answers are those of a server: state, description once, controls, only the
   const ask = answers()
   const first = await ask(null)
   assert.equal(first.scene.name, "hess")
-  const { h, f, preset } = first.state.tree.controls
+  const { h, f } = first.state.tree.controls
   assert.deepEqual([h, f].map(([value, low, high, step, idle]) => [value, low, high, Math.round(100 * step), idle]),
     // The state has its own values, and controls without effect.
     [[1, 0, 2, 100, false], [0.4, 0, 1, 50, true]])
-  assert.equal(preset, "")
   assert.deepEqual(first.state.tree.sources, { curve: { x: { of: 1 } }, label: { x: [] } })
   const second = await ask({ values: { h: 1.9 } })
   assert.equal("scene" in second, false)
@@ -85,18 +84,16 @@ test("notes say what the file cannot do", async () => {
   assert.match((await ask({ expressions: { h: "pi/3" } })).state.tree.texts["error-h"], /plain number/)
   assert.equal("error-h" in (await ask({})).state.tree.texts, false)
   assert.match((await ask({ restore: "v=1&scene=hess&h=5&f=5" })).state.tree.texts.notes, /does not hold/)
-  // Undo, a link with further keys, examples, steps, reset.
+  // Undo, a link with further keys, steps, reset.
   assert.equal((await ask({ restore: query(0, 0.5) })).state.query, query(0, 0.5))
   assert.equal((await ask({ restore: `${query(1, 0)}&t=3&theme=dark` })).state.query, query(1, 0))
-  assert.equal((await ask({ preset: "Two cycles" })).state.tree.controls.preset, "Two cycles")
   assert.equal((await ask({ step: ["first", 0, false] })).state.query, query(1, 0.5))
   assert.equal((await ask({ step: ["first", 0, true] })).state.query, query(7, 7))
   // A state of two families: from elsewhere the one that begins with it, otherwise the one on show.
-  assert.deepEqual(Object.keys((await ask({ restore: query(2, 0.5) })).state.tree.controls), ["b", "preset"])
+  assert.deepEqual(Object.keys((await ask({ restore: query(2, 0.5) })).state.tree.controls), ["b"])
   await ask({ step: ["first", 0, false] })
-  assert.deepEqual(Object.keys((await ask({ restore: query(2, 0.5) })).state.tree.controls), ["h", "f", "preset"])
+  assert.deepEqual(Object.keys((await ask({ restore: query(2, 0.5) })).state.tree.controls), ["h", "f"])
   assert.match((await ask({ step: ["first", 1, true] })).state.tree.texts.notes, /does not hold/)
   assert.equal((await ask({ lesson: "first" })).lesson.name, "first")
   assert.equal((await ask({ reset: true })).state.query, query(1, 0.5))
-  assert.equal((await answers("example=Two+cycles")(null)).state.query, query(7, 7))
 })
