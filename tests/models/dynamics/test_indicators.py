@@ -30,7 +30,7 @@ TOP = HeavyBody((1.3, 1.3, 0.9), (0.0, 0.0, 1.0), 0.7), (0.0, 0.0, 0.0, 0.0, 0.0
     [
         (PENDULUM, (math.pi, 0.0), 50.0, "two dimensions"),
         # Its period is 14.3 times that of small swings.
-        (PENDULUM, (math.pi - 1e-9, 0.0), 40.0, "two dimensions"),
+        (PENDULUM, (math.pi - 1e-9, 0.0), 20.0, "two dimensions"),
         (*TOP, 50.0, "rests"),
         (SADDLE, (0.0, 0.0, 0.0, 0.0), 50.0, "rests"),
         (SADDLE, (1.0, 0.0, 1.0, 0.0), 20.0, "escapes"),

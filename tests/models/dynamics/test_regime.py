@@ -48,7 +48,7 @@ def test_where_volume_is_kept_dynamics_are_conservative_and_curves_stay_curves()
     curve = regime(return_map(SuslovBody(1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0), E=0.4), (0.3, 1.2), t=300.0)
     # I11 = I22 with b along e: integrable (`QuarticBody.integrable`).
     assert (curve.kind, curve.volume) == (MotionKind.QUASI_PERIODIC, 0)
-    assert curve.integrable == "the integrable case I₁₁ = I₂₂"
+    assert curve.integrable == "the integrable case I₁₁ = I₂₂, b along e"
 
 
 @mark.chaotic
