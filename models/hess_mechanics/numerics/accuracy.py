@@ -296,7 +296,7 @@ PLANS: Mapping[Kind, Mapping[str, Plan]] = {
     # The attractor of an orbit, or its chaos, needs few digits; more cells show more.
     Kind.BASINS: _CELLS,
     Kind.INDICATOR: _CELLS,
-    # The neighbour is 1e-7 away, so steps must be much more accurate; the time limits the accuracy of λ.
+    # The time over which λ is averaged limits its accuracy.
     Kind.EXPONENT: _plans(
         Plan(replace(DRAFT, tolerance=1e-10, order=16), 0.05, share=0.2),
         Plan(replace(STANDARD, tolerance=1e-14, order=24), 0.02),
