@@ -47,19 +47,6 @@ def test_a_notebook_shows_a_state_by_its_parameters_and_link():
     assert said.count("<tr>") == len(found.parameters)
 
 
-def test_a_formula_is_refused_with_the_whole_sentence_of_the_page():
-    """It was "Potential U(γ)."."""
-    sentence = (
-        "Potential U(γ): This is no polynomial: use numbers, g1, g2, g3, + − * / ^ and parentheses, like 0.5*g1^2 - g3."
-    )
-    with pytest.raises(InvalidParameter) as refused:
-        hess.state("own-body", U="abs(g1)")
-    assert str(refused.value) == sentence
-    assert hess.from_link("?scene=own-body&U=abs(g1)", lenient=True).notes == (f"{sentence[:-1]}: it was ignored.",)
-    with pytest.raises(InvalidParameter, match="more than 6: choose lower powers"):
-        hess.state("own-body", U="g1^5*g2^4")
-
-
 @pytest.mark.parametrize(
     "given, sentence",
     [

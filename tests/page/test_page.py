@@ -16,7 +16,6 @@ from hess_explorer.headless.screenshot import server_process
 from support.page import (
     DEFAULTS,
     FIRST,
-    PICTURES,
     SLIDERS,
     Explorer,
     wait_frames,
@@ -175,14 +174,7 @@ def test_the_link_follows_what_the_user_does_and_opens_the_same_page_elsewhere(e
     assert other.page.locator(".param-speed").input_value() == "2"
     assert other.turn == approx((0.6, pi / 2), abs=6e-4)
     assert other.text("notes") == ""
-    for name in ("data-orbit", "data-stable", "circle-map", "bifurcation-boundary", "bifurcation-point", "omega-point"):
-        # An empty column is the same as none.
-        found, expected = (
-            {key: column for key, column in one.data(name).items() if column} for one in (other, explorer)
-        )
-        assert found == expected, name
-    for name in PICTURES:
-        assert other.caption(name) == explorer.caption(name)
+    # All of the pictures is compared in "test_by_hand".
     assert other.text("status").split(" · ")[:3] == explorer.text("status").split(" · ")[:3]
 
 

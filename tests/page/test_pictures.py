@@ -54,28 +54,6 @@ def test_a_click_in_the_bifurcation_diagram_chooses_the_torus_under_it(explorer)
     assert (columns.mean() - 8.5, rows.mean() - 8.5) == approx((0, 0), abs=1.5)
 
 
-def test_a_drag_in_the_bifurcation_diagram_is_followed(explorer):
-    axes = explorer.axes("bifurcation")
-    path = [(0.2, 0.3), (0.6, 0.2), (1.4, -0.2), (2.2, -0.7), (2.9, -1.1)]
-    (x, y), (wide, high) = at(explorer, "bifurcation", *path[0])
-    explorer.page.mouse.move(x, y)
-    explorer.page.mouse.down()
-    for h, f in path[1:]:
-        (x, y), _ = at(explorer, "bifurcation", h, f)
-        explorer.change(explorer.page.mouse.move, x, y)
-        assert explorer.here()[0] == approx(h, abs=wide)
-        assert explorer.here()[1] == approx(f, abs=high)
-        # No more digits than a pixel resolves.
-        assert explorer.here() == tuple(round(value, 3) for value in explorer.here())
-        assert explorer.axes("bifurcation") == axes
-    before = explorer.state
-    explorer.page.mouse.up()
-    explorer.change(lambda: explorer.slide(phi0=1.0))
-    assert explorer.state <= before + 2
-    assert_orbit(explorer, {**DEFAULTS, "h": explorer.shown("h")[0], "f": explorer.shown("f")[0], "phi0": 1.0})
-    assert explorer.shown("h")[0] == approx(2.9, abs=wide)
-
-
 # --- The sphere and the torus ------------------------------------------------------------------------
 
 
