@@ -47,17 +47,13 @@ def distance(explorer, prediction, shares, axes):
     (a0, a1, b0, b1), (across, down) = axes, np.transpose(shares)
     places = np.column_stack([a0 + across * (a1 - a0), b1 - down * (b1 - b0)])
     pixels = np.array([(right - left) / (x1 - x0), (bottom - top) / (y1 - y0)])
-    is_one = not isinstance(columns[prediction.columns[0]][0], list)
-    parts = ([columns[name]] if is_one else columns[name] for name in prediction.columns)
-    drawn = []
-    for xs, ys in zip(*parts, strict=True):
-        line = np.column_stack([xs, ys]).astype(float)
-        line = line[np.isfinite(line).all(axis=1)]
-        if prediction.what == "curve":
-            between = np.linspace(0.0, 1.0, 50)[:, None, None]
-            line = (line[:-1] * (1 - between) + line[1:] * between).reshape(-1, 2)
-        drawn.append(line)
-    away = [np.concatenate(drawn) - place for place in places]
+    # Of one line each.
+    drawn = np.column_stack([flat(columns[name]) for name in prediction.columns]).astype(float)
+    drawn = drawn[np.isfinite(drawn).all(axis=1)]
+    if prediction.what == "curve":
+        between = np.linspace(0.0, 1.0, 50)[:, None, None]
+        drawn = (drawn[:-1] * (1 - between) + drawn[1:] * between).reshape(-1, 2)
+    away = [drawn - place for place in places]
     return np.mean([np.abs(one[np.hypot(*(one * pixels).T).argmin()]) for one in away], axis=0)
 
 
