@@ -59,6 +59,6 @@ def assert_numbers(found, values):
     assert all(map(math.isfinite, numbers))
     assert {row["layer"] for row in table} <= whole["layers"].keys()
     # All digits, and nothing where there is no number.
-    for name, column in columns_of(found).items():
+    for name, column in columns_of(found).columns.items():
         if column.dtype.kind == "f":
             assert [row[name] and float(row[name]) for row in table] == [x if np.isfinite(x) else "" for x in column]

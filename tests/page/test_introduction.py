@@ -1,8 +1,6 @@
 """The introduction that a first visitor sees."""
 
-from contextlib import closing
-
-from support.page import VISITOR, Explorer
+from support.page import VISITOR, WIDE, own_tab
 
 IN_SIGHT = ".gallery:not(.away) .picture:visible"
 
@@ -12,11 +10,8 @@ def in_sight(page):
 
 
 def test_a_first_visitor_sees_one_dark_picture_then_one_more_at_a_time_then_the_page_and_never_again(browser, server):
-    size = {"width": 1600, "height": 950}
-    with closing(browser.new_context(reduced_motion="reduce", viewport=size)) as context:
-        page = context.new_page()
-        page.add_init_script(VISITOR)
-        explorer = Explorer(page, server)
+    with own_tab(browser, server, script=VISITOR) as explorer:
+        page, (width, height) = explorer.page, WIDE
         explorer.goto("/")
         introduction = page.get_by_role("region", name="Lesson", exact=True)
         assert explorer.dark
@@ -30,8 +25,8 @@ def test_a_first_visitor_sees_one_dark_picture_then_one_more_at_a_time_then_the_
             boxes = [introduction.bounding_box(), *(one.bounding_box() for one in page.locator(IN_SIGHT).all())]
             for box in boxes:
                 assert box["x"] >= 0
-                assert box["x"] + box["width"] <= size["width"] + 1
-                assert box["y"] + box["height"] <= size["height"] + 1
+                assert box["x"] + box["width"] <= width + 1
+                assert box["y"] + box["height"] <= height + 1
             if number == 1:
                 explorer.change(lambda: introduction.locator(".param-phi0 input[type=range]").press("ArrowRight"))
                 page.mouse.wheel(0, 100)
@@ -44,4 +39,3 @@ def test_a_first_visitor_sees_one_dark_picture_then_one_more_at_a_time_then_the_
         # The address has the state now; a bare one has the whole page from now on.
         explorer.goto("/")
         assert introduction.count() == 0
-        assert not explorer.errors

@@ -9,7 +9,7 @@ from PIL import Image
 from pytest import approx
 
 from hess_explorer.views import theme
-from support.page import DEFAULTS, FIND, PICTURES, flat, wait_frames
+from support.page import DEFAULTS, FIND, PICTURES, flat, own_tab, wait_frames
 from support.pointer import HOME, STEP, assert_turned, at
 from support.suslov_hess import assert_orbit, body_of, exact_states
 
@@ -221,8 +221,8 @@ def test_a_picture_that_is_folded_is_not_computed(explorer):
     assert explorer.data("torus-density") != first
 
 
-def test_axes_that_depend_on_the_state_have_their_names_from_the_first_one_on(open_page):
-    page = open_page("scene=orbit-diagram&accuracy=draft")
+def test_axes_that_depend_on_the_state_have_their_names_from_the_first_one_on(browser, server):
     names = """() => hess.plots.filter(({ model }) => model.name === "diagram")
       .map(({ model }) => [model.below[0].axis_label, model.left[0].axis_label])"""
-    assert page.evaluate(names) == [["I₂₃", "ψ"]]
+    with own_tab(browser, server) as explorer:
+        assert explorer.open("scene=orbit-diagram&accuracy=draft").page.evaluate(names) == [["I₂₃", "ψ"]]

@@ -13,7 +13,7 @@ from hess_explorer.server.room_socket import SEVERAL
 from support.accessible import assert_accessible
 from support.asynchronous import finished
 from support.barcode import read
-from support.page import POINTS, Explorer
+from support.page import PHONE, POINTS, TOUCHED, own_tab
 from support.room import Follower
 
 LESSON = next(
@@ -50,23 +50,18 @@ def lecture(tab, browser):
     """Return (lecturer, follower, code): the lecturer's page, a phone that follows, and the code of the room."""
     tab.fresh()
     tab.assert_quiet()
-    context = browser.new_context(
-        viewport={"width": 390, "height": 844}, reduced_motion="reduce", has_touch=True, is_mobile=True
-    )
-    phone = Explorer(context.new_page(), tab.base)
     page = tab.page
-    tab.begin_lesson(LESSON.name, STEP)
-    page.get_by_role("button", name="Invite").click()
-    page.locator(".invite .code svg").wait_for()
-    [address] = read(page.locator(".invite .code").screenshot())
-    assert address.endswith(page.locator(".room-address").inner_text())
-    # The tests' server listens on this machine only.
-    assert "--address 0.0.0.0" in page.locator(".unreachable").inner_text()
-    phone.page.goto(address)
-    phone.page.wait_for_selector("html[data-ready=true]", state="attached")
-    yield tab, phone, address.rpartition("/")[2]
-    phone.assert_quiet()
-    context.close()
+    with own_tab(browser, tab.base, PHONE, **TOUCHED) as phone:
+        tab.begin_lesson(LESSON.name, STEP)
+        page.get_by_role("button", name="Invite").click()
+        page.locator(".invite .code svg").wait_for()
+        [address] = read(page.locator(".invite .code").screenshot())
+        assert address.endswith(page.locator(".room-address").inner_text())
+        # The tests' server listens on this machine only.
+        assert "--address 0.0.0.0" in page.locator(".unreachable").inner_text()
+        phone.page.goto(address)
+        phone.page.wait_for_selector("html[data-ready=true]", state="attached")
+        yield tab, phone, address.rpartition("/")[2]
     if page.get_by_role("button", name="Invite").get_attribute("aria-pressed") == "true":
         page.keyboard.press("Escape")
         page.get_by_role("button", name="Invite").click()

@@ -2,6 +2,7 @@
 
 import json
 import re
+from contextlib import closing, contextmanager
 from functools import partial
 from urllib.parse import parse_qsl, urlsplit
 
@@ -18,6 +19,7 @@ POINTS = ("omega-point", "bifurcation-point", "circle-point")
 PICTURES = ("omega", "sphere", "bifurcation", "circle")
 WIDE = (1600, 950)
 """The size of the window that most tests share."""
+PHONE, TOUCHED = (390, 844), {"has_touch": True, "is_mobile": True}
 SLIDERS = {"I22": 0.01, "I23": 0.01, "b3": 0.01, "h": 0.01, "f": 0.01, "phi0": 0.01, "span": 1.0}
 """The numbers, with the step of each slider at the default state."""
 
@@ -392,16 +394,22 @@ ENTER = f"""pairs => {{
 }}"""
 
 
+@contextmanager
+def own_tab(browser, server, size=WIDE, script="", **options):
+    """A tab of its own, in which nothing is loaded yet; at the end assert no errors and no requests to other hosts."""
+    viewport = dict(zip(("width", "height"), size, strict=True))
+    # A scene begins at rest.
+    with closing(browser.new_context(viewport=viewport, **{"reduced_motion": "reduce", **options})) as context:
+        context.add_init_script(script)
+        explorer = Explorer(context.new_page(), server)
+        yield explorer
+        explorer.assert_quiet()
+
+
 def one_tab(browser, server):
     """Yield one tab for many tests: loading a page takes longest."""
-    context = browser.new_context(
-        viewport={"width": WIDE[0], "height": WIDE[1]},
-        permissions=["clipboard-read", "clipboard-write"],
-        # A scene begins at rest.
-        reduced_motion="reduce",
-    )
-    yield Explorer(context.new_page(), server)
-    context.close()
+    with own_tab(browser, server, permissions=["clipboard-read", "clipboard-write"]) as explorer:
+        yield explorer
 
 
 def default_state(tab):
@@ -414,11 +422,8 @@ def default_state(tab):
 
 def one_phone(browser, server):
     """Yield one phone tab for many tests, with the controls in their initial state."""
-    context = browser.new_context(
-        viewport={"width": 390, "height": 844}, reduced_motion="reduce", has_touch=True, is_mobile=True
-    )
-    yield Explorer(context.new_page(), server).open()
-    context.close()
+    with own_tab(browser, server, PHONE, **TOUCHED) as explorer:
+        yield explorer.open()
 
 
 def brought_on_phone(phone_tab, scene=HESS):
@@ -474,10 +479,8 @@ class Websocket:
 
 def tab_with_websocket(browser, server):
     """Yield (explorer, websocket): a tab for many tests, and the proxy between it and the server."""
-    context = browser.new_context(viewport={"width": WIDE[0], "height": WIDE[1]}, reduced_motion="reduce")
-    page = context.new_page()
-    yield Explorer(page, server), Websocket(page)
-    context.close()
+    with own_tab(browser, server) as explorer:
+        yield explorer, Websocket(explorer.page)
 
 
 def page_with_websocket(websocket_tab):
