@@ -12,6 +12,7 @@ from support.page import (
     DEFAULTS,
     FIRST,
     HESS,
+    PHONE,
     STUDY,
     wait_frames,
 )
@@ -25,7 +26,6 @@ SCENES = scenes()
 OFFERED = [name for name, scene in SCENES.items() if scene.origin in (None, HESS)]
 GROUPS = list(dict.fromkeys(SCENES[name].group for name in OFFERED))
 OFFERED_IN_GROUPS = sorted(OFFERED, key=lambda name: GROUPS.index(SCENES[name].group))
-PHONE = (390, 844)
 PIXELS = 600
 """The width of the pictures that samples and levels are right for."""
 

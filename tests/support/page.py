@@ -3,7 +3,6 @@
 import json
 import re
 from contextlib import closing, contextmanager
-from functools import partial
 from urllib.parse import parse_qsl, urlsplit
 
 from hess_explorer.headless.browser import wait_ready
@@ -412,20 +411,6 @@ def one_tab(browser, server):
         yield explorer
 
 
-def default_state(tab):
-    """Return the page in its default state; at the end assert no errors and no requests to other hosts."""
-    tab.fresh()
-    tab.assert_quiet()
-    yield tab
-    tab.assert_quiet()
-
-
-def one_phone(browser, server):
-    """Yield one phone tab for many tests, with the controls in their initial state."""
-    with own_tab(browser, server, PHONE, **TOUCHED) as explorer:
-        yield explorer.open()
-
-
 def brought_on_phone(phone_tab, scene=HESS):
     """The page on a phone in the first state of a scene, with its first picture."""
     page = phone_tab.page
@@ -438,13 +423,6 @@ def brought_on_phone(phone_tab, scene=HESS):
     page.evaluate(HOMEWARDS)
     phone_tab.change(lambda: page.evaluate("hess.tell('reset')"))
     return phone_tab
-
-
-def first_on_phone(phone_tab):
-    """phone(scene) → `brought_on_phone`; at the end assert no errors and no requests to other hosts."""
-    phone_tab.assert_quiet()
-    yield partial(brought_on_phone, phone_tab)
-    phone_tab.assert_quiet()
 
 
 class Websocket:
@@ -475,22 +453,6 @@ class Websocket:
         self._holding = False
         while self._held:
             self._socket.send(self._held.pop(0))
-
-
-def tab_with_websocket(browser, server):
-    """Yield (explorer, websocket): a tab for many tests, and the proxy between it and the server."""
-    with own_tab(browser, server) as explorer:
-        yield explorer, Websocket(explorer.page)
-
-
-def page_with_websocket(websocket_tab):
-    """Return (explorer, websocket): the page in its default state, and the proxy between it and the server."""
-    explorer, websocket = websocket_tab
-    explorer.fresh()
-    explorer.assert_quiet()
-    yield explorer, websocket
-    websocket.release()
-    explorer.assert_quiet()
 
 
 def flat(data):
