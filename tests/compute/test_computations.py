@@ -24,7 +24,6 @@ from support.board import (
     Browser,
     contents,
     elsewhere,
-    modules_of_scenes,
     plots_of,
     variant,
 )
@@ -91,8 +90,7 @@ def nothing_later(monkeypatch):
 def cache(monkeypatch):
     """Replace the process's cache by an empty one."""
     recorder = Recorder()
-    for module in modules_of_scenes():
-        monkeypatch.setattr(module, "CACHE", recorder)
+    monkeypatch.setattr("hess_explorer.scenes.framework.work.CACHE", recorder)
     return recorder
 
 
