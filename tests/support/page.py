@@ -47,12 +47,12 @@ class Explorer:
             if urlsplit(url).netloc not in ("", host):
                 self.outside.append(url)
 
-        # Playwright takes no built-in methods.
+        # That the server is alive is asked after some seconds of silence, whatever else is done.
         def on_sent(frame):
-            self.sent.append(frame)
+            self.sent += [frame] if frame != '{"alive": true}' else []
 
         def on_received(frame):
-            self.received.append(frame)
+            self.received += [frame] if frame != "" else []
 
         def on_socket(socket):
             on_url(socket.url)
