@@ -7,11 +7,9 @@ import sys
 import tempfile
 from contextlib import ExitStack
 from pathlib import Path
-from urllib.parse import urlsplit
 
 import pytest
 
-from hess_explorer.headless.browser import wait_ready
 from hess_explorer.headless.screenshot import server_process
 
 # A density takes seconds for a million crossings; only its own tests need more than these.
@@ -118,52 +116,3 @@ def artefacts():
     folder = Path(__file__).parent / "artefacts"
     folder.mkdir(exist_ok=True)
     return folder
-
-
-@pytest.fixture
-def open_page(browser, server):
-    """open_page(query="", size=(1600, 950), **context_options) → a page that is ready, in a context of its own.
-
-    A query that names no scene is one of the Suslov–Hess scene.
-
-    When the test ends no page may have reported an error or asked another host for anything.  Warnings of the
-    console are kept in `open_page.warnings`.
-    """
-    from support.modules import look_inside
-    from support.page import scene_of
-
-    host = urlsplit(server).netloc
-    contexts, errors, warnings, outside = [], [], [], []
-
-    def on_console(message):
-        kept = {"error": errors, "warning": warnings}.get(message.type)
-        if kept is not None:
-            kept.append(message.text)
-
-    def on_url(url):
-        parts = urlsplit(url)
-        # data: and blob: URLs have no host.
-        if parts.netloc not in ("", host):
-            outside.append(url)
-
-    def open_one(query="", size=(1600, 950), **context_options):
-        # With the scene at rest.
-        options = {"reduced_motion": "reduce", **context_options}
-        context = browser.new_context(viewport={"width": size[0], "height": size[1]}, **options)
-        contexts.append(context)
-        context.on("console", on_console)
-        context.on("weberror", lambda error: errors.append(str(error.error)))
-        context.on("request", lambda request: on_url(request.url))
-        page = context.new_page()
-        look_inside(page)
-        page.on("websocket", lambda socket: on_url(socket.url))
-        page.goto(f"{server}/?{scene_of(query)}")
-        wait_ready(page)
-        return page
-
-    open_one.warnings = warnings
-    yield open_one
-    for context in contexts:
-        context.close()
-    assert not errors, errors
-    assert not outside, outside

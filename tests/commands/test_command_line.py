@@ -19,6 +19,8 @@ from PIL import Image
 import hess_explorer.headless.screenshot
 from hess_explorer.__main__ import main
 from hess_explorer.commands import output
+from hess_explorer.export.picture_data import picture_data
+from hess_explorer.export.table import as_csv
 from hess_explorer.headless.screenshot import server_process
 from support.command_line import strict_json, table, typed
 from support.mechanics import ROOT
@@ -153,7 +155,9 @@ def test_shot(tmp_path, browser, server, monkeypatch, capsys):
 def test_export(capsys, refusal, tmp_path):
     state = typed("export --state h=1.2&f=0.3&accuracy=draft --picture circle")
     main(state)
-    facts, header, rows = table(capsys.readouterr().out)
+    out = capsys.readouterr().out
+    assert out == as_csv(picture_data(state[2], "circle"))
+    facts, header, rows = table(out)
     assert (facts["scene"], facts["parameters"]["h"], header[:2]) == ("suslov-hess", 1.2, ["layer", "part"])
     assert len(rows) > 100
     main([*state, "--format", "json"])

@@ -21,7 +21,7 @@ from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.parallel import THREADS
 from hess_mechanics.numerics.patience import go_on
 from support.asynchronous import wait_until
-from support.board import SCENES, Browser, modules_of_scenes
+from support.board import SCENES, Browser
 from support.wire import read_frame
 
 # With the exponent in sight, which is folded at first.
@@ -57,8 +57,8 @@ class Gate(ResultCache):
 def gate(monkeypatch):
     """Return a closed gate in place of the process's cache."""
     closed, begun = Gate(), []
-    for module in (background, *modules_of_scenes()):
-        monkeypatch.setattr(module, "CACHE", closed)
+    for module in ("compute.background", "scenes.framework.work"):
+        monkeypatch.setattr(f"hess_explorer.{module}.CACHE", closed)
     init = Background.__init__
 
     def recorded(work):

@@ -13,7 +13,6 @@ from hypothesis import strategies as st
 from hess_explorer.compute.cache import ResultCache, size_of
 from hess_explorer.scenes import scenes
 from hess_mechanics.numerics.results import frozen
-from support.board import modules_of_scenes
 
 KILOBYTE = 1024
 WAIT = 30
@@ -179,8 +178,7 @@ def arrays_in(value):
 def test_every_array_that_a_scene_shares_is_counted_and_read_only(name, monkeypatch):
     cache = ResultCache(2**30)
     scene = scenes()[name]
-    for module in modules_of_scenes():
-        monkeypatch.setattr(module, "CACHE", cache)
+    monkeypatch.setattr("hess_explorer.scenes.framework.work.CACHE", cache)
     state = scene.compute(scene.defaults(), scene.pictures, False)
     held = {id(array): array.nbytes for result in cache._results.values() for array in arrays_in(result)}
     assert sum(held.values()) <= cache.bytes <= 2 * sum(held.values()) + 192 * KILOBYTE

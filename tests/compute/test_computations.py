@@ -8,7 +8,6 @@ import threading
 import types
 from collections import Counter
 
-import numpy as np
 import pytest
 import scipy.integrate
 
@@ -25,7 +24,6 @@ from support.board import (
     Browser,
     contents,
     elsewhere,
-    modules_of_scenes,
     plots_of,
     variant,
 )
@@ -92,8 +90,7 @@ def nothing_later(monkeypatch):
 def cache(monkeypatch):
     """Replace the process's cache by an empty one."""
     recorder = Recorder()
-    for module in modules_of_scenes():
-        monkeypatch.setattr(module, "CACHE", recorder)
+    monkeypatch.setattr("hess_explorer.scenes.framework.work.CACHE", recorder)
     return recorder
 
 
@@ -335,21 +332,6 @@ def test_a_new_scene_is_computed_whole_whatever_was_hidden_in_the_old_one(cache)
     # The browser says anew what it does not see there.
     browser.ask(3, hidden=["growth", "drift", "pixels"], values={"h": 1.25})
     assert cache.take() == {LEVELS, OTHERS}
-
-
-def test_all_hidden_the_state_still_follows_and_is_said(cache):
-    browser = Browser(HESS)
-    browser.ask(1, hidden=list(HESS.pictures))
-    cache.take()
-    browser.ask(2, values={"h": 1.25})
-    assert cache.take() == {MAP}
-    assert browser.session.values["h"] == 1.25
-    assert browser.texts["status"].startswith("circle map ")
-    assert "data-orbit" not in browser.screen.fresh
-    browser.ask(3, hidden=[])
-    assert cache.take() == {TRACK, CYCLES}
-    assert "h = 1.25" in browser.texts["bifurcation"]
-    assert np.all(browser.data["data-orbit"]["h"] == np.float32(1.25))
 
 
 def test_warming_up_computes_the_first_state_of_every_scene(cache, monkeypatch):

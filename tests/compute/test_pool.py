@@ -112,7 +112,7 @@ import time
 from hess_explorer.compute.background import Background
 from hess_explorer.compute.cache import Task
 from hess_explorer.compute.pool import RequestQueue
-Background().follow([Task(time.sleep, (0.2 + 0.001 * n,)) for n in range(9)])
+Background().follow([Task(time.sleep, 0.2 + 0.001 * n) for n in range(9)])
 for _ in range(9):
     RequestQueue().put(lambda: time.sleep(0.2))
 """

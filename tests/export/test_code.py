@@ -1,14 +1,10 @@
 """Copy Python: the copied code computes exactly the exported data, bit by bit."""
 
-import csv
-
 import nbformat
-import numpy as np
 import pytest
 from nbclient import NotebookClient
 
 from hess_explorer import SceneState
-from hess_explorer.__main__ import main
 from hess_explorer.export.code import code
 from hess_explorer.export.columns import columns_of
 from hess_explorer.export.notebook import notebook
@@ -57,35 +53,6 @@ def test_the_lines_leave_what_is_exported_of_every_picture_of_every_preset(name,
         assert data.keys() == expected.keys()
         assert all(same_bits(data[column], expected[column]) for column in expected)
     assert drawn == [view.name for view in views]
-
-
-@pytest.mark.parametrize(
-    "link, picture",
-    [
-        ("h=1.2&f=0.3&accuracy=precise", "circle"),
-        ("scene=suslov&accuracy=draft&orbits=2&count=20&long=20&indicator=nothing&starts=0.1,0.2;1,1", "section"),
-        ("scene=scattering&az=1.5&accuracy=draft", "sphere"),
-        ("scene=suslov-hess&chart=trace&accuracy=draft", "chart"),
-        ("scene=euler-poisson-accuracy&accuracy=draft", "growth"),
-        ("scene=suslov-hess&h=1&f=0&accuracy=draft", "circle"),
-    ],
-)
-def test_the_columns_are_those_of_the_file_written_by_the_command(link, picture, tmp_path):
-    lines, file = tmp_path / "of.py", tmp_path / "of.csv"
-    for command, out in (("code", lines), ("export", file)):
-        assert main([command, "--state", link, "--picture", picture, "--out", str(out)]) == 0
-    data = ran(lines.read_text(encoding="utf-8"))
-    lines = file.read_text(encoding="utf-8").splitlines(keepends=True)
-    table = list(csv.reader(line for line in lines if not line.startswith("# ")))
-    assert table[0] == list(data)
-    for row, fields in zip(zip(*data.columns.values(), strict=True), table[1:], strict=True):
-        for value, said in zip(row, fields, strict=True):
-            assert (
-                str(value) == said
-                if isinstance(value, str)
-                else (not np.isfinite(value) if said == "" else float(said) == value)
-            )
-    assert len(table) > 10
 
 
 def test_the_lines_are_few_and_name_every_parameter():

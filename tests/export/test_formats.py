@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from hess_explorer.export.columns import columns_of
 from hess_explorer.export.formats import FileRequest
 from hess_explorer.export.picture_data import address, picture_data
 from hess_explorer.export.table import as_csv, as_json
@@ -57,3 +58,7 @@ def assert_numbers(found, values):
     assert len(numbers) > 10 or whole["caption"]
     assert all(map(math.isfinite, numbers))
     assert {row["layer"] for row in table} <= whole["layers"].keys()
+    # All digits, and nothing where there is no number.
+    for name, column in columns_of(found).columns.items():
+        if column.dtype.kind == "f":
+            assert [row[name] and float(row[name]) for row in table] == [x if np.isfinite(x) else "" for x in column]

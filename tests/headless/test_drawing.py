@@ -1,5 +1,6 @@
 """Pictures in files are those of the page, drawn again at the size of the file."""
 
+import base64
 import io
 import re
 from functools import cache
@@ -45,11 +46,16 @@ def apart(one, other):
 def test_a_file_is_the_canvas_of_the_page_at_the_same_size(link, picture, browser, tmp_path):
     path = tmp_path / "page.html"
     path.write_bytes(state_page(link, [picture])[1])
-    with opened(browser, path.as_uri(), (420, 520), device_scale_factor=SHARP) as page:
+    # In this window an edge is a whole number of pixels of the screen: else both are blurred, and not alike.
+    with opened(browser, path.as_uri(), (422, 522), device_scale_factor=SHARP) as page:
         canvas = page.locator(".host canvas").first
         edge = canvas.evaluate("canvas => canvas.clientWidth")
-        # What moves on a sphere or torus is on a second canvas.
-        shown = pixels(page.locator(".host").screenshot())
+        # What moves on a sphere or torus is on a second canvas; a screenshot may begin between two pixels.
+        shown = Image.new("RGBA", (round(SHARP * edge),) * 2, "white")
+        for url in page.locator(".host canvas").evaluate_all("all => all.map((one) => one.toDataURL())"):
+            layer = Image.open(io.BytesIO(base64.b64decode(url.partition(",")[2]))).convert("RGBA")
+            shown.alpha_composite(layer.resize(shown.size))
+        shown = shown.convert("RGB")
     found = picture_data(link, picture)
     made = pixels(png_of(found, edge * 25.4 / 120.0))
     assert made.size == approx((SHARP * edge,) * 2, abs=1)

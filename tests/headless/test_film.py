@@ -1,9 +1,7 @@
 """Films: the frames of the page at given times, whatever the speed of the machine."""
 
 import io
-import json
 import math
-import re
 import sys
 import tempfile
 
@@ -13,7 +11,6 @@ from PIL import Image
 from pytest import approx
 from scipy import ndimage
 
-from hess_explorer.__main__ import main
 from hess_explorer.export.formats import FileRequest, Loop, holding
 from hess_explorer.export.motion import film_times, loop_lines, loop_times, period
 from hess_explorer.export.picture_data import picture_data
@@ -127,21 +124,6 @@ def test_a_film_that_is_stopped_leaves_nothing_behind(found, tmp_path, monkeypat
     with pytest.raises(KeyboardInterrupt):
         as_film(found, FileRequest("webm", 60.0), stop)
     assert [one.name for one in tmp_path.iterdir() if "playwright" not in one.name] == []
-
-
-def test_the_command_writes_films_and_pages_and_says_how_far_it_is(found, tmp_path, capsys):
-    film, page = tmp_path / "film.mp4", tmp_path / "page.html"
-    words = ["export", "--state", LINK, "--picture", "omega", "--format", "mp4", "--width", "60", "--seconds", "1"]
-    assert main([*words, "--progress", "--out", str(film)]) == 0
-    assert capsys.readouterr().err.splitlines() == [f"{i + 1}/25" for i in range(25)]
-    assert len(frames_of(film, SIDE)) == 25
-    assert main(words) == 2
-    assert "MP4 is a binary format: name a file with --out FILE." in capsys.readouterr().err
-    assert main(["export", "--state", LINK, "--picture", "omega,sphere", "--format", "html", "--out", str(page)]) == 0
-    text = page.read_text(encoding="utf-8")
-    assert text.startswith("<!DOCTYPE html>")
-    facts = json.loads(re.search('<script type="application/json" id="facts">(.*)</script>', text)[1])
-    assert (facts["link"], facts["pictures"]) == (found.link, ["omega", "sphere"])
 
 
 def test_what_cannot_be_filmed_is_refused_with_a_sentence(found, monkeypatch):

@@ -52,12 +52,6 @@ COMMANDS = [
 ]
 
 
-def test_it_is_short_and_begins_with_a_picture():
-    lines = README.splitlines()
-    assert len(lines) <= 120
-    assert next(line for line in lines[1:] if line).startswith("![")
-
-
 @pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: str(path.relative_to(ROOT)))
 def test_its_links_lead_somewhere(document):
     text = document.read_text(encoding="utf-8")

@@ -1,12 +1,51 @@
 """The page that the browser tests of a process share."""
 
+from functools import partial
+
 import pytest
 
-from support.page import default_state, first_on_phone, one_phone, one_tab, page_with_websocket, tab_with_websocket
+from support.page import PHONE, TOUCHED, Websocket, brought_on_phone, one_tab, own_tab
 
 tab = pytest.fixture(scope="session")(one_tab)
-explorer = pytest.fixture(default_state)
-phone_tab = pytest.fixture(scope="session")(one_phone)
-phone = pytest.fixture(first_on_phone)
-websocket_tab = pytest.fixture(scope="session")(tab_with_websocket)
-with_websocket = pytest.fixture(page_with_websocket)
+
+
+@pytest.fixture
+def explorer(tab):
+    """Return the page in its default state; at the end assert no errors and no requests to other hosts."""
+    tab.fresh()
+    tab.assert_quiet()
+    yield tab
+    tab.assert_quiet()
+
+
+@pytest.fixture(scope="session")
+def phone_tab(browser, server):
+    """Yield one phone tab for many tests, with the controls in their initial state."""
+    with own_tab(browser, server, PHONE, **TOUCHED) as explorer:
+        yield explorer.open()
+
+
+@pytest.fixture
+def phone(phone_tab):
+    """phone(scene) → `brought_on_phone`; at the end assert no errors and no requests to other hosts."""
+    phone_tab.assert_quiet()
+    yield partial(brought_on_phone, phone_tab)
+    phone_tab.assert_quiet()
+
+
+@pytest.fixture(scope="session")
+def websocket_tab(browser, server):
+    """Yield (explorer, websocket): a tab for many tests, and the proxy between it and the server."""
+    with own_tab(browser, server) as explorer:
+        yield explorer, Websocket(explorer.page)
+
+
+@pytest.fixture
+def with_websocket(websocket_tab):
+    """Return (explorer, websocket): the page in its default state, and the proxy between it and the server."""
+    explorer, websocket = websocket_tab
+    explorer.fresh()
+    explorer.assert_quiet()
+    yield explorer, websocket
+    websocket.release()
+    explorer.assert_quiet()

@@ -2,7 +2,7 @@
 
 import json
 import re
-from math import copysign, dist, pi, sqrt
+from math import dist, pi, sqrt
 
 import pytest
 from pytest import approx
@@ -55,12 +55,6 @@ def test_a_box_takes_an_exact_value(explorer, name, text, value):
     assert float(explorer.wait_url(**{name: repr(value)})[name]) == value
 
 
-def test_a_box_is_read_when_it_is_left_too(explorer):
-    explorer.box("h").fill("0.25")
-    explorer.change(explorer.box("phi0").focus)
-    assert_orbit(explorer, {**DEFAULTS, "h": 0.25})
-
-
 def test_what_is_not_a_number_is_marked_and_changes_nothing(explorer):
     for text in ("<b>2</b>", "1/0"):
         explorer.type("h", text)
@@ -82,22 +76,12 @@ def test_what_is_not_a_number_is_marked_and_changes_nothing(explorer):
         assert explorer.box("h").input_value() == "1.5"
 
 
-@pytest.mark.parametrize(
-    "name, text, value, note",
-    [
-        ("I23", "5000", 96.0, "can be at most 100"),
-        ("f", "-99", None, "f was set to this limit"),
-    ],
-)
-def test_what_is_out_of_range_is_clamped_with_a_note_each_time(explorer, name, text, value, note):
-    if value is None:
-        # On the curve at h = 3/2: n = 1/(h + √(h² + 3)), f = (1 − n²)/√n (Geq3, corrected).
-        n = 1 / (1.5 + sqrt(5.25))
-        value = copysign((1 - n * n) / sqrt(n), float(text))
+def test_what_is_out_of_range_is_clamped_with_a_note_each_time(explorer):
+    # At most 100 I₂₂.
     for _ in range(2):
-        explorer.change(explorer.type, name, text)
-        assert explorer.shown(name)[0] == approx(value, rel=1e-12)
-        assert note in explorer.text("notes")
+        explorer.change(explorer.type, "I23", "5000")
+        assert explorer.shown("I23")[0] == approx(96.0, rel=1e-12)
+        assert "can be at most 100" in explorer.text("notes")
         assert explorer.page.locator(".text.notes").is_visible()
 
 
@@ -109,13 +93,6 @@ def test_a_box_reads_expressions_and_shows_their_numbers(explorer):
         explorer.change(explorer.type, name, text)
         assert float(explorer.box(name).input_value()) == approx(value, rel=1e-15)
     assert_orbit(explorer, {**DEFAULTS, "phi0": pi / 3, "h": sqrt(2), "f": -1 / 7})
-    # After a refusal a number is welcome.
-    explorer.type("h", "sqrt(-1)")
-    explorer.page.locator(".param-h .exact[aria-invalid=true]").wait_for()
-    assert "not finite" in explorer.box("h").evaluate("box => box.validationMessage")
-    explorer.change(explorer.type, "h", "2")
-    assert explorer.box("h").evaluate("box => box.validity.valid")
-    assert_orbit(explorer, {**DEFAULTS, "phi0": pi / 3, "h": 2.0, "f": -1 / 7})
 
 
 def test_arrows_nudge_a_box_shift_by_ten_steps_and_a_label_is_dragged(explorer):

@@ -1,77 +1,16 @@
-"""The scene "Euler–Poisson: sections" in a browser: clicks, a box, Undo, Clear, Stop, links."""
+"""The scene "Euler–Poisson: sections" in a browser: long work, and Stop."""
 
-import math
 import re
-from urllib.parse import parse_qsl, urlsplit
 
 import pytest
 from playwright.sync_api import expect
-from pytest import approx
 
 from hess_explorer.headless.screenshot import server_process
-from hess_explorer.protocol.parameters import places
 from support.euler_poisson import EP
 from support.page import brought, one_tab
-from support.pointer import at
 from support.processes import UNWARMED
 
-NUMBERS = {"orbits": 8.0, "count": 40.0, "long": 20.0, "span": 5.0}
-SMALL = {**NUMBERS, "indicator": "nothing"}
-
-
-def values_of(explorer):
-    query = dict(parse_qsl(urlsplit(explorer.link()).query, keep_blank_values=True))
-    return {spec.name: type(spec.default)(query[spec.name]) for spec in EP.specs}
-
-
-@pytest.fixture
-def page(tab):
-    """The page with a small section."""
-    brought(tab, EP).give(**SMALL)
-    yield tab
-    tab.assert_quiet()
-
-
-def shown_points(explorer):
-    # Sources that have never held data are not sent.
-    return sum(len(explorer.data(f"section-{layer}").get("x", ())) for layer in ("first", "second"))
-
-
-# --- What a user does --------------------------------------------------------------------------------
-
-
-def test_a_click_starts_an_orbit_and_clear_takes_it_back(page):
-    (x, y), _ = at(page, "section", 0.8, -0.35)
-    page.change(lambda: page.page.mouse.click(x, y))
-    assert places(values_of(page)["starts"]) == [
-        (0.0, 0.2),
-        (approx(0.8, abs=0.03), approx(-0.35, abs=0.01)),
-    ]
-    assert len(page.data("section-own")["x"]) == 2 * SMALL["count"]
-    page.change(page.page.locator(".param-clear").click)
-    assert values_of(page)["starts"] == "0,0.2"
-
-
-def test_a_box_looks_closer_and_undo_looks_at_the_whole_again(page):
-    (x0, y0), _ = at(page, "section", -2.25, -0.27)
-    (x1, y1), _ = at(page, "section", -1.45, 0.33)
-    page.page.mouse.move(x0, y0)
-    page.page.mouse.down()
-    page.page.mouse.move(0.5 * (x0 + x1), 0.5 * (y0 + y1), steps=4)
-    page.page.mouse.move(x1, y1, steps=4)
-    page.change(page.page.mouse.up)
-    (l0, low), (l1, high) = places(values_of(page)["window"])
-    assert (l0, l1) == approx((-2.25, -1.45), abs=0.04)
-    assert (low, high) == approx((-0.27, 0.33), abs=0.015)
-    assert page.axes("section") == approx([l0, l1, low, high], abs=1e-5)
-    # It is filled with orbits of its own, all on one side of the barrier there.
-    assert shown_points(page) == SMALL["orbits"] * SMALL["count"]
-    page.change(page.page.locator(".param-undo").click)
-    assert values_of(page)["window"] == ""
-    assert page.axes("section") == approx([-math.pi, math.pi, -1.0, 1.0], abs=1e-5)
-
-
-# --- Long work ---------------------------------------------------------------------------------------
+SMALL = {"orbits": 8.0, "count": 40.0, "long": 20.0, "span": 5.0, "indicator": "nothing"}
 
 HELD_BACK = """
 import functools, sys, time

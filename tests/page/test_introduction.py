@@ -1,16 +1,7 @@
 """The introduction that a first visitor sees."""
 
-from contextlib import closing
+from support.page import VISITOR, WIDE, own_tab
 
-import pytest
-
-from support.page import VISITOR, Explorer
-from support.thorough import sample
-
-SIZES = {
-    "desk": {"viewport": {"width": 1600, "height": 950}},
-    "phone": {"viewport": {"width": 390, "height": 844}, "has_touch": True},
-}
 IN_SIGHT = ".gallery:not(.away) .picture:visible"
 
 
@@ -18,14 +9,9 @@ def in_sight(page):
     return page.locator(IN_SIGHT).evaluate_all("cells => cells.map((cell) => cell.dataset.name)")
 
 
-@pytest.mark.parametrize("size", sample(SIZES, 1))
-def test_a_first_visitor_sees_one_dark_picture_then_one_more_at_a_time_then_the_page_and_never_again(
-    browser, server, size
-):
-    with closing(browser.new_context(reduced_motion="reduce", **SIZES[size])) as context:
-        page = context.new_page()
-        page.add_init_script(VISITOR)
-        explorer = Explorer(page, server)
+def test_a_first_visitor_sees_one_dark_picture_then_one_more_at_a_time_then_the_page_and_never_again(browser, server):
+    with own_tab(browser, server, script=VISITOR) as explorer:
+        page, (width, height) = explorer.page, WIDE
         explorer.goto("/")
         introduction = page.get_by_role("region", name="Lesson", exact=True)
         assert explorer.dark
@@ -35,28 +21,21 @@ def test_a_first_visitor_sees_one_dark_picture_then_one_more_at_a_time_then_the_
         for number, picture in enumerate(("body", "surface", "circle", "bifurcation"), start=1):
             sentences.append(introduction.locator(".title").text_content())
             page.locator(f"{IN_SIGHT}.picture-{picture}").wait_for()
-            # A phone shows the newest.
-            assert len(in_sight(page)) == (1 if size == "phone" else number)
+            assert len(in_sight(page)) == number
             boxes = [introduction.bounding_box(), *(one.bounding_box() for one in page.locator(IN_SIGHT).all())]
             for box in boxes:
                 assert box["x"] >= 0
-                assert box["x"] + box["width"] <= page.viewport_size["width"] + 1
-                assert box["y"] + box["height"] <= page.viewport_size["height"] + 1
+                assert box["x"] + box["width"] <= width + 1
+                assert box["y"] + box["height"] <= height + 1
             if number == 1:
                 explorer.change(lambda: introduction.locator(".param-phi0 input[type=range]").press("ArrowRight"))
-            if size == "phone" and number == 2:
-                page.keyboard.press("Escape")
-                break
-            if size == "desk" and number == 1:
                 page.mouse.wheel(0, 100)
             else:
                 introduction.locator(".param-next-step").click()
-        assert len(set(sentences)) == (2 if size == "phone" else 4)
+        assert len(set(sentences)) == 4
         page.locator(".param-scenes").wait_for()
         assert introduction.count() == 0
         page.wait_for_function("document.documentElement.style.colorScheme === 'light'")
         # The address has the state now; a bare one has the whole page from now on.
-        if size == "desk":
-            explorer.goto("/")
-            assert introduction.count() == 0
-        assert not explorer.errors
+        explorer.goto("/")
+        assert introduction.count() == 0

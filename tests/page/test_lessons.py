@@ -13,7 +13,7 @@ from hess_explorer.lessons.collection import read_paths
 from hess_explorer.lessons.reading import read
 from hess_explorer.page.opening import opening
 from support.board import SCENES
-from support.page import ALL, HESS, WIDE, Explorer, flat, values_of, wait_frames
+from support.page import ALL, HESS, WIDE, flat, own_tab, values_of, wait_frames
 from support.pointer import at, frame
 from support.serving import served
 
@@ -47,17 +47,13 @@ def distance(explorer, prediction, shares, axes):
     (a0, a1, b0, b1), (across, down) = axes, np.transpose(shares)
     places = np.column_stack([a0 + across * (a1 - a0), b1 - down * (b1 - b0)])
     pixels = np.array([(right - left) / (x1 - x0), (bottom - top) / (y1 - y0)])
-    is_one = not isinstance(columns[prediction.columns[0]][0], list)
-    parts = ([columns[name]] if is_one else columns[name] for name in prediction.columns)
-    drawn = []
-    for xs, ys in zip(*parts, strict=True):
-        line = np.column_stack([xs, ys]).astype(float)
-        line = line[np.isfinite(line).all(axis=1)]
-        if prediction.what == "curve":
-            between = np.linspace(0.0, 1.0, 50)[:, None, None]
-            line = (line[:-1] * (1 - between) + line[1:] * between).reshape(-1, 2)
-        drawn.append(line)
-    away = [np.concatenate(drawn) - place for place in places]
+    # Of one line each.
+    drawn = np.column_stack([flat(columns[name]) for name in prediction.columns]).astype(float)
+    drawn = drawn[np.isfinite(drawn).all(axis=1)]
+    if prediction.what == "curve":
+        between = np.linspace(0.0, 1.0, 50)[:, None, None]
+        drawn = (drawn[:-1] * (1 - between) + drawn[1:] * between).reshape(-1, 2)
+    away = [drawn - place for place in places]
     return np.mean([np.abs(one[np.hypot(*(one * pixels).T).argmin()]) for one in away], axis=0)
 
 
@@ -184,9 +180,8 @@ def test_images_tables_and_links_of_own_lessons(browser, tmp_path):
     Image.new("RGB", (40, 30), "red").save(tmp_path / "wheel.png")
     for name in ("a", "b"):
         (tmp_path / f"{name}.md").write_text(OWN.format(f"Lesson {name}"), encoding="utf-8")
-    context = browser.new_context(reduced_motion="reduce")
-    with served(lessons=read_paths([tmp_path / "b.md", tmp_path / "a.md"])[0]) as base:
-        tab = Explorer(context.new_page(), base)
+    lessons = read_paths([tmp_path / "b.md", tmp_path / "a.md"])[0]
+    with served(lessons=lessons) as base, own_tab(browser, base, (1280, 720)) as tab:
         page = tab.page
         tab.goto("/")
         assert page.locator(".lesson .of").inner_text() == "Lesson b"
@@ -205,8 +200,6 @@ def test_images_tables_and_links_of_own_lessons(browser, tmp_path):
         page.locator(".param-leave-lesson").click()
         page.locator(".lesson-menu > summary").click()
         assert page.locator(".lesson-menu button").all_inner_texts()[:2] == ["Lesson b (1 min)", "Lesson a (1 min)"]
-        tab.assert_quiet()
-    context.close()
 
 
 def test_what_is_done_by_hand_is_recorded_and_replayed(tab, server):

@@ -1,11 +1,13 @@
 """The first ten seconds: automatic motion, the suggested drag, and the effect of the mouse."""
 
+from contextlib import ExitStack
+
 import pytest
 from playwright.sync_api import expect
 from pytest import approx
 
 from hess_explorer.scenes import scenes
-from support.page import HESS, VISITOR, WIDE, Explorer
+from support.page import HESS, VISITOR, own_tab
 from support.pointer import at, click_on
 
 SIGN = ".drag-me:visible"
@@ -22,19 +24,11 @@ UNDER = """([x, y]) => {
 
 @pytest.fixture
 def fresh_browser(browser, server):
-    """fresh_browser(reduced_motion) → a page that is ready, of a visitor who has never been here."""
-    tabs = []
-
-    def visit(query, motion):
-        context = browser.new_context(viewport=dict(zip(("width", "height"), WIDE, strict=True)), reduced_motion=motion)
-        context.add_init_script(VISITOR)
-        tabs.append(Explorer(context.new_page(), server))
-        return tabs[-1].open(query)
-
-    yield visit
-    for tab in tabs:
-        tab.assert_quiet()
-        tab.page.context.close()
+    """fresh_browser(query, reduced_motion) → a page that is ready, of a visitor who has never been here."""
+    with ExitStack() as tabs:
+        yield lambda query, motion: tabs.enter_context(
+            own_tab(browser, server, script=VISITOR, reduced_motion=motion)
+        ).open(query)
 
 
 def moves(explorer):

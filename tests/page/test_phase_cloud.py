@@ -9,12 +9,10 @@ from pytest import approx
 
 from hess_mechanics import ensemble, level, systems
 from hess_mechanics.chaplygin_ball.equations import BallBody
-from hess_mechanics.chaplygin_ball.phase_cloud import carried, frame_times, patch, shell
+from hess_mechanics.chaplygin_ball.phase_cloud import carried, frame_times, patch
 from support.page import brought
 from support.phase_cloud import SCENE
-from support.thorough import sample
 
-DEFAULTS = SCENE.defaults()
 HERE = ".gallery:not(.away) .picture-{} canvas"
 WIDTH = 600
 """Pixels of a picture that interpolation is to be right for."""
@@ -38,36 +36,29 @@ def clouds(cloud):
     return [np.array(one, float) for one in json.loads(cloud.page.locator("input.param-t").evaluate(CLOUDS))]
 
 
-INTERPOLATED = [
-    {},
-    {"start": "small patch", "beside": "principal axis", "D": 2.0, "b3": -2.0, "direction": "backward", "span": 8.0},
-    {"I11": 1.0, "I22": 1.5, "I13": 0.7, "I23": 1.2, "D": 3.0, "h": 3.0, "span": 11.0},
-]
+CHANGED = {
+    "start": "small patch",
+    "beside": "principal axis",
+    "D": 2.0,
+    "b3": -2.0,
+    "direction": "backward",
+    "span": 8.0,
+}
 
 
-@pytest.mark.parametrize("changes", sample(INTERPOLATED, 1), ids=str)
-def test_between_frames_nearly_all_points_are_right_to_a_pixel(cloud, changes):
-    values = {**DEFAULTS, **changes}
+def test_between_frames_nearly_all_points_are_right_to_a_pixel(cloud):
+    values = {**SCENE.defaults(), **CHANGED}
     body = BallBody(*(values[name] for name in ("I11", "I22", "I13", "I23", "D")))
-    beside = values["beside"] != "nothing"
-    count = 5000 if beside else 10_000
-    states = (
-        patch(body, values["h"], values["angle"], values["spread"], count)
-        if values["start"] == "small patch"
-        else shell(body, values["h"], values["spread"], count)
-    )
-    sense = -1.0 if values["direction"] == "backward" else 1.0
-    frames = frame_times(body, states, values["span"], values["b3"] if beside else 0.0)
-    cloud.give(**changes)
+    beside = systems()["ball"].at((body.I11, body.I22, 0.0, 0.0, body.D, 0.0, 0.0, values["b3"]))
+    states = patch(body, values["h"], values["angle"], values["spread"], 5000)
+    frames = frame_times(body, states, values["span"], values["b3"])
+    cloud.give(**CHANGED)
     for frame in (0, frames.size // 2, frames.size - 2):
         t = 0.5 * float(frames[frame] + frames[frame + 1])
         cloud.set_time(t)
-        exact = carried(body, states[::EVERY], np.array([0.0, sense * t]), level("precise"))
-        expected = [np.hstack([exact.omega[:, 1], exact.gamma[:, 1]])]
-        if beside:
-            principal = (body.I11, body.I22, 0.0, 0.0, body.D, 0.0, 0.0, values["b3"])
-            there = ensemble(systems()["ball"].at(principal), states[::EVERY], [sense * t], level("precise"))
-            expected.append(there.states[:, 0])
+        exact = carried(body, states[::EVERY], np.array([0.0, -t]), level("precise"))
+        there = ensemble(beside, states[::EVERY], [-t], level("precise"))
+        expected = [np.hstack([exact.omega[:, 1], exact.gamma[:, 1]]), there.states[:, 0]]
         half = cloud.page.evaluate("hess.source('omega').data.half")
         for found, right in zip(clouds(cloud), expected, strict=True):
             omega, gamma = (

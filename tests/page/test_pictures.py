@@ -9,7 +9,7 @@ from PIL import Image
 from pytest import approx
 
 from hess_explorer.views import theme
-from support.page import DEFAULTS, FIND, PICTURES, flat, wait_frames
+from support.page import DEFAULTS, FIND, PICTURES, flat, own_tab, wait_frames
 from support.pointer import HOME, STEP, assert_turned, at
 from support.suslov_hess import assert_orbit, body_of, exact_states
 
@@ -52,28 +52,6 @@ def test_a_click_in_the_bifurcation_diagram_chooses_the_torus_under_it(explorer)
     rows, columns = np.nonzero(like(picture(explorer, (x - 9, y - 9, 18, 18)), theme.MUTED))
     assert rows.size > 40
     assert (columns.mean() - 8.5, rows.mean() - 8.5) == approx((0, 0), abs=1.5)
-
-
-def test_a_drag_in_the_bifurcation_diagram_is_followed(explorer):
-    axes = explorer.axes("bifurcation")
-    path = [(0.2, 0.3), (0.6, 0.2), (1.4, -0.2), (2.2, -0.7), (2.9, -1.1)]
-    (x, y), (wide, high) = at(explorer, "bifurcation", *path[0])
-    explorer.page.mouse.move(x, y)
-    explorer.page.mouse.down()
-    for h, f in path[1:]:
-        (x, y), _ = at(explorer, "bifurcation", h, f)
-        explorer.change(explorer.page.mouse.move, x, y)
-        assert explorer.here()[0] == approx(h, abs=wide)
-        assert explorer.here()[1] == approx(f, abs=high)
-        # No more digits than a pixel resolves.
-        assert explorer.here() == tuple(round(value, 3) for value in explorer.here())
-        assert explorer.axes("bifurcation") == axes
-    before = explorer.state
-    explorer.page.mouse.up()
-    explorer.change(lambda: explorer.slide(phi0=1.0))
-    assert explorer.state <= before + 2
-    assert_orbit(explorer, {**DEFAULTS, "h": explorer.shown("h")[0], "f": explorer.shown("f")[0], "phi0": 1.0})
-    assert explorer.shown("h")[0] == approx(2.9, abs=wide)
 
 
 # --- The sphere and the torus ------------------------------------------------------------------------
@@ -243,8 +221,8 @@ def test_a_picture_that_is_folded_is_not_computed(explorer):
     assert explorer.data("torus-density") != first
 
 
-def test_axes_that_depend_on_the_state_have_their_names_from_the_first_one_on(open_page):
-    page = open_page("scene=orbit-diagram&accuracy=draft")
+def test_axes_that_depend_on_the_state_have_their_names_from_the_first_one_on(browser, server):
     names = """() => hess.plots.filter(({ model }) => model.name === "diagram")
       .map(({ model }) => [model.below[0].axis_label, model.left[0].axis_label])"""
-    assert page.evaluate(names) == [["I₂₃", "ψ"]]
+    with own_tab(browser, server) as explorer:
+        assert explorer.open("scene=orbit-diagram&accuracy=draft").page.evaluate(names) == [["I₂₃", "ψ"]]

@@ -12,6 +12,7 @@ from support.page import (
     DEFAULTS,
     FIRST,
     HESS,
+    PHONE,
     STUDY,
     wait_frames,
 )
@@ -25,7 +26,6 @@ SCENES = scenes()
 OFFERED = [name for name, scene in SCENES.items() if scene.origin in (None, HESS)]
 GROUPS = list(dict.fromkeys(SCENES[name].group for name in OFFERED))
 OFFERED_IN_GROUPS = sorted(OFFERED, key=lambda name: GROUPS.index(SCENES[name].group))
-PHONE = (390, 844)
 PIXELS = 600
 """The width of the pictures that samples and levels are right for."""
 
@@ -293,9 +293,6 @@ def test_values_that_change_on_the_way_to_another_scene_arrive_there(explorer):
     assert explorer.shown("h") == (0.9, 0.9)
 
 
-# --- Speed and accuracy ------------------------------------------------------------------------------
-
-
 # --- What is in sight --------------------------------------------------------------------------------
 
 
@@ -344,9 +341,6 @@ def test_on_a_phone_one_control_is_at_hand_and_the_picture_stays_while_it_moves(
     explorer.assert_quiet()
 
 
-# --- While a slider is held --------------------------------------------------------------------------
-
-
 def pixels_off(explorer, found, exact):
     """Return the distance between two states (ω1, ω2, γ1, γ2, γ3) in pixels, the larger of plane and sphere."""
     left, right, *_ = explorer.axes("omega")
@@ -357,27 +351,6 @@ def pixels_off(explorer, found, exact):
 
 
 STATE = ("omega1", "omega2", "g1", "g2", "g3")
-
-
-def test_while_a_slider_is_held_the_draft_is_drawn_right_to_half_a_pixel_and_then_the_chosen_level(explorer):
-    chosen = "reference"
-    explorer.change(explorer.choose, "accuracy", chosen)
-    explorer.change(lambda: explorer.slide(span=100.0))
-    box, mouse = explorer.slider("h").bounding_box(), explorer.page.mouse
-    middle = box["y"] + box["height"] / 2
-    mouse.move(box["x"] + 0.6 * box["width"], middle)
-    explorer.change(mouse.down)
-    for share in (0.41, 0.9):
-        explorer.change(mouse.move, box["x"] + share * box["width"], middle)
-        assert explorer.text("status").startswith("draft:")
-        assert explorer.accuracy == chosen
-        orbit = explorer.data("data-orbit")
-        values = {**DEFAULTS, "span": 100.0, "h": explorer.shown("h")[1]}
-        exact = exact_states(values, orbit["t"])
-        assert np.max(pixels_off(explorer, np.column_stack([orbit[name] for name in STATE]), exact)) < 0.5
-    explorer.change(mouse.up)
-    assert explorer.text("status").startswith(f"{chosen}:")
-    assert_drawn(explorer, HESS, {**DEFAULTS, "span": 100.0, "h": explorer.shown("h")[0], "accuracy": chosen})
 
 
 # --- Between two samples -----------------------------------------------------------------------------

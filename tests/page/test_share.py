@@ -12,7 +12,7 @@ from hess_explorer.server.qr_code import MOST
 from support.accessible import assert_accessible
 from support.barcode import read
 from support.modules import look_inside
-from support.page import ALL, HESS, Explorer, wait_frames
+from support.page import ALL, HESS, Explorer, own_tab, wait_frames
 from support.thorough import sample
 
 # Names of the pictures and of the controls that are to be seen, and their notes.
@@ -114,19 +114,20 @@ def test_the_dialog_gives_link_and_code_and_what_embeds_opens_the_same_state(exp
     ),
 )
 def test_an_embedded_page_has_what_its_address_names_and_nonsense_is_harmless(
-    open_page, server, keys, pictures, controls, is_noted
+    browser, server, keys, pictures, controls, is_noted
 ):
     scene = scenes()[HESS]
-    tab = Explorer(open_page(f"embed=1&{keys}", size=(960, 480)), server)
-    wait_frames(tab, 4)
-    found = tab.page.evaluate(SHOWN)
-    assert found.pop("pictures") == sorted(scene.open_pictures if pictures is None else pictures)
-    assert found.pop("controls") == sorted(scene.essential if controls is None else controls)
-    notes = found.pop("notes")
-    assert bool(notes) == is_noted
-    assert "<b>" not in notes
-    assert found == {"others": 0, "player": 1}
-    assert_accessible(tab.page)
+    with own_tab(browser, server, (960, 480)) as tab:
+        tab.open(f"embed=1&{keys}")
+        wait_frames(tab, 4)
+        found = tab.page.evaluate(SHOWN)
+        assert found.pop("pictures") == sorted(scene.open_pictures if pictures is None else pictures)
+        assert found.pop("controls") == sorted(scene.essential if controls is None else controls)
+        notes = found.pop("notes")
+        assert bool(notes) == is_noted
+        assert "<b>" not in notes
+        assert found == {"others": 0, "player": 1}
+        assert_accessible(tab.page)
 
 
 def test_a_code_holds_the_longest_link_that_it_may_and_says_so_of_a_longer_one(browser, server):

@@ -113,13 +113,6 @@ def test_a_link_that_is_too_long_is_refused_with_a_sentence(base):
         assert "longer than 2000 characters: it was ignored" in state["tree"]["texts"]["notes"]
 
 
-def test_what_nothing_here_takes_is_not_taken(base):
-    for path in ("", "export"):
-        assert answer(base, path, method="POST", body="x" * 100)[0] == 405
-    assert answer(base, "export", method="POST", body="x" * 100_000)[0] == 400
-    assert answer(base, "liveness")[0] == 200
-
-
 def test_of_too_many_files_at_once_the_last_are_refused_with_a_sentence(base, monkeypatch):
     monkeypatch.setattr(Export, "waiting", 20)
     assert answer(base, "export?picture=circle") == (

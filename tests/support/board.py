@@ -14,7 +14,6 @@ from hess_explorer.protocol.messages import Request, parse
 from hess_explorer.protocol.parameters import Formula, Number, Places, decode
 from hess_explorer.protocol.wire import Wire
 from hess_explorer.scenes import scenes
-from hess_explorer.scenes.framework import work
 from hess_explorer.scenes.framework.stage import Stage
 from support.captions import texts_in
 from support.wire import read, read_frame
@@ -22,11 +21,6 @@ from support.wire import read, read_frame
 SCENES = scenes()
 HESS = SCENES["suslov-hess"]
 ACCURACY = SCENES["suslov-hess-accuracy"]
-
-
-def modules_of_scenes():
-    """The modules that compute for scenes, each with the process's cache."""
-    return [work]
 
 
 @cache

@@ -2,7 +2,7 @@
 
 import json
 import re
-from functools import partial
+from contextlib import closing, contextmanager
 from urllib.parse import parse_qsl, urlsplit
 
 from hess_explorer.headless.browser import wait_ready
@@ -18,6 +18,7 @@ POINTS = ("omega-point", "bifurcation-point", "circle-point")
 PICTURES = ("omega", "sphere", "bifurcation", "circle")
 WIDE = (1600, 950)
 """The size of the window that most tests share."""
+PHONE, TOUCHED = (390, 844), {"has_touch": True, "is_mobile": True}
 SLIDERS = {"I22": 0.01, "I23": 0.01, "b3": 0.01, "h": 0.01, "f": 0.01, "phi0": 0.01, "span": 1.0}
 """The numbers, with the step of each slider at the default state."""
 
@@ -46,12 +47,12 @@ class Explorer:
             if urlsplit(url).netloc not in ("", host):
                 self.outside.append(url)
 
-        # Playwright takes no built-in methods.
+        # That the server is alive is asked after some seconds of silence, whatever else is done.
         def on_sent(frame):
-            self.sent.append(frame)
+            self.sent += [frame] if frame != '{"alive": true}' else []
 
         def on_received(frame):
-            self.received.append(frame)
+            self.received += [frame] if frame != "" else []
 
         def on_socket(socket):
             on_url(socket.url)
@@ -392,33 +393,22 @@ ENTER = f"""pairs => {{
 }}"""
 
 
+@contextmanager
+def own_tab(browser, server, size=WIDE, script="", **options):
+    """A tab of its own, in which nothing is loaded yet; at the end assert no errors and no requests to other hosts."""
+    viewport = dict(zip(("width", "height"), size, strict=True))
+    # A scene begins at rest.
+    with closing(browser.new_context(viewport=viewport, **{"reduced_motion": "reduce", **options})) as context:
+        context.add_init_script(script)
+        explorer = Explorer(context.new_page(), server)
+        yield explorer
+        explorer.assert_quiet()
+
+
 def one_tab(browser, server):
     """Yield one tab for many tests: loading a page takes longest."""
-    context = browser.new_context(
-        viewport={"width": WIDE[0], "height": WIDE[1]},
-        permissions=["clipboard-read", "clipboard-write"],
-        # A scene begins at rest.
-        reduced_motion="reduce",
-    )
-    yield Explorer(context.new_page(), server)
-    context.close()
-
-
-def default_state(tab):
-    """Return the page in its default state; at the end assert no errors and no requests to other hosts."""
-    tab.fresh()
-    tab.assert_quiet()
-    yield tab
-    tab.assert_quiet()
-
-
-def one_phone(browser, server):
-    """Yield one phone tab for many tests, with the controls in their initial state."""
-    context = browser.new_context(
-        viewport={"width": 390, "height": 844}, reduced_motion="reduce", has_touch=True, is_mobile=True
-    )
-    yield Explorer(context.new_page(), server).open()
-    context.close()
+    with own_tab(browser, server, permissions=["clipboard-read", "clipboard-write"]) as explorer:
+        yield explorer
 
 
 def brought_on_phone(phone_tab, scene=HESS):
@@ -433,13 +423,6 @@ def brought_on_phone(phone_tab, scene=HESS):
     page.evaluate(HOMEWARDS)
     phone_tab.change(lambda: page.evaluate("hess.tell('reset')"))
     return phone_tab
-
-
-def first_on_phone(phone_tab):
-    """phone(scene) → `brought_on_phone`; at the end assert no errors and no requests to other hosts."""
-    phone_tab.assert_quiet()
-    yield partial(brought_on_phone, phone_tab)
-    phone_tab.assert_quiet()
 
 
 class Websocket:
@@ -470,24 +453,6 @@ class Websocket:
         self._holding = False
         while self._held:
             self._socket.send(self._held.pop(0))
-
-
-def tab_with_websocket(browser, server):
-    """Yield (explorer, websocket): a tab for many tests, and the proxy between it and the server."""
-    context = browser.new_context(viewport={"width": WIDE[0], "height": WIDE[1]}, reduced_motion="reduce")
-    page = context.new_page()
-    yield Explorer(page, server), Websocket(page)
-    context.close()
-
-
-def page_with_websocket(websocket_tab):
-    """Return (explorer, websocket): the page in its default state, and the proxy between it and the server."""
-    explorer, websocket = websocket_tab
-    explorer.fresh()
-    explorer.assert_quiet()
-    yield explorer, websocket
-    websocket.release()
-    explorer.assert_quiet()
 
 
 def flat(data):

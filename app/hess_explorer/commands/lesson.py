@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from importlib.resources import files
 from pathlib import Path
 
@@ -42,6 +43,9 @@ def _new(files: list[Path]) -> None:
     except FileExistsError as error:
         raise CommandError(f"{str(file)!r} exists: choose another name.") from error
     except OSError as error:
+        # On a full disk it has begun.
+        with suppress(OSError):
+            file.unlink()
         raise CommandError(f"Cannot write {str(file)!r} ({error.strerror}): choose another file.") from error
     print(f"Wrote {file}.  Look at it: hess-explorer serve --lesson {file}")
 

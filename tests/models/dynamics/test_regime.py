@@ -155,6 +155,9 @@ def test_permanent_rotations_attract_and_repel_apart_from_each_other():
     for places in (found.attractor, found.repeller):
         away = apart(places[-1, 0], psi)
         assert away.min() < 1e-3
+    # ω is along γ or against it: δ is 0 or π.
+    senses = np.cos([found.attractor[-1, 1], found.repeller[-1, 1]])
+    assert abs(senses.prod() + 1.0) < 1e-3
     assert found.verdict == "dissipative"
     assert found.distance > 1.0
     rates = REVERSAL.I23 * exact[:, 0] / REVERSAL.I22 - REVERSAL.I13 * exact[:, 1] / REVERSAL.I11
