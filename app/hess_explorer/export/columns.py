@@ -193,9 +193,7 @@ def columns_of(data: PictureData) -> Table:
     ]
     known = dict.fromkeys(name for block in blocks for name in block)
     names = dict.fromkeys(["layer", *(name for name in INDICES if name in known), *known])
-    return Table(
-        {name: frozen(_column(name, blocks)) for name in names}, {**data.facts, **angles_of(data)}, data.names
-    )
+    return Table({name: frozen(_column(name, blocks)) for name in names}, {**data.facts, **angles_of(data)}, data.names)
 
 
 def angles_of(data: PictureData) -> dict[str, dict[str, str]]:
@@ -227,11 +225,13 @@ def layers_of(data: PictureData) -> Sources:
             continue
         if "frames0" in columns:
             found |= {f"{layer}-{name}": cloud for name, cloud in _clouds(columns, data.client["t"]).items()}
-            columns = {name: column for name, column in columns.items() if name not in _FRAMES}
+        left_out = _FRAMES if "frames0" in columns else ()
         # Lists are columns only in plots; elsewhere they are vectors or names.
         is_layer = isinstance(data.picture, Plot) and source.startswith(own)
         found[layer] = {
-            name: np.array(column) if is_layer and _is_list(column) else column for name, column in columns.items()
+            name: np.array(column) if is_layer and _is_list(column) else column
+            for name, column in columns.items()
+            if name not in left_out
         }
     return found
 

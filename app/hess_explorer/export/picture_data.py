@@ -179,9 +179,7 @@ def picture_of(scene: Scene[Any], name: str) -> Picture[Any]:
 
 def compute(address: Address) -> PictureData:
     """Compute a picture completely.  Raises `ModelError`."""
-    _, data = complete(
-        address.scene, address.values, [address.picture.name], lambda state: _described(address, state)
-    )
+    _, data = complete(address.scene, address.values, [address.picture.name], lambda state: _described(address, state))
     return data
 
 

@@ -112,9 +112,6 @@ def _points(layer: Layer[Any], columns: Columns, frame: _Frame) -> Array:
     if layer.glyph == "multi_line":
         lines = [_dense(frame.to(x, y), _SAMPLES // len(given[0])) for x, y in zip(*given, strict=True)]
         return np.concatenate(lines, axis=1)
-    if layer.glyph == "segment":
-        lines = [_dense(frame.to(ends[::2], ends[1::2]), 100) for ends in zip(*given, strict=True)]
-        return np.concatenate(lines, axis=1)
     points = frame.to(*given[:2])
     return _dense(points, _SAMPLES) if layer.glyph == "line" else points
 
