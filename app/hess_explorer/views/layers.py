@@ -43,6 +43,7 @@ __all__ = [
     "mapped",
     "names",
     "points",
+    "rectangle",
     "region",
     "ring",
     "target",
@@ -61,6 +62,11 @@ Positions = Sequence[tuple[float, float]]
 """Points (x, y)."""
 Regions = Sequence[Sequence[Array]]
 """Filled parts: for each the outer closed curve (n, 2), then the curves of its holes."""
+
+
+def rectangle(x: Range, y: Range) -> Array:
+    """Return the corners (4, 2) of a rectangle."""
+    return np.array([[x[0], y[0]], [x[1], y[0]], [x[1], y[1]], [x[0], y[1]]])
 
 
 @dataclass(frozen=True)

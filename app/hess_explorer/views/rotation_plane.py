@@ -22,6 +22,7 @@ from hess_explorer.views.layers import (
     Sign,
     curves,
     image,
+    rectangle,
     region,
     target,
 )
@@ -95,14 +96,10 @@ def outside(plane: str, torus: Torus, x: Range, y: Range) -> Regions:
     """Return the impossible part of the window as a `region`."""
     (x0, x1), (y0, y1) = x, y
     if plane == "h, f":
-        return impossible(_upper(x), Axes(x, (min(y0, -y1), max(y1, -y0)))) if x1 > -1.0 else [[_rectangle(x0, x1, y)]]
+        return impossible(_upper(x), Axes(x, (min(y0, -y1), max(y1, -y0)))) if x1 > -1.0 else [[rectangle(x, y)]]
     first, last = _ends(plane, torus)
     parts = [(x0, min(x1, first)), (max(x0, last), x1)]
-    return [[_rectangle(low, high, y)] for low, high in parts if low < high]
-
-
-def _rectangle(low: float, high: float, y: Range) -> Array:
-    return np.array([[low, y[0]], [high, y[0]], [high, y[1]], [low, y[1]]])
+    return [[rectangle(part, y)] for part in parts if part[0] < part[1]]
 
 
 def layers(
