@@ -158,7 +158,7 @@ def test_captions_and_pictures_are_those_of_the_rotation(preset):
     assert curve == approx(joined(values["theta"], phis), abs=1e-6)
     if np.ptp(curve) > 1e-3:
         assert view.numbers("curve", "θ⁺ from # to #") == approx([np.min(curve), np.max(curve)], abs=1e-3)
-    assert view.data["curve-levels"]["y0"] == approx([values["theta"], pi - values["theta"]])
+    assert [y for y, _ in view.data["curve-levels"]["ys"]] == approx([values["theta"], pi - values["theta"]])
     # The map holds all curves.
     (grid,) = view.data["map-theta"]["image"]
     rows, columns = grid.shape

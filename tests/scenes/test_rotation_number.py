@@ -47,7 +47,7 @@ def test_the_rational_number_of_an_example_is_where_its_caption_says(name):
         assert name == "Euler–Poisson, figure 11"
         return
     # The dotted line in the graph.
-    assert view.data["line-levels"]["y0"] == approx([float(rational)])
+    assert [y for y, _ in view.data["line-levels"]["ys"]] == approx([float(rational)])
     (place,) = view.numbers("line", f"ρ = {view.values['rational']} at {line} = #: |Θ")
     (defect,) = view.numbers("line", " − id| ≤ #.")
     found = view.result.periodic.torus

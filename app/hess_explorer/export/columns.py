@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+import math
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -10,13 +11,25 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hess_explorer.export.picture_data import PictureData
-from hess_explorer.export.table import ANGLES, Block, angles_of, blocks, names_of
+from hess_explorer.views.layers import Columns, Sources
 from hess_explorer.views.plot import Plot
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.labelled import Labels, Result
-from hess_mechanics.numerics.results import frozen
+from hess_mechanics.numerics.results import frozen, turning
 
 __all__ = ["Table", "columns_of"]
+
+ANGLES = ("phi", "phi_start", "theta", "psi", "delta", "l", "φ", "θ", "θ⁻", "θ⁺", "ψ", "δ", "Θ(φ)")
+"""Names of columns and axes that are angles, in radians."""
+INDICES = ("part", "ring")
+"""Columns that number the parts of a curve or an area, and its boundary curves, 0 for the outer one."""
+GRID = ("image", "x", "y", "dw", "dh")
+"""Columns of cells."""
+
+_FRAMES = ("frames0", "frames1", "signs0", "times")
+_WIDEST = 2.001 * math.pi
+Block = dict[str, NDArray[Any]]
+"""Columns of equal length by name."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -156,7 +169,7 @@ class _Layer(Result):
                 order = np.lexsort((columns["x"], columns["y"]))
                 cells = columns["value"][order].reshape(y.size, x.size)
                 return Labels({"y": (("y",), y), "x": (("x",), x)}, {"value": (("y", "x"), cells)}, units, facts)
-        numbers = [name for name in columns if name not in ("part", "ring")]
+        numbers = [name for name in columns if name not in INDICES]
         coords = [name for name in columns if name not in numbers] + (numbers[:1] if len(numbers) > 1 else [])
         points = {name: (("point",), column) for name, column in columns.items()}
         return Labels(
@@ -172,18 +185,108 @@ _UNITS = {**dict.fromkeys(("t", "time", "tau", "τ"), "T"), **dict.fromkeys(ANGL
 
 
 def columns_of(data: PictureData) -> Table:
-    """Return the data of a picture in double precision."""
-    found = blocks(data)
-    axes = data.picture.names(data.state) if isinstance(data.picture, Plot) else ()
-    facts = {**data.facts, **angles_of(data)}
-    return Table({name: frozen(_column(name, found)) for name in names_of(found)}, facts, axes)
+    """Return the points of all layers in double precision; a grid has a value at the centre (x, y) of each cell."""
+    blocks = [
+        {"layer": np.full(len(next(iter(block.values()))), layer), **block}
+        for layer, columns in layers_of(data).items()
+        for block in _blocks(columns)
+    ]
+    known = dict.fromkeys(name for block in blocks for name in block)
+    names = dict.fromkeys(["layer", *(name for name in INDICES if name in known), *known])
+    return Table({name: frozen(_column(name, blocks)) for name in names}, {**data.facts, **angles_of(data)}, data.names)
 
 
-def _column(name: str, found: Sequence[Block]) -> NDArray[Any]:
-    parts = [block.get(name) for block in found]
-    nothing = "" if any(part is not None and part.dtype.kind == "U" for part in parts) else np.nan
-    sizes = (len(block["layer"]) for block in found)
-    filled = [np.full(size, nothing) if part is None else part for size, part in zip(sizes, parts, strict=True)]
+def angles_of(data: PictureData) -> dict[str, dict[str, str]]:
+    """Return the fact "angles": whether each column of angles, "layer.name", counts on over full turns."""
+    axes = dict(zip("xy", data.names, strict=False))
+    angles = {*ANGLES, *getattr(type(data.state), "angles", ())}
+    found: dict[str, bool] = {}
+    for layer, columns in layers_of(data).items():
+        # A track is a motion, sampled densely: it jumps only where it starts a turn again.
+        is_track = f"data-{layer}" in data.columns
+        for block in _blocks(columns):
+            for name, column in block.items():
+                known = column[np.isfinite(column)] if axes.get(name, name) in angles else np.empty(0)
+                if known.size:
+                    key, jumps = f"{layer}.{name}", np.abs(np.diff(known)).max(initial=0.0) > math.pi
+                    wide = np.ptp(known) > _WIDEST
+                    found[key] = found.get(key, False) or bool(wide or (is_track and not jumps))
+    return {"angles": {key: turning(counts) for key, counts in found.items()}} if found else {}
+
+
+def layers_of(data: PictureData) -> Sources:
+    """Return the columns by layer ("plot-layer" → "layer") or by track; clouds are at the time of the link."""
+    found: Sources = {}
+    own = f"{data.picture.name}-"
+    for source, columns in sorted(data.columns.items()):
+        layer = source.removeprefix(own).removeprefix("data-")
+        # Labels belong to the look of a picture, not to its numbers.
+        if layer.endswith("-label"):
+            continue
+        if "frames0" in columns:
+            found |= {f"{layer}-{name}": cloud for name, cloud in _clouds(columns, data.client["t"]).items()}
+        left_out = _FRAMES if "frames0" in columns else ()
+        # Lists are columns only in plots; elsewhere they are vectors or names.
+        is_layer = isinstance(data.picture, Plot) and source.startswith(own)
+        found[layer] = {
+            name: np.array(column) if is_layer and _is_list(column) else column
+            for name, column in columns.items()
+            if name not in left_out
+        }
+    return found
+
+
+def _is_list(column: Any) -> bool:
+    return isinstance(column, list) and all(isinstance(one, (int, float, str)) for one in column)
+
+
+def _clouds(columns: Columns, time: float) -> Sources:
+    """Return the points of the frame nearest to a time: u along the equilibria, ln|s|, sign of s, γ; or ω, γ."""
+    frame = int(np.argmin(np.abs(columns["times"] - time)))
+    at = float(columns["times"][frame])
+
+    def there(name: str, names: tuple[str, ...]) -> Columns:
+        block = columns[name].reshape(len(columns["times"]), len(names), -1)[frame]
+        return {"t": np.full(block.shape[1], at), **dict(zip(names, block, strict=True))}
+
+    gamma = ("g1", "g2", "g3")
+    found: Sources = {"cloud": {**there("frames0", ("u", "log_s", *gamma)), "sign": columns["signs0"]}}
+    if "frames1" in columns:
+        found["beside"] = there("frames1", ("omega1", "omega2", *gamma))
+    return found
+
+
+def _blocks(columns: Columns) -> Iterator[Block]:
+    if "image" in columns:
+        for cells, x, y, width, height in zip(*(columns[name] for name in GRID), strict=True):
+            m, n = cells.shape
+            across, up = x + (np.arange(n) + 0.5) * width / n, y + (np.arange(m) + 0.5) * height / m
+            yield {"x": np.tile(across, m), "y": np.repeat(up, n), "value": cells.ravel()}
+    elif "xs" in columns:
+        for part, (xs, ys) in enumerate(zip(columns["xs"], columns["ys"], strict=True)):
+            # An area is a list of parts, each with an outer curve and holes.
+            is_curve = isinstance(xs, np.ndarray)
+            for ring, (x, y) in enumerate(zip(*(([xs], [ys]) if is_curve else (xs[0], ys[0])), strict=True)):
+                indices = (part,) if is_curve else (part, ring)
+                numbers = {name: np.full(len(x), i) for name, i in zip(INDICES, indices, strict=False)}
+                yield {**numbers, "x": np.asarray(x), "y": np.asarray(y)}
+    else:
+        by_length: dict[int, Block] = {}
+        for name, column in columns.items():
+            if is_column(column) and column.size:
+                by_length.setdefault(column.size, {})[name] = column
+        yield from by_length.values()
+
+
+def is_column(column: Any) -> bool:
+    """Return whether data are one number or word for each point."""
+    return isinstance(column, np.ndarray) and column.ndim == 1
+
+
+def _column(name: str, blocks: list[Block]) -> NDArray[Any]:
+    known = [block[name] for block in blocks if name in block]
+    nothing = "" if any(part.dtype.kind == "U" for part in known) else np.nan
+    filled = [block.get(name, np.full(len(block["layer"]), nothing)) for block in blocks]
     return np.concatenate(filled) if filled else np.array([], str)
 
 

@@ -12,6 +12,7 @@ from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Scene
 from hess_explorer.views.layers import Axes, Columns
 from hess_explorer.views.picture import Picture
+from hess_explorer.views.plot import Plot
 from hess_mechanics.errors import InvalidParameter
 
 __all__ = ["CLIENT_KEPT", "Address", "PictureData", "address", "complete", "compute", "picture_data", "picture_of"]
@@ -54,33 +55,28 @@ class Address:
         return {name: value for name, value in self.client.items() if value != _DEFAULTS[name]}
 
 
-@dataclass(frozen=True)
-class PictureData:
+@dataclass(frozen=True, kw_only=True)
+class PictureData(Address):
     """A picture of a state, with its data.
 
     Attributes
     ----------
-    values : admitted values of the parameters; client : time and view of spheres, by key; columns : data by source;
-    axes : axis ranges, None for a picture without axes; title, caption : texts above the picture; status : accuracy,
-    errors and drift, without run times; notes : corrections of the link, and notes on the state.
+    columns : data by source; axes : axis ranges, None for a picture without axes; title, caption : texts above the
+    picture; status : accuracy, errors and drift, without run times; notes : corrections of the link, and notes on the
+    state.
     """
 
-    scene: Scene[Any]
-    picture: Picture[Any]
-    values: Mapping[str, Value]
-    client: Mapping[str, float]
     state: Any
     columns: Mapping[str, Columns]
     axes: Axes | None
     title: str
     caption: str
     status: tuple[str, ...]
-    notes: tuple[str, ...]
 
     @property
-    def link(self) -> str:
-        """The query of the state, without "?"."""
-        return Address(self.scene, self.picture, self.values, self.client).link
+    def names(self) -> tuple[str, ...]:
+        """The names of the axes of a plot; empty for other pictures."""
+        return self.picture.names(self.state) if isinstance(self.picture, Plot) else ()
 
     @property
     def facts(self) -> dict[str, Any]:
@@ -183,23 +179,8 @@ def picture_of(scene: Scene[Any], name: str) -> Picture[Any]:
 
 def compute(address: Address) -> PictureData:
     """Compute a picture completely.  Raises `ModelError`."""
-    scene, view = address.scene, address.picture
-    state, (columns, axes, caption, status, notes) = complete(
-        scene, address.values, [view.name], lambda state: _described(view, state)
-    )
-    return PictureData(
-        scene,
-        view,
-        address.values,
-        address.client,
-        state,
-        columns,
-        axes,
-        caption.title,
-        caption.words,
-        (f"accuracy: {state.work.chosen}", *status),
-        tuple(dict.fromkeys([*address.notes, *notes])),
-    )
+    _, data = complete(address.scene, address.values, [address.picture.name], lambda state: _described(address, state))
+    return data
 
 
 def complete(scene: Scene[Any], values: Values, pictures: Collection[str], made: Callable[[Any], T]) -> tuple[Any, T]:
@@ -214,11 +195,24 @@ def complete(scene: Scene[Any], values: Values, pictures: Collection[str], made:
     return state, found
 
 
-def _described(view: Picture[Any], state: Any) -> tuple[Any, ...]:
-    """Return the columns, axes, caption, status and notes of a picture."""
+def _described(address: Address, state: Any) -> PictureData:
+    """Return a picture with the data that its state has so far."""
+    view = address.picture
     caption = view.full_caption(state)
     axes = view.ranges(state, view.first_axes)
     columns = dict(state.drawn)
     for source, more in view.framed(state, axes, columns).items():
         columns[source] = {**columns.get(source, {}), **more}
-    return columns, axes, caption, tuple(state.status()), tuple(state.notes())
+    return PictureData(
+        address.scene,
+        view,
+        address.values,
+        address.client,
+        tuple(dict.fromkeys([*address.notes, *state.notes()])),
+        state=state,
+        columns=columns,
+        axes=axes,
+        title=caption.title,
+        caption=caption.words,
+        status=(f"accuracy: {state.work.chosen}", *state.status()),
+    )

@@ -129,6 +129,7 @@ def scene(
     """
     section = _section_of(system, pictures)
     fields = _fields(system, section.get("integrals"))
+    field_of = {name: field for name, (field, _) in fields.items()}
     for name in (name for values in (presets or {}).values() for name in values):
         _require(system, name, tuple(fields))
     ends = dict(sliders or {})
@@ -163,9 +164,14 @@ def scene(
         if "integrals" in section:
             controls.append(("place", str, places("Start of the motion", 1, low, high, _place(own))))
         if _BRANCH in names:
-            along = {name: field for name, (field, _) in fields.items()}
-            section["branch"] = part(lambda s: Branch(s, s.periodic_orbit, along))
-            controls += _of_branch(tuple(along), own)
+            first, second = own.names
+            section["branch"] = part(lambda s: Branch(s, s.periodic_orbit, field_of))
+            controls += [
+                ("over", str, parameter_of_branch(tuple(field_of))),
+                ("low", float, end_of_branch("from")),
+                ("high", float, end_of_branch("to")),
+                ("upwards", str, coordinate_of_branch((first, second))),
+            ]
     state = make_dataclass(
         "Motion",
         controls,
@@ -174,9 +180,11 @@ def scene(
         frozen=True,
     )
     chosen: dict[str, Mapping[str, Value]] = {
-        title: {fields[name][0]: float(value) for name, value in values.items()}
+        title: {field_of[name]: float(value) for name, value in values.items()}
         for title, values in (presets or {"The example of the system": {}}).items()
     }
+    variables = f"The variables are {', '.join(system.variables)}"
+    parameters = f", the parameters {', '.join(system.parameters)}" if system.parameters else ""
     return OwnScene(
         state,
         f"{re.sub(r'[^a-z0-9]+', '-', system.name.lower()).strip('-') or 'own'}.md",
@@ -186,10 +194,10 @@ def scene(
         place=1000,
         presets=tuple(Preset(title, **values) for title, values in chosen.items()),
         views=tuple(views),
-        charts=_charts(system, [field for field, _ in fields.values()]) if _CHART in pictures else None,
+        charts=_charts(system, [*field_of.values()]) if _CHART in pictures else None,
         tracks={"orbit": track},
-        essential=tuple(field for field, _ in fields.values())[:_ESSENTIAL],
-        text=text or f"### {system.title}\n\n{_summary(system)}\n",
+        essential=tuple(field_of.values())[:_ESSENTIAL],
+        text=text or f"### {system.title}\n\n{variables}{parameters}.\n",
     )
 
 
@@ -234,17 +242,6 @@ def _checked_section(system: System, section: Mapping[str, Any]) -> VariableSect
     if len(found.names) != 2:
         raise InvalidParameter(f"{system.title}: a picture of a section needs a system of three or more variables.")
     return found
-
-
-def _of_branch(symbols: tuple[str, ...], section: VariableSection) -> list[tuple[str, type, Any]]:
-    """Return the fields of a branch over one of these parameters."""
-    first, second = section.names
-    return [
-        ("over", str, parameter_of_branch(symbols)),
-        ("low", float, end_of_branch("from")),
-        ("high", float, end_of_branch("to")),
-        ("upwards", str, coordinate_of_branch((first, second))),
-    ]
 
 
 def _place(section: VariableSection) -> str:
@@ -354,8 +351,3 @@ def _picture(system: System, wanted: str, leveled: bool) -> Picture[Any]:
         )
     x, y = _require(system, names[0], ("t", *system.variables)), _require(system, names[1], system.variables)
     return orbit_picture(lambda s: s.orbit, x, y, f"{y} over {x}", name=f"{x}-{y}")
-
-
-def _summary(system: System) -> str:
-    variables = f"The variables are {', '.join(system.variables)}"
-    return f"{variables}, the parameters {', '.join(system.parameters)}." if system.parameters else f"{variables}."

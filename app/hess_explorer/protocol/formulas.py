@@ -29,15 +29,17 @@ _DRIVE = re.compile(rf"(?>{_NUMBER}|(?:cos|sin|phase)(?![\w.])|[-+*/()]|\s)+")
 Exponents = tuple[int, int, int]
 
 
-class _Terms(dict[Exponents, float]):
+class _Terms(dict[Exponents, Any]):
     """The coefficient of each product of powers of g1, g2, g3."""
 
-    def add(self, exponents: Exponents, value: float) -> None:
+    def add(self, exponents: Exponents, value: Any) -> None:
         """Add to a coefficient."""
         self[exponents] = self.get(exponents, 0.0) + value
 
 
-_COSINE, _SINE, _PHASE = _Terms({(1, 0, 0): 1.0}), _Terms({(0, 1, 0): 1.0}), _Terms({(0, 0, 1): 1.0})
+_PHASE = _Terms({(0, 0, 1): 1.0})
+_TURN = _Terms({(1, 0, 0): 1.0, (0, 1, 0): 1j})
+"""cos Ωt + i sin Ωt, whose n-th power has the real part cos nΩt and the imaginary part sin nΩt."""
 
 
 def _of(x: Any) -> _Terms:
@@ -144,7 +146,7 @@ def drive(text: str) -> dict[Exponents, float]:
     {(1, 0, 0): 1.0, (1, 1, 0): 2.0}
     """
     plain = re.sub(r"[WΩ]\s*\*?\s*t(?!\w)", "phase", in_python(text))
-    functions = {"cos": lambda angle: _harmonic(angle)[0], "sin": lambda angle: _harmonic(angle)[1]}
+    functions = {"cos": lambda angle: _harmonic(angle, "real"), "sin": lambda angle: _harmonic(angle, "imag")}
     found = _read(
         plain,
         _DRIVE,
@@ -157,19 +159,13 @@ def drive(text: str) -> dict[Exponents, float]:
     return found
 
 
-def _harmonic(angle: Any) -> tuple[_Terms, _Terms]:
-    """Return cos and sin of n times the phase as polynomials in cos and sin of the phase."""
+def _harmonic(angle: Any, part: str) -> _Terms:
+    """Return cos ("real") or sin ("imag") of n times the phase as a polynomial in cos and sin of the phase."""
     terms = _of(angle)
     n = terms.get((0, 0, 1), 0.0)
     if set(terms) != set(_PHASE) or n not in range(1, _DEGREE + 1):
         raise InvalidParameter(f"A drive has cos(n*W*t) and sin(n*W*t), n a whole number from 1 to {_DEGREE}.")
-    real, imaginary = _of(1.0), _of(0.0)
-    for _ in range(int(n)):
-        real, imaginary = (
-            _sum(_product(real, _COSINE), _product(imaginary, _SINE), -1.0),
-            _sum(_product(real, _SINE), _product(imaginary, _COSINE)),
-        )
-    return real, imaginary
+    return _Terms({exponents: getattr(value, part) for exponents, value in _power(_TURN, n).items()})
 
 
 def _read(

@@ -25,7 +25,7 @@ import math
 import struct
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeVar
 
 from hess_explorer.protocol.parameters import Value
 
@@ -40,6 +40,7 @@ __all__ = [
     "parse",
 ]
 
+T = TypeVar("T")
 ALIVE = {"alive": True}
 """The request of a page that has heard nothing for seconds."""
 
@@ -97,29 +98,25 @@ def parse(message: Any) -> Request | None:
     if not isinstance(message, dict):
         return None
 
-    def text(key: str) -> str | None:
+    def of(kind: type[T], key: str) -> T | None:
         value = message.get(key)
-        return value if isinstance(value, str) else None
+        return value if isinstance(value, kind) else None
 
-    def mapping(key: str) -> Mapping[str, Any] | None:
-        value = message.get(key)
-        return value if isinstance(value, dict) else None
-
-    requested, values, expressions = message.get("requested"), mapping("values"), mapping("expressions")
-    hidden, hover = message.get("hidden"), _picked(message.get("hover"))
+    values, expressions, hidden = of(dict, "values"), of(dict, "expressions"), of(list, "hidden")
+    hover = _picked(message.get("hover"))
     return Request(
-        requested=requested if isinstance(requested, int) else None,
-        restore=text("restore"),
+        requested=of(int, "requested"),
+        restore=of(str, "restore"),
         values=values and {name: _value(value) for name, value in values.items()},
         expressions=expressions and {name: given for name, given in expressions.items() if isinstance(given, str)},
         picked=_picked(message.get("picked")),
         hover=hover if isinstance(hover, PicturePoint) else None,
         step=_step(message.get("step")),
-        hidden=[name for name in hidden if isinstance(name, str)] if isinstance(hidden, list) else None,
-        scene=text("scene"),
-        near=text("near"),
-        preset=text("preset"),
-        lesson=text("lesson"),
+        hidden=None if hidden is None else [name for name in hidden if isinstance(name, str)],
+        scene=of(str, "scene"),
+        near=of(str, "near"),
+        preset=of(str, "preset"),
+        lesson=of(str, "lesson"),
         reset=message.get("reset") is True,
         clear=message.get("clear") is True,
         stop=message.get("stop") is True,
@@ -193,17 +190,9 @@ class Answer:
 
     def encode(self) -> bytes:
         """Return the binary frame; empty if the response has no content."""
-        parts = {
-            "scene": self.scene,
-            "lesson": self.lesson,
-            "state": _json(self.state),
-            "show": self.show,
-        }
+        # Not `asdict`, which makes a deep copy.
+        state = "" if self.state is None else json.dumps(vars(self.state))
+        parts = {"scene": self.scene, "lesson": self.lesson, "state": state, "show": self.show}
         fields = ", ".join(f'"{name}": {text}' for name, text in parts.items() if text)
         head = f"{{{fields}}}".encode()
         return struct.pack("<II", len(head), len(self.block)) + head + self.block if fields else b""
-
-
-def _json(part: StateAnswer | None) -> str:
-    # Not `asdict`, which makes a deep copy.
-    return json.dumps(vars(part)) if part is not None else ""

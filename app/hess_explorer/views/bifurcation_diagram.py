@@ -93,7 +93,6 @@ def layers(
             "special",
             lambda s: ((1.0, -1.0), (0.0, 0.0)),
             columns=corners,
-            moving=False,
             marker="diamond",
             color=theme.PAPER,
             edge=theme.INK,

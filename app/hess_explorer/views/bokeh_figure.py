@@ -38,7 +38,6 @@ _GLYPHS: Mapping[str, tuple[type[Glyph], tuple[str, ...]]] = {
     "scatter": (glyphs.Scatter, ("x", "y")),
     "multi_line": (glyphs.MultiLine, ("xs", "ys")),
     "multi_polygons": (glyphs.MultiPolygons, ("xs", "ys")),
-    "segment": (glyphs.Segment, ("x0", "y0", "x1", "y1")),
     "text": (glyphs.Text, ("x", "y", "text")),
     "quad": (glyphs.Quad, ("left", "right", "top", "bottom")),
 }

@@ -90,7 +90,6 @@ def _layers(map: Callable[[S], CircleMap | None], iterates: Callable[[S], Array 
             "diagonal",
             mapped(map, lambda theta: (ANGLE, ANGLE)),
             columns=here,
-            moving=False,
             color=theme.MUTED,
             dash="dotted",
             width=1.5,

@@ -7,7 +7,7 @@ from typing import TypeVar
 
 import numpy as np
 
-from hess_explorer.views.layers import CellGrid, Layers, Sign, image
+from hess_explorer.views.layers import Layers, Sign, image, in_window
 from hess_mechanics.dynamics.cells import Window
 from hess_mechanics.numerics.results import Array
 
@@ -42,18 +42,17 @@ def layers(
 ) -> Layers[S]:
     """Return a layer of pixels for each kind of orbits, empty without `tones`."""
 
-    def of(i: int) -> Callable[[S], CellGrid | None]:
-        def grid(state: S) -> CellGrid | None:
+    def of(i: int) -> Callable[[S], Array | None]:
+        def cells(state: S) -> Array | None:
             found = tones(state)
-            (x0, y0), (x1, y1) = window(state)
-            return CellGrid(found[i], (x0, x1), (y0, y1)) if i < len(found) else None
+            return found[i] if i < len(found) else None
 
-        return grid
+        return cells
 
     return tuple(
         image(
             f"density-{i}",
-            of(i),
+            in_window(of(i), window),
             palette=tuple(f"{color}{tone:02x}" for tone in range(_TONES)),
             low=0.0,
             high=float(_TONES),

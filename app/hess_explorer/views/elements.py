@@ -128,10 +128,6 @@ def _curves(label: str, xs: Sequence[Any], ys: Sequence[Any]) -> hv.Element:
     return hv.Path([np.column_stack(part) for part in zip(xs, ys, strict=True)], label=label)
 
 
-def _segments(label: str, x0: Any, y0: Any, x1: Any, y1: Any) -> hv.Element:
-    return _curves(label, [*zip(x0, x1, strict=True)], [*zip(y0, y1, strict=True)])
-
-
 def _areas(label: str, xs: Sequence[Any], ys: Sequence[Any]) -> hv.Element:
     rings = [[np.column_stack(ring) for ring in zip(x[0], y[0], strict=True)] for x, y in zip(xs, ys, strict=True)]
     return hv.Polygons([{("x", "y"): outer, "holes": [holes]} for outer, *holes in rings], label=label)
@@ -154,8 +150,8 @@ def _stroke(style: Style) -> Options:
     return {
         "color": style["line_color"],
         "linewidth": _PAPER * style["line_width"],
-        "linestyle": _DASHES[style.get("line_dash", "solid")],
-        "alpha": style.get("line_alpha", 1.0),
+        "linestyle": _DASHES[style["line_dash"]],
+        "alpha": style["line_alpha"],
     }
 
 
@@ -283,7 +279,6 @@ class _Kind(NamedTuple):
 _KINDS: Mapping[str, _Kind] = {
     "line": _Kind(_curve, dict, _stroke),
     "multi_line": _Kind(_curves, dict, _stroke),
-    "segment": _Kind(_segments, dict, _stroke),
     "multi_polygons": _Kind(_areas, dict, _area),
     "scatter": _Kind(_points, _turning, _marker, _pixels),
     "dots": _Kind(_points, _small, _dot, _pixels),

@@ -8,7 +8,7 @@ from typing import TypeVar
 import numpy as np
 
 from hess_explorer.views import theme
-from hess_explorer.views.layers import CellGrid, Layer, Layers, Positions, Sign, dots, image, mapped, ring
+from hess_explorer.views.layers import Layer, Layers, Positions, Sign, dots, image, in_window, mapped, ring
 from hess_mechanics.dynamics.attraction import LOST, Arrivals
 from hess_mechanics.dynamics.cells import Window
 from hess_mechanics.numerics.results import Array
@@ -42,15 +42,6 @@ def apart(found: Array, window: Window) -> Array:
     return np.asarray(within[np.sort(one[one >= 0])])
 
 
-def _grid(cells: Callable[[S], Array | None], window: Callable[[S], Window]) -> Callable[[S], CellGrid | None]:
-    def grid(state: S) -> CellGrid | None:
-        found = cells(state)
-        (x0, y0), (x1, y1) = window(state)
-        return None if found is None else CellGrid(found, (x0, x1), (y0, y1))
-
-    return grid
-
-
 def _kinds(
     name: str,
     cells: Callable[[S], Array | None],
@@ -62,7 +53,7 @@ def _kinds(
     shifted = mapped(cells, lambda found: np.minimum(found, len(colors) - 1) + 1.5)
     return image(
         name,
-        _grid(shifted, window),
+        in_window(shifted, window),
         palette=(_CLEAR, *colors),
         low=0.0,
         high=len(colors) + 1.0,
@@ -93,7 +84,7 @@ def basins(found: Callable[[S], Arrivals | None], window: Callable[[S], Window])
 
     return image(
         "basins",
-        _grid(mapped(found, values), window),
+        in_window(mapped(found, values), window),
         palette=(
             *[_CLEAR] * _SHADES,
             *(color + shade for color in theme.BASINS for shade in shades),
@@ -134,7 +125,7 @@ def layers(
     return (
         image(
             "impossible",
-            _grid(impossible, window),
+            in_window(impossible, window),
             palette=(_CLEAR, theme.FORBIDDEN),
             low=0.0,
             high=1.0,

@@ -36,12 +36,14 @@ __all__ = [
     "curves",
     "dots",
     "image",
+    "in_window",
     "label",
     "levels",
     "line",
     "mapped",
     "names",
     "points",
+    "rectangle",
     "region",
     "ring",
     "target",
@@ -60,6 +62,11 @@ Positions = Sequence[tuple[float, float]]
 """Points (x, y)."""
 Regions = Sequence[Sequence[Array]]
 """Filled parts: for each the outer closed curve (n, 2), then the curves of its holes."""
+
+
+def rectangle(x: Range, y: Range) -> Array:
+    """Return the corners (4, 2) of a rectangle."""
+    return np.array([[x[0], y[0]], [x[1], y[0]], [x[1], y[1]], [x[0], y[1]]])
 
 
 @dataclass(frozen=True)
@@ -81,6 +88,19 @@ class CellGrid:
     x: Range
     y: Range
     ends: Range | None = None
+
+
+def in_window(
+    cells: Callable[[S], Array | None], window: Callable[[S], Sequence[tuple[float, float]]]
+) -> Callable[[S], CellGrid | None]:
+    """Return the grid of cells (m, n) that fill a window, its lower left and upper right corner; None without cells."""
+
+    def grid(state: S) -> CellGrid | None:
+        found = cells(state)
+        (x0, y0), (x1, y1) = window(state)
+        return None if found is None else CellGrid(found, (x0, x1), (y0, y1))
+
+    return grid
 
 
 @dataclass(frozen=True)
@@ -222,13 +242,12 @@ def line(
     dash: str = "solid",
     label: str = "",
     tag: str = "",
-    moving: bool = True,
     columns: tuple[str, str] = ("x", "y"),
     track: str | None = None,
     within: Within[S] = None,
 ) -> Layer[S]:
     """Return a layer with one curve: data(state) = (x, y) or None, or the columns of a track of the scene."""
-    layer: Layer[S] = Layer(name, "line", columns, track=track, moving=moving, tag=tag)
+    layer: Layer[S] = Layer(name, "line", columns, track=track, tag=tag)
     return _layer(
         _stroked(layer, color, width, dash, 1.0, label), lambda value: _positions(columns, value), data, within
     )
@@ -289,7 +308,6 @@ def points(
     alpha: float = 1.0,
     label: str = "",
     tag: str = "",
-    moving: bool = True,
     columns: tuple[str, ...] = ("x", "y"),
     within: Within[S] = None,
 ) -> Layer[S]:
@@ -315,7 +333,6 @@ def points(
             "line_alpha": alpha,
             **({"angle": "angle"} if "angle" in columns else {}),
         },
-        moving=moving,
         legend=_signed(label, " ".join(["dot", *(["small"] if small else []), *shape]), look),
         tag=tag,
     )
@@ -443,14 +460,12 @@ _PAPER = {"background_fill_color": theme.PAPER, "background_fill_alpha": 0.75}
 def levels(name: str, data: Callable[[S], Sequence[float]]) -> Layer[S]:
     """Return a layer of dotted lines across the frame at given heights."""
 
-    def across(state: S, axes: Axes) -> Columns:
-        heights = [float(y) for y in data(state)]
-        (low, high), n = axes.x, len(heights)
+    def across(state: S, axes: Axes) -> list[Array]:
+        low, high = axes.x
         reach = high - low
-        return {"x0": [low - reach] * n, "y0": heights, "x1": [high + reach] * n, "y1": heights} if n else {}
+        return [np.array([[low - reach, y], [high + reach, y]]) for y in data(state)]
 
-    style = {"line_color": theme.MUTED, "line_dash": "dotted", "line_width": 1.5}
-    return Layer(name, "segment", ("x0", "y0", "x1", "y1"), style, within=across)
+    return curves(name, within=across, color=theme.MUTED, dash="dotted", width=1.5)
 
 
 def names(

@@ -9,7 +9,7 @@ from typing import Any, ClassVar, TypeVar
 import numpy as np
 
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.layers import MOVING_POINT, Axes, Columns, Sign, Sources, column
+from hess_explorer.views.layers import MOVING_POINT, Columns, Sign, Sources, column
 from hess_explorer.views.picture import Picture
 from hess_mechanics.numerics.results import Array
 
@@ -131,10 +131,6 @@ class Sphere(Picture[S]):
     def data(self, state: S) -> Sources:
         """Return the columns of its axis, circles and marks."""
         return {self.name: drawn(self.axis(state), self.circles(state), self.marks(state))}
-
-    def nothing(self, sentence: str, axes: Axes | None) -> Sources:
-        """Return empty columns; the caption gives the reason."""
-        return {self.name: drawn(None, (), ())}
 
 
 def along_the_orbit(axis: Callable[[S], Direction | None], circles: Callable[[S], Sequence[Circle]]) -> Sphere[S]:

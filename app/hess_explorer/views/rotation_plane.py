@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from functools import lru_cache
 from typing import TypeVar
@@ -21,6 +22,7 @@ from hess_explorer.views.layers import (
     Sign,
     curves,
     image,
+    rectangle,
     region,
     target,
 )
@@ -72,6 +74,14 @@ def _upper(x: Range) -> Array:
     return frozen(np.array([[h, f_max(h) if h > -1.0 else 0.0] for h in energies.tolist()]))
 
 
+def _ends(plane: str, torus: Torus) -> Range:
+    """Return the ends of the possible tori along the horizontal axis of a plane whose vertical axis is a."""
+    if plane == "h, a":
+        return h_min(torus.f), math.inf
+    top = f_max(torus.h) if torus.h > -1.0 else 0.0
+    return -top, top
+
+
 def edges(plane: str, torus: Torus, x: Range, y: Range) -> list[Array]:
     """Return the boundary curves (n, 2) of the possible tori of a plane of `PLANES` within a window."""
     if plane == "h, f":
@@ -79,29 +89,17 @@ def edges(plane: str, torus: Torus, x: Range, y: Range) -> list[Array]:
             return []
         upper = _upper(x)
         return [upper, upper * (1.0, -1.0)]
-    if plane == "h, a":
-        places = [h_min(torus.f)]
-    else:
-        top = f_max(torus.h) if torus.h > -1.0 else 0.0
-        places = [-top, top]
-    return [np.array([[place, y[0]], [place, y[1]]]) for place in places if x[0] < place < x[1]]
+    return [np.array([[end, y[0]], [end, y[1]]]) for end in _ends(plane, torus) if x[0] < end < x[1]]
 
 
 def outside(plane: str, torus: Torus, x: Range, y: Range) -> Regions:
     """Return the impossible part of the window as a `region`."""
     (x0, x1), (y0, y1) = x, y
     if plane == "h, f":
-        return impossible(_upper(x), Axes(x, (min(y0, -y1), max(y1, -y0)))) if x1 > -1.0 else [[_rectangle(x0, x1, y)]]
-    if plane == "h, a":
-        parts = [(x0, min(x1, h_min(torus.f)))]
-    else:
-        top = f_max(torus.h) if torus.h > -1.0 else 0.0
-        parts = [(x0, min(x1, -top)), (max(x0, top), x1)]
-    return [[_rectangle(low, high, y)] for low, high in parts if low < high]
-
-
-def _rectangle(low: float, high: float, y: Range) -> Array:
-    return np.array([[low, y[0]], [high, y[0]], [high, y[1]], [low, y[1]]])
+        return impossible(_upper(x), Axes(x, (min(y0, -y1), max(y1, -y0)))) if x1 > -1.0 else [[rectangle(x, y)]]
+    first, last = _ends(plane, torus)
+    parts = [(x0, min(x1, first)), (max(x0, last), x1)]
+    return [[rectangle(part, y)] for part in parts if part[0] < part[1]]
 
 
 def layers(

@@ -8,7 +8,19 @@ from typing import TypeVar
 import numpy as np
 
 from hess_explorer.views import theme
-from hess_explorer.views.layers import Axes, Layer, Layers, Positions, Regions, dots, mapped, points, region, ring
+from hess_explorer.views.layers import (
+    Axes,
+    Layer,
+    Layers,
+    Positions,
+    Regions,
+    dots,
+    mapped,
+    points,
+    rectangle,
+    region,
+    ring,
+)
 from hess_mechanics.numerics.results import Array
 
 __all__ = ["band", "joined", "layers", "outside"]
@@ -63,11 +75,10 @@ def joined(parts: Iterable[Array]) -> Array:
 
 def band(middle: float, half: float, period: float, axes: Axes) -> list[list[Array]]:
     """Return the vertical band middle ± half of the horizontal angle, with periodic copies, as `forbidden`."""
-    low, high = axes.y
-    part = np.array([[-half, low], [half, low], [half, high], [-half, high]])
+    part = rectangle((-half, half), axes.y)
     return [[part + np.array([middle + turn, 0.0])] for turn in (-period, 0.0, period)]
 
 
 def outside(curves: Sequence[Array], x: float, y: float) -> list[list[Array]]:
     """Return the rectangle ± x, ± y without the interior of closed curves (n, 2), as `forbidden`."""
-    return [[np.array([[-x, -y], [x, -y], [x, y], [-x, y]]), *curves]]
+    return [[rectangle((-x, x), (-y, y)), *curves]]

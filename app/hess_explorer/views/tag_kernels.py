@@ -12,7 +12,7 @@ import numpy as np
 
 from hess_mechanics.numerics.jit import inner, kernel
 
-__all__ = ["along", "best_around", "best_inside", "compile_labels", "fill", "mark"]
+__all__ = ["along", "best", "compile_labels", "fill", "mark"]
 
 
 @kernel
@@ -78,52 +78,23 @@ def mean(sums_of_grid, x, y, half_width, half_height):
     return total / max(1, (x1 - x0) * (y1 - y0))
 
 
-@inner
-def cost(covered, x, y, half_width, half_height, edge, pull):
-    """Return the cost of a label about a point; infinite outside the frame without its edge."""
-    if abs(x - 0.5) + half_width > 0.5 - edge or abs(y - 0.5) + half_height > 0.5 - edge:
-        return math.inf
-    return covered + pull * math.hypot(1.0 - x, 1.0 - y)
-
-
 @kernel
-def best_around(grid, points, half_width, half_height, gap, edge, pull, most):
-    """Return (cost, covered, x, y) of the best label in eight directions from at most `most` of the points (2, n)."""
-    total, found = sums(grid), (math.inf, 0.0, 0.0, 0.0)
-    inside = 0
-    for k in range(points.shape[1]):
-        inside += 0.0 <= points[0, k] <= 1.0 and 0.0 <= points[1, k] <= 1.0
-    stride, seen = inside // most + 1, 0
-    for k in range(points.shape[1]):
-        if not (0.0 <= points[0, k] <= 1.0 and 0.0 <= points[1, k] <= 1.0):
-            continue
-        seen += 1
-        if (seen - 1) % stride:
-            continue
-        for across, up in ((1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1)):
-            x = points[0, k] + across * (half_width + gap)
-            y = points[1, k] + up * (half_height + gap)
-            covered = mean(total, x, y, half_width, half_height)
-            one = cost(covered, x, y, half_width, half_height, edge, pull)
-            if one < found[0]:
-                found = (one, covered, x, y)
-    return found
+def best(grid, region, places, half_width, half_height, edge, pull):
+    """Return (cost, covered, x, y) of the best label about one of the places (2, n), inside the cells of a region.
 
-
-@kernel
-def best_inside(grid, region, half_width, half_height, edge, pull):
-    """Return (cost, covered, x, y) of the best label that lies inside the cells of a region."""
+    The cost is infinite outside the frame without its edge, and outside the region.
+    """
     total, of_region, found = sums(grid), sums(region), (math.inf, 0.0, 0.0, 0.0)
-    cells = grid.shape[0]
-    for row in range(cells):
-        for column in range(cells):
-            x, y = (column + 0.5) / cells, (row + 0.5) / cells
-            if not region[row, column] or mean(of_region, x, y, half_width, half_height) <= 0.999:
-                continue
-            covered = mean(total, x, y, half_width, half_height)
-            one = cost(covered, x, y, half_width, half_height, edge, pull)
-            if one < found[0]:
-                found = (one, covered, x, y)
+    for k in range(places.shape[1]):
+        x, y = places[0, k], places[1, k]
+        if abs(x - 0.5) + half_width > 0.5 - edge or abs(y - 0.5) + half_height > 0.5 - edge:
+            continue
+        if mean(of_region, x, y, half_width, half_height) <= 0.999:
+            continue
+        covered = mean(total, x, y, half_width, half_height)
+        cost = covered + pull * math.hypot(1.0 - x, 1.0 - y)
+        if cost < found[0]:
+            found = (cost, covered, x, y)
     return found
 
 
@@ -132,5 +103,4 @@ def compile_labels() -> None:
     grid, points = np.zeros((2, 2)), np.zeros((2, 2))
     mark(grid, along(*points, 2), 0.0)
     fill(grid, points)
-    best_around(grid, points, 0.1, 0.1, 0.0, 0.0, 0.0, 1)
-    best_inside(grid, grid, 0.1, 0.1, 0.0, 0.0)
+    best(grid, grid, points, 0.1, 0.1, 0.0, 0.0)

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from hess_explorer.views.layers import Axes, Columns, Layer
-from hess_explorer.views.tag_kernels import along, best_around, best_inside, fill, mark
+from hess_explorer.views.tag_kernels import along, best, fill, mark
 from hess_mechanics.numerics.results import Array
 
 __all__ = ["placed"]
@@ -37,6 +37,8 @@ _DOTS = 0.25
 _CLOSED = 2.0
 """Mark of cells under a label, where no other label goes."""
 _EDGE = 0.01
+_FRAME = np.ones((_CELLS, _CELLS))
+_DIRECTIONS = np.array([(1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1)], float).T
 
 
 def placed(layers: Sequence[Layer[Any]], columns: Sequence[Columns], axes: Axes, log: str) -> Mapping[str, Columns]:
@@ -62,9 +64,9 @@ def placed(layers: Sequence[Layer[Any]], columns: Sequence[Columns], axes: Axes,
         half = _half(layer.tag)
         inside = _inside(layer, given, frame)
         cost, covered, *place = (
-            best_around(taken, points, *half, _GAP, _EDGE, _PULL, _ANCHORS)
+            best(taken, _FRAME, _around(points, half), *half, _EDGE, _PULL)
             if inside is None
-            else best_inside(taken, inside, *half, _EDGE, _PULL)
+            else best(taken, inside, _middles(inside), *half, _EDGE, _PULL)
         )
         if cost == math.inf or covered > _FULL:
             continue
@@ -112,9 +114,6 @@ def _points(layer: Layer[Any], columns: Columns, frame: _Frame) -> Array:
     if layer.glyph == "multi_line":
         lines = [_dense(frame.to(x, y), _SAMPLES // len(given[0])) for x, y in zip(*given, strict=True)]
         return np.concatenate(lines, axis=1)
-    if layer.glyph == "segment":
-        lines = [_dense(frame.to(ends[::2], ends[1::2]), 100) for ends in zip(*given, strict=True)]
-        return np.concatenate(lines, axis=1)
     points = frame.to(*given[:2])
     return _dense(points, _SAMPLES) if layer.glyph == "line" else points
 
@@ -136,6 +135,20 @@ def _dense(curve: Array, least: int) -> Array:
 def _half(word: str) -> tuple[float, float]:
     """Return half the width and height of a word."""
     return 0.5 * _LETTER * len(word), 0.5 * _LINE
+
+
+def _around(points: Array, half: tuple[float, float]) -> Array:
+    """Return the places (2, n) of a label in eight directions from at most `_ANCHORS` of the points in the frame."""
+    (x, y), (width, height) = points, half
+    seen = np.flatnonzero((x >= 0.0) & (x <= 1.0) & (y >= 0.0) & (y <= 1.0))
+    anchors = points[:, seen[:: seen.size // _ANCHORS + 1]]
+    apart = _DIRECTIONS * [[width + _GAP], [height + _GAP]]
+    return np.asarray((anchors[:, :, None] + apart[:, None]).reshape(2, -1))
+
+
+def _middles(region: Array) -> Array:
+    """Return the middles (2, n) of the cells of a region."""
+    return np.asarray((np.argwhere(region).T[::-1] + 0.5) / _CELLS)
 
 
 def _box(place: Sequence[float] | Array, *half: float) -> tuple[slice, slice]:

@@ -21,6 +21,7 @@ from hess_explorer.views.layers import (
     curves,
     line,
     points,
+    rectangle,
     region,
 )
 from hess_explorer.views.picture import Values
@@ -151,7 +152,7 @@ def about_origin(half_width: Callable[[S], float]) -> Callable[[S], Range]:
 
 def square(half_width: float) -> Array:
     """Return a square (4, 2) about 0."""
-    return half_width * np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
+    return rectangle(centred(half_width), centred(half_width))
 
 
 def outside(curve: Array, half_width: float) -> list[Array]:
