@@ -6,8 +6,9 @@ from functools import cached_property
 from hess_explorer.scenes.framework.parameters import accuracy_level, number, places, time_span
 from hess_explorer.scenes.framework.part import Start, part
 from hess_explorer.scenes.framework.scene import Preset, Scene, State
-from hess_explorer.scenes.parts.orbit import Orbit, orbit_picture
-from hess_explorer.scenes.parts.section import Section, crossings_of_each, section_picture, start_on
+from hess_explorer.scenes.parts.sections.orbit import Orbit, orbit_picture
+from hess_explorer.scenes.parts.sections.pictures import section_picture
+from hess_explorer.scenes.parts.sections.section import Section, crossings_of_each, start_on
 
 from .mechanics import PendulumSection
 
@@ -38,7 +39,7 @@ class Pendulum(State):
 
     @part
     def section(self) -> Section:
-        return Section(self, lambda: self.start)
+        return Section(self, lambda: (self.start,))
 
     @part
     def orbit(self) -> Orbit:
@@ -54,5 +55,5 @@ SCENE = Scene(
     presets=(Preset("A precessing ellipse"),),
     essential=("E",),
     tracks={"orbit": lambda s: s.orbit.columns},
-    views=(section_picture(lambda s: s.section, "place"), orbit_picture(lambda s: s.orbit, "x1", "x2")),
+    views=(section_picture("place"), orbit_picture("x1", "x2")),
 )

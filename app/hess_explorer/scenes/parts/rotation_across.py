@@ -42,9 +42,10 @@ class _Window(Protocol):
     def frame(self) -> Window:
         """The visible window."""
 
-    @property
-    def first_chosen(self) -> tuple[float, float]:
-        """The place of the first chosen orbit."""
+    def batch(
+        self, starts: tuple[Start, ...], forward: bool = True, crossings: int = 0, level: Level | None = None
+    ) -> Task[OrbitBatch]:
+        """Return the computation of an `OrbitBatch`: so many crossings of the orbits from these states."""
 
 
 class _Host(Host, Protocol):
@@ -56,19 +57,18 @@ class _Host(Host, Protocol):
     def count(self) -> float:
         """The number of crossings of each orbit of the section."""
 
-    def batch(self, starts: tuple[Start, ...], crossings: int, forward: bool, level: Level) -> Task[OrbitBatch]:
-        """Return the computation of an `OrbitBatch`: so many crossings of the orbits from these states."""
-
 
 @dataclass(frozen=True, eq=False)
 class RotationAcross(Part[_Host]):
     """Rotation numbers along a line across the Andoyer–Deprit section.
 
+    first() : the place of the first chosen start.
     about_middle : True counts turns about the middle of the window, on a line from there to the right; False counts
-    them by the angle l, on a vertical line through the first chosen start, which further starts do not move.
+    them by the angle l, on a vertical line through that start, which further starts do not move.
     """
 
     section: _Window
+    first: Callable[[], tuple[float, float]]
     about_middle: bool
 
     @property
@@ -81,7 +81,7 @@ class RotationAcross(Part[_Host]):
         """The ends of the line."""
         (l0, x0), (l1, x1) = self.section.frame
         if not self.about_middle:
-            l = self.section.first_chosen[0]
+            l = self.first()[0]
             return (l, x0), (l, x1)
         middle = 0.5 * (x0 + x1)
         return (0.5 * (l0 + l1), middle), (l1, middle)
@@ -94,7 +94,7 @@ class RotationAcross(Part[_Host]):
         starts = self.work.need(Task(on_line, self.host.poincare, self.ends, count))
         found: list[tuple[float, Array]] = []
         for some in in_batches(starts):
-            task = self.host.batch(tuple(state for _, state in some), crossings, True, plan.level)
+            task = self.section.batch(tuple(state for _, state in some), True, crossings, plan.level)
             piece = self.work.need(task, preview=task if self.work.dragging else None)
             if piece is not None:
                 found += zip((share for share, _ in some), piece.orbits, strict=True)
@@ -130,8 +130,8 @@ class RotationAcross(Part[_Host]):
         orbits = [
             orbit
             for some in in_batches(starts)
-            for orbit in self.host.batch(
-                tuple(state for _, state in some), self._crossings_on_line(plan), True, plan.level
+            for orbit in self.section.batch(
+                tuple(state for _, state in some), True, self._crossings_on_line(plan), plan.level
             )
             .now()
             .orbits

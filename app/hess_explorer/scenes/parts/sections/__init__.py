@@ -1,0 +1,1 @@
+"""Sections: their orbits, and what is found out about them."""
