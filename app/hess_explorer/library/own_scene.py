@@ -19,17 +19,18 @@ from hess_explorer.scenes.framework.parameters import number, places
 from hess_explorer.scenes.framework.part import part
 from hess_explorer.scenes.framework.scene import Preset, Scene
 from hess_explorer.scenes.parts.exponent import exponent_picture
-from hess_explorer.scenes.parts.sections.branch import (
+from hess_explorer.scenes.parts.sections import (
     Branch,
     branch_picture,
+    colouring,
     coordinate_of_branch,
     end_of_branch,
+    first_place,
+    orbit_picture,
     parameter_of_branch,
+    section_layers,
+    section_picture,
 )
-from hess_explorer.scenes.parts.sections.indicator import colouring
-from hess_explorer.scenes.parts.sections.orbit import orbit_picture
-from hess_explorer.scenes.parts.sections.pictures import section_layers, section_picture
-from hess_explorer.scenes.parts.sections.section import first_place
 from hess_explorer.views.layers import Columns
 from hess_explorer.views.picture import Picture
 from hess_explorer.views.poisson_sphere import Sphere, gamma_columns

@@ -15,11 +15,18 @@ from hess_explorer.scenes.framework.part import Start, part
 from hess_explorer.scenes.framework.periodic_search import NotPeriodic
 from hess_explorer.scenes.framework.scene import State
 from hess_explorer.scenes.parts.exponent import Exponent
-from hess_explorer.scenes.parts.sections.indicator import MEGNO, Indicator
-from hess_explorer.scenes.parts.sections.orbit import Orbit
-from hess_explorer.scenes.parts.sections.periodic_orbit import PeriodicOrbit, length_of_manifolds, which
-from hess_explorer.scenes.parts.sections.section import Section, crossings_of_each, start_on
-from hess_explorer.scenes.parts.sections.workbench import SectionState
+from hess_explorer.scenes.parts.sections import (
+    MEGNO,
+    Indicator,
+    Orbit,
+    PeriodicOrbit,
+    Section,
+    SectionState,
+    crossings_of_each,
+    length_of_manifolds,
+    start_on,
+    which,
+)
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.picture import Corners
 from hess_mechanics.dynamics.orbit import solve

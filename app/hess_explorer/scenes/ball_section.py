@@ -19,19 +19,25 @@ from hess_explorer.scenes.framework.part import Start, part
 from hess_explorer.scenes.framework.scene import Preset, Scene
 from hess_explorer.scenes.framework.solid_body import Solid, constrained_solid, solid_body
 from hess_explorer.scenes.parts.proof import Proof, proved_error_shown
-from hess_explorer.scenes.parts.sections.branch import (
+from hess_explorer.scenes.parts.sections import (
     Branch,
+    Orbit,
+    Section,
+    SectionState,
     branch_picture,
+    colouring,
     coordinate_of_branch,
+    crossings_of_each,
     end_of_branch,
+    length_of_manifolds,
     parameter_of_branch,
+    plain,
+    section_layers,
+    section_picture,
+    section_trials,
+    shown_in_section,
+    which,
 )
-from hess_explorer.scenes.parts.sections.indicator import colouring
-from hess_explorer.scenes.parts.sections.orbit import Orbit
-from hess_explorer.scenes.parts.sections.periodic_orbit import length_of_manifolds, plain, which
-from hess_explorer.scenes.parts.sections.pictures import section_layers, section_picture, section_trials
-from hess_explorer.scenes.parts.sections.section import Section, crossings_of_each
-from hess_explorer.scenes.parts.sections.workbench import SectionState, shown_in_section
 from hess_explorer.views import scattering_map as square
 from hess_explorer.views import section_plane
 from hess_explorer.views.caption import Caption

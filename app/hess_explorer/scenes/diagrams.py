@@ -42,7 +42,7 @@ from hess_explorer.scenes.parts.orbit_diagram import (
 )
 from hess_explorer.scenes.parts.proof import Proof, proved_error_shown
 from hess_explorer.scenes.parts.regime import Regime, few
-from hess_explorer.scenes.parts.sections.orbit import Orbit
+from hess_explorer.scenes.parts.sections import Orbit
 from hess_explorer.views import branch, layered_section, periodic, theme
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.graph import about_0, over_time

@@ -34,20 +34,27 @@ from hess_explorer.scenes.parts.exponent import Exponent, exponent_picture, expo
 from hess_explorer.scenes.parts.hess_split import HessSplit, split_picture
 from hess_explorer.scenes.parts.hess_surface import INVARIANT, HeavyTorus, HessSurface, shaded_by, surface_picture
 from hess_explorer.scenes.parts.proof import Proof, proved_error_shown
-from hess_explorer.scenes.parts.rotation_across import RotationAcross, rotation_picture, rotation_trial
-from hess_explorer.scenes.parts.sections.branch import (
+from hess_explorer.scenes.parts.sections import (
     Branch,
+    Clicks,
+    Orbit,
+    SectionState,
     branch_picture,
+    colouring,
     coordinate_of_branch,
     end_of_branch,
+    filled,
+    filled_picture,
+    length_of_manifolds,
+    orbits_spread,
     parameter_of_branch,
+    plain,
+    points_of_each,
+    section_trials,
+    shown_in_section,
+    which,
 )
-from hess_explorer.scenes.parts.sections.clicks import Clicks, filled, orbits_spread, points_of_each
-from hess_explorer.scenes.parts.sections.indicator import colouring
-from hess_explorer.scenes.parts.sections.orbit import Orbit
-from hess_explorer.scenes.parts.sections.periodic_orbit import length_of_manifolds, plain, which
-from hess_explorer.scenes.parts.sections.pictures import filled_picture, section_trials
-from hess_explorer.scenes.parts.sections.workbench import SectionState, shown_in_section
+from hess_explorer.scenes.parts.sections.rotation_across import RotationAcross, rotation_picture, rotation_trial
 from hess_explorer.views import andoyer
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import Columns, column
@@ -370,7 +377,7 @@ SCENE = Scene(
     measures=(
         *section_trials(orbits=40.0),
         exponent_trial(),
-        rotation_trial(lambda s: s.rotation),
+        rotation_trial(),
     ),
     charts=Charts(
         of_motion(SYSTEM, lambda s: s.clicks.asked_start, time=lambda s: s.long),
@@ -398,7 +405,7 @@ SCENE = Scene(
             ),
         ),
         solid_body(wheels=False, section=True),
-        rotation_picture(lambda s: s.rotation),
+        rotation_picture(),
         along_the_orbit(
             lambda s: Direction(math.copysign(1.0, s.m) * np.array(s.body.r), "r"), lambda s: s.proof.around
         ),

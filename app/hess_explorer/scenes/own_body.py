@@ -26,7 +26,7 @@ from hess_explorer.scenes.framework.part import Start, part
 from hess_explorer.scenes.framework.periodic_search import NotPeriodic
 from hess_explorer.scenes.framework.scene import Preset, Scene, State
 from hess_explorer.scenes.parts.exponent import Exponent, exponent_picture, exponent_trial
-from hess_explorer.scenes.parts.sections.orbit import Orbit
+from hess_explorer.scenes.parts.sections import Orbit
 from hess_explorer.views import section_plane, theme
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.graph import over_time, with_room

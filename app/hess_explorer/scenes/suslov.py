@@ -27,13 +27,23 @@ from hess_explorer.scenes.framework.scene import Preset, Scene
 from hess_explorer.scenes.framework.solid_body import Solid, constrained_solid, solid_body
 from hess_explorer.scenes.parts.exponent import Exponent, exponent_trial
 from hess_explorer.scenes.parts.proof import Proof, proved_error_shown
+from hess_explorer.scenes.parts.sections import (
+    Clicks,
+    Orbit,
+    SectionState,
+    colouring,
+    filled,
+    filled_picture,
+    length_of_manifolds,
+    orbits_spread,
+    periodic_layers,
+    plain,
+    points_of_each,
+    section_trials,
+    shown_in_section,
+    which,
+)
 from hess_explorer.scenes.parts.sections.basins import Basins, basins_trial
-from hess_explorer.scenes.parts.sections.clicks import Clicks, filled, orbits_spread, points_of_each
-from hess_explorer.scenes.parts.sections.indicator import colouring
-from hess_explorer.scenes.parts.sections.orbit import Orbit
-from hess_explorer.scenes.parts.sections.periodic_orbit import layers, length_of_manifolds, plain, which
-from hess_explorer.scenes.parts.sections.pictures import filled_picture, section_trials
-from hess_explorer.scenes.parts.sections.workbench import SectionState, shown_in_section
 from hess_explorer.views import conformal_time, layered_section, theme
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.graph import over_time, settled_range, thinned
@@ -356,7 +366,7 @@ SCENE = Scene(
             caption=Suslov._about_section,
             labels=("forward in time", "backward"),
             under=(layered_section.basins(lambda s: s.basins.found, lambda s: s.section.frame),),
-            over=layers(lambda s: s.basins),
+            over=periodic_layers(lambda s: s.basins),
         ),
         solid_body(),
         Plot(

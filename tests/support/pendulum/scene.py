@@ -6,9 +6,14 @@ from functools import cached_property
 from hess_explorer.scenes.framework.parameters import accuracy_level, number, places, time_span
 from hess_explorer.scenes.framework.part import Start, part
 from hess_explorer.scenes.framework.scene import Preset, Scene, State
-from hess_explorer.scenes.parts.sections.orbit import Orbit, orbit_picture
-from hess_explorer.scenes.parts.sections.pictures import section_picture
-from hess_explorer.scenes.parts.sections.section import Section, crossings_of_each, start_on
+from hess_explorer.scenes.parts.sections import (
+    Orbit,
+    Section,
+    crossings_of_each,
+    orbit_picture,
+    section_picture,
+    start_on,
+)
 
 from .mechanics import PendulumSection
 

@@ -40,7 +40,7 @@ from hess_mechanics.dynamics.manifolds import Intersection, Manifold
 from hess_mechanics.dynamics.return_map import ReturnMap
 from hess_mechanics.numerics.accuracy import PRECISE, Status
 
-__all__ = ["NONE", "PeriodicOrbit", "layers", "length_of_manifolds", "plain", "which"]
+__all__ = ["NONE", "PeriodicOrbit", "length_of_manifolds", "periodic_layers", "plain", "which"]
 
 T = TypeVar("T")
 
@@ -311,7 +311,7 @@ class _Bounds(Protocol):
         """The stable manifolds of these saddles."""
 
 
-def layers(bounds: Callable[[Any], _Bounds | None] = lambda s: None) -> Layers[Any]:
+def periodic_layers(bounds: Callable[[Any], _Bounds | None] = lambda s: None) -> Layers[Any]:
     """Return the layers of the periodic orbit in a section, and of what bounds the basins there."""
 
     def orbits(s: Any) -> list[mechanics.PeriodicOrbit]:

@@ -10,8 +10,8 @@ import numpy as np
 from hess_explorer.protocol.parameters import written
 from hess_explorer.scenes.framework.trial import Trial, section_error
 from hess_explorer.scenes.framework.windows import Window, inside
-from hess_explorer.scenes.parts.sections import periodic_orbit
 from hess_explorer.scenes.parts.sections.indicator import indicator_layer, indicator_trial
+from hess_explorer.scenes.parts.sections.periodic_orbit import periodic_layers
 from hess_explorer.views import density, layered_section, section_plane, theme
 from hess_explorer.views.layers import Axes, Layers
 from hess_explorer.views.plot import Plot
@@ -41,7 +41,7 @@ def section_layers(*parts: str, **more: Any) -> Layers[Any]:
         *((indicator_layer(),) if "megno" in parts else ()),
         *(_density(("few to many crossings of other orbits",), (theme.INK,)) if "density" in parts else ()),
         *section_plane.layers(lambda s: s.section.own, others=others, **more),
-        *(periodic_orbit.layers() if "periodic_orbit" in parts else ()),
+        *(periodic_layers() if "periodic_orbit" in parts else ()),
     )
 
 
@@ -119,7 +119,7 @@ def filled_picture(
                 labels=labels,
                 between=between,
             ),
-            *(periodic_orbit.layers() if over is None else over),
+            *(periodic_layers() if over is None else over),
         ),
         **more,
     )

@@ -267,7 +267,7 @@ class Section(Part[_Host]):
         return [orbit for task in tasks for orbit in task.now().orbits]
 
     @cached_property
-    def kept(self) -> tuple[int, int | None] | None:
+    def _kept(self) -> tuple[int, int | None] | None:
         """The last crossing right to half a pixel: of the orbit on show, and the median of some others, if any.
 
         Compares with a second run at a hundredth of the tolerance; None until it is known, and while a slider is held.
@@ -313,7 +313,7 @@ class Section(Part[_Host]):
             points = len(self.own) + len(self.points()) + len(self.points(False))
             yield f"section {points} points, {sum(batch.steps for batch in known)} Taylor steps"
             yield from drift_status(batch.drift for batch in known)
-            yield from kept_status(self.kept, self._count)
+            yield from kept_status(self._kept, self._count)
 
     def notes(self) -> Iterator[str]:
         """Yield the reason why the section is left out, or why a chosen orbit ends early."""

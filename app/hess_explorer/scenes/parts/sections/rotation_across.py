@@ -5,16 +5,16 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Protocol, TypeVar
+from typing import Any, Protocol
 
 import numpy as np
 
 from hess_explorer.compute.cache import Task
-from hess_explorer.scenes.framework.orbit_batches import OrbitBatch, in_batches
-from hess_explorer.scenes.framework.part import Host, Part, Start
-from hess_explorer.scenes.framework.scene import State
+from hess_explorer.scenes.framework.orbit_batches import in_batches
+from hess_explorer.scenes.framework.part import Host, Part
 from hess_explorer.scenes.framework.trial import Trial
 from hess_explorer.scenes.framework.windows import Window
+from hess_explorer.scenes.parts.sections.section import Section
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.graph import with_room
@@ -24,7 +24,7 @@ from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits
 from hess_mechanics.euler_poisson.andoyer import AndoyerSection
 from hess_mechanics.euler_poisson.rotation import RESOLVED, RotationProfile, on_line, rotation_along
-from hess_mechanics.numerics.accuracy import Kind, Level, Plan
+from hess_mechanics.numerics.accuracy import Kind, Plan
 from hess_mechanics.numerics.results import Array
 
 __all__ = ["RotationAcross", "rotation_picture", "rotation_trial"]
@@ -35,17 +35,6 @@ _ON_LINE = 3000
 """Crossings of each orbit: fewer do not resolve the rotation number in a chain of islands to `RESOLVED`."""
 _HELD = (16, 40, 1e-2)
 """While a slider is held: orbits, crossings of each, and the resolution of the rotation number."""
-
-
-class _Window(Protocol):
-    @property
-    def frame(self) -> Window:
-        """The visible window."""
-
-    def batch(
-        self, starts: tuple[Start, ...], forward: bool = True, crossings: int = 0, level: Level | None = None
-    ) -> Task[OrbitBatch]:
-        """Return the computation of an `OrbitBatch`: so many crossings of the orbits from these states."""
 
 
 class _Host(Host, Protocol):
@@ -67,7 +56,7 @@ class RotationAcross(Part[_Host]):
     them by the angle l, on a vertical line through that start, which further starts do not move.
     """
 
-    section: _Window
+    section: Section
     first: Callable[[], tuple[float, float]]
     about_middle: bool
 
@@ -192,15 +181,12 @@ def _axis_of(found: RotationProfile) -> Range:
     return with_room(shown, 0.06, 1e-4) if found.numbers.size else (-0.56, 0.56)
 
 
-S = TypeVar("S", bound=State)
-
-
-def rotation_trial(of: Callable[[S], RotationAcross]) -> Trial[S]:
+def rotation_trial() -> Trial[Any]:
     """Return the trial of the rotation numbers, computed at each level."""
     return Trial(
         Kind.ROTATION,
         ("rotation",),
-        lambda s, plan: of(s).at(plan),
+        lambda s, plan: s.rotation.at(plan),
         lambda s, found, truth: found.distance(truth),
         unit="turns, the median",
         seen=RESOLVED,
@@ -211,36 +197,36 @@ def _branches(found: RotationProfile) -> list[Array]:
     return [np.column_stack(part) for part in zip(found.along, found.rho, strict=True)]
 
 
-def rotation_picture(of: Callable[[S], RotationAcross]) -> Picture[S]:
+def rotation_picture() -> Picture[Any]:
     """Return the picture of ρ along the line: its branches, the orbits it comes from, and the parts without it."""
     return Plot(
         name="rotation",
         title="Rotation number across the section",
-        caption=lambda s: of(s).caption(),
-        axes=lambda s: of(s).names,
+        caption=lambda s: s.rotation.caption(),
+        axes=lambda s: s.rotation.names,
         first=Axes((-1.0, 1.0), (-0.5, 0.5)),
-        message=lambda s: of(s).message(),
-        x=lambda s: of(s).along,
-        y=lambda s: _axis_of(of(s).found),
+        message=lambda s: s.rotation.message(),
+        x=lambda s: s.rotation.along,
+        y=lambda s: _axis_of(s.rotation.found),
         layers=(
             region(
                 "sea",
-                within=lambda s, axes: of(s).parts_at_sea(axes),
+                within=lambda s, axes: s.rotation.parts_at_sea(axes),
                 color=theme.MUTED + "38",
                 moving=True,
                 label="ρ does not settle",
             ),
             points(
                 "standing",
-                lambda s: (of(s).found.standing, np.zeros(of(s).found.standing.size)),
+                lambda s: (s.rotation.found.standing, np.zeros(s.rotation.found.standing.size)),
                 size=7,
                 hollow=True,
                 color=theme.MUTED,
                 edge_width=1.5,
                 label="no rotation: 0 turns",
             ),
-            curves("rho", lambda s: _branches(of(s).found), color=theme.ORBIT),
+            curves("rho", lambda s: _branches(s.rotation.found), color=theme.ORBIT),
             # An orbit between two gaps is a curve of one point, which only a mark shows.
-            points("orbits", lambda s: (of(s).found.places, of(s).found.numbers), size=4, color=theme.ORBIT),
+            points("orbits", lambda s: (s.rotation.found.places, s.rotation.found.numbers), size=4, color=theme.ORBIT),
         ),
     )
