@@ -12,7 +12,7 @@ from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.parameters import Value, Values, written
 from hess_explorer.scenes.framework.parameters import accuracy_level, exponent_time, parameter, time_span
 from hess_explorer.scenes.framework.part import Start, part
-from hess_explorer.scenes.framework.periodic_search import NotPeriodic
+from hess_explorer.scenes.framework.periodic_search import Closed, NotPeriodic
 from hess_explorer.scenes.framework.scene import State
 from hess_explorer.scenes.parts.exponent import Exponent
 from hess_explorer.scenes.parts.sections import (
@@ -21,7 +21,6 @@ from hess_explorer.scenes.parts.sections import (
     Orbit,
     PeriodicOrbit,
     Section,
-    SectionState,
     crossings_of_each,
     length_of_manifolds,
     start_on,
@@ -126,7 +125,7 @@ class OwnState(State):
 
 
 @dataclass(frozen=True)
-class LevelState(SectionState, OwnState):
+class LevelState(OwnState):
     """A motion from a place of a section; each scene adds the values of the integrals there, `i_…`, and the `place`."""
 
     periodic: str = which()
@@ -140,7 +139,20 @@ class LevelState(SectionState, OwnState):
         """The state at the place.  Raises `OutsideRegion`."""
         return start_on(self.poincare, self.place)
 
-    motion = State.motion  # "Speed and accuracy" knows systems by name only
+    @property
+    def start(self) -> Start:
+        """The initial state of the orbit on show."""
+        return self.periodic_orbit.start
+
+    @property
+    def lasts(self) -> float:
+        """The time span of the orbit on show."""
+        return self.periodic_orbit.lasts
+
+    @property
+    def closed(self) -> Closed | None:
+        """The periodic orbit, if known."""
+        return self.periodic_orbit.closed
 
     periodic_orbit = part(lambda s: PeriodicOrbit(s.section, s.periodic, s.reach, s.span))
 

@@ -42,13 +42,8 @@ class Pendulum(State):
     def start(self) -> Start:
         return start_on(self.poincare, self.place)
 
-    @part
-    def section(self) -> Section:
-        return Section(self, lambda: (self.start,))
-
-    @part
-    def orbit(self) -> Orbit:
-        return Orbit(self)
+    section = part(lambda s: Section(s, lambda: (s.start,)))
+    orbit = part(Orbit)
 
 
 SCENE = Scene(
