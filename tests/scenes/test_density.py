@@ -7,7 +7,7 @@ from pytest import approx
 from hess_explorer.protocol.parameters import places
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework import points
-from hess_explorer.scenes.parts import density
+from hess_explorer.scenes.parts.sections import density
 from hess_explorer.views.density import tones
 from hess_mechanics import section
 from hess_mechanics.dynamics.section_density import visits

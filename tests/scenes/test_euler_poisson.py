@@ -141,7 +141,7 @@ def test_on_the_second_sheet_orbits_start_with_the_smaller_momentum():
 
 def test_where_there_is_no_second_sheet_that_is_said():
     with pytest.raises(ModelError, match=r"No motion crosses a second sheet here.*choose the largest G"):
-        _ = EP.of({**EP.defaults(), "sheet": "second G"}).section.picked
+        _ = EP.of({**EP.defaults(), "sheet": "second G"}).clicks.picked
 
 
 def test_curves_that_do_not_go_round_have_no_rotation_number():

@@ -56,5 +56,5 @@ def test_a_click_in_its_section_starts_the_orbit_there(scene):
 
 
 def test_each_part_is_in_the_table_of_the_guide():
-    files = {file.stem for file in (PACKAGE / "scenes" / "parts").glob("*.py")} - {"__init__"}
+    files = {file.stem for file in (PACKAGE / "scenes" / "parts").rglob("*.py")} - {"__init__"}
     assert files <= set(re.findall(r"`(\w+)\.\w+`", GUIDE))

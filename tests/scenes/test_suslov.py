@@ -69,7 +69,7 @@ def test_an_example_is_complete_and_counts_its_points(name):
         said = view.numbers("section", "\n# points forward")
         assert said == [len(forward)]
         cells, of = view.numbers("section", "late forward points occupy # of # cells.")
-        later = joined(orbit[len(orbit) // 2 :] for orbit in view.result.section.kind(True))
+        later = joined(orbit[len(orbit) // 2 :] for orbit in view.result.section.kind())
         assert len(later) == approx(len(forward) * (0.5 if view.values["drop"] == "all" else 1.0), rel=0.01)
         assert (cells, of) == (occupied_cells(later, 32), 1024)
     assert np.all((forward[:, 1] >= 0.0) & (forward[:, 1] <= pi + 1e-6))
@@ -229,7 +229,8 @@ def test_a_window_without_a_point_says_so_when_no_more_will_come():
     # While more may come, it is not said; nor where there is one.
     waiting = SCENE.compute({**view.values, "h": 1.016}, ("section",), False)
     assert waiting.work.todo
-    assert waiting.section.nothing_seen() == ""
+    picture = next(view for view in SCENE.views if view.name == "section")
+    assert picture.message(waiting) == ""
     whole = View(SCENE, {**values, "window": ""}, seen=("section",))
     assert "section-message" not in whole.data
 

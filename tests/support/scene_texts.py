@@ -9,7 +9,7 @@ from scipy.optimize import brentq
 from hess_explorer.protocol import formulas
 from hess_explorer.scenes import ball_section, quartic, scenes
 from hess_explorer.scenes.framework import periodic_search, trial
-from hess_explorer.scenes.parts import basins, density
+from hess_explorer.scenes.parts.sections import basins, density
 from hess_explorer.views import layered_section
 from hess_mechanics import (
     LEVELS,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, make_dataclass, replace
+from dataclasses import dataclass, make_dataclass
 from typing import Any
 
 import numpy as np
@@ -18,18 +18,19 @@ from hess_explorer.scenes.framework.charted import Charts, of_motion
 from hess_explorer.scenes.framework.parameters import number, places
 from hess_explorer.scenes.framework.part import part
 from hess_explorer.scenes.framework.scene import Preset, Scene
-from hess_explorer.scenes.parts.branch import (
+from hess_explorer.scenes.parts.exponent import exponent_picture
+from hess_explorer.scenes.parts.sections import (
     Branch,
     branch_picture,
+    colouring,
     coordinate_of_branch,
     end_of_branch,
+    first_place,
+    orbit_picture,
     parameter_of_branch,
+    section_layers,
+    section_picture,
 )
-from hess_explorer.scenes.parts.exponent import exponent_picture
-from hess_explorer.scenes.parts.indicator import colouring, indicator_layer
-from hess_explorer.scenes.parts.orbit import orbit_picture
-from hess_explorer.scenes.parts.periodic_orbit import layers
-from hess_explorer.scenes.parts.section import first_place, section_picture
 from hess_explorer.views.layers import Columns
 from hess_explorer.views.picture import Picture
 from hess_explorer.views.poisson_sphere import Sphere, gamma_columns
@@ -318,23 +319,17 @@ def _first_picture(system: System) -> str:
 def _picture(system: System, wanted: str, leveled: bool) -> Picture[Any]:
     """Return the picture of a text; leveled : its section has periodic orbits.  Raises `InvalidParameter`."""
     if wanted == _EXPONENT:
-        return exponent_picture(lambda s: s.exponent)
+        return exponent_picture()
     if wanted == _BRANCH:
-        return branch_picture(lambda s: s.branch)
+        return branch_picture()
     if _SECTION.fullmatch(wanted):
-        view: Any = section_picture(lambda s: s.section, "")
-        found: Picture[Any] = replace(
-            view,
-            layers=(
-                indicator_layer(lambda s: s.megno),
-                *view.layers,
-                *(layers(lambda s: s.periodic_orbit) if leveled else ()),
-            ),
+        shown = ("megno", "periodic_orbit") if leveled else ("megno",)
+        return section_picture(
+            layers=section_layers(*shown, ended=lambda s: s.section.points(ends=True)),
             caption=lambda s: s.about_section,
             on_click=LevelState.start_at if leveled else OwnState.start_at,
             on_box=OwnState.look_closer,
         )
-        return found
     names = wanted.split()
     if len(names) == 3:
         a, b, c = (_require(system, name, system.variables) for name in names)
@@ -350,4 +345,4 @@ def _picture(system: System, wanted: str, leveled: bool) -> Picture[Any]:
             f"sphere, section, or {_EXPONENT}."
         )
     x, y = _require(system, names[0], ("t", *system.variables)), _require(system, names[1], system.variables)
-    return orbit_picture(lambda s: s.orbit, x, y, f"{y} over {x}", name=f"{x}-{y}")
+    return orbit_picture(x, y, f"{y} over {x}", name=f"{x}-{y}")

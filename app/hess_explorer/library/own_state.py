@@ -12,13 +12,20 @@ from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.parameters import Value, Values, written
 from hess_explorer.scenes.framework.parameters import accuracy_level, exponent_time, parameter, time_span
 from hess_explorer.scenes.framework.part import Start, part
-from hess_explorer.scenes.framework.periodic_search import Closed
+from hess_explorer.scenes.framework.periodic_search import Closed, NotPeriodic
 from hess_explorer.scenes.framework.scene import State
-from hess_explorer.scenes.parts.exponent import Exponent, NotPeriodic
-from hess_explorer.scenes.parts.indicator import MEGNO, Indicator
-from hess_explorer.scenes.parts.orbit import Orbit
-from hess_explorer.scenes.parts.periodic_orbit import PeriodicOrbit, length_of_manifolds, which
-from hess_explorer.scenes.parts.section import Section, crossings_of_each, start_on
+from hess_explorer.scenes.parts.exponent import Exponent
+from hess_explorer.scenes.parts.sections import (
+    MEGNO,
+    Indicator,
+    Orbit,
+    PeriodicOrbit,
+    Section,
+    crossings_of_each,
+    length_of_manifolds,
+    start_on,
+    which,
+)
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.picture import Corners
 from hess_mechanics.dynamics.orbit import solve
@@ -83,20 +90,8 @@ class OwnState(State):
         """The periodic orbit in place of the chosen one: none is searched for."""
         return NotPeriodic()
 
-    @property
-    def closed(self) -> Closed | None:
-        """The periodic orbit, if known."""
-        return None
-
-    @part
-    def orbit(self) -> Orbit:
-        """The motion."""
-        return Orbit(self, max_step=self.max_step)
-
-    @part
-    def exponent(self) -> Exponent:
-        """Its largest Lyapunov exponent."""
-        return Exponent(self)
+    orbit = part(lambda s: Orbit(s, max_step=s.max_step))
+    exponent = part(Exponent)
 
     def levels(self) -> dict[str, float]:
         """Return the values of integrals at which the section lies: those along the motion."""
@@ -109,15 +104,8 @@ class OwnState(State):
         """The section."""
         return variable_section(self.body, self.levels(), self.surface, self.coordinates, self.ranges)
 
-    @part
-    def section(self) -> Section:
-        """The crossings of the motion and of others with the same integrals."""
-        return Section(self, lambda: self.given, closed=lambda: self.closed, zoom=self.window)
-
-    @part
-    def megno(self) -> Indicator:
-        """The MEGNO of the section's cells."""
-        return Indicator(self.section, self.indicator == MEGNO)
+    section = part(lambda s: Section(s, lambda: (s.given,), periodic=lambda: s.periodic_orbit, zoom=s.window))
+    megno = part(lambda s: Indicator(s.section, s.indicator == MEGNO))
 
     @property
     def about_section(self) -> Caption:
@@ -161,15 +149,12 @@ class LevelState(OwnState):
         """The time span of the orbit on show."""
         return self.periodic_orbit.lasts
 
-    @part
-    def periodic_orbit(self) -> PeriodicOrbit:
-        """The periodic orbit in place of the chosen one."""
-        return PeriodicOrbit(self.section, self.periodic, self.reach, self.span)
-
     @property
     def closed(self) -> Closed | None:
         """The periodic orbit, if known."""
         return self.periodic_orbit.closed
+
+    periodic_orbit = part(lambda s: PeriodicOrbit(s.section, s.periodic, s.reach, s.span))
 
     @property
     def about_section(self) -> Caption:

@@ -12,26 +12,32 @@ import numpy as np
 from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.parameters import Values
 from hess_explorer.scenes.framework import ball_parameters as ball
-from hess_explorer.scenes.framework.cells import DENSITY
 from hess_explorer.scenes.framework.charted import Charts, of_motion
+from hess_explorer.scenes.framework.orbit_batches import OrbitBatch, batch_of
 from hess_explorer.scenes.framework.parameters import accuracy_level, choice, number, parameter, time_span
-from hess_explorer.scenes.framework.part import part
-from hess_explorer.scenes.framework.periodic_search import Closed
-from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
+from hess_explorer.scenes.framework.part import Start, part
+from hess_explorer.scenes.framework.scene import Preset, Scene
 from hess_explorer.scenes.framework.solid_body import Solid, constrained_solid, solid_body
-from hess_explorer.scenes.parts.branch import (
-    Branch,
-    branch_picture,
-    coordinate_of_branch,
-    end_of_branch,
-    parameter_of_branch,
-)
-from hess_explorer.scenes.parts.density import Density, density_layers
-from hess_explorer.scenes.parts.indicator import MEGNO, Indicator, colouring, indicator_layer, indicator_trial
-from hess_explorer.scenes.parts.orbit import Orbit
-from hess_explorer.scenes.parts.periodic_orbit import PeriodicOrbit, layers, length_of_manifolds, plain, which
 from hess_explorer.scenes.parts.proof import Proof, proved_error_shown
-from hess_explorer.scenes.parts.section import Section, crossings_of_each, section_trial
+from hess_explorer.scenes.parts.sections import (
+    Branch,
+    Orbit,
+    Section,
+    SectionState,
+    branch_picture,
+    colouring,
+    coordinate_of_branch,
+    crossings_of_each,
+    end_of_branch,
+    length_of_manifolds,
+    parameter_of_branch,
+    plain,
+    section_layers,
+    section_picture,
+    section_trials,
+    shown_in_section,
+    which,
+)
 from hess_explorer.views import scattering_map as square
 from hess_explorer.views import section_plane
 from hess_explorer.views.caption import Caption
@@ -50,10 +56,10 @@ from hess_mechanics.chaplygin_ball.section import (
     fastest,
     forbidden_band,
     outside_band,
-    spread_section,
+    seeds,
     state_at,
 )
-from hess_mechanics.dynamics.section import SectionPoints, occupied_cells
+from hess_mechanics.dynamics.section import occupied_cells
 from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.parameters import H_BALL
@@ -139,7 +145,7 @@ PRESETS = (
 
 
 @dataclass(frozen=True)
-class BallSection(State):
+class BallSection(SectionState):
     """One orbit, chosen in the section, among others of the same energy."""
 
     I11: float = parameter(ball.I11)
@@ -218,72 +224,27 @@ class BallSection(State):
         """The state at (ψ, δ) of the section."""
         return state_at(self.body, self.E, self.psi, self.delta)
 
-    @property
-    def start(self) -> tuple[float, ...]:
-        """The initial state of the orbit on show."""
-        return self.periodic_orbit.start
-
-    @property
-    def lasts(self) -> float:
-        """The length of the orbit in time."""
-        return self.periodic_orbit.lasts
-
     @cached_property
     def weights(self) -> tuple[float, ...]:
         """Scale of each variable in pixels per unit, fitted to the orbit."""
         return pixels_per_unit(room_for(self.work.need(Task(fastest, self.body, self.start, self.lasts))))
 
-    def motion(self) -> Motion:
-        """Return the orbit on show."""
-        return self.orbit.motion()
-
     # ---- the parts ----------------------------------------------------------------------------------------------
 
-    @part
-    def section(self) -> Section:
-        """The section of the orbit on show and of others."""
-        return Section(self, lambda: self.given, self._crossing, closed=lambda: self.closed, later=self.drop != "all")
-
-    @part
-    def density(self) -> Density:
-        """The density of the section."""
-        return Density(self.section, self.indicator == DENSITY, self.drop != "all")
-
-    @part
-    def megno(self) -> Indicator:
-        """The MEGNO of the section's cells."""
-        return Indicator(self.section, self.indicator == MEGNO)
-
-    @part
-    def periodic_orbit(self) -> PeriodicOrbit:
-        """The periodic orbit that replaces the chosen one."""
-        return PeriodicOrbit(self.section, self.periodic, self.reach, self.span)
-
-    @property
-    def closed(self) -> Closed | None:
-        """The periodic orbit, if known."""
-        return self.periodic_orbit.closed
-
-    @part
-    def branch(self) -> Branch:
-        """The branch of the periodic orbit over a parameter."""
-        return Branch(self, self.periodic_orbit, ball.PARAMETERS)
-
-    @part
-    def orbit(self) -> Orbit:
-        """The orbit on show."""
-        return Orbit(self)
-
-    @part
-    def proof(self) -> Proof:
-        """The proved error of the orbit."""
-        return Proof(self.orbit, self.certain)
-
-    def _crossing(self, crossings: int, level: Level) -> tuple[Task[SectionPoints], Task[SectionPoints]]:
-        return (
-            Task(ball_section, self.body, self.E, (self.given,), crossings, level, _MOST_STEPS),
-            Task(spread_section, self.body, self.E, _ORBITS, crossings, level, _MOST_STEPS),
+    section = part(
+        lambda s: Section(
+            s,
+            lambda: (s.given,),
+            _crossings,
+            lambda section: [tuple(seeds(s.body, s.E, _ORBITS))],
+            lambda: s.periodic_orbit,
+            later=s.drop != "all",
         )
+    )
+    density, megno, periodic_orbit = shown_in_section()
+    branch = part(lambda s: Branch(s, s.periodic_orbit, ball.PARAMETERS))
+    orbit = part(Orbit)
+    proof = part(lambda s: Proof(s.orbit, s.certain))
 
     # ---- the pictures -------------------------------------------------------------------------------------------
 
@@ -307,17 +268,18 @@ class BallSection(State):
 
     def forbidden(self, axes: Axes) -> list[list[Array]]:
         """Return the band of ψ that the energy forbids."""
-        if self.band is None or self.section.own is None:
+        if self.band is None or self.section.reason:
             return []
         return section_plane.band(*self.band, 2.0 * math.pi, axes)
 
     def returns(self) -> Array | None:
         """Return consecutive values (ψ, next ψ) of the chosen orbit (n, 2)."""
-        own = self.section.own
-        if own is None:
-            return None
-        psi = own[:, 0]
-        return np.column_stack([psi[:-1], psi[1:]] if self.closed is None else [psi, np.roll(psi, -1)])
+        closed = self.closed
+        if closed is not None:
+            psi = closed.orbit.places[:, 0]
+            return np.column_stack([psi, np.roll(psi, -1)])
+        psi = self.section.own[:, 0]
+        return None if self.section.reason else np.column_stack([psi[:-1], psi[1:]])
 
     # ---- words --------------------------------------------------------------------------------------------------
 
@@ -325,7 +287,7 @@ class BallSection(State):
         special = self.periodic_orbit.caption or self.megno.caption
         if special is not None:
             return special
-        if self.section.own is None:
+        if self.section.reason:
             return Caption("Left out: too many steps.")
         volume = "The flow preserves volume." if self.I13 == self.I23 == 0.0 else "The flow does not preserve volume."
         visited = occupied_cells(self.section.own, _CELLS)
@@ -333,7 +295,7 @@ class BallSection(State):
         return Caption(volume, f"{counted}orbit in {visited} of {_CELLS**2} cells.")
 
     def _about_returns(self) -> Caption:
-        if self.section.own is None:
+        if self.section.reason:
             return Caption("Left out: too many steps.")
         if is_reversible(self.body):
             return Caption("One point: every orbit that returns closes.", "Proved by the symmetry γ₃ → −γ₃, t → −t.")
@@ -354,12 +316,18 @@ class BallSection(State):
             yield f"ω₁γ₁ + ω₂γ₂ = {digits(float(area_integral(np.array(self.start))))}, an integral"
 
 
+def _crossings(
+    section: mechanics.BallSection, starts: tuple[Start, ...], crossings: int, forward: bool, level: Level
+) -> OrbitBatch:
+    return batch_of(section, ball_section(section.body, section.h, starts, crossings, level, _MOST_STEPS))
+
+
 SCENE = Scene(
     BallSection,
     __file__,
     place=10,
     presets=PRESETS,
-    measures=(section_trial(lambda s: s.section), indicator_trial(lambda s: s.megno)),
+    measures=section_trials(),
     charts=Charts(of_motion(SYSTEM, lambda s: s.given), over=("psi", "delta")),
     group="Ball",
     essential=("h", "I13", "D", "psi"),
@@ -370,8 +338,7 @@ SCENE = Scene(
     tracks={"orbit": lambda s: orbit_columns(s.orbit.path)},
     views=(
         solid_body(ball=True),
-        Plot(
-            name="section",
+        section_picture(
             title="Section γ₃ = 0 (upward crossings)",
             caption=BallSection._about_section,
             axes=_NAMES,
@@ -379,19 +346,13 @@ SCENE = Scene(
             y=square.POLAR,
             ticks=ANGLE_TICKS,
             y_ticks=square.POLAR_TICKS,
-            message=lambda s: s.section.reason,
             on_click=BallSection.start_at,
-            starts=True,
-            layers=(
-                indicator_layer(lambda s: s.megno),
-                *density_layers(lambda s: s.density),
-                *section_plane.layers(
-                    lambda s: s.section.points,
-                    others=lambda s: None if s.density.tones else s.section.others,
-                    forbidden=BallSection.forbidden,
-                    start=lambda s: [] if s.section.points is None else [(s.psi, s.delta)],
-                ),
-                *layers(lambda s: s.periodic_orbit),
+            layers=section_layers(
+                "megno",
+                "density",
+                "periodic_orbit",
+                forbidden=BallSection.forbidden,
+                start=lambda s: [(s.psi, s.delta)] if s.section.chosen else [],
             ),
         ),
         orbit_alone(BallSection.half_width, energy=lambda s: s.E, label="chosen orbit", proved=lambda s: s.proof.band),
@@ -408,6 +369,6 @@ SCENE = Scene(
             message=lambda s: s.section.reason,
             layers=section_plane.layers(BallSection.returns),
         ),
-        branch_picture(lambda s: s.branch),
+        branch_picture(),
     ),
 )

@@ -30,7 +30,6 @@ from hess_explorer.scenes.framework.scene import Motion, State
 from hess_explorer.scenes.framework.solid_body import Solid, constrained_solid, solid_body
 from hess_explorer.scenes.framework.windows import Window
 from hess_explorer.scenes.parts.diagram_density import DiagramDensity, diagram_density_layers
-from hess_explorer.scenes.parts.orbit import Orbit
 from hess_explorer.scenes.parts.orbit_diagram import (
     ANEW,
     BOUNDS,
@@ -43,6 +42,7 @@ from hess_explorer.scenes.parts.orbit_diagram import (
 )
 from hess_explorer.scenes.parts.proof import Proof, proved_error_shown
 from hess_explorer.scenes.parts.regime import Regime, few
+from hess_explorer.scenes.parts.sections import Orbit
 from hess_explorer.views import branch, layered_section, periodic, theme
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.graph import about_0, over_time

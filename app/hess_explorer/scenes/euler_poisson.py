@@ -4,19 +4,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import ClassVar
 
 import numpy as np
 
-from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.parameters import Value, Values, written
-from hess_explorer.scenes.framework.cells import DENSITY
 from hess_explorer.scenes.framework.charted import Charts, of_motion
 from hess_explorer.scenes.framework.hess_case import HeavyHess
 from hess_explorer.scenes.framework.inertia import limits_of_moments
-from hess_explorer.scenes.framework.orbit_batches import OrbitBatch
+from hess_explorer.scenes.framework.orbit_batches import OrbitBatch, batch_of
 from hess_explorer.scenes.framework.parameters import (
     TURN,
     Slider,
@@ -29,32 +27,34 @@ from hess_explorer.scenes.framework.parameters import (
     time_span,
 )
 from hess_explorer.scenes.framework.part import Start, part
-from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
+from hess_explorer.scenes.framework.scene import Preset, Scene
 from hess_explorer.scenes.framework.solid_body import Solid, heavy_solid, solid_body
 from hess_explorer.scenes.framework.windows import inside
-from hess_explorer.scenes.parts.branch import (
-    Branch,
-    branch_picture,
-    coordinate_of_branch,
-    end_of_branch,
-    parameter_of_branch,
-)
-from hess_explorer.scenes.parts.density import Density
 from hess_explorer.scenes.parts.exponent import Exponent, exponent_picture, exponent_trial
-from hess_explorer.scenes.parts.filled_section import (
-    FilledSection,
-    filled_picture,
-    filled_trial,
-    orbits_spread,
-    points_of_each,
-)
 from hess_explorer.scenes.parts.hess_split import HessSplit, split_picture
 from hess_explorer.scenes.parts.hess_surface import INVARIANT, HeavyTorus, HessSurface, shaded_by, surface_picture
-from hess_explorer.scenes.parts.indicator import MEGNO, Indicator, colouring, indicator_layer, indicator_trial
-from hess_explorer.scenes.parts.orbit import Orbit
-from hess_explorer.scenes.parts.periodic_orbit import PeriodicOrbit, layers, length_of_manifolds, plain, which
 from hess_explorer.scenes.parts.proof import Proof, proved_error_shown
-from hess_explorer.scenes.parts.rotation_across import RotationAcross, rotation_picture, rotation_trial
+from hess_explorer.scenes.parts.sections import (
+    Branch,
+    Clicks,
+    Orbit,
+    SectionState,
+    branch_picture,
+    colouring,
+    coordinate_of_branch,
+    end_of_branch,
+    filled,
+    filled_picture,
+    length_of_manifolds,
+    orbits_spread,
+    parameter_of_branch,
+    plain,
+    points_of_each,
+    section_trials,
+    shown_in_section,
+    which,
+)
+from hess_explorer.scenes.parts.sections.rotation_across import RotationAcross, rotation_picture, rotation_trial
 from hess_explorer.views import andoyer
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import Columns, column
@@ -176,7 +176,7 @@ PRESETS = (
 
 
 @dataclass(frozen=True)
-class EulerPoisson(State):
+class EulerPoisson(SectionState):
     """A section of one body at one energy and area integral, filled with orbits on both sides of the barrier."""
 
     I1: float = parameter(I1)
@@ -252,20 +252,6 @@ class EulerPoisson(State):
         """The section in (l, L/G)."""
         return AndoyerSection(self.body, self.h, self.f, (_LARGEST, _SECOND).index(self.sheet))
 
-    @property
-    def start(self) -> Start:
-        """The initial state of the orbit on show."""
-        return self.periodic_orbit.start
-
-    @property
-    def lasts(self) -> float:
-        """The length of the orbit in time."""
-        return self.periodic_orbit.lasts
-
-    def motion(self) -> Motion:
-        """Return the orbit on show."""
-        return self.orbit.motion()
-
     # ---- the parts ----------------------------------------------------------------------------------------------
 
     @part
@@ -273,50 +259,15 @@ class EulerPoisson(State):
         """The splitting of the separatrices."""
         return HessSplit(self, HessTorus(self.moments, self.m, self.h, self.f), self.away)
 
-    @part
-    def section(self) -> FilledSection:
-        """The orbits of the section."""
-        return FilledSection(self, "no motion with this h and f crosses the section", _BOUNDS, (16, 40))
-
-    @part
-    def density(self) -> Density:
-        """The density of the section, of each layer by itself."""
-        return Density(
-            self.section,
-            self.indicator == DENSITY,
-            ways=(True, True),
-            kind_of=lambda states: (relation(self.body, states) <= 0.0).astype(float),
-        )
-
-    @part
-    def megno(self) -> Indicator:
-        """The cells of the section by MEGNO."""
-        return Indicator(self.section, self.indicator == MEGNO, lambda: self.section.batches)
-
-    @part
-    def periodic_orbit(self) -> PeriodicOrbit:
-        """The periodic orbit that replaces the last chosen one."""
-        return PeriodicOrbit(self.section, self.periodic, self.reach, self.span)
-
-    @part
-    def branch(self) -> Branch:
-        """The branch of the periodic orbit over a parameter."""
-        return Branch(self, self.periodic_orbit, _OVER, ("sheet",))
-
-    @part
-    def orbit(self) -> Orbit:
-        """The orbit on show."""
-        return Orbit(self)
-
-    @part
-    def proof(self) -> Proof:
-        """The proved error of the orbit."""
-        return Proof(self.orbit, self.certain)
-
-    @part
-    def exponent(self) -> Exponent:
-        """The largest Lyapunov exponent of the orbit."""
-        return Exponent(self)
+    section = part(lambda s: filled(s, 16, _crossings, bounds=_BOUNDS))
+    clicks = part(lambda s: Clicks(s, "no motion with this h and f crosses the section", _BOUNDS))
+    density, megno, periodic_orbit = shown_in_section(
+        2, lambda s, states: (relation(s.body, states) <= 0.0).astype(int)
+    )
+    branch = part(lambda s: Branch(s, s.periodic_orbit, _OVER, ("sheet",)))
+    orbit = part(Orbit)
+    proof = part(lambda s: Proof(s.orbit, s.certain))
+    exponent = part(Exponent)
 
     @part
     def surface(self) -> HessSurface:
@@ -335,18 +286,11 @@ class EulerPoisson(State):
 
         return HessSurface(torus, self.shade == INVARIANT, orbit, says)
 
-    @part
-    def rotation(self) -> RotationAcross:
-        """Rotation numbers along a line across the section."""
-        return RotationAcross(self, self.section, self.turns == _ABOUT)
-
-    def batch(self, starts: tuple[Start, ...], crossings: int, forward: bool, level: Level) -> Task[OrbitBatch]:
-        """Return a task that computes `crossings` crossings of the orbits from `starts`."""
-        return Task(_batch, self.poincare, starts, crossings, level)
+    rotation = part(lambda s: RotationAcross(s, s.section, lambda: s.clicks.picked.places[0], s.turns == _ABOUT))
 
     def start_at(self, x: float, y: float) -> Values:
         """Return the parameters of an orbit that starts at a place of the section."""
-        return self.section.start_at(x, y)
+        return self.clicks.move(x, y)
 
     @property
     def impossible_here(self) -> str:
@@ -374,6 +318,12 @@ class EulerPoisson(State):
         """The body along the orbit."""
         return heavy_solid(self.body, self.orbit.path.times, self.orbit.path.states)
 
+    @cached_property
+    def elsewhere(self) -> Array:
+        """Points (n, 2) of all orbits on other sheets."""
+        known = *self.section.chosen, *self.section.batches
+        return joined(batch.elsewhere for batch in known if batch.elsewhere is not None)
+
     def hess_curve(self) -> tuple[Array, Array]:
         """Return the Hess manifold across the window."""
         l = np.linspace(self.section.frame[0][0], self.section.frame[1][0], 241)
@@ -394,14 +344,16 @@ class EulerPoisson(State):
     def derived(self) -> Iterator[str]:
         """Yield a and r, the start of the orbit on show and the check of the body."""
         yield f"a = {digits(self.body.hess_a)}, r = {vector(self.body.r)}"
-        yield f"chosen: {self.section.at(self.section.chosen)}"
+        yield self.clicks.sentence
         yield from super().derived()
-        if self.section.asked("_known") and len(self.section.elsewhere):
-            yield f"on another sheet: {len(self.section.elsewhere)} points"
+        if self.section.asked("_known") and len(self.elsewhere):
+            yield f"on another sheet: {len(self.elsewhere)} points"
         yield self.body.check.sentence
 
 
-def _batch(section: AndoyerSection, starts: tuple[Start, ...], crossings: int, level: Level) -> OrbitBatch:
+def _crossings(
+    section: AndoyerSection, starts: tuple[Start, ...], crossings: int, forward: bool, level: Level
+) -> OrbitBatch:
     found = section.points(starts, crossings, level, threads=1, most_steps=_MOST_STEPS)
     signs = np.sign(relation(section.body, np.array(starts)))
     kept = (
@@ -409,12 +361,11 @@ def _batch(section: AndoyerSection, starts: tuple[Start, ...], crossings: int, l
         for states, sign in zip(found.states, signs, strict=True)
     )
     other = [section.places_of(states)[~section.is_on(states)] for states in found.states]
-    return OrbitBatch(
-        tuple(frozen(section.places_of(states)) for states in found.states),
-        tuple(bool(sign > 0.0) for sign in signs),
-        found.drift,
-        tuple(kept),
-        frozen(joined(other)),
+    return replace(
+        batch_of(section, found),
+        firsts=tuple(bool(sign > 0.0) for sign in signs),
+        kept=tuple(kept),
+        elsewhere=frozen(joined(other)),
     )
 
 
@@ -424,13 +375,12 @@ SCENE = Scene(
     place=11,
     presets=PRESETS,
     measures=(
-        filled_trial(lambda s: s.section),
-        indicator_trial(lambda s: s.megno),
-        exponent_trial(lambda s: s.exponent),
-        rotation_trial(lambda s: s.rotation),
+        *section_trials(orbits=40.0),
+        exponent_trial(),
+        rotation_trial(),
     ),
     charts=Charts(
-        of_motion(SYSTEM, lambda s: s.section.asked_start, time=lambda s: s.long),
+        of_motion(SYSTEM, lambda s: s.clicks.asked_start, time=lambda s: s.long),
         over=_NAMES,
         placed=("starts", _NAMES),
     ),
@@ -442,29 +392,26 @@ SCENE = Scene(
     angles=("l",),
     views=(
         filled_picture(
-            lambda s: s.section,
             ((-math.pi, -1.0), (math.pi, 1.0)),
             axes=_NAMES,
             title="Section g = π/2 (Andoyer–Deprit)",
             caption=EulerPoisson._about_section,
             labels=("r·M > 0", "r·M < 0"),
             dot=("l", "x"),
-            under=(indicator_layer(lambda s: s.megno),),
-            over=layers(lambda s: s.periodic_orbit),
             between=andoyer.between(
-                elsewhere=lambda s: s.section.elsewhere,
+                elsewhere=lambda s: s.elsewhere,
                 curve=EulerPoisson.hess_curve,
                 across=lambda s: inside(s.rotation.ends, s.section.frame),
             ),
         ),
         solid_body(wheels=False, section=True),
-        rotation_picture(lambda s: s.rotation),
+        rotation_picture(),
         along_the_orbit(
             lambda s: Direction(math.copysign(1.0, s.m) * np.array(s.body.r), "r"), lambda s: s.proof.around
         ),
-        exponent_picture(lambda s: s.exponent, folded="Show the Lyapunov exponent"),
+        exponent_picture(folded="Show the Lyapunov exponent"),
         surface_picture(lambda s: s.surface, folded="Show the torus in space"),
         split_picture(lambda s: s.split),
-        branch_picture(lambda s: s.branch),
+        branch_picture(),
     ),
 )

@@ -23,9 +23,10 @@ from hess_explorer.scenes.framework.parameters import (
     time_span,
 )
 from hess_explorer.scenes.framework.part import Start, part
+from hess_explorer.scenes.framework.periodic_search import NotPeriodic
 from hess_explorer.scenes.framework.scene import Preset, Scene, State
-from hess_explorer.scenes.parts.exponent import Exponent, NotPeriodic, exponent_picture, exponent_trial
-from hess_explorer.scenes.parts.orbit import Orbit
+from hess_explorer.scenes.parts.exponent import Exponent, exponent_picture, exponent_trial
+from hess_explorer.scenes.parts.sections import Orbit
 from hess_explorer.views import section_plane, theme
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.graph import over_time, with_room
@@ -187,15 +188,8 @@ class OwnBodyState(State):
         """None; the exponent, which needs another kernel, waits for the orbit's."""
         return NotPeriodic(looking=not self.is_compiled)
 
-    @part
-    def orbit(self) -> Orbit:
-        """The motion."""
-        return Orbit(self, max_step=self.max_step)
-
-    @part
-    def exponent(self) -> Exponent:
-        """Its largest Lyapunov exponent."""
-        return Exponent(self)
+    orbit = part(lambda s: Orbit(s, max_step=s.max_step))
+    exponent = part(Exponent)
 
     @property
     def track(self) -> Columns | None:
@@ -330,7 +324,7 @@ SCENE = Scene(
     title="Your own body",
     summary="Type a potential; choose inertia, constraint, rotor and drive. Equations are derived, checked and solved.",
     tracks={"orbit": lambda s: s.track},
-    measures=(exponent_trial(lambda s: s.exponent),),
+    measures=(exponent_trial(),),
     views=(
         Plot[OwnBodyState](
             name="omega",
@@ -365,7 +359,7 @@ SCENE = Scene(
                 over_time("change", _graph(1), color=theme.ORBIT, label="change of the energy"),
             ),
         ),
-        exponent_picture(lambda s: s.exponent),
+        exponent_picture(),
         Plot[OwnBodyState](
             name="section",
             title="Poincaré section",

@@ -9,10 +9,9 @@ from functools import cached_property
 
 import numpy as np
 
-from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.parameters import Values
-from hess_explorer.scenes.framework.cells import DENSITY
 from hess_explorer.scenes.framework.charted import Charts, of_motion
+from hess_explorer.scenes.framework.orbit_batches import OrbitBatch, batch_of
 from hess_explorer.scenes.framework.parameters import (
     Slider,
     accuracy_level,
@@ -22,30 +21,35 @@ from hess_explorer.scenes.framework.parameters import (
     time_span,
 )
 from hess_explorer.scenes.framework.part import Start, part
-from hess_explorer.scenes.framework.periodic_search import Closed
-from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
+from hess_explorer.scenes.framework.scene import Preset, Scene
 from hess_explorer.scenes.framework.solid_body import Solid, constrained_solid, solid_body
-from hess_explorer.scenes.parts.branch import (
-    Branch,
-    branch_picture,
-    coordinate_of_branch,
-    end_of_branch,
-    parameter_of_branch,
-)
-from hess_explorer.scenes.parts.density import Density, density_layers
-from hess_explorer.scenes.parts.indicator import MEGNO, Indicator, colouring, indicator_layer, indicator_trial
-from hess_explorer.scenes.parts.orbit import Orbit
-from hess_explorer.scenes.parts.periodic_orbit import PeriodicOrbit, layers, length_of_manifolds, plain, which
+from hess_explorer.scenes.framework.windows import Window
 from hess_explorer.scenes.parts.proof import Proof, proved_error_shown
-from hess_explorer.scenes.parts.section import Section, crossings_of_each, section_trial
+from hess_explorer.scenes.parts.sections import (
+    Branch,
+    Orbit,
+    Section,
+    SectionState,
+    branch_picture,
+    colouring,
+    coordinate_of_branch,
+    crossings_of_each,
+    end_of_branch,
+    length_of_manifolds,
+    parameter_of_branch,
+    plain,
+    section_layers,
+    section_picture,
+    section_trials,
+    shown_in_section,
+    which,
+)
 from hess_explorer.views import plane_domain, section_plane
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import Axes
-from hess_explorer.views.plot import Plot
 from hess_explorer.views.poisson_sphere import Sphere, centre_of_mass, parallels
 from hess_explorer.views.text import digits, staying, vector
 from hess_explorer.views.velocity_plane import centred, nice_above
-from hess_mechanics.dynamics.section import SectionPoints
 from hess_mechanics.errors import ModelError
 from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.results import Array
@@ -82,7 +86,7 @@ PRESETS = (
 
 
 @dataclass(frozen=True)
-class Quartic(State):
+class Quartic(SectionState):
     """The orbit of a point in the potential, among others of the same energy."""
 
     # Narrower bounds than in other scenes: beyond them a section takes too many Taylor steps.
@@ -160,20 +164,6 @@ class Quartic(State):
         return model.state_at(self.body, (self.Q1, self.Q2), self.beta)
 
     @property
-    def start(self) -> Start:
-        """The initial state of the orbit on show."""
-        return self.periodic_orbit.start
-
-    @property
-    def lasts(self) -> float:
-        """The length of the orbit in time."""
-        return self.periodic_orbit.lasts
-
-    def motion(self) -> Motion:
-        """Return the orbit on show."""
-        return self.orbit.motion()
-
-    @property
     def half_width(self) -> float:
         """Half width of the plane of the point."""
         return nice_above(1.05 * max(self.body.axes))
@@ -185,57 +175,27 @@ class Quartic(State):
 
     # ---- the parts ----------------------------------------------------------------------------------------------
 
-    @part
-    def section(self) -> Section:
-        """The section of the orbit on show and of others."""
-        return Section(self, lambda: self.given, self._crossing, self.section_axes, lambda: self.closed)
-
-    @part
-    def density(self) -> Density:
-        """The density of the section."""
-        return Density(self.section, self.indicator == DENSITY)
-
-    @part
-    def megno(self) -> Indicator:
-        """The MEGNO of the section's cells."""
-        return Indicator(self.section, self.indicator == MEGNO)
-
-    @part
-    def periodic_orbit(self) -> PeriodicOrbit:
-        """The periodic orbit in place of the chosen one."""
-        return PeriodicOrbit(self.section, self.periodic, self.reach, self.span)
-
-    @property
-    def closed(self) -> Closed | None:
-        """The periodic orbit, if known."""
-        return self.periodic_orbit.closed
-
-    @part
-    def branch(self) -> Branch:
-        """The branch of the periodic orbit over a parameter."""
-        return Branch(self, self.periodic_orbit, _ALONG, ("I22",))
-
-    @part
-    def orbit(self) -> Orbit:
-        """The orbit on show."""
-        return Orbit(self)
-
-    @part
-    def proof(self) -> Proof:
-        """The proved error of the orbit."""
-        return Proof(self.orbit, self.certain)
-
-    def _crossing(self, crossings: int, level: Level) -> tuple[Task[SectionPoints], Task[SectionPoints]]:
-        return (
-            Task(model.quartic_section, self.body, (self.given,), crossings, level, _MOST_STEPS),
-            Task(model.spread_section, self.body, _ORBITS, crossings, level, _MOST_STEPS),
+    section = part(
+        lambda s: Section(
+            s,
+            lambda: (s.given,),
+            _crossings,
+            lambda section: [tuple(model.seeds(s.body, _ORBITS))],
+            lambda: s.periodic_orbit,
+            whole=s.section_window,
         )
+    )
+    density, megno, periodic_orbit = shown_in_section()
+    branch = part(lambda s: Branch(s, s.periodic_orbit, _ALONG, ("I22",)))
+    orbit = part(Orbit)
+    proof = part(lambda s: Proof(s.orbit, s.certain))
 
     # ---- the pictures -------------------------------------------------------------------------------------------
 
-    def section_axes(self) -> Axes:
-        """Return axes with room for all q and p."""
-        return Axes(centred(nice_above(1.05 * self.body.longest)), _P_AXIS)
+    def section_window(self) -> Window:
+        """Return the window with room for all q and p."""
+        (q0, q1), (p0, p1) = centred(nice_above(1.05 * self.body.longest)), _P_AXIS
+        return (q0, p0), (q1, p1)
 
     @cached_property
     def solid(self) -> Solid:
@@ -257,7 +217,7 @@ class Quartic(State):
     def impossible(self, axes: Axes) -> list[list[Array]]:
         """Return the part of the section outside its boundary."""
         reach = 4.0 * max(axes.x[1], self.body.longest)
-        return [] if self.section.own is None else section_plane.outside(self.body.section_boundaries(), reach, 4.0)
+        return [] if self.section.reason else section_plane.outside(self.body.section_boundaries(), reach, 4.0)
 
     def start_at(self, x: float, y: float) -> Values:
         """Return the start and direction at a place of the section; nothing if no motion passes there."""
@@ -280,7 +240,7 @@ class Quartic(State):
         special = self.periodic_orbit.caption or self.megno.caption
         if special is not None:
             return special
-        if self.section.own is None:
+        if self.section.reason:
             return Caption(numbers=self.section.reason)
         visited = model.visited(self.body, self.section.own, _CELLS)
         counted = self.density.said or f"{len(self.section.own)} points of the "
@@ -302,12 +262,18 @@ class Quartic(State):
         yield "div v = 0: the standard measure"
 
 
+def _crossings(
+    section: model.QuarticSection, starts: tuple[Start, ...], crossings: int, forward: bool, level: Level
+) -> OrbitBatch:
+    return batch_of(section, model.quartic_section(section.body, starts, crossings, level, _MOST_STEPS))
+
+
 SCENE = Scene(
     Quartic,
     __file__,
     place=7,
     presets=PRESETS,
-    measures=(section_trial(lambda s: s.section), indicator_trial(lambda s: s.megno)),
+    measures=section_trials(),
     charts=Charts(of_motion(SYSTEM, lambda s: s.given), over=("h", "beta")),
     group="Heavy body",
     essential=("ratio", "h", "Q1", "Q2"),
@@ -333,26 +299,13 @@ SCENE = Scene(
                 *plane_domain.orbit(Quartic.first, label="start"),
             ),
         ),
-        Plot(
-            name="section",
+        section_picture(
+            title=lambda s: "Section {} = 0 (upward crossings)".format("q₂" if s.body.across else "q₁"),
             caption=Quartic._about_section,
             axes=_NAMES,
-            on_click=Quartic.start_at,
-            starts=True,
-            title=lambda s: "Section {} = 0 (upward crossings)".format("q₂" if s.body.across else "q₁"),
-            x=lambda s: s.section_axes().x,
             y=_P_AXIS,
-            message=lambda s: s.section.reason,
-            layers=(
-                indicator_layer(lambda s: s.megno),
-                *density_layers(lambda s: s.density),
-                *section_plane.layers(
-                    lambda s: s.section.points,
-                    others=lambda s: None if s.density.tones else s.section.others,
-                    forbidden=Quartic.impossible,
-                ),
-                *layers(lambda s: s.periodic_orbit),
-            ),
+            on_click=Quartic.start_at,
+            layers=section_layers("megno", "density", "periodic_orbit", forbidden=Quartic.impossible),
         ),
         Sphere(
             caption=Quartic._about_sphere,
@@ -365,6 +318,6 @@ SCENE = Scene(
             least=lambda s: 1e-3 * max(s.body.axes),
             is_integral=lambda s: s.body.integrable,
         ),
-        branch_picture(lambda s: s.branch),
+        branch_picture(),
     ),
 )

@@ -11,9 +11,8 @@ import numpy as np
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.parameters import Value
-from hess_explorer.scenes.framework.cells import DENSITY
 from hess_explorer.scenes.framework.charted import Charted, Charts, of_motion, parameters_of
-from hess_explorer.scenes.framework.orbit_batches import OrbitBatch
+from hess_explorer.scenes.framework.orbit_batches import OrbitBatch, batch_of
 from hess_explorer.scenes.framework.parameters import (
     TURN,
     accuracy_level,
@@ -24,22 +23,27 @@ from hess_explorer.scenes.framework.parameters import (
     time_span,
 )
 from hess_explorer.scenes.framework.part import Start, part
-from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
+from hess_explorer.scenes.framework.scene import Preset, Scene
 from hess_explorer.scenes.framework.solid_body import Solid, constrained_solid, solid_body
-from hess_explorer.scenes.parts.basins import Basins, basins_trial
-from hess_explorer.scenes.parts.density import Density
 from hess_explorer.scenes.parts.exponent import Exponent, exponent_trial
-from hess_explorer.scenes.parts.filled_section import (
-    FilledSection,
-    filled_picture,
-    filled_trial,
-    orbits_spread,
-    points_of_each,
-)
-from hess_explorer.scenes.parts.indicator import MEGNO, Indicator, colouring, indicator_layer, indicator_trial
-from hess_explorer.scenes.parts.orbit import Orbit
-from hess_explorer.scenes.parts.periodic_orbit import PeriodicOrbit, layers, length_of_manifolds, plain, which
 from hess_explorer.scenes.parts.proof import Proof, proved_error_shown
+from hess_explorer.scenes.parts.sections import (
+    Clicks,
+    Orbit,
+    SectionState,
+    colouring,
+    filled,
+    filled_picture,
+    length_of_manifolds,
+    orbits_spread,
+    periodic_layers,
+    plain,
+    points_of_each,
+    section_trials,
+    shown_in_section,
+    which,
+)
+from hess_explorer.scenes.parts.sections.basins import Basins, basins_trial
 from hess_explorer.views import conformal_time, layered_section, theme
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.graph import over_time, settled_range, thinned
@@ -54,7 +58,7 @@ from hess_mechanics.dynamics.sampling import HALF_A_PIXEL
 from hess_mechanics.dynamics.section import occupied_cells
 from hess_mechanics.errors import WorkLimit
 from hess_mechanics.numerics.accuracy import Kind, Level, cheapest
-from hess_mechanics.numerics.results import Array, frozen
+from hess_mechanics.numerics.results import Array
 from hess_mechanics.parameters import B1, B2, B3, H_SUSLOV, I11, I13, I22, I23
 from hess_mechanics.rigid_body.inertia import check_body
 from hess_mechanics.suslov.equations import SYSTEM, SuslovBody
@@ -124,7 +128,7 @@ PRESETS = (
 
 
 @dataclass(frozen=True)
-class Suslov(State):
+class Suslov(SectionState):
     """A section of one body at one energy, filled with orbits forward and backward in time."""
 
     I11: float = parameter(I11)
@@ -184,20 +188,6 @@ class Suslov(State):
         return SuslovSection(self.body, self.E, _PLANES[self.plane])
 
     @property
-    def start(self) -> Start:
-        """The initial state of the orbit on show."""
-        return self.periodic_orbit.start
-
-    @property
-    def lasts(self) -> float:
-        """The length of the orbit in time."""
-        return self.periodic_orbit.lasts
-
-    def motion(self) -> Motion:
-        """Return the orbit on show."""
-        return self.orbit.motion()
-
-    @property
     def half_width(self) -> float:
         """Half width of the (ω1, ω2)-plane, with room for all motions of this energy."""
         return nice_above(1.05 * math.sqrt(2.0 * self.h / min(self.I11, self.I22)))
@@ -217,68 +207,23 @@ class Suslov(State):
 
     # ---- the parts ----------------------------------------------------------------------------------------------
 
-    @part
-    def section(self) -> FilledSection:
-        """The orbits of the section."""
-        return FilledSection(
-            self,
-            "no motion has this energy",
-            _BOUNDS,
-            (12, 40),
-            self._ways,
-            self.drop != "all",
-            alone=self.colours != "basins",
+    section = part(
+        lambda s: filled(
+            s,
+            12,
+            _crossings,
+            ways=(True, False) if s.colours == _BOTH else (True,),
+            later=s.drop != "all",
+            bounds=_BOUNDS,
+            alone=s.colours != "basins",
         )
-
-    @property
-    def _ways(self) -> tuple[bool, ...]:
-        """The directions of time of the section, True is forward."""
-        return (True, False) if self.colours == _BOTH else (True,)
-
-    @part
-    def density(self) -> Density:
-        """The density of the section, with every other orbit in each direction of time."""
-        return Density(
-            self.section,
-            self.indicator == DENSITY and not self.basins.wanted,
-            self.drop != "all",
-            self._ways,
-            lambda states: np.arange(float(len(states))) % len(self._ways),
-        )
-
-    @part
-    def megno(self) -> Indicator:
-        """The MEGNO of the section's cells, unless basins are shown."""
-        return Indicator(self.section, self.indicator == MEGNO and not self.basins.wanted, lambda: self.section.batches)
-
-    @part
-    def periodic_orbit(self) -> PeriodicOrbit:
-        """The periodic orbit in place of the last chosen one."""
-        return PeriodicOrbit(self.section, self.periodic, self.reach, self.span, self.basins.wanted)
-
-    @part
-    def orbit(self) -> Orbit:
-        """The orbit on show."""
-        return Orbit(self, self.orbit_level)
-
-    @part
-    def proof(self) -> Proof:
-        """The proved error of the orbit."""
-        return Proof(self.orbit, self.certain)
-
-    @part
-    def exponent(self) -> Exponent:
-        """The largest Lyapunov exponent of the orbit."""
-        return Exponent(self)
-
-    @part
-    def basins(self) -> Basins:
-        """The basins of the section, and what bounds them."""
-        return Basins(self, self.section, self.colours == "basins")
-
-    def batch(self, starts: tuple[Start, ...], crossings: int, forward: bool, level: Level) -> Task[OrbitBatch]:
-        """Return a task that computes `crossings` crossings of the orbits from `starts`."""
-        return Task(_batch, self.poincare, starts, crossings, forward, level)
+    )
+    clicks = part(lambda s: Clicks(s, "no motion has this energy", _BOUNDS))
+    density, megno, periodic_orbit = shown_in_section()
+    orbit = part(lambda s: Orbit(s, s.orbit_level))
+    proof = part(lambda s: Proof(s.orbit, s.certain))
+    exponent = part(Exponent)
+    basins = part(lambda s: Basins(s, s.section))
 
     @property
     def impossible_here(self) -> str:
@@ -344,12 +289,12 @@ class Suslov(State):
         special = self.periodic_orbit.caption or self.megno.caption or self.basins.caption
         if special is not None:
             return special
-        first, second = self.section.first, self.section.second
+        first, second = self.section.points(), self.section.points(False)
         if not self.orbits:
             return Caption(numbers=f"{len(self.section.own)} points of chosen orbits.")
         backward = f", {len(second)} backward" if len(second) else ""
         # The later halves of the forward orbits show the attractors.
-        later = joined(orbit[len(orbit) // 2 :] for orbit in self.section.kind(True))
+        later = joined(orbit[len(orbit) // 2 :] for orbit in self.section.kind())
         counted = self.density.said or f"{len(first)} points forward{backward}; "
         return Caption(
             numbers=f"{counted}late forward points occupy {occupied_cells(later, _CELLS)} of {_CELLS**2} cells."
@@ -373,18 +318,16 @@ class Suslov(State):
     def derived(self) -> Iterator[str]:
         """Yield the energy, the start of the orbit on show and the check of the body."""
         yield f"E = {digits(self.E)}"
-        yield f"chosen: {self.section.at(self.section.chosen)}"
+        yield self.clicks.sentence
         yield from super().derived()
         yield check_body(self.I11, self.I22, self.I13, self.I23).sentence
 
 
-def _batch(
+def _crossings(
     section: SuslovSection, starts: tuple[Start, ...], crossings: int, forward: bool, level: Level
 ) -> OrbitBatch:
     points = section.points(starts, crossings, forward, level, threads=1, most_steps=_MOST_STEPS)
-    return OrbitBatch(
-        tuple(frozen(section.places_of(states)) for states in points.states), (forward,) * len(starts), points.drift
-    )
+    return batch_of(section, points, forward)
 
 
 SCENE = Scene(
@@ -393,14 +336,13 @@ SCENE = Scene(
     place=5,
     presets=PRESETS,
     measures=(
-        filled_trial(lambda s: s.section),
-        indicator_trial(lambda s: s.megno),
-        exponent_trial(lambda s: s.exponent),
-        basins_trial(lambda s: s.basins),
+        *section_trials(orbits=40.0),
+        exponent_trial(),
+        basins_trial(),
     ),
     charts=Charts(
         (
-            *of_motion(SYSTEM, lambda s: s.section.asked_start, time=lambda s: s.long),
+            *of_motion(SYSTEM, lambda s: s.clicks.asked_start, time=lambda s: s.long),
             Charted(
                 "basins suslov-section",
                 ("attractors",),
@@ -418,17 +360,13 @@ SCENE = Scene(
     tracks={"orbit": lambda s: orbit_columns(s.orbit.path)},
     views=(
         filled_picture(
-            lambda s: s.section,
             ((-math.pi, 0.0), (math.pi, math.pi)),
             axes=_NAMES,
             title=Suslov._section_title,
             caption=Suslov._about_section,
             labels=("forward in time", "backward"),
-            under=(
-                layered_section.basins(lambda s: s.basins.found, lambda s: s.section.frame),
-                indicator_layer(lambda s: s.megno),
-            ),
-            over=layers(lambda s: s.periodic_orbit, lambda s: s.basins),
+            under=(layered_section.basins(lambda s: s.basins.found, lambda s: s.section.frame),),
+            over=periodic_layers(lambda s: s.basins),
         ),
         solid_body(),
         Plot(

@@ -6,8 +6,14 @@ from functools import cached_property
 from hess_explorer.scenes.framework.parameters import accuracy_level, number, places, time_span
 from hess_explorer.scenes.framework.part import Start, part
 from hess_explorer.scenes.framework.scene import Preset, Scene, State
-from hess_explorer.scenes.parts.orbit import Orbit, orbit_picture
-from hess_explorer.scenes.parts.section import Section, crossings_of_each, section_picture, start_on
+from hess_explorer.scenes.parts.sections import (
+    Orbit,
+    Section,
+    crossings_of_each,
+    orbit_picture,
+    section_picture,
+    start_on,
+)
 
 from .mechanics import PendulumSection
 
@@ -36,13 +42,8 @@ class Pendulum(State):
     def start(self) -> Start:
         return start_on(self.poincare, self.place)
 
-    @part
-    def section(self) -> Section:
-        return Section(self, lambda: self.start)
-
-    @part
-    def orbit(self) -> Orbit:
-        return Orbit(self)
+    section = part(lambda s: Section(s, lambda: (s.start,)))
+    orbit = part(Orbit)
 
 
 SCENE = Scene(
@@ -54,5 +55,5 @@ SCENE = Scene(
     presets=(Preset("A precessing ellipse"),),
     essential=("E",),
     tracks={"orbit": lambda s: s.orbit.columns},
-    views=(section_picture(lambda s: s.section, "place"), orbit_picture(lambda s: s.orbit, "x1", "x2")),
+    views=(section_picture("place"), orbit_picture("x1", "x2")),
 )

@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
+from operator import itemgetter
 from typing import Protocol
 
 import numpy as np
@@ -41,24 +42,8 @@ _SAID = 8
 """Largest number of bifurcations listed."""
 
 
-@dataclass(frozen=True)
-class _Nearest:
-    """The point of a branch nearest to the mouse.
-
-    away : its distance in pixels; i, share : its segment and the position there; j : its place on the periodic orbit.
-    """
-
-    away: float
-    branch: mechanics.Branch
-    i: int
-    share: float
-    j: int
-
-    @property
-    def value(self) -> float:
-        """The parameter at this point."""
-        a, b = self.branch.values[self.i : self.i + 2]
-        return float(a + self.share * (b - a))
+_Nearest = tuple[float, mechanics.Branch, int, float, int]
+"""Distance in pixels of a point of a branch, the branch, its segment, the position there, its place on the orbit."""
 
 
 class _Host(Host, Protocol):
@@ -150,7 +135,7 @@ class Continuation(Part[_Host]):
             return None
         (x0, y0), (x1, y1) = self.host.seen
         scale = PIXELS / (x1 - x0), PIXELS / (y1 - y0)
-        best: _Nearest | None = None
+        found: list[_Nearest] = []
         for branch in self.branches:
             if len(branch.values) < 2:
                 continue
@@ -162,23 +147,24 @@ class Continuation(Part[_Host]):
                 share = np.clip(-np.sum(at[:-1] * along, axis=1) / length2, 0.0, 1.0)
                 away = np.hypot(*(at[:-1] + share[:, None] * along).T)
                 i = int(np.argmin(away))
-                if best is None or away[i] < best.away:
-                    best = _Nearest(float(away[i]), branch, i, float(share[i]), j)
-        return best if best is not None and best.away <= _NEAR else None
+                found.append((float(away[i]), branch, i, float(share[i]), j))
+        near = min(found, key=itemgetter(0), default=None)
+        return near if near is not None and near[0] <= _NEAR else None
 
     def chosen(self, x: float, y: float) -> tuple[float, Place, int] | None:
         """Return parameter, place and period of the branch's orbit at (x, y); None away from the branch."""
         near = self._nearest(x, y)
         if near is None:
             return None
-        a, b = near.branch.places[near.i : near.i + 2]
-        between = np.roll(a + near.share * apart(self.turns, b, a), -near.j, axis=0)
-        value, m = near.value, near.branch.period
+        _, branch, i, share, j = near
+        (a, b), (first, second), m = branch.places[i : i + 2], branch.values[i : i + 2], branch.period
+        between = np.roll(a + share * apart(self.turns, b, a), -j, axis=0)
+        value = float(first + share * (second - first))
         try:
             place = find_periodic(self._begin.family.map_at(value), between, m).places[0]
         except ModelError:
             go_on()
-            value, place = float(near.branch.values[near.i]), a[near.j]
+            value, place = float(first), a[j]
         # The section has angles between −turn/2 and turn/2.
         return (
             value,
@@ -201,11 +187,12 @@ class Continuation(Part[_Host]):
         near = self._nearest(x, y)
         if near is None:
             return ""
-        i = near.i + round(near.share)
-        multipliers = ", ".join(conjugates(complex(one)) for one in near.branch.multipliers[i])
+        _, branch, before, share, _ = near
+        i = before + round(share)
+        multipliers = ", ".join(conjugates(complex(one)) for one in branch.multipliers[i])
         return (
-            f"{self._symbol} = {digits(float(near.branch.values[i]))}: period {near.branch.period}, "
-            f"{near.branch.kinds[i]}, μ = {multipliers}"
+            f"{self._symbol} = {digits(float(branch.values[i]))}: period {branch.period}, "
+            f"{branch.kinds[i]}, μ = {multipliers}"
         )
 
     # ---- words --------------------------------------------------------------------------------------------------

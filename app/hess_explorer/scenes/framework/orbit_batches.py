@@ -6,9 +6,11 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TypeVar
 
-from hess_mechanics.numerics.results import Array
+from hess_mechanics.dynamics.return_map import PoincareSection
+from hess_mechanics.dynamics.section import SectionPoints
+from hess_mechanics.numerics.results import Array, frozen
 
-__all__ = ["OrbitBatch", "in_batches"]
+__all__ = ["OrbitBatch", "batch_of", "in_batches"]
 
 _TOGETHER = 4
 """Orbits computed together: few enough that points arrive soon."""
@@ -21,7 +23,8 @@ class OrbitBatch:
     """Some orbits of a section.
 
     orbits : points (n, 2) of each orbit, in order of time; firsts : True for orbits of the first of two kinds.
-    drift : the largest drift of each integral.
+    drift : the largest drift of each integral; steps : their Taylor steps.
+    reasons : why each orbit ends early; empty for the others.
     kept : True if all points of an orbit lie on its side of the curve that divides the kinds, if there is one.
     elsewhere : points (m, 2) that are drawn separately.
     """
@@ -29,8 +32,16 @@ class OrbitBatch:
     orbits: tuple[Array, ...]
     firsts: tuple[bool, ...]
     drift: Mapping[str, float]
+    steps: int
+    reasons: tuple[str, ...]
     kept: tuple[bool, ...] = ()
     elsewhere: Array | None = None
+
+
+def batch_of(section: PoincareSection, points: SectionPoints, first: bool = True) -> OrbitBatch:
+    """Return crossings of a section in its coordinates, all of one kind."""
+    orbits = tuple(frozen(section.places_of(states)) for states in points.states)
+    return OrbitBatch(orbits, (first,) * len(orbits), points.drift, points.cost.steps, points.reasons)
 
 
 def in_batches(items: Sequence[T]) -> Iterator[tuple[T, ...]]:

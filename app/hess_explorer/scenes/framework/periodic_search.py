@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from typing import Protocol
 
 from hess_explorer.compute.cache import Task
 from hess_mechanics.dynamics.manifolds import Intersection, Manifold, crossings_of, manifold
@@ -22,11 +23,12 @@ __all__ = [
     "BranchChoice",
     "Closed",
     "NotFound",
+    "NotPeriodic",
+    "Periodic",
     "Place",
     "Search",
     "branch_of",
     "crossings_between",
-    "none_closed",
     "sought",
 ]
 
@@ -67,9 +69,32 @@ class NotFound:
     reason: str
 
 
-def none_closed() -> Closed | None:
-    """Return None: the default if no periodic orbit replaces the chosen one."""
-    return None
+class Periodic(Protocol):
+    """The periodic orbit shown in place of the chosen one."""
+
+    @property
+    def closed(self) -> Closed | None:
+        """The orbit; None if none is requested or known."""
+
+    @property
+    def looking(self) -> bool:
+        """True while a requested orbit is not known yet."""
+
+    @property
+    def growth(self) -> tuple[float, float] | None:
+        """ln|μ₁|/T and ln|μ₁μ₂|/T of the orbit; None without one."""
+
+
+@dataclass(frozen=True)
+class NotPeriodic:
+    """For scenes without a search for periodic orbits.
+
+    looking : True while the exponent has to wait for something else.
+    """
+
+    looking: bool = False
+    closed: Closed | None = None
+    growth: tuple[float, float] | None = None
 
 
 def sought(map_: ReturnMap, aim: Place, period: int | None, near: bool) -> Closed | NotFound:

@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Protocol, TypeVar
+from typing import Any, Protocol
 
 import numpy as np
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.part import Host, Part, Start
-from hess_explorer.scenes.framework.periodic_search import NotFound
-from hess_explorer.scenes.framework.scene import State
+from hess_explorer.scenes.framework.periodic_search import NotFound, Periodic
 from hess_explorer.scenes.framework.trial import Trial
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
@@ -28,31 +27,10 @@ from hess_mechanics.errors import MotionEnds
 from hess_mechanics.numerics.accuracy import Kind, Level, Plan
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["Exponent", "NotPeriodic", "exponent_picture", "exponent_trial"]
+__all__ = ["Exponent", "exponent_picture", "exponent_trial"]
 
 _LONG = 2000.0
 """The longest time for which levels are compared."""
-
-
-class _Periodic(Protocol):
-    @property
-    def growth(self) -> tuple[float, float] | None:
-        """ln|μ₁|/T and ln|μ₁μ₂|/T of the periodic orbit on show; None without one."""
-
-    @property
-    def looking(self) -> bool:
-        """True while a requested periodic orbit is not known yet."""
-
-
-@dataclass(frozen=True)
-class NotPeriodic:
-    """For scenes without a search for periodic orbits.
-
-    looking : True while the exponent has to wait for something else.
-    """
-
-    looking: bool = False
-    growth: tuple[float, float] | None = None
 
 
 class _Host(Host, Protocol):
@@ -69,7 +47,7 @@ class _Host(Host, Protocol):
         """The averaging time."""
 
     @property
-    def periodic_orbit(self) -> _Periodic:
+    def periodic_orbit(self) -> Periodic:
         """The periodic orbit on show, if any."""
 
 
@@ -151,30 +129,27 @@ def _exponent(body: Body, start: Start, span: float, level: Level) -> lyapunov.E
         return NotFound(str(error))
 
 
-S = TypeVar("S", bound=State)
-
-
-def exponent_picture(of: Callable[[S], Exponent], folded: str = "") -> Picture[S]:
+def exponent_picture(folded: str = "") -> Picture[Any]:
     """Return the picture of the mean growth rate over time."""
     return Plot(
         name="exponent",
         title="Largest Lyapunov exponent",
-        caption=lambda s: of(s).caption,
+        caption=lambda s: s.exponent.caption,
         axes=("t", "λ"),
         folded=folded,
         first=Axes((0.0, 200.0), (0.0, 1.0)),
-        x=lambda s: (0.0, of(s).host.long),
-        y=lambda s: of(s).axis,
-        layers=(over_time("lambda", lambda s: of(s).rates, color=theme.ORBIT),),
+        x=lambda s: (0.0, s.exponent.host.long),
+        y=lambda s: s.exponent.axis,
+        layers=(over_time("lambda", lambda s: s.exponent.rates, color=theme.ORBIT),),
     )
 
 
-def exponent_trial(of: Callable[[S], Exponent]) -> Trial[S]:
+def exponent_trial() -> Trial[Any]:
     """Return the trial of the exponent, computed at each level."""
     return Trial(
         Kind.EXPONENT,
         ("exponent",),
-        lambda s, plan: of(s).at(plan),
+        lambda s, plan: s.exponent.at(plan),
         lambda s, found, truth: abs(found.value - truth.value) / max(truth.spread, 1e-12),
         unit="of what it changes by in the second half of its time",
         seen=10.0,

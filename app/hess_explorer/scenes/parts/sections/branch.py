@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, Protocol, Self, TypeVar
+from typing import Any, Protocol, Self
 
 import numpy as np
 
@@ -14,9 +14,9 @@ from hess_explorer.scenes.framework.continuation import Continuation
 from hess_explorer.scenes.framework.families import Begin, Family
 from hess_explorer.scenes.framework.parameters import Slider, choice, number, specs_of
 from hess_explorer.scenes.framework.part import Part, Sectioned
-from hess_explorer.scenes.framework.periodic_search import PERIODS, Closed, Place
-from hess_explorer.scenes.framework.scene import State
+from hess_explorer.scenes.framework.periodic_search import PERIODS
 from hess_explorer.scenes.framework.windows import Window
+from hess_explorer.scenes.parts.sections.periodic_orbit import PeriodicOrbit
 from hess_explorer.views import branch as view
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
@@ -76,30 +76,6 @@ def coordinate_of_branch(names: tuple[str, str]) -> Any:
     )
 
 
-class _Orbit(Protocol):
-    """The periodic orbit shown in place of the chosen orbit of a section."""
-
-    @property
-    def closing(self) -> bool:
-        """True if a periodic orbit is requested."""
-
-    @property
-    def looking(self) -> bool:
-        """True while the search runs."""
-
-    @property
-    def closed(self) -> Closed | None:
-        """The orbit; None without one."""
-
-    @property
-    def period(self) -> str:
-        """One of `PERIODS`."""
-
-    @property
-    def aim(self) -> Place | None:
-        """The first place of the chosen orbit."""
-
-
 class _Section(Sectioned, Protocol):
     @property
     def over(self) -> str: ...
@@ -128,7 +104,7 @@ class Branch(Part[_Section]):
     along : symbols of the section's parameters → their names; besides : choices that the section also depends on.
     """
 
-    orbit: _Orbit
+    orbit: PeriodicOrbit
     along: Mapping[str, str]
     besides: tuple[str, ...] = ()
 
@@ -165,12 +141,12 @@ class Branch(Part[_Section]):
     @cached_property
     def begin(self) -> Begin | None:
         """The start of the branch; None without a periodic orbit."""
-        if self.orbit.aim is None or self.orbit.closed is None:
+        if self.orbit.host.aim is None or self.orbit.closed is None:
             return None
         low, high = self.ends
         family = Family.of(self.host, self.name, self.host.over, (*self.along.values(), *self.besides))
         return Begin(
-            family, self.at, self.orbit.aim, PERIODS[self.orbit.period], (min(low, self.at), max(high, self.at))
+            family, self.at, self.orbit.host.aim, PERIODS[self.orbit.period], (min(low, self.at), max(high, self.at))
         )
 
     @cached_property
@@ -274,42 +250,39 @@ class Branch(Part[_Section]):
         return self.continuation.notes()
 
 
-S = TypeVar("S", bound=State)
-
-
-def branch_picture(of: Callable[[S], Branch]) -> Picture[S]:
+def branch_picture() -> Picture[Any]:
     """Return the picture of the branch over its parameter."""
 
-    def at_the_value(s: S, axes: Axes) -> list[Array]:
-        return [] if of(s).upwards_range is None else [np.array([[of(s).at, y] for y in axes.y])]
+    def at_the_value(s: Any, axes: Axes) -> list[Array]:
+        return [] if s.branch.upwards_range is None else [np.array([[s.branch.at, y] for y in axes.y])]
 
-    def shown(s: S, axes: Axes) -> Array | None:
-        here = of(s).here
-        return None if here is None else seen(here[::-1].T, of(s).continuation.turn, Axes(axes.y, axes.x))[:, ::-1].T
+    def shown(s: Any, axes: Axes) -> Array | None:
+        here = s.branch.here
+        return None if here is None else seen(here[::-1].T, s.branch.continuation.turn, Axes(axes.y, axes.x))[:, ::-1].T
 
-    def upwards(s: S) -> Range | None:
+    def upwards(s: Any) -> Range | None:
         # Without a branch the axes are not those of an earlier one.
-        one = of(s)
+        one: Branch = s.branch
         return one.host.poincare.window[one.side] if one.message else one.upwards_range
 
     return Plot(
         name="branch",
         title="Branch of the periodic orbit",
-        caption=lambda s: of(s).caption,
+        caption=lambda s: s.branch.caption,
         folded="Show the branch of the periodic orbit",
-        axes=lambda s: (of(s).host.over, of(s).host.upwards),
-        message=lambda s: of(s).message,
-        on_click=lambda s, x, y: of(s).choose(x, y),
-        on_box=lambda s, corners: of(s).boxed(corners),
-        on_hover=lambda s, x, y: of(s).continuation.about(x, y),
-        x=lambda s: of(s).ends,
+        axes=lambda s: (s.branch.host.over, s.branch.host.upwards),
+        message=lambda s: s.branch.message,
+        on_click=lambda s, x, y: s.branch.choose(x, y),
+        on_box=lambda s, corners: s.branch.boxed(corners),
+        on_hover=lambda s, x, y: s.branch.continuation.about(x, y),
+        x=lambda s: s.branch.ends,
         y=upwards,
         layers=(
             curves(
                 "value", within=at_the_value, color=theme.INK, width=1.5, label="state on show", tag="state on show"
             ),
             *view.layers(
-                lambda s: of(s).continuation.branches, lambda s: of(s).side, lambda s: of(s).continuation.turn
+                lambda s: s.branch.continuation.branches, lambda s: s.branch.side, lambda s: s.branch.continuation.turn
             ),
             points(
                 "shown",

@@ -5,16 +5,16 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Protocol, TypeVar
+from typing import Any, Protocol
 
 import numpy as np
 
 from hess_explorer.compute.cache import Task
-from hess_explorer.scenes.framework.orbit_batches import OrbitBatch, in_batches
-from hess_explorer.scenes.framework.part import Host, Part, Start
-from hess_explorer.scenes.framework.scene import State
+from hess_explorer.scenes.framework.orbit_batches import in_batches
+from hess_explorer.scenes.framework.part import Host, Part
 from hess_explorer.scenes.framework.trial import Trial
 from hess_explorer.scenes.framework.windows import Window
+from hess_explorer.scenes.parts.sections.section import Section
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.graph import with_room
@@ -24,7 +24,7 @@ from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits
 from hess_mechanics.euler_poisson.andoyer import AndoyerSection
 from hess_mechanics.euler_poisson.rotation import RESOLVED, RotationProfile, on_line, rotation_along
-from hess_mechanics.numerics.accuracy import Kind, Level, Plan
+from hess_mechanics.numerics.accuracy import Kind, Plan
 from hess_mechanics.numerics.results import Array
 
 __all__ = ["RotationAcross", "rotation_picture", "rotation_trial"]
@@ -37,16 +37,6 @@ _HELD = (16, 40, 1e-2)
 """While a slider is held: orbits, crossings of each, and the resolution of the rotation number."""
 
 
-class _Window(Protocol):
-    @property
-    def frame(self) -> Window:
-        """The visible window."""
-
-    @property
-    def first_chosen(self) -> tuple[float, float]:
-        """The place of the first chosen orbit."""
-
-
 class _Host(Host, Protocol):
     @property
     def poincare(self) -> AndoyerSection:
@@ -56,19 +46,18 @@ class _Host(Host, Protocol):
     def count(self) -> float:
         """The number of crossings of each orbit of the section."""
 
-    def batch(self, starts: tuple[Start, ...], crossings: int, forward: bool, level: Level) -> Task[OrbitBatch]:
-        """Return the computation of an `OrbitBatch`: so many crossings of the orbits from these states."""
-
 
 @dataclass(frozen=True, eq=False)
 class RotationAcross(Part[_Host]):
     """Rotation numbers along a line across the Andoyer–Deprit section.
 
+    first() : the place of the first chosen start.
     about_middle : True counts turns about the middle of the window, on a line from there to the right; False counts
-    them by the angle l, on a vertical line through the first chosen start, which further starts do not move.
+    them by the angle l, on a vertical line through that start, which further starts do not move.
     """
 
-    section: _Window
+    section: Section
+    first: Callable[[], tuple[float, float]]
     about_middle: bool
 
     @property
@@ -81,7 +70,7 @@ class RotationAcross(Part[_Host]):
         """The ends of the line."""
         (l0, x0), (l1, x1) = self.section.frame
         if not self.about_middle:
-            l = self.section.first_chosen[0]
+            l = self.first()[0]
             return (l, x0), (l, x1)
         middle = 0.5 * (x0 + x1)
         return (0.5 * (l0 + l1), middle), (l1, middle)
@@ -94,7 +83,7 @@ class RotationAcross(Part[_Host]):
         starts = self.work.need(Task(on_line, self.host.poincare, self.ends, count))
         found: list[tuple[float, Array]] = []
         for some in in_batches(starts):
-            task = self.host.batch(tuple(state for _, state in some), crossings, True, plan.level)
+            task = self.section.batch(tuple(state for _, state in some), True, crossings, plan.level)
             piece = self.work.need(task, preview=task if self.work.dragging else None)
             if piece is not None:
                 found += zip((share for share, _ in some), piece.orbits, strict=True)
@@ -130,8 +119,8 @@ class RotationAcross(Part[_Host]):
         orbits = [
             orbit
             for some in in_batches(starts)
-            for orbit in self.host.batch(
-                tuple(state for _, state in some), self._crossings_on_line(plan), True, plan.level
+            for orbit in self.section.batch(
+                tuple(state for _, state in some), True, self._crossings_on_line(plan), plan.level
             )
             .now()
             .orbits
@@ -192,15 +181,12 @@ def _axis_of(found: RotationProfile) -> Range:
     return with_room(shown, 0.06, 1e-4) if found.numbers.size else (-0.56, 0.56)
 
 
-S = TypeVar("S", bound=State)
-
-
-def rotation_trial(of: Callable[[S], RotationAcross]) -> Trial[S]:
+def rotation_trial() -> Trial[Any]:
     """Return the trial of the rotation numbers, computed at each level."""
     return Trial(
         Kind.ROTATION,
         ("rotation",),
-        lambda s, plan: of(s).at(plan),
+        lambda s, plan: s.rotation.at(plan),
         lambda s, found, truth: found.distance(truth),
         unit="turns, the median",
         seen=RESOLVED,
@@ -211,36 +197,36 @@ def _branches(found: RotationProfile) -> list[Array]:
     return [np.column_stack(part) for part in zip(found.along, found.rho, strict=True)]
 
 
-def rotation_picture(of: Callable[[S], RotationAcross]) -> Picture[S]:
+def rotation_picture() -> Picture[Any]:
     """Return the picture of ρ along the line: its branches, the orbits it comes from, and the parts without it."""
     return Plot(
         name="rotation",
         title="Rotation number across the section",
-        caption=lambda s: of(s).caption(),
-        axes=lambda s: of(s).names,
+        caption=lambda s: s.rotation.caption(),
+        axes=lambda s: s.rotation.names,
         first=Axes((-1.0, 1.0), (-0.5, 0.5)),
-        message=lambda s: of(s).message(),
-        x=lambda s: of(s).along,
-        y=lambda s: _axis_of(of(s).found),
+        message=lambda s: s.rotation.message(),
+        x=lambda s: s.rotation.along,
+        y=lambda s: _axis_of(s.rotation.found),
         layers=(
             region(
                 "sea",
-                within=lambda s, axes: of(s).parts_at_sea(axes),
+                within=lambda s, axes: s.rotation.parts_at_sea(axes),
                 color=theme.MUTED + "38",
                 moving=True,
                 label="ρ does not settle",
             ),
             points(
                 "standing",
-                lambda s: (of(s).found.standing, np.zeros(of(s).found.standing.size)),
+                lambda s: (s.rotation.found.standing, np.zeros(s.rotation.found.standing.size)),
                 size=7,
                 hollow=True,
                 color=theme.MUTED,
                 edge_width=1.5,
                 label="no rotation: 0 turns",
             ),
-            curves("rho", lambda s: _branches(of(s).found), color=theme.ORBIT),
+            curves("rho", lambda s: _branches(s.rotation.found), color=theme.ORBIT),
             # An orbit between two gaps is a curve of one point, which only a mark shows.
-            points("orbits", lambda s: (of(s).found.places, of(s).found.numbers), size=4, color=theme.ORBIT),
+            points("orbits", lambda s: (s.rotation.found.places, s.rotation.found.numbers), size=4, color=theme.ORBIT),
         ),
     )

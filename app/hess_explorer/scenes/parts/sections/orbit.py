@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Protocol, TypeVar
+from typing import Any, Protocol
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.part import Host, Part
-from hess_explorer.scenes.framework.scene import Motion, State
+from hess_explorer.scenes.framework.scene import Motion
 from hess_explorer.scenes.framework.work import orbit_status
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
@@ -97,21 +97,16 @@ class Orbit(Part[_Host]):
         return {"t": column(self.path.times), **{name: column(values) for name, values in states}}
 
 
-S = TypeVar("S", bound=State)
-
-
-def orbit_picture(
-    of: Callable[[S], Orbit], x: str, y: str, title: str = "The orbit", name: str = "orbit"
-) -> Picture[S]:
+def orbit_picture(x: str, y: str, title: str = "The orbit", name: str = "orbit") -> Picture[Any]:
     """Return the picture of the orbit in the plane of two variables; the scene has `columns` as its track "orbit"."""
 
-    def room_for(name: str) -> Callable[[S], Range]:
-        return lambda s: with_room(of(s).columns[name], 0.06, 1e-3)
+    def room_for(name: str) -> Callable[[Any], Range]:
+        return lambda s: with_room(s.orbit.columns[name], 0.06, 1e-3)
 
     return Plot(
         name=name,
         title=title,
-        caption=lambda s: of(s).caption,
+        caption=lambda s: s.orbit.caption,
         axes=(x, y),
         x=room_for(x),
         y=room_for(y),

@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, Protocol, TypeVar
+from typing import Any
 
 import numpy as np
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.cells import CELLS, COARSE, DENSITY, Arguments, changed, found_by_rows
 from hess_explorer.scenes.framework.parameters import choice
-from hess_explorer.scenes.framework.part import Part, Sectioned
-from hess_explorer.scenes.framework.scene import State
+from hess_explorer.scenes.framework.part import Part
 from hess_explorer.scenes.framework.trial import Trial
 from hess_explorer.scenes.framework.windows import Window
+from hess_explorer.scenes.parts.sections.section import Section
 from hess_explorer.views import layered_section
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import Layer
@@ -47,25 +47,11 @@ def colouring(has_density: bool = True) -> Any:
 _WAYS = ((1.0, 1.0), (-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0))
 
 
-class _Host(Sectioned, Protocol):
-    @property
-    def frame(self) -> Window:
-        """The visible window."""
-
-
-def _nothing() -> object:
-    return None
-
-
 @dataclass(frozen=True, eq=False)
-class Indicator(Part[_Host]):
-    """The cells of a section coloured by MEGNO.
-
-    wanted : show them; sooner() : requests results that are computed before the finer cells.
-    """
+class Indicator(Part[Section]):
+    """The cells of a section coloured by MEGNO; wanted : show them."""
 
     wanted: bool
-    sooner: Callable[[], object] = _nothing
 
     @cached_property
     def time(self) -> float:
@@ -86,7 +72,9 @@ class Indicator(Part[_Host]):
         if not self.wanted or self.work.dragging:
             return None
         plan = self.work.plan(Kind.INDICATOR)
-        return found_by_rows(self.work, row_of_cells, (self.rows(plan, COARSE), self.rows(plan)), self.sooner)
+        return found_by_rows(
+            self.work, row_of_cells, (self.rows(plan, COARSE), self.rows(plan)), lambda: self.host.batches
+        )
 
     @property
     def kinds(self) -> Array | None:
@@ -136,22 +124,19 @@ def _aside(frame: Window, cells: tuple[int, int], row: int) -> Window:
     return (x0 + right, y0 + up), (x1 + right, y1 + up)
 
 
-S = TypeVar("S", bound=State)
-
-
-def indicator_layer(of: Callable[[S], Indicator]) -> Layer[S]:
+def indicator_layer() -> Layer[Any]:
     """Return the layer of cells, drawn under all points."""
-    return layered_section.indicator(lambda s: of(s).kinds, lambda s: of(s).host.frame)
+    return layered_section.indicator(lambda s: s.megno.kinds, lambda s: s.section.frame)
 
 
-def indicator_trial(of: Callable[[S], Indicator]) -> Trial[S]:
+def indicator_trial() -> Trial[Any]:
     """Return the trial of the cells, computed at each level."""
     return Trial(
         Kind.INDICATOR,
         ("section",),
-        lambda s, plan: np.stack([row_of_cells(*row)[1] for row in of(s).rows(plan)]),
+        lambda s, plan: np.stack([row_of_cells(*row)[1] for row in s.megno.rows(plan)]),
         lambda s, cells, truth: changed(cells, truth),
         unit="% of the cells that change",
         seen=3.0,
-        shown=lambda s: of(s).wanted,
+        shown=lambda s: s.megno.wanted,
     )

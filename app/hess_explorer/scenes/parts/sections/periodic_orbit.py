@@ -13,7 +13,7 @@ from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.parameters import Value
 from hess_explorer.scenes.framework.cells import DENSITY
 from hess_explorer.scenes.framework.parameters import choice, number
-from hess_explorer.scenes.framework.part import Part, Sectioned
+from hess_explorer.scenes.framework.part import Part
 from hess_explorer.scenes.framework.periodic_search import (
     ANY,
     AT_ITS_LENGTH,
@@ -24,13 +24,13 @@ from hess_explorer.scenes.framework.periodic_search import (
     BranchChoice,
     Closed,
     NotFound,
-    Place,
     Search,
     branch_of,
     crossings_between,
     sought,
 )
-from hess_explorer.scenes.framework.scene import Preset, State
+from hess_explorer.scenes.framework.scene import Preset
+from hess_explorer.scenes.parts.sections.section import Section
 from hess_explorer.views import periodic as view
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import Layers
@@ -40,7 +40,9 @@ from hess_mechanics.dynamics.manifolds import Intersection, Manifold
 from hess_mechanics.dynamics.return_map import ReturnMap
 from hess_mechanics.numerics.accuracy import PRECISE, Status
 
-__all__ = ["NONE", "PeriodicOrbit", "layers", "length_of_manifolds", "plain", "which"]
+__all__ = ["NONE", "PeriodicOrbit", "length_of_manifolds", "periodic_layers", "plain", "which"]
+
+T = TypeVar("T")
 
 _WHOLE = 3
 """Largest period for which the manifolds of all places are drawn: they are images of one another."""
@@ -78,32 +80,17 @@ def plain(preset: Preset) -> Preset:
     return Preset(preset.name, **values)
 
 
-class _Host(Sectioned, Protocol):
-    @property
-    def given(self) -> tuple[float, ...]:
-        """The initial state of the chosen orbit.  Raises `ModelError`."""
-
-    @property
-    def aim(self) -> Place | None:
-        """The first place of the chosen orbit in the section; None if unknown."""
-
-    @property
-    def pixels(self) -> tuple[float, ...]:
-        """Pixels per unit of each coordinate."""
-
-
 @dataclass(frozen=True, eq=False)
-class PeriodicOrbit(Part[_Host]):
+class PeriodicOrbit(Part[Section]):
     """A periodic orbit shown in place of the chosen orbit of a section.
 
     period : one of `PERIODS`, or `NONE`; reach : the length of the manifolds of a saddle; span : the time span of the
-    chosen orbit; bounds : whether other manifolds of this length are shown.
+    chosen orbit.
     """
 
     period: str
     reach: float
     span: float
-    bounds: bool = False
 
     @property
     def closing(self) -> bool:
@@ -111,19 +98,14 @@ class PeriodicOrbit(Part[_Host]):
         return self.period != NONE
 
     @property
-    def aim(self) -> Place | None:
-        """The first place of the chosen orbit in the section; None if unknown."""
-        return self.host.aim
-
-    @property
     def _search(self) -> Search | None:
         """The arguments of `sought`; None if there is nothing to search for."""
-        if not self.closing or self.aim is None:
+        if not self.closing or self.host.aim is None:
             return None
         # The error of an unstable orbit grows along it.
         level, held = self.work.level, self.work.dragging
         level = level if held else max(level, PRECISE, key=lambda rung: rung.order)
-        return ReturnMap(self.host.poincare, level), self.aim, PERIODS[self.period], held
+        return ReturnMap(self.host.poincare, level), self.host.aim, PERIODS[self.period], held
 
     @cached_property
     def _result(self) -> Closed | NotFound | None:
@@ -153,11 +135,6 @@ class PeriodicOrbit(Part[_Host]):
         return self.span if self.closed is None else self.closed.time
 
     @property
-    def places(self) -> list[tuple[float, float]] | None:
-        """The places of the periodic orbit; None without one."""
-        return None if self.closed is None else [(float(x), float(y)) for x, y in self.closed.orbit.places]
-
-    @property
     def _drawn(self) -> tuple[Search, list[BranchChoice], float] | None:
         """Cache key of a saddle's manifolds: the search, the branches, a pixel; None for any other orbit."""
         orbit = self._saddle
@@ -171,16 +148,15 @@ class PeriodicOrbit(Part[_Host]):
         )
 
     @cached_property
-    def _branches(self) -> tuple[Manifold | NotFound, ...] | None:
+    def _branches(self) -> list[Manifold | NotFound] | None:
         """The branches of a saddle's manifolds, empty for any other orbit; None until all are known."""
         if self._drawn is None:
-            return ()
+            return []
         if self.work.dragging:
             return None
         search, branches, pixel = self._drawn
         found = [self.work.need(Task(branch_of, search, one, self.reach, pixel), preview=None) for one in branches]
-        known = [one for one in found if one is not None]
-        return tuple(known) if len(known) == len(found) else None
+        return _all(found)
 
     @property
     def manifolds(self) -> list[Manifold]:
@@ -200,8 +176,7 @@ class PeriodicOrbit(Part[_Host]):
             for other in branches
             if other[1]
         ]
-        known = [one for one in found if one is not None]
-        return known if len(known) == len(found) else None
+        return _all(found)
 
     @property
     def homoclinic(self) -> list[Intersection]:
@@ -229,12 +204,12 @@ class PeriodicOrbit(Part[_Host]):
 
     def idle(self) -> Mapping[str, float]:
         """Return the length of the manifolds if none are requested."""
-        return {} if self.closing or self.bounds else {"reach": self.reach}
+        return {} if self.closing or not self.host.alone else {"reach": self.reach}
 
     @property
     def caption(self) -> Caption | None:
         """The caption of the section if a periodic orbit is requested, else None."""
-        if not self.closing or self.aim is None:
+        if not self.closing or self.host.aim is None:
             return None
         if self.looking:
             return Caption("Searching for a periodic orbit.")
@@ -316,11 +291,14 @@ class PeriodicOrbit(Part[_Host]):
         )
 
 
+def _all(found: Sequence[T | None]) -> list[T] | None:
+    """Return the results; None until all are known."""
+    known = [one for one in found if one is not None]
+    return known if len(known) == len(found) else None
+
+
 def _ended(branch: Manifold | NotFound) -> str:
     return branch.ended if isinstance(branch, Manifold) else branch.reason
-
-
-S = TypeVar("S", bound=State)
 
 
 class _Bounds(Protocol):
@@ -333,16 +311,16 @@ class _Bounds(Protocol):
         """The stable manifolds of these saddles."""
 
 
-def layers(of: Callable[[S], PeriodicOrbit], bounds: Callable[[S], _Bounds | None] = lambda s: None) -> Layers[S]:
+def periodic_layers(bounds: Callable[[Any], _Bounds | None] = lambda s: None) -> Layers[Any]:
     """Return the layers of the periodic orbit in a section, and of what bounds the basins there."""
 
-    def orbits(s: S) -> list[mechanics.PeriodicOrbit]:
-        closed, bounding = of(s).closed, bounds(s)
+    def orbits(s: Any) -> list[mechanics.PeriodicOrbit]:
+        closed, bounding = s.periodic_orbit.closed, bounds(s)
         own = [] if closed is None else [closed.orbit]
         return own if bounding is None else [*own, *bounding.saddles]
 
-    def manifolds(s: S) -> list[Manifold]:
+    def manifolds(s: Any) -> list[Manifold]:
         bounding = bounds(s)
-        return [*of(s).manifolds, *([] if bounding is None else bounding.manifolds)]
+        return [*s.periodic_orbit.manifolds, *([] if bounding is None else bounding.manifolds)]
 
-    return view.layers(orbits, manifolds, lambda s: of(s).homoclinic)
+    return view.layers(orbits, manifolds, lambda s: s.periodic_orbit.homoclinic)

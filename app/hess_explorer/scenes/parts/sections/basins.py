@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Protocol, TypeVar
+from typing import Any, Protocol
 
 import numpy as np
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.part import Host, Part
 from hess_explorer.scenes.framework.periodic_search import Closed, Search, branch_of, sought
-from hess_explorer.scenes.framework.scene import State
 from hess_explorer.scenes.framework.trial import Trial
 from hess_explorer.scenes.framework.windows import Window
+from hess_explorer.scenes.parts.sections.section import Section
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.text import digits
 from hess_mechanics.dynamics.attraction import CROSSINGS, LOST, NOWHERE, Arrivals, arrivals
@@ -47,20 +47,6 @@ _SPREAD = evenly(20_000).T
 _TRIED = 8
 """Places of the boundary from which saddles are sought."""
 _NUMBERS = {2: "Two", 3: "Three", 4: "Four", 5: "Five"}
-
-
-class _Window(Protocol):
-    @property
-    def frame(self) -> Window:
-        """The visible window."""
-
-    @property
-    def pixels(self) -> tuple[float, ...]:
-        """Pixels per unit of each coordinate."""
-
-    @property
-    def batches(self) -> object:
-        """The orbits of the section, computed after the first basins."""
 
 
 class _Host(Host, Protocol):
@@ -116,13 +102,14 @@ class _Piece:
 
 @dataclass(frozen=True, eq=False)
 class Basins(Part[_Host]):
-    """The basins of a section of the Suslov problem, the boundaries refined to the pixel, and the saddles there.
+    """The basins of a section of the Suslov problem, the boundaries refined to the pixel, and the saddles there."""
 
-    wanted : show them.
-    """
+    section: Section
 
-    section: _Window
-    wanted: bool
+    @property
+    def wanted(self) -> bool:
+        """True if they are shown: the section is not alone then."""
+        return not self.section.alone
 
     def sought(self, plan: Plan) -> _Sought:
         """Return the basins to compute at a level."""
@@ -303,17 +290,14 @@ def _saddles(what: _Sought) -> tuple[Search, ...]:
     return tuple(found.values())
 
 
-S = TypeVar("S", bound=State)
-
-
-def basins_trial(of: Callable[[S], Basins]) -> Trial[S]:
+def basins_trial() -> Trial[Any]:
     """Return the trial of the basins, computed at each level."""
     return Trial(
         Kind.BASINS,
         ("section",),
-        lambda s, plan: (_sampled if plan.level.aside else _at_once)(of(s).sought(plan)).number.astype(float),
+        lambda s, plan: (_sampled if plan.level.aside else _at_once)(s.basins.sought(plan)).number.astype(float),
         lambda s, cells, truth: _error(cells, truth),
         unit="% of the cells that change",
         seen=3.0,
-        shown=lambda s: of(s).wanted,
+        shown=lambda s: s.basins.wanted,
     )

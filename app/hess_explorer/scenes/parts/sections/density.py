@@ -5,26 +5,23 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Protocol, TypeVar
 
 import numpy as np
 
 from hess_explorer.compute.cache import Task
-from hess_explorer.scenes.framework.part import Part, Sectioned, Start
+from hess_explorer.scenes.framework.part import Part, Start
 from hess_explorer.scenes.framework.points import stages_of
-from hess_explorer.scenes.framework.scene import State
 from hess_explorer.scenes.framework.windows import Window
 from hess_explorer.scenes.framework.work import drift_status
+from hess_explorer.scenes.parts.sections.section import Section
 from hess_explorer.views import density as view
-from hess_explorer.views import theme
-from hess_explorer.views.layers import Layers
 from hess_mechanics.dynamics.cells import evenly
 from hess_mechanics.dynamics.return_map import PoincareSection
 from hess_mechanics.dynamics.section_density import Visits, visits
 from hess_mechanics.numerics.accuracy import Kind, plan
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["Density", "density_layers"]
+__all__ = ["Density"]
 
 _PIXELS = (512, 512)
 _ORBITS, _TRIED = 128, 1024
@@ -37,36 +34,27 @@ _LEVEL = plan(Kind.SECTION, "draft").level
 """Level of the orbits: in a million crossings its drift stays below a pixel, and finer ones show the same density."""
 
 
-def _one_kind(states: Array) -> Array:
-    return np.zeros(len(states))
-
-
-class _Host(Sectioned, Protocol):
-    @property
-    def frame(self) -> Window:
-        """The visible window."""
-
-
 @dataclass(frozen=True, eq=False)
-class Density(Part[_Host]):
+class Density(Part[Section]):
     """Crossings of orbits spread over the window, counted in its pixels.
 
     The orbits are followed in stages, each of which doubles their lengths.
 
-    wanted : show it; later : count only the last stage, which has the later half of the crossings.
-    ways : directions of time of each kind of orbits, True is forward; kind_of(states) : the kinds (k,) of orbits.
+    wanted : show it; kinds : their number, by default one for each direction of time; kind_of(states) : the kinds (k,)
+    of orbits, by default in turn.
     """
 
     wanted: bool
-    later: bool = False
-    ways: tuple[bool, ...] = (True,)
-    kind_of: Callable[[Array], Array] = _one_kind
+    kinds: int = 0
+    kind_of: Callable[[Array], Array] | None = None
 
     @cached_property
     def _kinds(self) -> list[tuple[int, tuple[Start, ...]]]:
         """Kind and starts of each group of orbits; there are at least two groups, for two cores."""
         starts = self.work.need(Task(_starts, self.host.poincare, self.host.frame))
-        kinds = self.kind_of(np.array(starts)) if starts else np.zeros(0)
+        kinds: Array = np.arange(float(len(starts))) % len(self._ways)
+        if self.kind_of is not None and starts:
+            kinds = self.kind_of(np.array(starts))
         there = np.unique(kinds).tolist()
         parts = 2 if len(there) == 1 else 1
         return [
@@ -83,10 +71,15 @@ class Density(Part[_Host]):
         where = self.host.poincare, self.host.frame
         return self.work.newest(
             [
-                [Task(_stage, *where, starts, self.ways[kind], self.later, number) for number in range(self._stages)]
+                [Task(_stage, *where, starts, self._ways[kind], self.host.later, i) for i in range(self._stages)]
                 for kind, starts in self._kinds
             ]
         )
+
+    @property
+    def _ways(self) -> tuple[bool, ...]:
+        """The direction of time of each kind."""
+        return (True,) * self.kinds or self.host.ways
 
     @property
     def _stages(self) -> int:
@@ -100,7 +93,7 @@ class Density(Part[_Host]):
     @cached_property
     def counts(self) -> tuple[Array, ...]:
         """Crossings (n, m) in each pixel by the orbits of each kind; empty until some are known."""
-        counts = np.zeros((len(self.ways), *_PIXELS[::-1]), np.uint32)
+        counts = np.zeros((len(self._ways), *_PIXELS[::-1]), np.uint32)
         for (kind, _), one in zip(self._kinds, self._found, strict=False):
             if one is not None:
                 counts[kind] += one.counts
@@ -121,16 +114,6 @@ class Density(Part[_Host]):
         if self.asked("_found") and self.points:
             yield f"density {self.points} crossings"
             yield from drift_status(one.drift for one in self._found if one is not None)
-
-
-S = TypeVar("S", bound=State)
-
-
-def density_layers(of: Callable[[S], Density]) -> Layers[S]:
-    """Return the layers of the density of a section with one kind of orbits."""
-    return view.layers(
-        lambda s: of(s).tones, lambda s: of(s).host.frame, ("few to many crossings of other orbits",), (theme.INK,)
-    )
 
 
 def _starts(section: PoincareSection, window: Window) -> tuple[Start, ...]:

@@ -1,0 +1,54 @@
+"""Sections: their orbits, and what is found out about them."""
+
+from hess_explorer.scenes.parts.sections.branch import (
+    Branch,
+    branch_picture,
+    coordinate_of_branch,
+    end_of_branch,
+    parameter_of_branch,
+)
+from hess_explorer.scenes.parts.sections.clicks import Clicks, filled, orbits_spread, points_of_each
+from hess_explorer.scenes.parts.sections.indicator import MEGNO, Indicator, colouring
+from hess_explorer.scenes.parts.sections.orbit import Orbit, orbit_picture
+from hess_explorer.scenes.parts.sections.periodic_orbit import (
+    PeriodicOrbit,
+    length_of_manifolds,
+    periodic_layers,
+    plain,
+    which,
+)
+from hess_explorer.scenes.parts.sections.pictures import filled_picture, section_layers, section_picture, section_trials
+from hess_explorer.scenes.parts.sections.section import Section, crossings_of_each, first_place, start_on
+from hess_explorer.scenes.parts.sections.workbench import SectionState, shown_in_section
+
+__all__ = [
+    "MEGNO",
+    "Branch",
+    "Clicks",
+    "Indicator",
+    "Orbit",
+    "PeriodicOrbit",
+    "Section",
+    "SectionState",
+    "branch_picture",
+    "colouring",
+    "coordinate_of_branch",
+    "crossings_of_each",
+    "end_of_branch",
+    "filled",
+    "filled_picture",
+    "first_place",
+    "length_of_manifolds",
+    "orbit_picture",
+    "orbits_spread",
+    "parameter_of_branch",
+    "periodic_layers",
+    "plain",
+    "points_of_each",
+    "section_layers",
+    "section_picture",
+    "section_trials",
+    "shown_in_section",
+    "start_on",
+    "which",
+]

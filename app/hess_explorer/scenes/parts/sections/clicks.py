@@ -1,0 +1,217 @@
+"""The starts of orbits chosen by clicks in a section whose window is filled with others."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, Protocol
+
+import numpy as np
+
+from hess_explorer.compute.cache import Task
+from hess_explorer.protocol.parameters import Values, places, written
+from hess_explorer.scenes.framework.orbit_batches import OrbitBatch, in_batches
+from hess_explorer.scenes.framework.parameters import number, specs_of
+from hess_explorer.scenes.framework.part import Host, Part, Start
+from hess_explorer.scenes.framework.windows import Window
+from hess_explorer.scenes.parts.sections.section import Section
+from hess_explorer.views.text import digits
+from hess_mechanics.dynamics.return_map import PoincareSection
+from hess_mechanics.errors import InvalidParameter, OutsideRegion
+from hess_mechanics.numerics.results import Array
+
+__all__ = ["Clicks", "filled", "orbits_spread", "points_of_each"]
+
+_FEWEST, _HELD = 20, 40
+"""Least number of crossings of each orbit at any level, and largest while a slider is held."""
+
+Place = tuple[float, float]
+
+
+def orbits_spread(default: float, longest: float, most: float) -> Any:
+    """Declare the number of orbits that fill a window."""
+    return number(
+        "n",
+        default,
+        (0.0, longest),
+        1.0,
+        bounds=(0.0, most),
+        label="Orbits",
+        group="Computation",
+        doc="Number of orbits spread over the window.",
+    )
+
+
+def points_of_each(default: float) -> Any:
+    """Declare the number of crossings of each orbit of a filled section."""
+    return number(
+        "N",
+        default,
+        (20.0, 1000.0),
+        10.0,
+        bounds=(2.0, 4000.0),
+        label="Crossings",
+        group="Computation",
+        doc="Number of points of each orbit.",
+    )
+
+
+class _Filled(PoincareSection, Protocol):
+    def spread(self, window: Window, count: int) -> tuple[Start, ...]:
+        """Return at most `count` states, spread over the possible part of the window."""
+
+    def impossible(self, window: Window) -> Array:
+        """Return cells (m, n) over the window: 1 if no motion is possible."""
+
+
+class _Host(Host, Protocol):
+    @property
+    def poincare(self) -> _Filled:
+        """The section in its coordinates.  Raises `ModelError`."""
+
+    @property
+    def section(self) -> Section:
+        """The section, with its visible window."""
+
+    @property
+    def starts(self) -> str:
+        """The places of the chosen orbits."""
+
+    @property
+    def impossible_here(self) -> str:
+        """The message if no motion is possible in the window."""
+
+
+@dataclass(frozen=True)
+class _Chosen:
+    """The starts of the orbits chosen by clicks; the last orbit is on show.
+
+    refused : the place chosen for the orbit on show, if no motion is possible there.
+    """
+
+    places: Sequence[Place]
+    states: Sequence[Start]
+    refused: Place | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Clicks(Part[_Host]):
+    """The places at which clicks in a section start orbits.
+
+    excuse : the reason why some places have no orbit; bounds : the whole section, as places in a link are written.
+    """
+
+    excuse: str
+    bounds: Window
+
+    def admitted(self, notes: list[str]) -> Values:
+        """Return at least one start."""
+        default = next(spec.default for spec in specs_of(type(self.host)) if spec.name == "starts")
+        return {"starts": self.host.starts or default}
+
+    @cached_property
+    def picked(self) -> _Chosen:
+        """The chosen starts with a motion; if the last one has none, a single other start replaces them all.
+
+        Raises `InvalidParameter` if no motion is possible in the window.
+        """
+        chosen = places(self.host.starts)
+        states, possible = self.host.poincare.states_at(*np.array(chosen).T)
+        if possible[-1]:
+            there = np.flatnonzero(possible).tolist()
+            return _Chosen([chosen[i] for i in there], [tuple(map(float, states[i])) for i in there])
+        others = [start for some in self.host.section.seeds(self.host.section) for start in some]
+        others = others or [*_spread(self.host, 1)]
+        if not others:
+            raise InvalidParameter(self.host.impossible_here)
+        return _Chosen([_place(self.host.poincare.places_of(np.array(others))[0])], [others[0]], chosen[-1])
+
+    @property
+    def asked_start(self) -> Start:
+        """The state at the last chosen place.  Raises `OutsideRegion` if no motion is possible there."""
+        place = places(self.host.starts)[-1]
+        states, possible = self.host.poincare.states_at(*np.array([place]).T)
+        if not possible[0]:
+            raise OutsideRegion(f"At {self._at(place)} {self.excuse}: choose another point.")
+        return tuple(map(float, states[0]))
+
+    @property
+    def rings(self) -> list[Place]:
+        """The places where the orbits on show start."""
+        closed = self.host.section.periodic().closed
+        return [*self.picked.places] if closed is None else [*self.picked.places[:-1], _place(closed.orbit.places[0])]
+
+    @cached_property
+    def impossible(self) -> Array:
+        """Cells (m, n) over the window: 1 if no motion is possible."""
+        return self.work.need(Task(_impossible, self.host.poincare, self.host.section.frame))
+
+    def add(self, x: float, y: float) -> Values:
+        """Return the starts with another orbit added at (x, y)."""
+        return {"starts": written([*self.picked.places, self._inside(x, y)])}
+
+    def move(self, x: float, y: float) -> Values:
+        """Return the starts with the orbit on show moved to (x, y)."""
+        return {"starts": written([*places(self.host.starts)[:-1], self._inside(x, y)])}
+
+    def _inside(self, x: float, y: float) -> Place:
+        (x0, y0), (x1, y1) = self.bounds
+        return min(max(x, x0), x1), min(max(y, y0), y1)
+
+    def _at(self, place: Place) -> str:
+        names = self.host.poincare.names
+        return ", ".join(f"{name} = {digits(value)}" for name, value in zip(names, place, strict=True))
+
+    @property
+    def sentence(self) -> str:
+        """The place where the orbit on show starts, in words."""
+        return f"chosen: {self._at(self.rings[-1])}"
+
+    def notes(self) -> Iterator[str]:
+        """Yield a note if no motion is possible at the chosen start."""
+        if self.picked.refused is not None:
+            yield (
+                f"At {self._at(self.picked.refused)} {self.excuse}: the chosen orbit starts at "
+                f"{self._at(self.picked.places[0])}."
+            )
+
+
+def filled(state: Any, held: int, compute: Callable[..., OrbitBatch], **more: Any) -> Section:
+    """Return the section of a state whose `orbits` fill its `window`, among those of its `clicks`.
+
+    held : the largest number of orbits while a slider is held; compute, more : as of `Section`.
+    """
+
+    def seeds(section: Section) -> list[tuple[Start, ...]]:
+        count = int(state.orbits)
+        return [*in_batches(_spread(state, min(count, held) if section.work.dragging else count))]
+
+    return Section(
+        state,
+        lambda: state.clicks.picked.states,
+        compute,
+        seeds,
+        lambda: state.periodic_orbit,
+        zoom=state.window,
+        fewest=_FEWEST,
+        held=_HELD,
+        at_once=False,
+        **more,
+    )
+
+
+def _spread(state: _Host, count: int) -> tuple[Start, ...]:
+    return state.work.need(Task(_seeds, state.poincare, state.section.frame, count))
+
+
+def _seeds(section: _Filled, window: Window, count: int) -> tuple[Start, ...]:
+    return section.spread(window, count)
+
+
+def _impossible(section: _Filled, window: Window) -> Array:
+    return section.impossible(window)
+
+
+def _place(found: Array) -> Place:
+    return float(found[0]), float(found[1])

@@ -1,0 +1,336 @@
+"""A Poincaré section with chosen orbits among others."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import product
+from typing import Any, Protocol
+
+import numpy as np
+
+from hess_explorer.compute.cache import Task
+from hess_explorer.protocol.parameters import Values, places
+from hess_explorer.scenes.framework.orbit_batches import OrbitBatch, batch_of
+from hess_explorer.scenes.framework.parameters import number
+from hess_explorer.scenes.framework.part import Part, Sectioned, Start
+from hess_explorer.scenes.framework.periodic_search import NotPeriodic, Periodic, Place
+from hess_explorer.scenes.framework.windows import Window, boxed, tidy_window, window_of
+from hess_explorer.scenes.framework.work import drift_status, kept_status
+from hess_explorer.views.caption import Caption
+from hess_explorer.views.section_plane import joined
+from hess_mechanics.dynamics.cells import evenly
+from hess_mechanics.dynamics.return_map import PoincareSection
+from hess_mechanics.dynamics.sampling import PIXELS
+from hess_mechanics.dynamics.section import section_points
+from hess_mechanics.dynamics.shadowing import right_crossings, typical
+from hess_mechanics.errors import OutsideRegion, WorkLimit
+from hess_mechanics.numerics.accuracy import STANDARD, Kind, Level, Plan
+from hess_mechanics.numerics.results import Array
+
+__all__ = ["Section", "Seeds", "crossings_of_each", "first_place", "start_on"]
+
+_FEW = 30
+"""Crossings of each orbit while a slider is dragged, and until all are known."""
+_ON = 1e-9
+"""Largest relative distance of a start that counts as on the section."""
+_ORBITS, _MOST_STEPS = 20, 100_000
+"""Default section: number of other orbits, and largest number of Taylor steps of each."""
+_TURNS = 60.0
+"""Time limit per crossing, in units of 1/ν times the slowness of the section."""
+_COMPARED = 3
+"""Batches that are computed twice for an error estimate, in addition to the orbit on show."""
+
+
+def crossings_of_each() -> Any:
+    """Declare the number of crossings of each orbit."""
+    return number(
+        "n",
+        200.0,
+        (50.0, 600.0),
+        10.0,
+        bounds=(1.0, 1e3),
+        label="Crossings of each orbit",
+        doc="Points for each orbit.",
+        group="Computation",
+    )
+
+
+def start_on(section: PoincareSection, text: str) -> Start:
+    """Return the state at the last place of a link's text.  Raises `OutsideRegion`, also if there is no place."""
+    states, there = section.states_at(*np.array(places(text)[-1:]).reshape(-1, 2).T)
+    if not there.any():
+        names = " and ".join(section.names)
+        raise OutsideRegion(f"No motion crosses the section at this {names}: choose another place, or a larger energy.")
+    return tuple(map(float, states[0]))
+
+
+def crossings_from(
+    section: PoincareSection, starts: tuple[Start, ...], crossings: int, forward: bool, level: Level
+) -> OrbitBatch:
+    """Return so many crossings of the orbits from some states, forward in time."""
+    fastest = float(np.max(section.system.frequency(np.array(starts).T, np.array(section.parameters)), initial=0.0))
+    end = _TURNS * crossings * section.slowness / (fastest or 1.0)
+    return batch_of(
+        section, section_points(section, starts, section.surface, end, level, crossings, most_steps=_MOST_STEPS)
+    )
+
+
+def _all_over(section: Section) -> list[tuple[Start, ...]]:
+    """Return starts spread over the visible window, where motions cross it: one batch."""
+    ways = evenly(8 * _ORBITS - 1).T
+    low, high = np.array(section.frame)
+    states, there = section.poincare.states_at(*(low + ways * (high - low)).T)
+    return [tuple(map(tuple, states[there][:_ORBITS].tolist()))]
+
+
+Seeds = Callable[["Section"], list[tuple[Start, ...]]]
+"""The starts of the other orbits of a section, those of a batch together."""
+
+
+class _Host(Sectioned, Protocol):
+    @property
+    def count(self) -> float:
+        """The number of crossings of each orbit."""
+
+
+@dataclass(frozen=True)
+class _Known:
+    """The batches of the chosen orbits and of the others, None if not known yet.
+
+    few : fewer crossings of the others, until all are known; reason : why all of it is left out.
+    """
+
+    own: list[OrbitBatch | None]
+    others: list[OrbitBatch | None]
+    few: list[OrbitBatch] | None = None
+    reason: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class Section(Part[_Host]):
+    """A section with chosen orbits among others, computed in batches.
+
+    starts() : the states from which the chosen orbits start; the last one is on show.  Raises `ModelError`.
+    compute(section, starts, crossings, forward, level) : the `OrbitBatch` of these starts; seeds : the starts of the
+    others; ways : their directions of time, True is forward.
+    periodic() : the periodic orbit in place of the last chosen one; later : draw only the later half of the crossings.
+    whole() : the window of the whole picture, by default that of the section; bounds : the largest window, for links;
+    zoom : the visible one, as in a link; empty for the whole.
+    fewest, held : the least number of crossings at any level, and the largest while a slider is held.
+    at_once : compute the chosen orbits, and a few crossings of the others, before anything is shown.
+    alone : whether nothing else is shown in the window, such as basins.
+    """
+
+    starts: Callable[[], Sequence[Start]]
+    compute: Callable[..., OrbitBatch] = crossings_from
+    seeds: Seeds = _all_over
+    periodic: Callable[[], Periodic] = NotPeriodic
+    ways: tuple[bool, ...] = (True,)
+    later: bool = False
+    whole: Callable[[], Window] | None = None
+    bounds: Window | None = None
+    zoom: str = ""
+    fewest: int = _FEW
+    held: int = _FEW
+    at_once: bool = True
+    alone: bool = True
+
+    @property
+    def poincare(self) -> PoincareSection:
+        """The section in its coordinates.  Raises `ModelError`."""
+        return self.host.poincare
+
+    # ---- the window ---------------------------------------------------------------------------------------------
+
+    @property
+    def _whole(self) -> Window:
+        (x0, x1), (y0, y1) = self.poincare.window
+        return ((x0, y0), (x1, y1)) if self.whole is None else self.whole()
+
+    @property
+    def frame(self) -> Window:
+        """The visible window."""
+        return window_of(self.zoom, self._whole)
+
+    def look_closer(self, corners: tuple[float, float, float, float]) -> Values:
+        """Return the window that a box selects."""
+        return boxed(corners, self.bounds or self._whole)
+
+    def admitted(self, notes: list[str]) -> Values:
+        """Return a valid window."""
+        return {"window": tidy_window(self.zoom)} if self.zoom else {}
+
+    @property
+    def pixels(self) -> tuple[float, ...]:
+        """Pixels per unit of each coordinate."""
+        return tuple(PIXELS / (high - low) for low, high in zip(*self.frame, strict=True))
+
+    # ---- what is computed ---------------------------------------------------------------------------------------
+
+    @property
+    def given(self) -> Start:
+        """The initial state of the last chosen orbit.  Raises `ModelError`."""
+        return self.starts()[-1]
+
+    @cached_property
+    def aim(self) -> Place | None:
+        """The place where the last chosen orbit starts, or else first crosses the section; None without one."""
+        try:
+            return _first_place(self.poincare, self.given, lambda: self.work.need(self.batch((self.given,))))
+        except WorkLimit:
+            return None
+
+    def batch(
+        self, starts: tuple[Start, ...], forward: bool = True, crossings: int = 0, level: Level | None = None
+    ) -> Task[OrbitBatch]:
+        """Return the computation of the orbits from some states, by default as they are shown."""
+        plan = self.work.plan(Kind.SECTION)
+        return Task(self.compute, self.poincare, starts, crossings or self._count, forward, level or plan.level)
+
+    def _filling(self, crossings: int = 0, level: Level | None = None) -> list[Task[OrbitBatch]]:
+        return [self.batch(starts, way, crossings, level) for starts in self.seeds(self) for way in self.ways]
+
+    @property
+    def _count(self) -> int:
+        """The number of crossings of each orbit."""
+        crossings = self.host.count
+        return int(min(crossings, self.held)) if self.work.dragging else self._at(self.work.plan(Kind.SECTION))
+
+    def _at(self, plan: Plan) -> int:
+        return plan.part(self.host.count, self.fewest)
+
+    @cached_property
+    def _known(self) -> _Known:
+        states = self.starts() if self.periodic().closed is None else self.starts()[:-1]
+        held = self.work.dragging
+        try:
+            own = [self.batch((state,)) for state in states]
+            others = self._filling()
+            known = _Known(
+                [self.work.need(task, preview=task if held or self.at_once else None) for task in own],
+                [self.work.need(task, preview=task if held else None) for task in others],
+            )
+            if self.at_once and None in known.others:
+                few = [self.work.need(task) for task in self._filling(min(self._count, _FEW))]
+                known = _Known(known.own, known.others, few)
+        except WorkLimit as error:
+            return _Known([], [], reason=f"The section is left out: {error}")
+        return known
+
+    @property
+    def batches(self) -> list[OrbitBatch]:
+        """The known batches of the other orbits."""
+        return self._known.few or [batch for batch in self._known.others if batch is not None]
+
+    @property
+    def reason(self) -> str:
+        """The reason why the section is left out; an empty string if it is not."""
+        return self._known.reason
+
+    @property
+    def chosen(self) -> list[OrbitBatch]:
+        """The known batches of the chosen orbits."""
+        return [batch for batch in self._known.own if batch is not None]
+
+    @cached_property
+    def own(self) -> Array:
+        """The drawn points (n, 2) of the chosen orbits."""
+        return joined(self._shown(orbit) for batch in self.chosen for orbit in batch.orbits)
+
+    def kind(self, first: bool = True, ends: bool = False) -> list[Array]:
+        """Return the other orbits of one kind with all their points: those that end early or the others."""
+        return [
+            orbit
+            for batch in self.batches
+            for orbit, is_first, reason in zip(batch.orbits, batch.firsts, batch.reasons, strict=True)
+            if (is_first, reason != "") == (first, ends)
+        ]
+
+    def points(self, first: bool = True, ends: bool = False) -> Array:
+        """Return the drawn points (n, 2) of the other orbits of one kind."""
+        return self._points[first, ends]
+
+    @cached_property
+    def _points(self) -> dict[tuple[bool, bool], Array]:
+        kinds = product((True, False), repeat=2)
+        return {(first, ends): joined(map(self._shown, self.kind(first, ends))) for first, ends in kinds}
+
+    def _shown(self, orbit: Array) -> Array:
+        return orbit[len(orbit) // 2 :] if self.later else orbit
+
+    def orbits_at(self, plan: Plan) -> list[Array]:
+        """Return all orbits of the section (n, 2), the chosen ones first; computed at once."""
+        how = self._at(plan), plan.level
+        tasks = [*(self.batch((state,), True, *how) for state in self.starts()), *self._filling(*how)]
+        return [orbit for task in tasks for orbit in task.now().orbits]
+
+    @cached_property
+    def _kept(self) -> tuple[int, int | None] | None:
+        """The last crossing right to half a pixel: of the orbit on show, and the median of some others, if any.
+
+        Compares with a second run at a hundredth of the tolerance; None until it is known, and while a slider is held.
+        """
+        periodic, own = self.periodic(), self._known.own
+        if self.work.dragging or periodic.looking or periodic.closed is not None or not own:
+            return None
+        level, step = self.work.plan(Kind.SECTION).level.tightened(), len(self.ways)
+        tasks = [self.batch((self.given,), level=level), *self._filling(level=level)[::step][:_COMPARED]]
+        fine: list[OrbitBatch | None] = [self.work.need(task, preview=None) for task in tasks]
+        counts = [
+            right_crossings(one.orbits, other.orbits, self.pixels, self.poincare.turns)
+            for one, other in zip([own[-1], *self._known.others[::step]], fine, strict=False)
+            if one is not None and other is not None
+        ]
+        if len(counts) < len(fine):
+            return None
+        return counts[0][0], typical([count for each in counts[1:] for count in each])
+
+    # ---- words --------------------------------------------------------------------------------------------------
+
+    @property
+    def caption(self) -> Caption:
+        """The caption: the number of crossings, or the reason why the section is left out."""
+        if self.reason:
+            return Caption(numbers=self.reason)
+        reasons = [reason for batch in self.batches for reason in batch.reasons]
+        count = sum(map(bool, reasons))
+        ends = f" {count} of {len(reasons)} others end early." if count else ""
+        return Caption(
+            "The chosen orbit ends early." if any(self._own_reasons) else "",
+            f"{len(self.own)} crossings of the chosen orbit, {len(self.points())} of others.{ends}",
+        )
+
+    @property
+    def _own_reasons(self) -> list[str]:
+        return [reason for batch in self.chosen for reason in batch.reasons if reason]
+
+    def status(self) -> Iterator[str]:
+        """Yield the size, cost and drift of the section, and the accuracy of the orbit on show."""
+        if self.asked("_known") and not self.reason:
+            known = [*self.chosen, *self.batches]
+            points = len(self.own) + len(self.points()) + len(self.points(False))
+            yield f"section {points} points, {sum(batch.steps for batch in known)} Taylor steps"
+            yield from drift_status(batch.drift for batch in known)
+            yield from kept_status(self._kept, self._count)
+
+    def notes(self) -> Iterator[str]:
+        """Yield the reason why the section is left out, or why a chosen orbit ends early."""
+        if self.asked("_known"):
+            yield from filter(None, (self.reason, *self._own_reasons))
+
+
+def _first_place(section: PoincareSection, state: Start, crossed: Callable[[], OrbitBatch]) -> Place | None:
+    """Return the place of a state on the section, or else of the first crossing; None without one."""
+    given = np.array([state])
+    place = section.places_of(given)
+    states, there = section.states_at(*place.T)
+    if not (there[0] and np.abs(states - given).max() < _ON * max(1.0, float(np.abs(given).max()))):
+        (place,) = crossed().orbits
+    return tuple(map(float, place[0])) if len(place) else None
+
+
+def first_place(section: PoincareSection, state: Start) -> Place | None:
+    """Return the place where the motion of a state starts, or else first crosses the section; None if it does not."""
+    return _first_place(section, state, lambda: crossings_from(section, (state,), 1, True, STANDARD))
