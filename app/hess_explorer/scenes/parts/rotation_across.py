@@ -19,7 +19,6 @@ from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.graph import with_room
 from hess_explorer.views.layers import Axes, Range, curves, points, region
-from hess_explorer.views.picture import Picture
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits
 from hess_mechanics.euler_poisson.andoyer import AndoyerSection
@@ -211,36 +210,35 @@ def _branches(found: RotationProfile) -> list[Array]:
     return [np.column_stack(part) for part in zip(found.along, found.rho, strict=True)]
 
 
-def rotation_picture(of: Callable[[S], RotationAcross]) -> Picture[S]:
-    """Return the picture of ρ along the line: its branches, the orbits it comes from, and the parts without it."""
-    return Plot(
-        name="rotation",
-        title="Rotation number across the section",
-        caption=lambda s: of(s).caption(),
-        axes=lambda s: of(s).names,
-        first=Axes((-1.0, 1.0), (-0.5, 0.5)),
-        message=lambda s: of(s).message(),
-        x=lambda s: of(s).along,
-        y=lambda s: _axis_of(of(s).found),
-        layers=(
-            region(
-                "sea",
-                within=lambda s, axes: of(s).parts_at_sea(axes),
-                color=theme.MUTED + "38",
-                moving=True,
-                label="ρ does not settle",
-            ),
-            points(
-                "standing",
-                lambda s: (of(s).found.standing, np.zeros(of(s).found.standing.size)),
-                size=7,
-                hollow=True,
-                color=theme.MUTED,
-                edge_width=1.5,
-                label="no rotation: 0 turns",
-            ),
-            curves("rho", lambda s: _branches(of(s).found), color=theme.ORBIT),
-            # An orbit between two gaps is a curve of one point, which only a mark shows.
-            points("orbits", lambda s: (of(s).found.places, of(s).found.numbers), size=4, color=theme.ORBIT),
+rotation_picture = Plot[RotationAcross](
+    name="rotation",
+    title="Rotation number across the section",
+    caption=RotationAcross.caption,
+    axes=lambda s: s.names,
+    first=Axes((-1.0, 1.0), (-0.5, 0.5)),
+    message=RotationAcross.message,
+    x=lambda s: s.along,
+    y=lambda s: _axis_of(s.found),
+    layers=(
+        region(
+            "sea",
+            within=RotationAcross.parts_at_sea,
+            color=theme.MUTED + "38",
+            moving=True,
+            label="ρ does not settle",
         ),
-    )
+        points(
+            "standing",
+            lambda s: (s.found.standing, np.zeros(s.found.standing.size)),
+            size=7,
+            hollow=True,
+            color=theme.MUTED,
+            edge_width=1.5,
+            label="no rotation: 0 turns",
+        ),
+        curves("rho", lambda s: _branches(s.found), color=theme.ORBIT),
+        # An orbit between two gaps is a curve of one point, which only a mark shows.
+        points("orbits", lambda s: (s.found.places, s.found.numbers), size=4, color=theme.ORBIT),
+    ),
+).of
+"""The picture of ρ along the line: its branches, the orbits it comes from, and the parts without it."""
