@@ -336,11 +336,7 @@ SCENE = Scene(
     essential=("h", "f", "phi0"),
     title="Bridge: Suslov and Euler–Poisson",
     summary="The Suslov–Hess case and the Hess case of Euler–Poisson are one system: two orbits and their difference.",
-    tracks={
-        "orbit": BothSides.orbit_columns,
-        "stable": lambda s: torus_plane.cycle_columns(s.cycles, 0),
-        "unstable": lambda s: torus_plane.cycle_columns(s.cycles, 1),
-    },
+    tracks={"orbit": BothSides.orbit_columns, **hess_case.CYCLE_TRACKS},
     angles=("phi", "phi_start", "l"),
     views=(
         solid_body(lambda s: s.solids[0], section=True, title="The body of Suslov–Hess"),

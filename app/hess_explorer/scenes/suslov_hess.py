@@ -189,7 +189,7 @@ class SuslovHess(State):
             return None
         if not has_flint():
             return Proved("", "Proofs need python-flint: pip install 'hess-explorer[prove]'")
-        return self.work.need(Task(proved, self.I22, self.I23, self.h, self.f), preview=None)
+        return self.work.later(proved, self.I22, self.I23, self.h, self.f)
 
     # ---- what the pictures show --------------------------------------------------------------------------------
 
@@ -302,11 +302,7 @@ SCENE = Scene(
     opening="bifurcation",
     title="The Suslov–Hess case",
     summary="A heavy rigid body with ω₃ = 0 whose motions live on tori: rotation, locking, limit cycles.",
-    tracks={
-        "orbit": SuslovHess.orbit_columns,
-        "stable": lambda s: torus_plane.cycle_columns(s.cycles, 0),
-        "unstable": lambda s: torus_plane.cycle_columns(s.cycles, 1),
-    },
+    tracks={"orbit": SuslovHess.orbit_columns, **hess_case.CYCLE_TRACKS},
     angles=("phi", "phi_start", "sigma"),
     views=(
         solid_body(section=True),

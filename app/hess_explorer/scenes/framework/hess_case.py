@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
+from typing import Any
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.parameters import Values
@@ -15,7 +16,9 @@ from hess_explorer.scenes.framework.inertia import limits_of_moments
 from hess_explorer.scenes.framework.parameters import ONE_TURN, Slider, slider_within
 from hess_explorer.scenes.framework.scene import Motion
 from hess_explorer.scenes.framework.work import Work
+from hess_explorer.views.layers import Columns
 from hess_explorer.views.text import digits
+from hess_explorer.views.torus_plane import cycle_columns
 from hess_explorer.views.velocity_plane import pixels_per_unit
 from hess_mechanics import parameters as known
 from hess_mechanics.errors import ModelError, NoField, Separatrix
@@ -34,6 +37,7 @@ from hess_mechanics.suslov_hess.torus import Track, cycles
 __all__ = [
     "B3",
     "BY_THE_UNSTABLE_CYCLE",
+    "CYCLE_TRACKS",
     "I22",
     "I23",
     "PHI0",
@@ -55,6 +59,12 @@ _MOST_BITS, _MOST_WORK = 256, 1e6
 
 _INSIDE = 1.0 - 1e-12
 """Margin for the round-off of the translation at the edge of the possible region."""
+
+CYCLE_TRACKS: Mapping[str, Callable[[Any], Columns | None]] = {
+    "stable": lambda s: cycle_columns(s.cycles, 0),
+    "unstable": lambda s: cycle_columns(s.cycles, 1),
+}
+"""The tracks of the limit cycles of a state, see `limit_cycles`."""
 
 UNSURE = 1e-9
 BY_THE_UNSTABLE_CYCLE = "This motion starts next to the unstable cycle: there round-off grows even on the torus."
