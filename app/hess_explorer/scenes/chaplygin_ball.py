@@ -172,9 +172,7 @@ class ChaplyginBall(State):
             np.column_stack(
                 [
                     phis,
-                    self.work.need(
-                        Task(model.free_theta_plus, self.body, self.theta, self.distance, tuple(phis.tolist()))
-                    ),
+                    self.work.get(model.free_theta_plus, self.body, self.theta, self.distance, tuple(phis.tolist())),
                 ]
             )
         ]

@@ -9,7 +9,6 @@ from functools import cached_property
 
 import numpy as np
 
-from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.parameters import Values
 from hess_explorer.scenes.framework import free_body
 from hess_explorer.scenes.framework.charted import Charted, Charts, tensor_of
@@ -157,16 +156,14 @@ class FreeSuslov(State):
 
     def _motion(self, gamma: tuple[float, float, float]) -> free.FreeMotion:
         radius = 0.5 * PIXELS
-        return self.work.need(
-            Task(
-                free.sampled_motion,
-                self.body,
-                self.omega,
-                gamma,
-                self.span,
-                (radius / self.half_width, radius),
-                self.level,
-            )
+        return self.work.get(
+            free.sampled_motion,
+            self.body,
+            self.omega,
+            gamma,
+            self.span,
+            (radius / self.half_width, radius),
+            self.level,
         )
 
     @cached_property
@@ -178,9 +175,7 @@ class FreeSuslov(State):
     def second(self) -> free.FreeMotion:
         """The second orbit."""
         return self._motion(
-            self.work.need(
-                Task(free.turned_along_circle, self.body, self.omega, self.gamma, self.phi2 - self.phi, self.level)
-            )
+            self.work.get(free.turned_along_circle, self.body, self.omega, self.gamma, self.phi2 - self.phi, self.level)
         )
 
     @cached_property

@@ -11,7 +11,6 @@ from typing import Any
 
 import numpy as np
 
-from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.charted import Charts, of_torus
 from hess_explorer.scenes.framework.hess_case import map_or_none, possible_f
 from hess_explorer.scenes.framework.parameters import accuracy_level, choice, number, parameter, places
@@ -158,7 +157,7 @@ class RotationNumber(State):
         known = [part for part in parts if part is not None]
         if len(known) == len(parts):
             return mechanics.together(known), fine
-        return self.work.need(Task(mechanics.rows, *common, _COARSE, 0, _COARSE[1], plan.level)), _COARSE
+        return self.work.get(mechanics.rows, *common, _COARSE, 0, _COARSE[1], plan.level), _COARSE
 
     @cached_property
     def grids(self) -> tuple[CellGrid, CellGrid]:
@@ -192,7 +191,7 @@ class RotationNumber(State):
     @cached_property
     def along(self) -> TorusValues:
         """ρ and trace at `x`."""
-        return self.work.need(Task(mechanics.along, self.on_line, self.x.size, self.plan(Kind.LINE).level))
+        return self.work.get(mechanics.along, self.on_line, self.x.size, self.plan(Kind.LINE).level)
 
     @cached_property
     def perturbed(self) -> Array | None:

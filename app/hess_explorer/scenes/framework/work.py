@@ -98,6 +98,10 @@ class Work:
                 self._todo.append(task)
         return self.need(preview) if known is None and isinstance(preview, Task) else cast("T | None", known)
 
+    def get(self, function: Callable[P, T], *arguments: P.args, **none: P.kwargs) -> T:
+        """Return function(*arguments), from the cache if it is known."""
+        return self.need(Task(function, *arguments, **none))
+
     def later(self, function: Callable[P, T], *arguments: P.args, **none: P.kwargs) -> T | None:
         """Return the result of a background computation; None until it is known and while a slider is held."""
         return None if self.dragging else self.need(Task(function, *arguments, **none), preview=None)
