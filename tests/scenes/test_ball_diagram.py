@@ -11,7 +11,7 @@ from hess_explorer.scenes import scenes
 from hess_mechanics import ReturnMap, level
 from hess_mechanics.dynamics.orbit_diagram import period_of
 from support.ball import energy_of
-from support.diagrams import complete
+from support.view import View, values_of
 
 SCENE = scenes()["ball-diagram"]
 
@@ -25,8 +25,9 @@ def test_near_a_doubling_the_period_is_that_of_its_side(D, period):
 
 
 def test_a_ball_that_turns_the_wrong_way_turns_round_to_a_permanent_rotation():
-    state, captions = complete(SCENE, "Apart: permanent", ("section", "reversal"))
-    assert "The rotation reverses once. First at t = 80.7" in captions["reversal"]
+    view = View(SCENE, values_of(SCENE, "Apart: permanent"), seen=("section", "reversal"))
+    state = view.result
+    assert "The rotation reverses once. First at t = 80.7" in view.text["reversal"]
     assert f"{state.turned.times[0]:.1f}" == "80.7"
     assert state.turning[0] > 0.0 > state.turning[-1]
     body, E = state.body, state.h - hypot(state.body.b1, state.body.b2)

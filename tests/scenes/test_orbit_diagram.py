@@ -14,10 +14,10 @@ from hess_mechanics import check_body, lyapunov_spectrum
 from hess_mechanics.dynamics.point_sets import set_distance
 from hess_mechanics.suslov.section import SuslovSection
 from support.deviations import deviations
-from support.diagrams import complete, crossings, settled
+from support.diagrams import crossings, settled
 from support.suslov import field
 from support.thorough import sample
-from support.view import View
+from support.view import View, values_of
 
 SCENE = scenes()["orbit-diagram"]
 SEEN = ("diagram", "section")
@@ -38,14 +38,15 @@ def test_all_examples_are_rigid_bodies_from_one_edge_of_their_diagram_to_the_oth
 
 
 def test_where_periods_double_the_diagram_has_twice_as_many_places():
-    state, captions = complete(SCENE, "Period doubling", ("diagram",), steps=60.0)
+    view = View(SCENE, {**values_of(SCENE, "Period doubling"), "steps": 60.0}, seen=("diagram",))
+    state = view.result
     # The diagram opens on the attractor.
     (_, y0), (_, y1) = state.diagram.frame
     low, high = np.quantile(state.diagram.points("rising")[1], (0.0, 1.0))
     assert y0 < low < high < y1 < y0 + 3.0 * (high - low)
     assert state.diagram.cascade.periods.tolist() == [1, 2, 4, 8]
     assert re.search(
-        r"4 period doublings located. [\d,]+ points. The first of period 1 at I₂₃ = −0.04983", captions["diagram"]
+        r"4 period doublings located. [\d,]+ points. The first of period 1 at I₂₃ = −0.04983", view.text["diagram"]
     )
     # Before the first doubling a diagram shows one place, between the first two two of them.
     drawn = state.diagram.points("rising")
@@ -60,11 +61,12 @@ def test_where_periods_double_the_diagram_has_twice_as_many_places():
     sample([("Touching", "mixed"), ("Apart: a strange", "dissipative"), ("A chaotic sea", "mixed")], 1),
 )
 def test_attractors_and_repellers_are_what_their_examples_say(name, verdict):
-    state, captions = complete(SCENE, name, ("section",))
-    assert f"Chaotic. Looks {verdict}." in captions["section"]
+    view = View(SCENE, values_of(SCENE, name), seen=("section",))
+    state = view.result
+    assert f"Chaotic. Looks {verdict}." in view.text["section"]
     known = state.regime.kind
     div, error = known.motion.divergence, known.motion.divergence_error
-    assert f"div = {digits(div, 2)} ± " in captions["section"]
+    assert f"div = {digits(div, 2)} ± " in view.text["section"]
     assert div + 3.0 * error < 0.0
     # One trajectory proves nothing.
     both = [settled(state.poincare, 32, 1500, 500, forward) for forward in (True, False)]
@@ -151,15 +153,16 @@ def test_the_branch_of_a_periodic_orbit_goes_on_as_a_saddle_where_the_diagram_do
 
 @pytest.mark.parametrize("scene", [SCENE, scenes()["ball-diagram"]], ids=lambda scene: scene.name)
 def test_volume_that_is_kept_is_said(scene):
-    state, captions = complete(scene, "Equal: volume", SEEN, steps=4.0, long=100.0, accuracy="draft")
-    assert "Volume is preserved: no attractors." in captions["diagram"]
-    assert captions["diagram"].endswith(" points. One orbit for each value.")
-    assert "Conservative: volume is preserved." in captions["section"]
-    assert state.regime.kind.motion.divergence == 0.0
+    few = {**values_of(scene, "Equal: volume"), "steps": 4.0, "long": 100.0, "accuracy": "draft"}
+    view = View(scene, few, seen=SEEN)
+    assert "Volume is preserved: no attractors." in view.text["diagram"]
+    assert view.text["diagram"].endswith(" points. One orbit for each value.")
+    assert "Conservative: volume is preserved." in view.text["section"]
+    assert view.result.regime.kind.motion.divergence == 0.0
 
 
 def test_a_click_chooses_a_state_that_is_there_and_a_box_looks_closer():
-    state, _ = complete(SCENE, "Period doubling", ("diagram",), steps=60.0)
+    state = View(SCENE, {**values_of(SCENE, "Period doubling"), "steps": 60.0}, seen=("diagram",)).result
     chosen = state.choose(0.0501, 0.9)
     assert chosen["I23"] == approx(0.0501, abs=0.005)
     there = SCENE.compute({**SCENE.defaults(), **chosen}, ("section",), True)
@@ -182,7 +185,7 @@ def test_a_click_chooses_a_state_that_is_there_and_a_box_looks_closer():
 
 def test_the_way_back_begins_where_the_way_there_ended():
     """The orbits keep all points: the first point of the way back is next to the last one of the way there."""
-    state, _ = complete(SCENE, SCENE.presets[0].name, ("diagram",), **{**LIGHT, "transient": 0.0})
+    state = View(SCENE, {**LIGHT, "transient": 0.0}, seen=("diagram",)).result
     there, back = (state.diagram.branches[way] for way in ("rising", "falling"))
     assert (there[-1].values[-1], back[0].values[0]) == (2.4, 2.4)
     body, E = replace(state, I22=2.4).body, state.poincare.E

@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 from pytest import approx
 
-from hess_explorer.compute.cache import CACHE
 from hess_explorer.protocol.wire import Wire
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.stage import Stage
@@ -20,22 +19,11 @@ from hess_mechanics.dynamics.trade import LevelCost, beyond
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.accuracy import LEVELS, PLANS, Kind
 from support.thorough import sample
+from support.view import View
 
 SCENES = {name: scene for name, scene in scenes().items() if scene.origin is None}
 SUSLOV = SCENES["suslov"]
 SMALL = {"orbits": 12.0, "count": 120.0, "long": 50.0}
-
-
-def completed(scene, values, seen):
-    """The state when all that waits is computed, and its report."""
-    for _ in range(5):
-        state = scene.compute({**scene.defaults(), **values}, seen, False)
-        report = Stage(scene, Wire()).show(state, False)
-        if not report.todo:
-            return state, report
-        for task in report.todo:
-            CACHE.get(task.function, *task.arguments)
-    raise AssertionError(report.todo)
 
 
 # ---- what is declared -------------------------------------------------------------------------------------------
@@ -67,7 +55,7 @@ def test_the_status_line_says_up_to_which_crossing_the_orbit_is_where_it_is_draw
     """That it is right is in `test_estimates_of_pictures`."""
     found = {}
     for name in ("draft", "precise"):
-        _, report = completed(SUSLOV, {**SMALL, "accuracy": name}, ("section",))
+        report = View(SUSLOV, {**SMALL, "accuracy": name}, seen=("section",)).report
         said = r"right to ½ pixel: the chosen orbit up to crossing (\d+), others up to crossing (\d+)"
         found[name] = [*map(int, re.search(said, report.status).groups())]
     assert all(3 < draft < precise for draft, precise in zip(*found.values(), strict=True))
@@ -105,7 +93,7 @@ def test_the_status_line_says_how_exact_a_map_of_rotation_numbers_is():
     scene = SCENES["rotation-number"]
     errors = {}
     for name in ("draft", "standard", "precise"):
-        _, report = completed(scene, {"accuracy": name}, ("map",))
+        report = View(scene, {"accuracy": name}, seen=("map",)).report
         said = re.search(r"map \d+ × \d+, ρ to (\d\S+) \(99 of 100 cells\)", report.status)
         errors[name] = float(said[1].replace("−", "-"))
         assert errors[name] <= PLANS[Kind.GRID][name].promise
@@ -117,15 +105,15 @@ def test_the_status_line_says_how_exact_a_map_of_rotation_numbers_is():
 
 def test_auto_is_the_cheapest_level_that_is_right_to_half_a_pixel():
     scene = SCENES["suslov-hess"]
-    state, report = completed(scene, {"accuracy": AUTO}, ("omega",))
+    view = View(scene, {"accuracy": AUTO}, seen=("omega",))
     (orbit,) = [trial for trial in scene.trials if not trial.pictures]
-    assert needed(orbit, bare(state)) == "draft"
-    assert report.status.startswith("draft: orbit")
-    assert "auto: draft · " in report.status
+    assert needed(orbit, bare(view.result)) == "draft"
+    assert view.report.status.startswith("draft: orbit")
+    assert "auto: draft · " in view.report.status
     # Half as many cells in the diagram are seen, so that is not enough for it.
-    state, report = completed(scene, {"accuracy": AUTO}, ("omega", "bifurcation"))
-    assert state.level.name == "standard"
-    assert "auto: standard · " in report.status
+    view = View(scene, {"accuracy": AUTO}, seen=("omega", "bifurcation"))
+    assert view.result.level.name == "standard"
+    assert "auto: standard · " in view.report.status
 
 
 def test_until_it_is_measured_auto_is_standard():
@@ -153,29 +141,29 @@ def test_the_cost_of_all_is_measured_when_its_picture_is_unfolded():
     assert scene.folded == {"trade": "Measure all that is computed"}
     # A scene that computes only its motion has no such picture.
     assert "trade" not in scenes()["kharlamova-accuracy"].pictures
-    state, report = completed(scene, {}, ("trade",))
-    trial = next(one for one in state.trials if one.kind == Kind.MAP)
-    samples = state.costs.samples[trial]
-    errors, ms = state.costs.curve(trial)
+    view = View(scene, {}, seen=("trade",))
+    trial = next(one for one in view.result.trials if one.kind == Kind.MAP)
+    samples = view.result.costs.samples[trial]
+    errors, ms = view.result.costs.curve(trial)
     assert errors == approx([max(2.0 * one.error, 1e-9) for one in samples])
     assert ms == approx([one.ms for one in samples])
-    assert any(row.startswith("map: ") and row.endswith(" pixels") for row in report.derived)
+    assert any(row.startswith("map: ") and row.endswith(" pixels") for row in view.report.derived)
     # A draft of the map has a quarter of the cells: it is right, but not all.
     assert samples[0].error < 0.5
-    assert state.costs.about().numbers == "Cheapest levels without a visible error: orbit draft, map standard."
+    assert view.result.costs.about().numbers == "Cheapest levels without a visible error: orbit draft, map standard."
 
 
 def test_a_chaotic_section_has_no_error_and_says_so():
     trial = next(one for one in SUSLOV.trials if one.kind == Kind.SECTION)
     costs = tuple(LevelCost(name, 1.0, nan, True) for name in LEVELS)
-    work = types.SimpleNamespace(dragging=False, need=lambda *_, **none: costs)
+    work = types.SimpleNamespace(dragging=False, later=lambda *_: costs)
     found = Costs(work, bare(SUSLOV.of(SUSLOV.defaults())), (trial,))
     assert found.about().numbers == "Section has no error to measure: all of it is chaotic, or there is nothing."
     assert (found.curve(trial), found.rings(), found.level("draft"), [*found.rows()]) == (None, [], None, [])
 
 
 def test_what_is_too_large_to_be_measured_says_so():
-    state, report = completed(scenes()["singular-measures-accuracy"], {"h": 60.0, "span": 200.0}, ("trade",))
+    view = View(scenes()["singular-measures-accuracy"], {"h": 60.0, "span": 200.0}, seen=("trade",))
     why = "In this time the cloud turns too often for 30 frames: choose a time span below "
-    assert state.costs.about().numbers.startswith(f"Cloud cannot be measured: {why}")
-    assert report.todo == ()
+    assert view.result.costs.about().numbers.startswith(f"Cloud cannot be measured: {why}")
+    assert view.report.todo == ()

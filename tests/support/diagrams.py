@@ -1,26 +1,10 @@
-"""Orbit diagrams without a browser, their return map on γ3 = 0 by SciPy, and the sets that many orbits come to."""
+"""The return map on γ3 = 0 by SciPy, and the sets that many orbits come to."""
 
 import numpy as np
 from scipy.spatial import KDTree
 
-from hess_explorer.compute.cache import CACHE
 from hess_mechanics import ReturnMap, level
-from support.captions import as_text
 from support.mechanics import scipy_crossings
-
-
-def complete(scene, beginning, seen, **changes):
-    """Return the state of the example of that name after all pending computations, and its captions."""
-    (preset,) = [one for one in scene.presets if one.name.startswith(beginning)]
-    values = {**scene.defaults(), **preset.values, **changes}
-    while True:
-        state = scene.compute(values, seen, False)
-        # Captions may ask for more.
-        captions = {view.name: as_text(view.full_caption(state)) for view in scene.views if view.name in seen}
-        if not state.work.todo:
-            return state, captions
-        for task in state.work.todo:
-            CACHE.get(task.function, *task.arguments)
 
 
 def crossings(rates, start, count=1):

@@ -9,11 +9,12 @@ from functools import cached_property
 from typing import ClassVar
 
 from hess_explorer.protocol.parameters import Value
-from hess_explorer.scenes.diagrams import DiagramState, charts, parameter_of_diagram, pictures
+from hess_explorer.scenes.diagrams import DiagramState, charts, pictures
 from hess_explorer.scenes.framework import ball_parameters as ball
 from hess_explorer.scenes.framework.parameters import like, parameter
 from hess_explorer.scenes.framework.scene import Preset, Scene
-from hess_explorer.views.velocity_plane import orbit_columns, pixels_per_unit, room_for
+from hess_explorer.scenes.parts.orbit_diagram import parameter_of_diagram
+from hess_explorer.views.velocity_plane import orbit_columns
 from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.chaplygin_ball.section import BallSection
 from hess_mechanics.parameters import H_BALL
@@ -74,11 +75,6 @@ class BallDiagram(DiagramState):
 
     symbols: ClassVar[Mapping[str, str]] = ball.PARAMETERS
 
-    @cached_property
-    def body(self) -> BallBody:
-        """The ball.  Raises `InvalidParameter`, `NotPositiveDefinite`."""
-        return BallBody(self.I11, self.I22, self.I13, self.I23, self.D, self.b1, self.b2, self.b3)
-
     @property
     def E(self) -> float:
         """The energy."""
@@ -87,13 +83,7 @@ class BallDiagram(DiagramState):
     @cached_property
     def poincare(self) -> BallSection:
         """The section γ3 = 0."""
-        return BallSection(self.body, self.E)
-
-    @property
-    def weights(self) -> tuple[float, ...]:
-        """Scale of each variable in pixels per unit, with room for all motions of this energy."""
-        highest = self.E + math.hypot(self.b1, self.b2, self.b3)
-        return pixels_per_unit(room_for(math.sqrt(2.0 * highest / min(self.I11, self.I22))))
+        return BallSection(BallBody(self.I11, self.I22, self.I13, self.I23, self.D, self.b1, self.b2, self.b3), self.E)
 
 
 SCENE = Scene(

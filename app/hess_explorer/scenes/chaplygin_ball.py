@@ -11,7 +11,7 @@ import numpy as np
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.charted import Charted, Charts, of_motion, tensor_of
-from hess_explorer.scenes.framework.circle_left import DIGITS, PHI, sphere
+from hess_explorer.scenes.framework.circle_left import DIGITS, PHI, Gamma_picture, sphere
 from hess_explorer.scenes.framework.parameters import accuracy_level, parameter, time_span
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
 from hess_explorer.scenes.framework.solid_body import Solid, constrained_solid, solid_body
@@ -23,9 +23,7 @@ from hess_explorer.views import scattering_map as square
 from hess_explorer.views import theme
 from hess_explorer.views import velocity_plane as plane
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.graph import over_time
 from hess_explorer.views.layers import arrows, curves, levels, names, region, ring
-from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits as in_digits
 from hess_explorer.views.text import vector
 from hess_mechanics import parameters as known
@@ -174,9 +172,7 @@ class ChaplyginBall(State):
             np.column_stack(
                 [
                     phis,
-                    self.work.need(
-                        Task(model.free_theta_plus, self.body, self.theta, self.distance, tuple(phis.tolist()))
-                    ),
+                    self.work.get(model.free_theta_plus, self.body, self.theta, self.distance, tuple(phis.tolist())),
                 ]
             )
         ]
@@ -200,7 +196,11 @@ class ChaplyginBall(State):
         return Caption(numbers=f"θ⁻ = {in_digits(self.theta)}: {square.spread(self.map.theta_plus)}; dashed: 𝒟 = 0.")
 
     def _about_Gamma(self) -> Caption:
-        return _change(math.cos(self.theta), float(self.Gamma[-1]))
+        first, last = math.cos(self.theta), float(self.Gamma[-1])
+        shown = in_digits(first), in_digits(last)
+        if shown[0] == shown[1]:
+            return Caption("Γ returns to its initial value.", f"Γ = {shown[0]}.")
+        return Caption(f"Γ {'increases' if last > first else 'decreases'}.", f"From {shown[0]} to {shown[1]}.")
 
     def derived(self) -> Iterator[str]:
         """Yield the dimensions of the strip, its axis ξ and the distance δ."""
@@ -244,14 +244,6 @@ _MEASURES: tuple[Trial[ChaplyginBall], ...] = (
         alike="cells",
     ),
 )
-
-
-def _change(first: float, last: float) -> Caption:
-    """Return the caption of a cosine Γ that goes from one value to another."""
-    shown = in_digits(first), in_digits(last)
-    if shown[0] == shown[1]:
-        return Caption("Γ returns to its initial value.", f"Γ = {shown[0]}.")
-    return Caption(f"Γ {'increases' if last > first else 'decreases'}.", f"From {shown[0]} to {shown[1]}.")
 
 
 SCENE = Scene(
@@ -324,19 +316,10 @@ SCENE = Scene(
                 ),
             ),
         ),
-        Plot(
-            name="Gamma",
-            title="Γ = (ξ, γ) against time",
-            caption=ChaplyginBall._about_Gamma,
-            axes=("t", "Γ"),
-            folded="Show Γ against time",
-            x=lambda s: (0.0, s.span),
-            y=(-1.05, 1.05),
-            dot=("t", "Gamma"),
-            layers=(
-                levels("levels", lambda s: [math.cos(s.theta), s.Gamma[-1]]),
-                over_time("first", lambda s: (s.orbit.path.times, s.Gamma), color=theme.ORBIT, tag="orbit"),
-            ),
+        Gamma_picture(
+            ChaplyginBall._about_Gamma,
+            lambda s: [math.cos(s.theta), s.Gamma[-1]],
+            lambda s: (s.orbit.path.times, s.Gamma),
         ),
     ),
 )

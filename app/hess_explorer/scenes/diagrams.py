@@ -3,190 +3,72 @@
 from __future__ import annotations
 
 import math
-from abc import ABC, abstractmethod
-from collections.abc import Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import ClassVar, Protocol, TypeVar
+from typing import TypeVar
 
 import numpy as np
 
-from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.parameters import Values, written
 from hess_explorer.scenes.framework.charted import Charted, Charts, parameters_of
 from hess_explorer.scenes.framework.continuation import Continuation
-from hess_explorer.scenes.framework.parameters import (
-    accuracy_level,
-    choice,
-    exponent_time,
-    number,
-    parameter,
-    places,
-    time_span,
-)
 from hess_explorer.scenes.framework.part import Start, part
-from hess_explorer.scenes.framework.periodic_search import NONE, PERIODS, Closed
-from hess_explorer.scenes.framework.scene import Motion, State
+from hess_explorer.scenes.framework.periodic_search import NONE, Closed
+from hess_explorer.scenes.framework.scene import Motion
 from hess_explorer.scenes.framework.solid_body import Solid, constrained_solid, solid_body
-from hess_explorer.scenes.framework.windows import Window
-from hess_explorer.scenes.parts.diagram_density import DiagramDensity, diagram_density_layers
+from hess_explorer.scenes.framework.windows import boxed
+from hess_explorer.scenes.parts.diagram_density import DiagramDensity
 from hess_explorer.scenes.parts.orbit_diagram import (
-    ANEW,
+    BACKWARD,
     BOUNDS,
-    FARTHEST,
-    FOLLOWED,
-    FORWARD,
-    WAYS,
+    COORDINATES,
+    FALLING,
+    RISING,
+    DiagramParameters,
     OrbitDiagram,
-    diagram_picture,
 )
-from hess_explorer.scenes.parts.proof import Proof, proved_error_shown
+from hess_explorer.scenes.parts.proof import Proof
 from hess_explorer.scenes.parts.regime import Regime, few
 from hess_explorer.scenes.parts.sections import Orbit
-from hess_explorer.views import branch, layered_section, periodic, theme
+from hess_explorer.views import branch, density, layered_section, periodic, theme
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.graph import about_0, over_time
-from hess_explorer.views.layers import Axes, levels, points
+from hess_explorer.views.layers import Axes, curves, dots, levels, names, points
 from hess_explorer.views.picture import Picture
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.poisson_sphere import along_the_orbit, centre_of_mass
 from hess_explorer.views.text import digits
+from hess_explorer.views.velocity_plane import pixels_per_unit, room_for
+from hess_mechanics.chaplygin_ball.equations import BallBody
+from hess_mechanics.dynamics.orbit_diagram import Cascade
 from hess_mechanics.dynamics.periodic import PeriodicOrbit
-from hess_mechanics.dynamics.return_map import PoincareSection
-from hess_mechanics.dynamics.system import Body
 from hess_mechanics.numerics.results import Array, SectionCrossings
-from hess_mechanics.parameters import B1, B2, B3, H_SUSLOV, I11, I13, I22, I23
 from hess_mechanics.rigid_body.inertia import check_body
 from hess_mechanics.rigid_body.reversal import rate, reversals
+from hess_mechanics.suslov.equations import SuslovBody
 
-__all__ = ["DiagramState", "charts", "parameter_of_diagram", "pictures"]
+__all__ = ["DiagramState", "charts", "pictures"]
 
 _WINDOW = ((-math.pi, 0.0), (math.pi, math.pi))
-_COORDINATES = ("ψ", "δ")
-
-
-def parameter_of_diagram(symbols: tuple[str, ...], default: str) -> str:
-    """Declare the control that selects the parameter of the diagram."""
-    declared: str = choice(
-        "Parameter of the diagram",
-        symbols,
-        default,
-        doc="Parameter on the horizontal axis; all others keep their values.",
-    )
-    return declared
-
-
-class _Equator(PoincareSection, Protocol):
-    """A section γ3 = 0 in (ψ, δ)."""
-
-    def somewhere(self) -> Start | None:
-        """Return a state on the section; None if no motion crosses it."""
-
-    def impossible(self, window: Window) -> Array:
-        """Return cells (1, n) over the window: 1 where the energy forbids ψ."""
+_TOP, _LINE = 0.06, 0.07
+"""Distance of the first name of a doubling from the top, and of one name from the next, in heights of the picture."""
 
 
 @dataclass(frozen=True)
-class DiagramState(State, ABC):
-    """Attractors of a section over one parameter, and one orbit at the current value of that parameter.
-
-    symbols : symbol of each parameter of the section → its name.
-    """
-
-    I11: float = parameter(I11)
-    I22: float = parameter(I22)
-    I13: float = parameter(I13)
-    I23: float = parameter(I23)
-    b1: float = parameter(B1)
-    b2: float = parameter(B2)
-    b3: float = parameter(B3)
-    h: float = parameter(H_SUSLOV)
-    along: str = parameter_of_diagram(("h",), "h")
-    first: float = number(
-        "from", -0.15, (-3.0, 6.0), 0.01, bounds=FARTHEST, label="Diagram from", doc="Value at the left edge."
-    )
-    last: float = number(
-        "to", 0.3, (-3.0, 6.0), 0.01, bounds=FARTHEST, label="Diagram to", doc="Value at the right edge."
-    )
-    shown: str = choice("Coordinate of the section", _COORDINATES, "ψ", doc="Quantity on the vertical axis.")
-    ways: str = choice(
-        "Followed",
-        tuple(WAYS),
-        next(iter(WAYS)),
-        doc="There: the parameter rises. Back: it falls. Backward in time, motions tend to repellers.",
-    )
-    begins: str = choice(
-        "Each value starts",
-        (FOLLOWED, ANEW),
-        FOLLOWED,
-        doc="A followed orbit stays with its attractor, and may differ on the way back.",
-    )
-    steps: float = number(
-        "n",
-        150.0,
-        (30.0, 300.0),
-        10.0,
-        bounds=(2.0, 600.0),
-        label="Values of the parameter",
-        doc="Number of evenly spaced values.",
-        group="Computation",
-    )
-    transient: float = number(
-        "N₀",
-        300.0,
-        (0.0, 1000.0),
-        10.0,
-        bounds=(0.0, 5000.0),
-        label="Crossings left out",
-        doc="Crossings left out at each value, until the orbit has settled.",
-        group="Computation",
-    )
-    count: float = number(
-        "N",
-        60.0,
-        (10.0, 200.0),
-        5.0,
-        bounds=(2.0, 500.0),
-        label="Crossings shown",
-        doc="Crossings drawn at each value, after those left out.",
-        group="Computation",
-    )
-    window: str = places("The window of the diagram", 2, *BOUNDS)
-    branch: str = choice(
-        "Branch of a periodic orbit",
-        (NONE, *PERIODS),
-        NONE,
-        group="State",
-        doc="Over the diagram: the periodic orbit that Newton's method finds from the chosen place, "
-        "continued in the parameter, through folds. A click on it shows that orbit.",
-    )
-    span: float = time_span(60.0, 400.0, what="the chosen orbit")
-    long: float = exponent_time(4000.0, 5000.0, 2e4, "the mean divergence is")
-    certain: str = proved_error_shown()
-    accuracy: str = accuracy_level()
-    chosen: str = places("The place of the chosen orbit", 1, *BOUNDS)
-
-    symbols: ClassVar[Mapping[str, str]]
+class DiagramState(DiagramParameters):
+    """Attractors of a section over one parameter, and one orbit at the current value of that parameter."""
 
     @property
-    @abstractmethod
-    def body(self) -> Body:
+    def body(self) -> SuslovBody | BallBody:
         """The body.  Raises `ModelError`."""
+        return self.poincare.body
 
     @property
-    @abstractmethod
-    def E(self) -> float:
-        """The energy."""
-
-    @property
-    @abstractmethod
-    def poincare(self) -> _Equator:
-        """The section γ3 = 0.  Raises `ModelError`."""
-
-    @property
-    @abstractmethod
     def weights(self) -> tuple[float, ...]:
-        """Scale of each variable in pixels per unit."""
+        """Scale of each variable in pixels per unit, with room for all motions of this energy."""
+        highest = self.E + math.hypot(self.b1, self.b2, self.b3)
+        return pixels_per_unit(room_for(math.sqrt(2.0 * highest / min(self.I11, self.I22))))
 
     @property
     def start(self) -> Start:
@@ -212,12 +94,12 @@ class DiagramState(State, ABC):
     @part
     def diagram(self) -> OrbitDiagram:
         """The attractors over the parameter."""
-        return OrbitDiagram(self, self.symbols)
+        return OrbitDiagram(self)
 
     @part
     def density(self) -> DiagramDensity:
         """The density of its points."""
-        return DiagramDensity(self.diagram, FORWARD)
+        return DiagramDensity(self.diagram)
 
     @part
     def continuation(self) -> Continuation:
@@ -249,7 +131,7 @@ class DiagramState(State, ABC):
     @cached_property
     def turned(self) -> SectionCrossings:
         """The moments of reversal of the orbit on show."""
-        return self.work.need(Task(reversals, self.body, self.start, self.span, self.level))
+        return self.work.get(reversals, self.body, self.start, self.span, self.level)
 
     @cached_property
     def turning(self) -> Array:
@@ -310,23 +192,80 @@ def charts(section: str, **more: float) -> Charts:
     return Charts((Charted(f"regime {section}", ("kind",), arguments),), over=("h", "I13"))
 
 
+def _upright(values: Iterable[float], axes: Axes) -> list[Array]:
+    return [np.array([[x, axes.y[0]], [x, axes.y[1]]]) for x in values]
+
+
+def _flip_values(s: DiagramState, axes: Axes) -> list[tuple[float, float, str]]:
+    located, (low, high) = s.diagram.cascade, axes.y
+    if not isinstance(located, Cascade):
+        return []
+    # Each name is lower than the one before, as the doublings come closer and closer.
+    heights = high - (high - low) * (_TOP + _LINE * np.arange(len(located.values)))
+    return [
+        (float(x), float(y), f"{m}→{2 * m}: {digits(float(x))}")
+        for x, y, m in zip(located.values, heights, located.periods, strict=True)
+        if axes.x[0] < x < axes.x[1]
+    ]
+
+
 def pictures(state: type[S], ball: bool = False) -> tuple[Picture[S], ...]:
     """Return the pictures: diagram with branch, body, section, reversal and, folded, Poisson sphere."""
 
     def closed(s: S) -> list[PeriodicOrbit]:
         return [] if s.closed is None else [s.closed.orbit]
 
+    def dotted(way: str) -> Callable[[S], Array | None]:
+        return lambda s: None if s.density.tones else s.diagram.points(way)
+
     return (
-        diagram_picture(
-            lambda s: s.diagram,
-            (state.first, state.last),
+        Plot(
+            name="diagram",
+            title="Orbit diagram",
             caption=lambda s: s._about_diagram(),
-            on_click=lambda s, x, y: s.choose(x, y),
             on_hover=lambda s, x, y: s.continuation.about(x, y),
-            shaded=lambda s: bool(s.density.tones),
-            under=diagram_density_layers(lambda s: s.density),
-            over=branch.layers(
-                lambda s: s.continuation.branches, lambda s: s.diagram.side, lambda s: s.poincare.turns[s.diagram.side]
+            on_click=lambda s, x, y: s.choose(x, y),
+            axes=lambda s: (s.along, s.shown),
+            first=Axes((state.first, state.last), (-math.pi, math.pi)),
+            x=lambda s: (s.diagram.frame[0][0], s.diagram.frame[1][0]),
+            y=lambda s: s.diagram.height,
+            on_box=lambda s, corners: boxed(corners, BOUNDS),
+            layers=(
+                *density.layers(
+                    lambda s: s.density.tones,
+                    lambda s: s.diagram.frame,
+                    (
+                        "backward in time",
+                        "forward, parameter falling, where that differs",
+                        "forward, few to many points",
+                    ),
+                    (theme.UNSTABLE, theme.MAP, theme.ORBIT),
+                ),
+                curves(
+                    "flips",
+                    within=lambda s, axes: _upright(s.diagram.flips, axes),
+                    color=theme.STABLE,
+                    width=1.5,
+                    dash="dashed",
+                    label="the period doubles",
+                ),
+                dots("backward", dotted(BACKWARD), color=theme.UNSTABLE, size=3, label="backward in time"),
+                dots("falling", dotted(FALLING), color=theme.MAP, size=5, label="forward, parameter falling"),
+                dots("rising", dotted(RISING), color=theme.ORBIT, size=3, label="forward, parameter rising"),
+                curves(
+                    "here",
+                    within=lambda s, axes: _upright([s.diagram.at], axes),
+                    color=theme.INK,
+                    width=1.5,
+                    label="state on show",
+                    tag="state on show",
+                ),
+                *branch.layers(
+                    lambda s: s.continuation.branches,
+                    lambda s: s.diagram.side,
+                    lambda s: s.poincare.turns[s.diagram.side],
+                ),
+                names("flip-values", within=_flip_values, size=13, on_paper=True),
             ),
         ),
         solid_body(ball=ball),
@@ -334,7 +273,7 @@ def pictures(state: type[S], ball: bool = False) -> tuple[Picture[S], ...]:
             name="section",
             title="Section γ₃ = 0 (upward crossings)",
             caption=lambda s: s.regime.caption,
-            axes=_COORDINATES,
+            axes=COORDINATES,
             x=(-math.pi, math.pi),
             y=(0.0, math.pi),
             on_click=lambda s, x, y: s.start_here(x, y),

@@ -9,10 +9,10 @@ from functools import cached_property
 
 import numpy as np
 
-from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.parameters import Values
 from hess_explorer.scenes.framework import free_body
 from hess_explorer.scenes.framework.charted import Charted, Charts, tensor_of
+from hess_explorer.scenes.framework.circle_left import Gamma_picture
 from hess_explorer.scenes.framework.parameters import ONE_TURN, Slider, accuracy_level, choice, parameter, time_span
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
 from hess_explorer.scenes.framework.solid_body import Solid, constrained_solid, solid_body
@@ -21,7 +21,7 @@ from hess_explorer.views import theme
 from hess_explorer.views import velocity_plane as plane
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.graph import branches, over_time
-from hess_explorer.views.layers import Columns, Sign, arrows, curves, levels, line, text
+from hess_explorer.views.layers import Columns, Sign, arrows, curves, line, text
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.poisson_sphere import Circle, Direction, Sphere, ends
 from hess_explorer.views.text import digits, vector
@@ -156,16 +156,14 @@ class FreeSuslov(State):
 
     def _motion(self, gamma: tuple[float, float, float]) -> free.FreeMotion:
         radius = 0.5 * PIXELS
-        return self.work.need(
-            Task(
-                free.sampled_motion,
-                self.body,
-                self.omega,
-                gamma,
-                self.span,
-                (radius / self.half_width, radius),
-                self.level,
-            )
+        return self.work.get(
+            free.sampled_motion,
+            self.body,
+            self.omega,
+            gamma,
+            self.span,
+            (radius / self.half_width, radius),
+            self.level,
         )
 
     @cached_property
@@ -177,9 +175,7 @@ class FreeSuslov(State):
     def second(self) -> free.FreeMotion:
         """The second orbit."""
         return self._motion(
-            self.work.need(
-                Task(free.turned_along_circle, self.body, self.omega, self.gamma, self.phi2 - self.phi, self.level)
-            )
+            self.work.get(free.turned_along_circle, self.body, self.omega, self.gamma, self.phi2 - self.phi, self.level)
         )
 
     @cached_property
@@ -355,25 +351,16 @@ SCENE = Scene(
                 text("across", lambda s: "φ" if s.across == "phase" else "t"),
             ),
         ),
-        Plot(
-            name="Gamma",
-            title="Γ = (ξ, γ) against time",
-            caption=FreeSuslov._about_Gamma,
-            axes=("t", "Γ"),
-            folded="Show Γ against time",
-            x=lambda s: (0.0, s.span),
-            y=(-1.05, 1.05),
-            dot=("t", "Gamma"),
-            layers=(
-                levels("levels", lambda s: [*s.orbit.limits, s.second.limits[1]]),
-                over_time(
-                    "second",
-                    lambda s: (s.second.times, s.second.Gamma),
-                    color=theme.MAP,
-                    dash="dotdash",
-                    tag="second orbit",
-                ),
-                over_time("first", lambda s: (s.orbit.times, s.orbit.Gamma), color=theme.ORBIT, tag="orbit"),
+        Gamma_picture(
+            FreeSuslov._about_Gamma,
+            lambda s: [*s.orbit.limits, s.second.limits[1]],
+            lambda s: (s.orbit.times, s.orbit.Gamma),
+            over_time(
+                "second",
+                lambda s: (s.second.times, s.second.Gamma),
+                color=theme.MAP,
+                dash="dotdash",
+                tag="second orbit",
             ),
         ),
     ),

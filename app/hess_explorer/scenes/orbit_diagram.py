@@ -9,10 +9,11 @@ from functools import cached_property
 from typing import ClassVar
 
 from hess_explorer.protocol.parameters import Value
-from hess_explorer.scenes.diagrams import DiagramState, charts, parameter_of_diagram, pictures
+from hess_explorer.scenes.diagrams import DiagramState, charts, pictures
 from hess_explorer.scenes.framework.parameters import like
 from hess_explorer.scenes.framework.scene import Preset, Scene
-from hess_explorer.views.velocity_plane import nice_above, orbit_columns, pixels_per_unit
+from hess_explorer.scenes.parts.orbit_diagram import parameter_of_diagram
+from hess_explorer.views.velocity_plane import orbit_columns
 from hess_mechanics.suslov.equations import SuslovBody
 from hess_mechanics.suslov.section import SuslovSection
 
@@ -100,11 +101,6 @@ class SuslovDiagram(DiagramState):
 
     symbols: ClassVar[Mapping[str, str]] = _PARAMETERS
 
-    @cached_property
-    def body(self) -> SuslovBody:
-        """The body.  Raises `InvalidParameter`, `NotPositiveDefinite`."""
-        return SuslovBody(self.I11, self.I22, self.I13, self.I23, self.b1, self.b2, self.b3)
-
     @property
     def E(self) -> float:
         """The energy."""
@@ -113,12 +109,7 @@ class SuslovDiagram(DiagramState):
     @cached_property
     def poincare(self) -> SuslovSection:
         """The section γ3 = 0."""
-        return SuslovSection(self.body, self.E, 3)
-
-    @property
-    def weights(self) -> tuple[float, ...]:
-        """Scale of each variable in pixels per unit, with room for all motions of this energy."""
-        return pixels_per_unit(nice_above(1.05 * math.sqrt(2.0 * self.h / min(self.I11, self.I22))))
+        return SuslovSection(SuslovBody(self.I11, self.I22, self.I13, self.I23, self.b1, self.b2, self.b3), self.E, 3)
 
 
 SCENE = Scene(

@@ -11,7 +11,6 @@ from typing import Any
 
 import numpy as np
 
-from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.charted import Charts, of_torus
 from hess_explorer.scenes.framework.hess_case import map_or_none, possible_f
 from hess_explorer.scenes.framework.parameters import accuracy_level, choice, number, parameter, places
@@ -25,7 +24,7 @@ from hess_explorer.views.layers import Axes, CellGrid
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits, superscript
 from hess_mechanics import parameters as known
-from hess_mechanics.numerics.accuracy import REFERENCE, Kind, Plan
+from hess_mechanics.numerics.accuracy import REFERENCE, Kind, Level, Plan
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov_hess import rotation_number as mechanics
 from hess_mechanics.suslov_hess.circle_map import CircleMap
@@ -151,41 +150,28 @@ class RotationNumber(State):
         common = (self.over, self.beside, self.window)
         plan = self.plan(Kind.GRID)
         fine = plan.grid(_FINE)
-        parts = (
-            []
-            if self.dragging
-            else [
-                self.work.need(
-                    Task(mechanics.rows, *common, fine, first, min(first + _ROWS, fine[1]), plan.level), preview=None
-                )
-                for first in range(0, fine[1], _ROWS)
-            ]
-        )
+        parts = [
+            self.work.later(mechanics.rows, *common, fine, first, min(first + _ROWS, fine[1]), plan.level)
+            for first in range(0, fine[1], _ROWS)
+        ]
         known = [part for part in parts if part is not None]
-        if parts and len(known) == len(parts):
+        if len(known) == len(parts):
             return mechanics.together(known), fine
-        return self.work.need(Task(mechanics.rows, *common, _COARSE, 0, _COARSE[1], plan.level)), _COARSE
+        return self.work.get(mechanics.rows, *common, _COARSE, 0, _COARSE[1], plan.level), _COARSE
 
     @cached_property
     def grids(self) -> tuple[CellGrid, CellGrid]:
         """ρ and the zones over the window."""
         return rotation_plane.grids(*self.grid, *self.window)
 
-    def lock(self, plan: Plan) -> Task[Array]:
-        """Return a task that computes |t| = 2 in the map, (n, 2)."""
-        return Task(
-            mechanics.lock_curve,
-            self.over,
-            self.beside,
-            (*self.window[0], *self.window[1]),
-            plan.level,
-            plan.side(_ON_CURVE),
-        )
+    def lock(self, plan: Plan) -> tuple[str, Torus, tuple[float, float, float, float], Level, int]:
+        """Return the arguments of `lock_curve`, which computes |t| = 2 in the map, (n, 2)."""
+        return self.over, self.beside, (*self.window[0], *self.window[1]), plan.level, plan.side(_ON_CURVE)
 
     @cached_property
     def boundary(self) -> list[Array]:
         """Return |t| = 2 in the map, once known."""
-        found: Array | None = None if self.dragging else self.work.need(self.lock(self.plan(Kind.CURVE)), preview=None)
+        found = self.work.later(mechanics.lock_curve, *self.lock(self.plan(Kind.CURVE)))
         if found is None or not len(found):
             return []
         return [found, found * np.array([1.0, -1.0])] if self.sides[1] == "f" else [found]
@@ -205,25 +191,14 @@ class RotationNumber(State):
     @cached_property
     def along(self) -> TorusValues:
         """ρ and trace at `x`."""
-        return self.work.need(Task(mechanics.along, self.on_line, self.x.size, self.plan(Kind.LINE).level))
+        return self.work.get(mechanics.along, self.on_line, self.x.size, self.plan(Kind.LINE).level)
 
     @cached_property
     def perturbed(self) -> Array | None:
         """ρ of the other family at `x`, once known; NaN where there is no torus."""
-        return (
-            None
-            if self.dragging
-            else self.work.need(
-                Task(
-                    mechanics.perturbed_along,
-                    self.on_line,
-                    self.x.size,
-                    self.epsilon,
-                    self.plan(Kind.LINE).level,
-                    self.plan(Kind.LINE).part(mechanics.TURNS),
-                ),
-                preview=None,
-            )
+        plan = self.plan(Kind.LINE)
+        return self.work.later(
+            mechanics.perturbed_along, self.on_line, self.x.size, self.epsilon, plan.level, plan.part(mechanics.TURNS)
         )
 
     @property
@@ -235,9 +210,7 @@ class RotationNumber(State):
     @cached_property
     def periodic(self) -> PeriodicTorus | None:
         """The torus on the line with the rational ρ; None if there is none or it is not known yet."""
-        if self.dragging:
-            return None
-        found = self.work.need(Task(_periodic, self.sought, self.on_line), preview=None)
+        found = self.work.later(_periodic, self.sought, self.on_line)
         return None if found is None else found[0]
 
     @cached_property
@@ -298,14 +271,8 @@ class RotationNumber(State):
         """Yield the status of the map and of the circle map."""
         if self.known("grid"):
             m, n = self.grid[1]
-            error = (
-                None
-                if self.dragging
-                else self.work.need(
-                    Task(mechanics.rows_error, self.over, self.beside, self.window, self.plan(Kind.GRID).level),
-                    preview=None,
-                )
-            )
+            level = self.plan(Kind.GRID).level
+            error = self.work.later(mechanics.rows_error, self.over, self.beside, self.window, level)
             yield f"map {m} × {n}" + (f", ρ to {error:.1e} (99 of 100 cells)" if error is not None else "")
         if self.map is not None:
             yield f"{self.map.level}: circle map error ≤ {self.map.error_estimate:.1e} ({self.map.status})"
@@ -357,7 +324,7 @@ _MEASURES: tuple[Trial[RotationNumber], ...] = (
     Trial(
         Kind.CURVE,
         ("map",),
-        lambda s, plan: s.lock(plan).now(),
+        lambda s, plan: mechanics.lock_curve(*s.lock(plan)),
         lambda s, found, truth: boundary_error(found, truth, Axes(*s.window)),
     ),
 )

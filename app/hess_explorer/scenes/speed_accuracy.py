@@ -13,7 +13,7 @@ from hess_explorer.scenes.framework.parameters import Slider
 from hess_explorer.scenes.framework.scene import Scene, State
 from hess_explorer.scenes.framework.trial import Trial, bare
 from hess_explorer.scenes.parts.costs import Costs, costs_picture
-from hess_explorer.scenes.parts.precision import Precision, precision_pictures
+from hess_explorer.scenes.parts.precision import PRECISION_PICTURES, Precision
 from hess_explorer.views.picture import Picture
 
 __all__ = ["SpeedAccuracy", "speed_and_accuracy"]
@@ -114,9 +114,9 @@ def speed_and_accuracy(other: Scene[Any]) -> SpeedAccuracy:
         if moving
         else ("speed_accuracy_of_maps", "Cost and error of all that the scene computes")
     )
-    pictures: list[Picture[Study]] = [*precision_pictures(_precision)] if moving else []
+    pictures: list[Picture[Study]] = [one.of(_precision) for one in PRECISION_PICTURES if moving]
     if other.measures:
-        pictures.append(costs_picture(lambda s: s.costs, other.trials, folded=moving))
+        pictures.append(costs_picture(other.trials, folded=moving).of(lambda s: s.costs))
     return SpeedAccuracy(
         Study,
         str(Path(__file__).with_name(f"{words}.md")),

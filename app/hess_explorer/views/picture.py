@@ -8,11 +8,12 @@ from dataclasses import dataclass, replace
 from typing import Any, ClassVar, Generic, TypeVar
 
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.layers import Axes, Columns, Sign, Sources
+from hess_explorer.views.layers import Axes, Columns, Layer, Sign, Sources
 
 __all__ = ["Corners", "Picture", "Values"]
 
 S = TypeVar("S")
+T = TypeVar("T")
 Values = Mapping[str, float | str]
 Corners = tuple[float, float, float, float]
 """Two opposite corners: x0, y0, x1, y1."""
@@ -49,6 +50,20 @@ class Picture(ABC, Generic[S]):
 
     kind: ClassVar[str]
     """Renderer in the browser: "plot" is Bokeh, the others draw on their own canvases."""
+
+    def of(self, part: Callable[[T], S], **changes: Any) -> Picture[T]:
+        """Return the same picture for states with `part`: its functions apply to that; changes : other fields."""
+
+        def through(value: Any) -> Any:
+            if isinstance(value, Layer):
+                return replace(value, data=through(value.data), within=through(value.within))
+            if type(value) is tuple:
+                return tuple(map(through, value))
+            return (lambda state, *more: value(part(state), *more)) if callable(value) else value
+
+        typed: Any = self
+        found: Picture[T] = replace(typed, **{name: through(value) for name, value in vars(self).items()} | changes)
+        return found
 
     @property
     def needs(self) -> frozenset[str]:

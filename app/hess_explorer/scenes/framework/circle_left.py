@@ -3,19 +3,21 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
-from typing import TypeVar
+from typing import Any, TypeVar
 
 from hess_explorer.scenes.framework.parameters import ONE_TURN
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.layers import Sign
+from hess_explorer.views.graph import over_time
+from hess_explorer.views.layers import Layer, Sign, levels
+from hess_explorer.views.plot import Plot
 from hess_explorer.views.poisson_sphere import Circle, Direction, Sphere, ends
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.parameters import CIRCLE_PHASE, Parameter
 
-__all__ = ["CIRCLES", "DIGITS", "PHI", "sphere"]
+__all__ = ["CIRCLES", "DIGITS", "PHI", "Gamma_picture", "sphere"]
 
 CIRCLES = (
     Sign("circle joined", "line", f"border-top: 3px solid {theme.STABLE}"),
@@ -54,4 +56,24 @@ def sphere(
         signs=signs,
         circles=lambda s: [Circle(xi(s), math.cos(left(s)), "unstable"), Circle(xi(s), joined(s), "stable")],
         marks=lambda s: ends(xi(s)),
+    )
+
+
+def Gamma_picture(
+    caption: Callable[[Any], Caption],
+    limits: Callable[[Any], Sequence[float]],
+    orbit: Callable[[Any], tuple[Array, Array]],
+    *others: Layer[Any],
+) -> Plot[Any]:
+    """Return the graph of Γ over the time `span`, with levels; orbit(state) : times and Γ of the chosen orbit."""
+    return Plot(
+        name="Gamma",
+        title="Γ = (ξ, γ) against time",
+        caption=caption,
+        axes=("t", "Γ"),
+        folded="Show Γ against time",
+        x=lambda s: (0.0, s.span),
+        y=(-1.05, 1.05),
+        dot=("t", "Gamma"),
+        layers=(levels("levels", limits), *others, over_time("first", orbit, color=theme.ORBIT, tag="orbit")),
     )

@@ -4,18 +4,20 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
+from typing import Any
 
-from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.parameters import Values
 from hess_explorer.scenes.framework.inertia import limits_of_moments
 from hess_explorer.scenes.framework.parameters import ONE_TURN, Slider, slider_within
 from hess_explorer.scenes.framework.scene import Motion
 from hess_explorer.scenes.framework.work import Work
+from hess_explorer.views.layers import Columns
 from hess_explorer.views.text import digits
+from hess_explorer.views.torus_plane import cycle_columns
 from hess_explorer.views.velocity_plane import pixels_per_unit
 from hess_mechanics import parameters as known
 from hess_mechanics.errors import ModelError, NoField, Separatrix
@@ -34,6 +36,7 @@ from hess_mechanics.suslov_hess.torus import Track, cycles
 __all__ = [
     "B3",
     "BY_THE_UNSTABLE_CYCLE",
+    "CYCLE_TRACKS",
     "I22",
     "I23",
     "PHI0",
@@ -55,6 +58,12 @@ _MOST_BITS, _MOST_WORK = 256, 1e6
 
 _INSIDE = 1.0 - 1e-12
 """Margin for the round-off of the translation at the edge of the possible region."""
+
+CYCLE_TRACKS: Mapping[str, Callable[[Any], Columns | None]] = {
+    "stable": lambda s: cycle_columns(s.cycles, 0),
+    "unstable": lambda s: cycle_columns(s.cycles, 1),
+}
+"""The tracks of the limit cycles of a state, see `limit_cycles`."""
 
 UNSURE = 1e-9
 BY_THE_UNSTABLE_CYCLE = "This motion starts next to the unstable cycle: there round-off grows even on the torus."
@@ -113,7 +122,7 @@ def possible_I23(I22: float, I23: float, notes: list[str]) -> float:
 def map_or_none(work: Work, a: float, h: float, f: float, level: Level) -> CircleMap | None:
     """Return the circle map of a torus in units b = 1; None on the separatrix."""
     try:
-        return work.need(Task(circle_map, a, h, f, level))
+        return work.get(circle_map, a, h, f, level)
     except Separatrix:
         return None
 
@@ -124,7 +133,7 @@ def limit_cycles(
     """Return the stable and the unstable limit cycle on the torus of a circle map, see `torus.cycles`; None without."""
     if theta is None or theta.kind != "hyperbolic":
         return None
-    return work.need(Task(cycles, hess, theta.h, theta.f, theta.fixed_points[0], level, half_width))
+    return work.get(cycles, hess, theta.h, theta.f, theta.fixed_points[0], level, half_width)
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,9 @@ from hess_mechanics.numerics.accuracy import LEVELS
 from hess_mechanics.parameters import Group, Parameter
 
 __all__ = [
+    "HIDDEN",
     "ONE_TURN",
+    "SHOWN",
     "TURN",
     "Slider",
     "accuracy_level",
@@ -25,6 +27,7 @@ __all__ = [
     "number",
     "parameter",
     "places",
+    "proved_error_shown",
     "slider_within",
     "specs_of",
     "time_span",
@@ -39,6 +42,7 @@ ONE_TURN = (-math.pi, math.pi)
 TURN = 3.14159
 """Half a turn, with the digits of a place in a link."""
 _SPEC = "spec"
+HIDDEN, SHOWN = "not shown", "shown"
 
 
 def declared(spec: Spec, compare: bool = True) -> Any:
@@ -101,6 +105,17 @@ def accuracy_level() -> Any:
         "of sections 25 % of the crossings (3.6 to 7.2 ×, error up to 1.3 pixels), of basins 33 % of "
         "the cells along a side (7.7 ×, 0.41 % of the cells change). Auto: the cheapest that shows all "
         "of it right to half a pixel.",
+    )
+
+
+def proved_error_shown() -> Any:
+    """Declare whether the proved error of the orbit on show is computed."""
+    return choice(
+        "Proved error",
+        (HIDDEN, SHOWN),
+        HIDDEN,
+        doc="Proved upper bound of the orbit's error, on the status line. Where it exceeds a pixel, a band and "
+        "circles enclose the true orbit at the times of the samples.",
     )
 
 

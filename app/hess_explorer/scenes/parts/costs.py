@@ -2,21 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, TypeVar
+from typing import Any
 
 import numpy as np
 
-from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.scene import State
 from hess_explorer.scenes.framework.trial import Refused, Trial, measured
 from hess_explorer.scenes.framework.work import Work
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import Layer, line, points, ring
-from hess_explorer.views.picture import Picture
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits
 from hess_mechanics.dynamics.trade import LevelCost, enough
@@ -45,10 +43,7 @@ class Costs:
     @cached_property
     def found(self) -> dict[Trial[Any], tuple[LevelCost, ...] | Refused | None]:
         """The samples of each trial, one per level, or the reason why there are none; None until known."""
-        return {
-            trial: None if self.work.dragging else self.work.need(Task(measured, trial, self.shown), preview=None)
-            for trial in self.trials
-        }
+        return {trial: self.work.later(measured, trial, self.shown) for trial in self.trials}
 
     @cached_property
     def samples(self) -> dict[Trial[Any], tuple[LevelCost, ...]]:
@@ -126,25 +121,22 @@ class Costs:
             yield f"{trial.kind}: {times} ms; error {errors} {trial.unit}"
 
 
-S = TypeVar("S", bound=State)
-
-
-def costs_picture(of: Callable[[S], Costs], trials: Sequence[Trial[Any]], folded: bool) -> Picture[S]:
+def costs_picture(trials: Sequence[Trial[Any]], folded: bool) -> Plot[Costs]:
     """Return the picture of cost and error of all computations."""
 
-    def kind(trial: Trial[Any], dash: str, width: float) -> Layer[S]:
+    def kind(trial: Trial[Any], dash: str, width: float) -> Layer[Costs]:
         name = str(trial.kind)
         return line(
-            name.replace(" ", "-"), lambda s: of(s).curve(trial), color=theme.MUTED, dash=dash, width=width, label=name
+            name.replace(" ", "-"), lambda s: s.curve(trial), color=theme.MUTED, dash=dash, width=width, label=name
         )
 
-    def at(name: str) -> Layer[S]:
-        return points(f"at-{name}", lambda s: of(s).level(name), color=theme.LEVELS[name], size=10, label=name)
+    def at(name: str) -> Layer[Costs]:
+        return points(f"at-{name}", lambda s: s.level(name), color=theme.LEVELS[name], size=10, label=name)
 
     return Plot(
         name="trade",
         title="Cost of all computations",
-        caption=lambda s: of(s).about(),
+        caption=Costs.about,
         log="xy",
         axes=("error / what is not seen", "milliseconds"),
         x=_ERRORS,
@@ -156,6 +148,6 @@ def costs_picture(of: Callable[[S], Costs], trials: Sequence[Trial[Any]], folded
             line("visible", lambda s: ((1.0, 1.0), _MS), color=theme.MUTED, dash="dotted", width=1.0),
             *(kind(trial, *look) for trial, look in zip(trials, _LINES, strict=False)),
             *map(at, LEVELS),
-            ring("enough", lambda s: of(s).rings(), size=20, label="cheapest level without visible error"),
+            ring("enough", Costs.rings, size=20, label="cheapest level without visible error"),
         ),
     )

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Protocol, TypeVar
+from typing import ClassVar, Protocol
 
 import numpy as np
 
@@ -14,18 +14,15 @@ from hess_explorer.scenes.framework.families import Family
 from hess_explorer.scenes.framework.part import Host, Part
 from hess_explorer.scenes.framework.periodic_search import Place
 from hess_explorer.scenes.framework.points import stages_of
-from hess_explorer.scenes.framework.scene import State
 from hess_explorer.scenes.framework.windows import Window
 from hess_explorer.scenes.framework.work import drift_status
 from hess_explorer.views import density as view
-from hess_explorer.views import theme
-from hess_explorer.views.layers import Layers
 from hess_mechanics.dynamics.orbit_diagram import Diagram
 from hess_mechanics.dynamics.section_density import Visits, visits_over
 from hess_mechanics.numerics.accuracy import Accuracy, Kind, cheapest, plan
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["DiagramDensity", "diagram_density_layers"]
+__all__ = ["DiagramDensity"]
 
 _COLUMNS, _ROWS = 4, 512
 """Columns of pixels for each value of the parameter in the diagram, and rows."""
@@ -71,20 +68,15 @@ class DiagramDensity(Part[_Host]):
     forward : direction of time of each way: backward in time, back, and there, in this order.
     """
 
-    forward: Mapping[str, bool]
+    forward: ClassVar[Mapping[str, bool]] = {"backward": False, "falling": True, "rising": True}
 
     @cached_property
     def _ends(self) -> dict[str, Array]:
-        """The last place at each value, by way; only of ways that are complete."""
-        ends = {
-            way: np.concatenate([one.ends for one in parts])
-            for way, parts in self.host.branches.items()
-            if parts and sum(len(one.values) for one in parts) == self.host.along_values.size
-        }
-        # The way back has its values in the opposite order.
+        """The last place at each value, in rising order, by way; only of ways that are complete."""
         return {
-            way: found if self.host.branches[way][0].values[0] == self.host.along_values[0] else found[::-1]
-            for way, found in ends.items()
+            way: np.concatenate([one.ends for one in parts])[:: -1 if way == "falling" else 1]
+            for way, parts in self.host.branches.items()
+            if sum(len(one.values) for one in parts) == self.host.along_values.size
         }
 
     @property
@@ -101,24 +93,20 @@ class DiagramDensity(Part[_Host]):
         points, stages = stages_of(_FIRST, _STAGES[self.work.chosen], _GROWTH)
         first = max(1, points // (len(self.host.branches) * self._columns))
         level = plan(Kind.SECTION, cheapest(_ERRORS * (y1 - y0) / _ROWS)).level
-        return [
-            [
-                Task(
-                    _stage,
-                    self.host.family,
-                    tuple(values[some].tolist()),
-                    self.host.side,
-                    (y0, y1),
-                    tuple(map(tuple, starts[some].tolist())),
-                    first,
-                    self.forward[way],
-                    level,
-                    number,
-                )
-                for number in range(stages)
-            ]
+        groups = (
+            _Columns(
+                self.host.family,
+                tuple(values[some].tolist()),
+                self.host.side,
+                (y0, y1),
+                tuple(map(tuple, starts[some].tolist())),
+                first,
+                self.forward[way],
+                level,
+            )
             for some in np.array_split(np.arange(self._columns), _GROUPS)
-        ]
+        )
+        return [[Task(_stage, one, number) for number in range(stages)] for one in groups]
 
     @cached_property
     def _found(self) -> dict[str, list[Visits | None]]:
@@ -174,34 +162,28 @@ class DiagramDensity(Part[_Host]):
             yield from drift_status(one.drift for one in self._visits)
 
 
-S = TypeVar("S", bound=State)
+@dataclass(frozen=True)
+class _Columns:
+    """Columns of pixels whose orbits are followed together; first : crossings of each in the first stage."""
+
+    family: Family
+    values: tuple[float, ...]
+    side: int
+    reach: tuple[float, float]
+    starts: tuple[Place, ...]
+    first: int
+    forward: bool
+    level: Accuracy
+
+    def visits(self, starts: Sequence[Place] | Array, skipped: int, crossings: int) -> Visits:
+        """Return the visits of orbits from these places."""
+        some = self.family, self.values, self.side, self.reach, _ROWS
+        return visits_over(*some, starts, skipped, crossings, self.forward, self.level)
 
 
-def diagram_density_layers(of: Callable[[S], DiagramDensity]) -> Layers[S]:
-    """Return the layers of the density: backward in time, the way back where it differs, and forward."""
-    return view.layers(
-        lambda s: of(s).tones,
-        lambda s: of(s).host.frame,
-        ("backward in time", "forward, parameter falling, where that differs", "forward, few to many points"),
-        (theme.UNSTABLE, theme.MAP, theme.ORBIT),
-    )
-
-
-def _stage(
-    family: Family,
-    values: tuple[float, ...],
-    side: int,
-    reach: tuple[float, float],
-    starts: tuple[Place, ...],
-    first: int,
-    forward: bool,
-    level: Accuracy,
-    number: int,
-) -> Visits:
+def _stage(columns: _Columns, number: int) -> Visits:
     """Return the visits of some columns up to a stage."""
     if number == 0:
-        return visits_over(family, values, side, reach, _ROWS, starts, _SKIPPED, first, forward, level)
-    before: Visits = Task(_stage, family, values, side, reach, starts, first, forward, level, number - 1).get()
-    return visits_over(
-        family, values, side, reach, _ROWS, before.ends, 0, first * _GROWTH**number, forward, level
-    ).after(before)
+        return columns.visits(columns.starts, _SKIPPED, columns.first)
+    before = Task(_stage, columns, number - 1).get()
+    return columns.visits(before.ends, 0, columns.first * _GROWTH**number).after(before)

@@ -2,22 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TypeVar
 
 import numpy as np
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.part import Host, Part
 from hess_explorer.scenes.framework.periodic_search import NotFound
-from hess_explorer.scenes.framework.scene import State
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.graph import about_0
 from hess_explorer.views.layers import Axes, curves, levels, points, ring
-from hess_explorer.views.picture import Picture
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits, with_error
 from hess_mechanics.errors import ModelError
@@ -117,44 +114,36 @@ def _split(torus: HessTorus, away: float) -> Split | NotFound:
         return NotFound(str(error))
 
 
-S = TypeVar("S", bound=State)
+def _values(found: HessSplit) -> Array:
+    return np.array([(one.away, one.value) for one in found.splits()]).reshape(-1, 2).T
 
 
-def split_picture(of: Callable[[S], HessSplit]) -> Picture[S]:
-    """Return the picture of the split over ε."""
+def _line(found: HessSplit, axes: Axes) -> list[Array]:
+    return [] if found.slope is None else [np.array([[x, found.slope[0] * x] for x in axes.x])]
 
-    def values(s: S) -> Array:
-        return np.array([(one.away, one.value) for one in of(s).splits()]).reshape(-1, 2).T
 
-    def slope(s: S, axes: Axes) -> list[Array]:
-        found = of(s).slope
-        return [] if found is None else [np.array([[x, found[0] * x] for x in axes.x])]
-
-    def here(s: S) -> list[tuple[float, float]]:
-        split = of(s).split
-        return [] if split is None else [(split.away, split.value)]
-
-    return Plot(
-        name="split",
-        title="Split of the separatrices",
-        caption=lambda s: of(s).caption(),
-        folded="Show the split of the separatrices",
-        axes=("ε", "split in L/G"),
-        first=Axes((-_WIDE, _WIDE), (-1.0, 1.0)),
-        message=lambda s: of(s).message(),
-        on_click=lambda s, x, y: {"away": x},
-        x=lambda s: (-1.1 * of(s).reach, 1.1 * of(s).reach),
-        y=lambda s: about_0(values(s)[1], 1e-12) if of(s).splits() else None,
-        layers=(
-            levels("levels", lambda s: [0.0] if of(s).splits() else []),
-            curves("slope", within=slope, color=theme.MUTED, dash="dashed", label="linear, with the slope at ε = 0"),
-            points(
-                "splits",
-                lambda s: values(s) if of(s).splits() else None,
-                color=theme.UNSTABLE,
-                size=10,
-                label="distance of the separatrices",
-            ),
-            ring("here", here, color=theme.INK),
+split_picture = Plot[HessSplit](
+    name="split",
+    title="Split of the separatrices",
+    caption=HessSplit.caption,
+    folded="Show the split of the separatrices",
+    axes=("ε", "split in L/G"),
+    first=Axes((-_WIDE, _WIDE), (-1.0, 1.0)),
+    message=HessSplit.message,
+    on_click=lambda s, x, y: {"away": x},
+    x=lambda s: (-1.1 * s.reach, 1.1 * s.reach),
+    y=lambda s: about_0(_values(s)[1], 1e-12) if s.splits() else None,
+    layers=(
+        levels("levels", lambda s: [0.0] if s.splits() else []),
+        curves("slope", within=_line, color=theme.MUTED, dash="dashed", label="linear, with the slope at ε = 0"),
+        points(
+            "splits",
+            lambda s: _values(s) if s.splits() else None,
+            color=theme.UNSTABLE,
+            size=10,
+            label="distance of the separatrices",
         ),
-    )
+        ring("here", lambda s: [(s.split.away, s.split.value)] if s.split else [], color=theme.INK),
+    ),
+).of
+"""The picture of the split over ε."""

@@ -6,15 +6,13 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, Protocol, TypeVar
+from typing import Any, Protocol
 
-from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.hess_case import HeavyHess, limit_cycles, map_or_none
 from hess_explorer.scenes.framework.parameters import choice
 from hess_explorer.scenes.framework.part import Host, Part
 from hess_explorer.views import torus_density
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.picture import Picture
 from hess_explorer.views.torus_in_space import FORMULA, POINTS, Curve, TorusInSpace, about
 from hess_mechanics.errors import InvalidParameter, ModelError, Separatrix
 from hess_mechanics.numerics.accuracy import Level
@@ -132,7 +130,7 @@ class HessSurface(Part[OnTorus]):
         if map_ is None or torus_density.reason_for_no_density(map_, self.host.turning):
             return None, "No density."
         try:
-            return self.work.need(Task(density_along, map_, POINTS, self.host.level)), ""
+            return self.work.get(density_along, map_, POINTS, self.host.level), ""
         except InvalidParameter as error:
             return None, str(error)
 
@@ -153,15 +151,10 @@ class HessSurface(Part[OnTorus]):
         return about(self.host.map, self.host.turning, self.says(), self.density[1])
 
 
-S = TypeVar("S")
-
-
-def surface_picture(of: Callable[[S], HessSurface], folded: str = "") -> Picture[S]:
-    """Return the picture of the surface."""
-    return TorusInSpace(
-        caption=lambda s: of(s).caption(),
-        surface=lambda s: of(s).section,
-        zeta=lambda s: of(s).density[0],
-        curves=lambda s: of(s).curves(),
-        folded=folded,
-    )
+surface_picture = TorusInSpace[HessSurface](
+    caption=HessSurface.caption,
+    surface=lambda s: s.section,
+    zeta=lambda s: s.density[0],
+    curves=HessSurface.curves,
+).of
+"""The picture of the surface."""

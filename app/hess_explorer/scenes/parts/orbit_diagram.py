@@ -2,46 +2,65 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from abc import ABC, abstractmethod
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import product
-from typing import Protocol, TypeVar
+from typing import ClassVar
 
 import numpy as np
 
 from hess_explorer.compute.cache import Task
-from hess_explorer.protocol.parameters import Values, places, written
+from hess_explorer.protocol.parameters import Values, written
+from hess_explorer.protocol.parameters import places as points_of
 from hess_explorer.scenes.framework.families import Begin, Family
-from hess_explorer.scenes.framework.parameters import TURN, specs_of
-from hess_explorer.scenes.framework.part import Host, Part, Start
+from hess_explorer.scenes.framework.parameters import (
+    TURN,
+    accuracy_level,
+    choice,
+    exponent_time,
+    number,
+    parameter,
+    places,
+    proved_error_shown,
+    time_span,
+)
+from hess_explorer.scenes.framework.part import Part, Start
 from hess_explorer.scenes.framework.periodic_search import NONE, PERIODS
 from hess_explorer.scenes.framework.scene import State
-from hess_explorer.scenes.framework.windows import Window, boxed, tidy_window, window_of
-from hess_explorer.views import theme
+from hess_explorer.scenes.framework.windows import Window, tidy_window, window_of
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.layers import Axes, Layer, Range, curves, dots, names
-from hess_explorer.views.plot import Plot
+from hess_explorer.views.layers import Range
 from hess_explorer.views.section_plane import joined
 from hess_explorer.views.text import digits
+from hess_mechanics.chaplygin_ball.section import BallSection
 from hess_mechanics.dynamics.orbit_diagram import Cascade, Diagram, doubling_seen
 from hess_mechanics.dynamics.parameter_diagram import diagram, doublings, nearest_place
-from hess_mechanics.dynamics.return_map import PoincareSection
 from hess_mechanics.errors import OutsideRegion
 from hess_mechanics.numerics.accuracy import Accuracy, Kind, plan
 from hess_mechanics.numerics.results import Array
+from hess_mechanics.parameters import B1, B2, B3, H_SUSLOV, I11, I13, I22, I23
+from hess_mechanics.suslov.section import SuslovSection
 
-__all__ = ["ANEW", "BOUNDS", "FARTHEST", "FOLLOWED", "FORWARD", "WAYS", "OrbitDiagram", "diagram_picture", "edges"]
+__all__ = [
+    "BACKWARD",
+    "BOUNDS",
+    "COORDINATES",
+    "FALLING",
+    "RISING",
+    "DiagramParameters",
+    "OrbitDiagram",
+    "parameter_of_diagram",
+]
 
-_RISING, _FALLING, _BACKWARD = "rising", "falling", "backward"
+COORDINATES = ("ψ", "δ")
+RISING, FALLING, BACKWARD = "rising", "falling", "backward"
 WAYS = {
-    "there and back, and backward in time": (_RISING, _FALLING, _BACKWARD),
-    "there and back": (_RISING, _FALLING),
-    "there, and backward in time": (_RISING, _BACKWARD),
+    "there and back, and backward in time": (RISING, FALLING, BACKWARD),
+    "there and back": (RISING, FALLING),
+    "there, and backward in time": (RISING, BACKWARD),
 }
-FORWARD = {_BACKWARD: False, _FALLING: True, _RISING: True}
-"""The direction of time of each way, in the order in which they are drawn."""
 FOLLOWED, ANEW = "where it was at the value before", "at the chosen place"
 FARTHEST = (-1e3, 1e3)
 BOUNDS = ((FARTHEST[0], -TURN), (FARTHEST[1], TURN))
@@ -58,90 +77,133 @@ _FEW_FAR = 0.05
 """Share of these values that do not count."""
 _ROOM, _LEAST = 0.1, 0.01
 """Room above and below, in heights of what is there, and at least in those of the section."""
-_TOP, _LINE = 0.06, 0.07
-"""Distance of the first name of a doubling from the top, and of one name from the next, in heights of the picture."""
 
 
-def edges(one: float, other: float) -> tuple[float, float]:
-    """Return the edges of a diagram, left one first; equal edges give a diagram of width 1 within the bounds."""
-    first, last = sorted((one, other))
-    if first == last:
-        first = min(first, FARTHEST[1] - 1.0)
-        last = first + 1.0
-    return first, last
+def parameter_of_diagram(symbols: tuple[str, ...], default: str) -> str:
+    """Declare the control that selects the parameter of the diagram."""
+    declared: str = choice(
+        "Parameter of the diagram",
+        symbols,
+        default,
+        doc="Parameter on the horizontal axis; all others keep their values.",
+    )
+    return declared
 
 
-class _Section(PoincareSection, Protocol):
-    def somewhere(self) -> Start | None:
-        """Return a state on the section; None if no motion crosses it."""
+@dataclass(frozen=True)
+class DiagramParameters(State, ABC):
+    """The parameters of a body, of the diagram of its section, and of one orbit.
 
+    symbols : symbol of each parameter of the section → its name.
+    """
 
-class _Host(Host, Protocol):
+    I11: float = parameter(I11)
+    I22: float = parameter(I22)
+    I13: float = parameter(I13)
+    I23: float = parameter(I23)
+    b1: float = parameter(B1)
+    b2: float = parameter(B2)
+    b3: float = parameter(B3)
+    h: float = parameter(H_SUSLOV)
+    along: str = parameter_of_diagram(("h",), "h")
+    first: float = number(
+        "from", -0.15, (-3.0, 6.0), 0.01, bounds=FARTHEST, label="Diagram from", doc="Value at the left edge."
+    )
+    last: float = number(
+        "to", 0.3, (-3.0, 6.0), 0.01, bounds=FARTHEST, label="Diagram to", doc="Value at the right edge."
+    )
+    shown: str = choice("Coordinate of the section", COORDINATES, "ψ", doc="Quantity on the vertical axis.")
+    ways: str = choice(
+        "Followed",
+        tuple(WAYS),
+        next(iter(WAYS)),
+        doc="There: the parameter rises. Back: it falls. Backward in time, motions tend to repellers.",
+    )
+    begins: str = choice(
+        "Each value starts",
+        (FOLLOWED, ANEW),
+        FOLLOWED,
+        doc="A followed orbit stays with its attractor, and may differ on the way back.",
+    )
+    steps: float = number(
+        "n",
+        150.0,
+        (30.0, 300.0),
+        10.0,
+        bounds=(2.0, 600.0),
+        label="Values of the parameter",
+        doc="Number of evenly spaced values.",
+        group="Computation",
+    )
+    transient: float = number(
+        "N₀",
+        300.0,
+        (0.0, 1000.0),
+        10.0,
+        bounds=(0.0, 5000.0),
+        label="Crossings left out",
+        doc="Crossings left out at each value, until the orbit has settled.",
+        group="Computation",
+    )
+    count: float = number(
+        "N",
+        60.0,
+        (10.0, 200.0),
+        5.0,
+        bounds=(2.0, 500.0),
+        label="Crossings shown",
+        doc="Crossings drawn at each value, after those left out.",
+        group="Computation",
+    )
+    window: str = places("The window of the diagram", 2, *BOUNDS)
+    branch: str = choice(
+        "Branch of a periodic orbit",
+        (NONE, *PERIODS),
+        NONE,
+        group="State",
+        doc="Over the diagram: the periodic orbit that Newton's method finds from the chosen place, "
+        "continued in the parameter, through folds. A click on it shows that orbit.",
+    )
+    span: float = time_span(60.0, 400.0, what="the chosen orbit")
+    long: float = exponent_time(4000.0, 5000.0, 2e4, "the mean divergence is")
+    certain: str = proved_error_shown()
+    accuracy: str = accuracy_level()
+    chosen: str = places("The place of the chosen orbit", 1, *BOUNDS)
+
+    symbols: ClassVar[Mapping[str, str]]
+
     @property
-    def poincare(self) -> _Section:
-        """The section in its coordinates.  Raises `ModelError`."""
+    @abstractmethod
+    def E(self) -> float:
+        """The energy."""
 
     @property
-    def along(self) -> str: ...
-
-    @property
-    def first(self) -> float: ...
-
-    @property
-    def last(self) -> float: ...
-
-    @property
-    def shown(self) -> str: ...
-
-    @property
-    def ways(self) -> str: ...
-
-    @property
-    def begins(self) -> str: ...
-
-    @property
-    def steps(self) -> float: ...
-
-    @property
-    def transient(self) -> float: ...
-
-    @property
-    def count(self) -> float: ...
-
-    @property
-    def window(self) -> str: ...
-
-    @property
-    def chosen(self) -> str: ...
-
-    @property
-    def branch(self) -> str: ...
+    @abstractmethod
+    def poincare(self) -> SuslovSection | BallSection:
+        """The section γ3 = 0.  Raises `ModelError`."""
 
 
 @dataclass(frozen=True, eq=False)
-class OrbitDiagram(Part[_Host]):
-    """The points to which the orbits of a section settle, over one of its parameters.
-
-    symbols : symbols of all parameters of the section → their names.
-    """
-
-    symbols: Mapping[str, str]
+class OrbitDiagram(Part[DiagramParameters]):
+    """The points to which the orbits of a section settle, over one of its parameters."""
 
     def admitted(self, notes: list[str]) -> Values:
         """Return a valid window within the diagram, a place, and the edges in order."""
-        first, last = edges(self.host.first, self.host.last)
-        default = next(spec.default for spec in specs_of(type(self.host)) if spec.name == "chosen")
+        first, last = sorted((self.host.first, self.host.last))
+        if first == last:
+            first = min(first, FARTHEST[1] - 1.0)
+            last = first + 1.0
         window = tidy_window(self.host.window)
         (x0, _), (x1, _) = window_of(window, ((first, 0.0), (last, 0.0)))
         return {
             "first": first,
             "last": last,
-            "chosen": self.host.chosen or default,
+            "chosen": self.host.chosen or type(self.host).chosen,
             "window": window if x0 < last and x1 > first else "",
         }
 
     @property
-    def poincare(self) -> PoincareSection:
+    def poincare(self) -> SuslovSection | BallSection:
         """The section in its coordinates.  Raises `ModelError`."""
         return self.host.poincare
 
@@ -151,7 +213,7 @@ class OrbitDiagram(Part[_Host]):
 
         Raises `OutsideRegion`.
         """
-        (chosen,) = places(self.host.chosen)[-1:]
+        (chosen,) = points_of(self.host.chosen)[-1:]
         if self.host.poincare.states_at(*np.array(chosen)[:, None])[1][0]:
             return chosen
         other = self.host.poincare.somewhere()
@@ -194,7 +256,7 @@ class OrbitDiagram(Part[_Host]):
         (left, low), (right, high) = self._window
         if self.host.window:
             return low, high
-        cropped = Task(_cropped, self.family, self.name, (left, right), self.place, self.side, (low, high))
+        cropped = Task(_cropped, self.family, (left, right), self.place, self.side, (low, high))
         return self.work.need(cropped, preview=None)
 
     @cached_property
@@ -207,7 +269,7 @@ class OrbitDiagram(Part[_Host]):
     @property
     def name(self) -> str:
         """The name of the parameter of the diagram."""
-        return self.symbols[self.host.along]
+        return self.host.symbols[self.host.along]
 
     @property
     def at(self) -> float:
@@ -217,12 +279,12 @@ class OrbitDiagram(Part[_Host]):
     @property
     def family(self) -> Family:
         """The sections over the parameter; they do not depend on its value in this state."""
-        return Family.of(self.host, self.name, self.host.along, tuple(self.symbols.values()))
+        return Family.of(self.host, self.name, self.host.along, tuple(self.host.symbols.values()))
 
     @property
     def side(self) -> int:
         """Index of the section's coordinate that the diagram shows."""
-        return ("ψ", "δ").index(self.host.shown)
+        return COORDINATES.index(self.host.shown)
 
     @cached_property
     def along_values(self) -> Array:
@@ -237,11 +299,11 @@ class OrbitDiagram(Part[_Host]):
         level = self.work.plan(Kind.SECTION).level
         left, shown = (40, 20) if self.work.dragging else (int(self.host.transient), int(self.host.count))
         values, follow = tuple(self.along_values.tolist()), self.host.begins == FOLLOWED
-        rising = _Course(self.family, self.name, values, self.place, left, shown, follow, False, level)
+        rising = _Course(self.family, values, self.place, left, shown, follow, False, level)
         courses = {
-            _RISING: rising,
-            _FALLING: replace(rising, values=values[::-1], before=rising),
-            _BACKWARD: replace(rising, backward=True),
+            RISING: rising,
+            FALLING: replace(rising, values=values[::-1], before=rising),
+            BACKWARD: replace(rising, backward=True),
         }
         return {way: courses[way] for way in WAYS[self.host.ways]}
 
@@ -249,10 +311,10 @@ class OrbitDiagram(Part[_Host]):
     def branches(self) -> dict[str, list[Diagram]]:
         """The known pieces of each way, in order."""
         found: dict[str, list[Diagram | None]] = {way: [] for way in self._courses}
-        pieces = product(self._courses, range(self._courses[_RISING].pieces))
+        pieces = product(self._courses, range(self._courses[RISING].pieces))
         # The way back comes last, because it starts where the way there ends.
-        for way, number in sorted(pieces, key=lambda one: (one[0] == _FALLING, one[1])):
-            task = Task(_piece, self._courses[way], number)
+        for way, i in sorted(pieces, key=lambda one: (one[0] == FALLING, one[1])):
+            task = Task(_piece, self._courses[way], i)
             found[way].append(self.work.need(task, preview=task if self.work.dragging else None))
         return {way: [one for one in parts if one is not None] for way, parts in found.items()}
 
@@ -274,14 +336,14 @@ class OrbitDiagram(Part[_Host]):
     @cached_property
     def _doubling(self) -> tuple[float, Array, float] | None:
         """The first doubling seen, see `doubling_seen`; None if unknown or none is seen."""
-        known = self.branches[_RISING]
+        known = self.branches[RISING]
         missing = sum(len(one.values) for one in known) < self.along_values.size
         return doubling_seen(known) if self._locates and not missing else None
 
     @cached_property
     def cascade(self) -> Cascade | str | None:
         """The period doublings from the first one seen, or why none was located; None if unknown or none is seen."""
-        return (self.work.need(Task(_cascade, self._courses[_RISING]), preview=None) or None) if self._locates else None
+        return (self.work.need(Task(_cascade, self._courses[RISING]), preview=None) or None) if self._locates else None
 
     @property
     def flips(self) -> Array:
@@ -302,7 +364,7 @@ class OrbitDiagram(Part[_Host]):
         asked = self.along_values.size * len(WAYS[self.host.ways])
         if known < asked:
             return Caption(self.work.awaited(), f"{known} of {asked} values are known.")
-        if all(one.conservative.all() for one in self.branches[_RISING]):
+        if all(one.conservative.all() for one in self.branches[RISING]):
             return Caption("Volume is preserved: no attractors.", f"{points}One orbit for each value.")
         if isinstance(self.cascade, Cascade) and self.flips.size:
             ratios = self.cascade.ratios
@@ -316,7 +378,7 @@ class OrbitDiagram(Part[_Host]):
             )
             period, place = self.cascade.periods[0], digits(self.flips[0])
             return Caption(many, f"{points}The first of period {period} at {self.host.along} = {place}{ratio}.")
-        periods = sorted({int(m) for one in self.branches[_RISING] for m in one.periods if m})
+        periods = sorted({int(m) for one in self.branches[RISING] for m in one.periods if m})
         if not periods:
             return Caption("No periodic orbit is seen.", points.rstrip())
         return Caption(numbers=f"{points}Periods seen: {', '.join(map(str, periods[:8]))}.")
@@ -340,7 +402,6 @@ class _Course:
     """
 
     family: Family
-    name: str
     values: tuple[float, ...]
     place: tuple[float, ...]
     transient: int
@@ -360,7 +421,7 @@ def _piece(course: _Course, number: int) -> Diagram:
     """Return a piece of a course, which needs the pieces before it."""
     return diagram(
         course.family,
-        course.name,
+        course.family.name,
         course.values[number * _TOGETHER : (number + 1) * _TOGETHER],
         _reached(course, number),
         course.place,
@@ -387,16 +448,17 @@ def _cascade(course: _Course) -> Cascade | str:
     if seen is None:
         return ""
     value, places, end = seen
-    return doublings(course.family, course.name, value, tuple(map(tuple, places.tolist())), end, _DOUBLINGS)
+    return doublings(course.family, course.family.name, value, tuple(map(tuple, places.tolist())), end, _DOUBLINGS)
 
 
-def _cropped(
-    family: Family, name: str, ends: Range, place: tuple[float, float], side: int, whole: Range
-) -> tuple[float, float]:
+def _cropped(family: Family, ends: Range, place: tuple[float, float], side: int, whole: Range) -> tuple[float, float]:
     """Return the range of a coordinate with the attractor over the parameter, and the repeller if it is near."""
     values, level = tuple(np.linspace(*ends, _GLANCES).tolist()), plan(Kind.SECTION, "draft").level
     attractor, repeller = (
-        [one[:, side] for one in diagram(family, name, values, place, place, 200, 30, True, backward, level).places]
+        [
+            one[:, side]
+            for one in diagram(family, family.name, values, place, place, 200, 30, True, backward, level).places
+        ]
         for backward in (False, True)
     )
     if not any(map(len, attractor)):
@@ -411,78 +473,3 @@ def _range(parts: Sequence[Array]) -> tuple[float, float]:
     """Return the range of the points at most values: at a few of them a motion may go far away for a moment."""
     lows, highs = zip(*((one.min(), one.max()) for one in parts if len(one)), strict=True)
     return float(np.quantile(lows, _FEW_FAR)), float(np.quantile(highs, 1.0 - _FEW_FAR))
-
-
-S = TypeVar("S", bound=State)
-
-
-def diagram_picture(
-    of: Callable[[S], OrbitDiagram],
-    first: Range,
-    caption: Callable[[S], Caption],
-    on_click: Callable[[S, float, float], Values],
-    on_hover: Callable[[S, float, float], str],
-    shaded: Callable[[S], bool],
-    under: tuple[Layer[S], ...] = (),
-    over: tuple[Layer[S], ...] = (),
-) -> Plot[S]:
-    """Return the picture of the diagram.
-
-    first : its horizontal range before the first state; under, over : layers below and on top.
-    shaded : whether those below show the points of the diagram.
-    """
-
-    def dotted(way: str) -> Callable[[S], Array | None]:
-        return lambda s: None if shaded(s) else of(s).points(way)
-
-    def named(s: S, axes: Axes) -> list[tuple[float, float, str]]:
-        located, (low, high) = of(s).cascade, axes.y
-        if not isinstance(located, Cascade):
-            return []
-        # Each name is lower than the one before, as the doublings come closer and closer.
-        heights = high - (high - low) * (_TOP + _LINE * np.arange(len(located.values)))
-        return [
-            (float(x), float(y), f"{m}→{2 * m}: {digits(float(x))}")
-            for x, y, m in zip(located.values, heights, located.periods, strict=True)
-            if axes.x[0] < x < axes.x[1]
-        ]
-
-    def upright(values: Callable[[S], Sequence[float]]) -> Callable[[S, Axes], list[Array]]:
-        return lambda s, axes: [np.array([[x, axes.y[0]], [x, axes.y[1]]]) for x in values(s)]
-
-    return Plot(
-        name="diagram",
-        title="Orbit diagram",
-        caption=caption,
-        on_hover=on_hover,
-        on_click=on_click,
-        axes=lambda s: (of(s).host.along, of(s).host.shown),
-        first=Axes(first, (-math.pi, math.pi)),
-        x=lambda s: (of(s).frame[0][0], of(s).frame[1][0]),
-        y=lambda s: of(s).height,
-        on_box=lambda s, corners: boxed(corners, BOUNDS),
-        layers=(
-            *under,
-            curves(
-                "flips",
-                within=upright(lambda s: of(s).flips.tolist()),
-                color=theme.STABLE,
-                width=1.5,
-                dash="dashed",
-                label="the period doubles",
-            ),
-            dots("backward", dotted(_BACKWARD), color=theme.UNSTABLE, size=3, label="backward in time"),
-            dots("falling", dotted(_FALLING), color=theme.MAP, size=5, label="forward, parameter falling"),
-            dots("rising", dotted(_RISING), color=theme.ORBIT, size=3, label="forward, parameter rising"),
-            curves(
-                "here",
-                within=upright(lambda s: [of(s).at]),
-                color=theme.INK,
-                width=1.5,
-                label="state on show",
-                tag="state on show",
-            ),
-            *over,
-            names("flip-values", within=named, size=13, on_paper=True),
-        ),
-    )

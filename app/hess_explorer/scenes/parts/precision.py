@@ -3,28 +3,25 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TypeVar
 
 import numpy as np
 
-from hess_explorer.compute.cache import Task
-from hess_explorer.scenes.framework.scene import Motion, State
+from hess_explorer.scenes.framework.scene import Motion
 from hess_explorer.scenes.framework.work import Work
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.chart import POWERS, clipped, limit
 from hess_explorer.views.layers import Columns, Range, column, ring
 from hess_explorer.views.levels import curves_of_levels, integrals, methods
-from hess_explorer.views.picture import Picture
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits
 from hess_mechanics.dynamics import work_precision as mechanics
 from hess_mechanics.numerics.accuracy import LEVELS, level
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["Precision", "precision_pictures"]
+__all__ = ["PRECISION_PICTURES", "Precision"]
 
 SAMPLES = 400
 _FLOOR, _PIXEL_FLOOR = 1e-17, 1e-14
@@ -50,14 +47,14 @@ class Precision:
         others = (
             ()
             if self.work.dragging or mechanics.others_take_long(*self.followed.named)
-            else self.work.need(Task(mechanics.measure_others, *self.followed.named, SAMPLES))
+            else self.work.get(mechanics.measure_others, *self.followed.named, SAMPLES)
         )
-        return self.work.need(Task(mechanics.measure_levels, *self.followed.named, SAMPLES)) + others
+        return self.work.get(mechanics.measure_levels, *self.followed.named, SAMPLES) + others
 
     @cached_property
     def growing(self) -> mechanics.ErrorGrowth:
         """Errors and drifts over time."""
-        return self.work.need(Task(mechanics.growth, *self.followed.named, self.followed.weights, SAMPLES))
+        return self.work.get(mechanics.growth, *self.followed.named, self.followed.weights, SAMPLES)
 
     @cached_property
     def times(self) -> Array:
@@ -169,68 +166,64 @@ class Precision:
             yield "SciPy's methods are left out, as they are slow over this time span: choose a shorter one."
 
 
-S = TypeVar("S", bound=State)
-
-
-def precision_pictures(of: Callable[[S], Precision]) -> tuple[Picture[S], ...]:
-    """Return the pictures: cost against error, error over time, drift, and error in pixels."""
-    return (
-        Plot(
-            name="precision",
-            title="Cost against error",
-            caption=lambda s: of(s)._about_cost(),
-            log="xy",
-            axes=("largest error", "milliseconds"),
-            x=_ERRORS,
-            y=(1e-2, 1e4),
-            x_ticks=POWERS,
-            y_tick_count=5,
-            on_click=lambda s, x, y: of(s).choose(x, y),
-            layers=(
-                *methods(lambda s, name: of(s)._of_method(name), lambda s, name: of(s)._at_level(name)),
-                ring("chosen", lambda s: of(s)._chosen(), size=20, label="chosen level"),
-            ),
+PRECISION_PICTURES: tuple[Plot[Precision], ...] = (
+    Plot(
+        name="precision",
+        title="Cost against error",
+        caption=Precision._about_cost,
+        log="xy",
+        axes=("largest error", "milliseconds"),
+        x=_ERRORS,
+        y=(1e-2, 1e4),
+        x_ticks=POWERS,
+        y_tick_count=5,
+        on_click=Precision.choose,
+        layers=(
+            *methods(Precision._of_method, Precision._at_level),
+            ring("chosen", Precision._chosen, size=20, label="chosen level"),
         ),
-        Plot(
-            name="growth",
-            title="Error over time",
-            caption=lambda s: of(s)._about_growth(),
-            log="y",
-            axes=("t", "error"),
-            x=lambda s: of(s)._span(),
-            y=_ERRORS,
-            y_tick_count=5,
-            dot=("t", "growth"),
-            layers=(
-                limit(lambda s: level(of(s).work.chosen).promise),
-                *curves_of_levels(lambda s, name: of(s)._over_time(of(s).growing.errors[name])),
-            ),
+    ),
+    Plot(
+        name="growth",
+        title="Error over time",
+        caption=Precision._about_growth,
+        log="y",
+        axes=("t", "error"),
+        x=Precision._span,
+        y=_ERRORS,
+        y_tick_count=5,
+        dot=("t", "growth"),
+        layers=(
+            limit(lambda s: level(s.work.chosen).promise),
+            *curves_of_levels(lambda s, name: s._over_time(s.growing.errors[name])),
         ),
-        Plot(
-            name="drift",
-            title="Drift of the integrals",
-            caption=lambda s: of(s)._about_drift(),
-            log="y",
-            x=lambda s: of(s)._span(),
-            y=_ERRORS,
-            axes=("t", "relative drift"),
-            y_tick_count=5,
-            dot=("t", "drift"),
-            layers=integrals(lambda s, i: of(s)._drift(i)),
+    ),
+    Plot(
+        name="drift",
+        title="Drift of the integrals",
+        caption=Precision._about_drift,
+        log="y",
+        x=Precision._span,
+        y=_ERRORS,
+        axes=("t", "relative drift"),
+        y_tick_count=5,
+        dot=("t", "drift"),
+        layers=integrals(Precision._drift),
+    ),
+    Plot(
+        name="pixels",
+        title="Error in pixels",
+        caption=Precision._about_pixels,
+        log="y",
+        x=Precision._span,
+        axes=("t", "error in pixels"),
+        y=(_PIXEL_FLOOR, 1e4),
+        y_tick_count=5,
+        dot=("t", "pixels"),
+        layers=(
+            limit(lambda s: 1.0),
+            *curves_of_levels(lambda s, name: s._over_time(s.growing.pixels[name], _PIXEL_FLOOR)),
         ),
-        Plot(
-            name="pixels",
-            title="Error in pixels",
-            caption=lambda s: of(s)._about_pixels(),
-            log="y",
-            x=lambda s: of(s)._span(),
-            axes=("t", "error in pixels"),
-            y=(_PIXEL_FLOOR, 1e4),
-            y_tick_count=5,
-            dot=("t", "pixels"),
-            layers=(
-                limit(lambda s: 1.0),
-                *curves_of_levels(lambda s, name: of(s)._over_time(of(s).growing.pixels[name], _PIXEL_FLOOR)),
-            ),
-        ),
-    )
+    ),
+)
+"""Cost against error, error over time, drift, and error in pixels."""

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, Protocol
+from typing import Protocol
 
 import numpy as np
 
 from hess_explorer.compute.cache import Task
-from hess_explorer.scenes.framework.parameters import choice
+from hess_explorer.scenes.framework.parameters import HIDDEN, SHOWN, proved_error_shown
 from hess_explorer.scenes.framework.part import Host, Part
 from hess_explorer.scenes.framework.scene import Motion
 from hess_explorer.views.poisson_sphere import Circle
@@ -23,23 +23,11 @@ from hess_mechanics.suslov_hess.torus import Track
 
 __all__ = ["HIDDEN", "SHOWN", "Proof", "ProvedError", "hull", "judged", "proved_error_shown"]
 
-HIDDEN, SHOWN = "not shown", "shown"
 _DIGITS, _MOST_WORK = 16, 1e6
 """Digits and work limit of a tube: far below double round-off; about 1.5 s of CPU time, 4 s for the ball."""
 _HALF, _FAR = 0.5, 150.0
 """Smallest and largest error that is drawn, in pixels: a larger one would fill the picture."""
 _BOXES, _CIRCLES = 300, 16
-
-
-def proved_error_shown() -> Any:
-    """Declare whether the proved error of the orbit on show is computed."""
-    return choice(
-        "Proved error",
-        (HIDDEN, SHOWN),
-        HIDDEN,
-        doc="Proved upper bound of the orbit's error, on the status line. Where it exceeds a pixel, a band and "
-        "circles enclose the true orbit at the times of the samples.",
-    )
 
 
 @dataclass(frozen=True)
@@ -80,7 +68,7 @@ class Proof(Part[_Host]):
             return None
         if not has_flint():
             return ProvedError("proofs need python-flint: pip install 'hess-explorer[prove]'")
-        return self.work.need(Task(judged, self.host.finding, self.host.motion(), self.units), preview=None)
+        return self.work.later(judged, self.host.finding, self.host.motion(), self.units)
 
     @property
     def band(self) -> list[list[Array]]:
