@@ -9,6 +9,7 @@ from functools import cached_property
 
 import numpy as np
 
+from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.parameters import Values
 from hess_explorer.scenes.framework import hess_case
 from hess_explorer.scenes.framework.charted import Charts, of_torus
@@ -175,7 +176,7 @@ class BothSides(State):
     @cached_property
     def map(self) -> CircleMap:
         """The circle map of the torus."""
-        return self.work.get(circle_map, self.bridge.hess.a, self.turning.h, self.turning.f, self.level)
+        return self.work.need(Task(circle_map, self.bridge.hess.a, self.turning.h, self.turning.f, self.level))
 
     @property
     def period(self) -> float:
@@ -195,15 +196,17 @@ class BothSides(State):
     @cached_property
     def track(self) -> Track:
         """The orbit on the Suslov side."""
-        return self.work.get(
-            track,
-            self.bridge.hess,
-            self.turning.h,
-            self.turning.f,
-            self.phi0,
-            self.span,
-            self.level,
-            self.half_width,
+        return self.work.need(
+            Task(
+                track,
+                self.bridge.hess,
+                self.turning.h,
+                self.turning.f,
+                self.phi0,
+                self.span,
+                self.level,
+                self.half_width,
+            )
         )
 
     @cached_property
@@ -245,7 +248,7 @@ class BothSides(State):
         end = min(self.span, most * self.period)
         start = tuple(self.turning.state_at_lower_turn(self.phi0).tolist())
         count = max(64, math.ceil(end / self.period * _IN_A_PERIOD)) + 1
-        return self.work.get(difference, self.bridge, start, end, count)
+        return self.work.need(Task(difference, self.bridge, start, end, count))
 
     def motion(self) -> Motion:
         """Return the reduced motion, common to both sides."""

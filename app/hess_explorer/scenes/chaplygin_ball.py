@@ -172,7 +172,9 @@ class ChaplyginBall(State):
             np.column_stack(
                 [
                     phis,
-                    self.work.get(model.free_theta_plus, self.body, self.theta, self.distance, tuple(phis.tolist())),
+                    self.work.need(
+                        Task(model.free_theta_plus, self.body, self.theta, self.distance, tuple(phis.tolist()))
+                    ),
                 ]
             )
         ]

@@ -10,6 +10,7 @@ from typing import TypeVar
 
 import numpy as np
 
+from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.parameters import Values, written
 from hess_explorer.scenes.framework.charted import Charted, Charts, parameters_of
 from hess_explorer.scenes.framework.continuation import Continuation
@@ -131,7 +132,7 @@ class DiagramState(DiagramParameters):
     @cached_property
     def turned(self) -> SectionCrossings:
         """The moments of reversal of the orbit on show."""
-        return self.work.get(reversals, self.body, self.start, self.span, self.level)
+        return self.work.need(Task(reversals, self.body, self.start, self.span, self.level))
 
     @cached_property
     def turning(self) -> Array:

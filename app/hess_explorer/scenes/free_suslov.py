@@ -9,6 +9,7 @@ from functools import cached_property
 
 import numpy as np
 
+from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.parameters import Values
 from hess_explorer.scenes.framework import free_body
 from hess_explorer.scenes.framework.charted import Charted, Charts, tensor_of
@@ -156,14 +157,16 @@ class FreeSuslov(State):
 
     def _motion(self, gamma: tuple[float, float, float]) -> free.FreeMotion:
         radius = 0.5 * PIXELS
-        return self.work.get(
-            free.sampled_motion,
-            self.body,
-            self.omega,
-            gamma,
-            self.span,
-            (radius / self.half_width, radius),
-            self.level,
+        return self.work.need(
+            Task(
+                free.sampled_motion,
+                self.body,
+                self.omega,
+                gamma,
+                self.span,
+                (radius / self.half_width, radius),
+                self.level,
+            )
         )
 
     @cached_property
@@ -175,7 +178,9 @@ class FreeSuslov(State):
     def second(self) -> free.FreeMotion:
         """The second orbit."""
         return self._motion(
-            self.work.get(free.turned_along_circle, self.body, self.omega, self.gamma, self.phi2 - self.phi, self.level)
+            self.work.need(
+                Task(free.turned_along_circle, self.body, self.omega, self.gamma, self.phi2 - self.phi, self.level)
+            )
         )
 
     @cached_property

@@ -9,6 +9,7 @@ from functools import cached_property
 
 import numpy as np
 
+from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.charted import Charts, of_torus
 from hess_explorer.scenes.framework.hess_case import BY_THE_UNSTABLE_CYCLE, PHI0, RIS, UNSURE, HeavyHess, reduced_motion
 from hess_explorer.scenes.framework.parameters import Slider, accuracy_level, number, parameter
@@ -92,7 +93,7 @@ class HessLeak(State):
     @cached_property
     def map(self) -> CircleMap:
         """The circle map, with the multipliers of the cycles."""
-        return self.work.get(circle_map, self.bridge.hess.a, self.hess.turning.h, self.hess.turning.f, REFERENCE)
+        return self.work.need(Task(circle_map, self.bridge.hess.a, self.hess.turning.h, self.hess.turning.f, REFERENCE))
 
     @property
     def period(self) -> float:
@@ -107,12 +108,14 @@ class HessLeak(State):
     def exact(self) -> Orbit:
         """The motion of the reduced system, in units b = 1."""
         start = tuple(self.hess.turning.state_at_lower_turn(self.phi0).tolist())
-        return self.work.get(
-            mechanics.exact_motion,
-            self.bridge.hess.a,
-            start,
-            self._periods * self.map.period,
-            self._periods * _IN_A_PERIOD + 1,
+        return self.work.need(
+            Task(
+                mechanics.exact_motion,
+                self.bridge.hess.a,
+                start,
+                self._periods * self.map.period,
+                self._periods * _IN_A_PERIOD + 1,
+            )
         )
 
     @cached_property
@@ -126,7 +129,7 @@ class HessLeak(State):
         end = float(self.exact.times[-1]) / self.bridge.hess.frequency_unit
         asked = (self.bridge.heavy, tuple(self.states[0].tolist()), end, self.exact.times.size)
         runs = {
-            name: self.work.get(mechanics.run_free, *asked, rung)
+            name: self.work.need(Task(mechanics.run_free, *asked, rung))
             for name, rung in (("own", level(self.work.chosen)), ("reference", REFERENCE))
         }
         return {name: mechanics.Leak(self.bridge, run, self.exact, _IN_A_PERIOD) for name, run in runs.items()}

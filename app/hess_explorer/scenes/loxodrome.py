@@ -9,6 +9,7 @@ from functools import cached_property
 
 import numpy as np
 
+from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.charted import Charts, of_torus
 from hess_explorer.scenes.framework.inertia import limits_of_moments
 from hess_explorer.scenes.framework.parameters import Slider, accuracy_level, parameter, time_span
@@ -82,7 +83,7 @@ class Loxodrome(State):
     @cached_property
     def found(self) -> LoxodromicMotion:
         """The motion, the source of all pictures."""
-        return self.work.get(loxodromic_motion, self.pendulum, self.span, self.level)
+        return self.work.need(Task(loxodromic_motion, self.pendulum, self.span, self.level))
 
     def motion(self) -> Motion:
         """Return the reduced motion in units b = 1."""

@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.charted import Charts, of_torus
 from hess_explorer.scenes.framework.hess_case import map_or_none, possible_f
 from hess_explorer.scenes.framework.parameters import accuracy_level, choice, number, parameter, places
@@ -151,13 +152,19 @@ class RotationNumber(State):
         plan = self.plan(Kind.GRID)
         fine = plan.grid(_FINE)
         parts = [
-            self.work.later(mechanics.rows, *common, fine, first, min(first + _ROWS, fine[1]), plan.level)
+            (
+                None
+                if self.work.dragging
+                else self.work.need(
+                    Task(mechanics.rows, *common, fine, first, min(first + _ROWS, fine[1]), plan.level), preview=None
+                )
+            )
             for first in range(0, fine[1], _ROWS)
         ]
         known = [part for part in parts if part is not None]
         if len(known) == len(parts):
             return mechanics.together(known), fine
-        return self.work.get(mechanics.rows, *common, _COARSE, 0, _COARSE[1], plan.level), _COARSE
+        return self.work.need(Task(mechanics.rows, *common, _COARSE, 0, _COARSE[1], plan.level)), _COARSE
 
     @cached_property
     def grids(self) -> tuple[CellGrid, CellGrid]:
@@ -171,7 +178,11 @@ class RotationNumber(State):
     @cached_property
     def boundary(self) -> list[Array]:
         """Return |t| = 2 in the map, once known."""
-        found = self.work.later(mechanics.lock_curve, *self.lock(self.plan(Kind.CURVE)))
+        found = (
+            None
+            if self.work.dragging
+            else self.work.need(Task(mechanics.lock_curve, *self.lock(self.plan(Kind.CURVE))), preview=None)
+        )
         if found is None or not len(found):
             return []
         return [found, found * np.array([1.0, -1.0])] if self.sides[1] == "f" else [found]
@@ -191,14 +202,26 @@ class RotationNumber(State):
     @cached_property
     def along(self) -> TorusValues:
         """ρ and trace at `x`."""
-        return self.work.get(mechanics.along, self.on_line, self.x.size, self.plan(Kind.LINE).level)
+        return self.work.need(Task(mechanics.along, self.on_line, self.x.size, self.plan(Kind.LINE).level))
 
     @cached_property
     def perturbed(self) -> Array | None:
         """ρ of the other family at `x`, once known; NaN where there is no torus."""
         plan = self.plan(Kind.LINE)
-        return self.work.later(
-            mechanics.perturbed_along, self.on_line, self.x.size, self.epsilon, plan.level, plan.part(mechanics.TURNS)
+        return (
+            None
+            if self.work.dragging
+            else self.work.need(
+                Task(
+                    mechanics.perturbed_along,
+                    self.on_line,
+                    self.x.size,
+                    self.epsilon,
+                    plan.level,
+                    plan.part(mechanics.TURNS),
+                ),
+                preview=None,
+            )
         )
 
     @property
@@ -210,7 +233,7 @@ class RotationNumber(State):
     @cached_property
     def periodic(self) -> PeriodicTorus | None:
         """The torus on the line with the rational ρ; None if there is none or it is not known yet."""
-        found = self.work.later(_periodic, self.sought, self.on_line)
+        found = None if self.work.dragging else self.work.need(Task(_periodic, self.sought, self.on_line), preview=None)
         return None if found is None else found[0]
 
     @cached_property
@@ -272,7 +295,13 @@ class RotationNumber(State):
         if self.known("grid"):
             m, n = self.grid[1]
             level = self.plan(Kind.GRID).level
-            error = self.work.later(mechanics.rows_error, self.over, self.beside, self.window, level)
+            error = (
+                None
+                if self.work.dragging
+                else self.work.need(
+                    Task(mechanics.rows_error, self.over, self.beside, self.window, level), preview=None
+                )
+            )
             yield f"map {m} × {n}" + (f", ρ to {error:.1e} (99 of 100 cells)" if error is not None else "")
         if self.map is not None:
             yield f"{self.map.level}: circle map error ≤ {self.map.error_estimate:.1e} ({self.map.status})"

@@ -9,6 +9,7 @@ from functools import cached_property
 
 import numpy as np
 
+from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework import free_body
 from hess_explorer.scenes.framework.charted import Charted, Charts, tensor_of
 from hess_explorer.scenes.framework.circle_left import CIRCLES, DIGITS, PHI, sphere
@@ -110,12 +111,12 @@ class Scattering(State):
     @cached_property
     def map(self) -> model.Scattering:
         """The rotation from the start on show."""
-        return self.work.get(model.scattering, self.body, self.level, 1, self.distance)
+        return self.work.need(Task(model.scattering, self.body, self.level, 1, self.distance))
 
     @cached_property
     def limit(self) -> model.Scattering:
         """The rotation for δ → 0."""
-        return self.work.get(model.scattering, self.body, self.level)
+        return self.work.need(Task(model.scattering, self.body, self.level))
 
     @cached_property
     def curve(self) -> Array:
@@ -130,7 +131,7 @@ class Scattering(State):
     @cached_property
     def orbit(self) -> FreeMotion:
         """The orbit on show."""
-        return self.work.get(sampled_motion, self.body, *self.start, self.span, (1.0, _RADIUS), self.level)
+        return self.work.need(Task(sampled_motion, self.body, *self.start, self.span, (1.0, _RADIUS), self.level))
 
     @property
     def k_axis(self) -> tuple[int, int]:
@@ -140,7 +141,7 @@ class Scattering(State):
     @cached_property
     def orders(self) -> Array:
         """The curve (k, cos χ) in rows."""
-        return self.work.get(model.cos_chi_over, *self.k_axis, self.I22, self.I13, self.I23)
+        return self.work.need(Task(model.cos_chi_over, *self.k_axis, self.I22, self.I13, self.I23))
 
     def motion(self) -> Motion:
         """Return the orbit as a motion of the general system."""
@@ -157,7 +158,7 @@ class Scattering(State):
     def grid(self) -> Array:
         """Return θ⁺ over all circles and phases."""
         cells = _FEW_CELLS if self.dragging else self.plan(Kind.MAP).grid(_CELLS)
-        return self.work.get(model.theta_plus_grid, self.map, *cells)
+        return self.work.need(Task(model.theta_plus_grid, self.map, *cells))
 
     # ---- words --------------------------------------------------------------------------------------------------
 

@@ -111,12 +111,12 @@ class SuslovHess(State):
     def locked(self) -> Array:
         """The boundary of the lock zone, |t| = 2, (n, 2)."""
         plan = self.plan(Kind.CURVE, steady=True)
-        return self.work.get(lock_boundary, self.body.a, plan.level, plan.side(_ON_BOUNDARY))
+        return self.work.need(Task(lock_boundary, self.body.a, plan.level, plan.side(_ON_BOUNDARY)))
 
     @cached_property
     def edge(self) -> Array:
         """The bifurcation curve within the diagram, (n, 2)."""
-        return self.work.get(curve, diagram.window(self.h).x[1])
+        return self.work.need(Task(curve, diagram.window(self.h).x[1]))
 
     @cached_property
     def half_width(self) -> float:
@@ -162,7 +162,7 @@ class SuslovHess(State):
         if reason or self.map is None:
             return None, reason
         try:
-            return self.work.get(density_on_torus, self.map, self.level), ""
+            return self.work.need(Task(density_on_torus, self.map, self.level)), ""
         except InvalidParameter as error:
             return None, str(error)
 
@@ -189,7 +189,7 @@ class SuslovHess(State):
             return None
         if not has_flint():
             return Proved("", "Proofs need python-flint: pip install 'hess-explorer[prove]'")
-        return self.work.later(proved, self.I22, self.I23, self.h, self.f)
+        return self.work.need(Task(proved, self.I22, self.I23, self.h, self.f), preview=None)
 
     # ---- what the pictures show --------------------------------------------------------------------------------
 

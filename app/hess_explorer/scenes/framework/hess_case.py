@@ -10,6 +10,7 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
+from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.parameters import Values
 from hess_explorer.scenes.framework.inertia import limits_of_moments
 from hess_explorer.scenes.framework.parameters import ONE_TURN, Slider, slider_within
@@ -122,7 +123,7 @@ def possible_I23(I22: float, I23: float, notes: list[str]) -> float:
 def map_or_none(work: Work, a: float, h: float, f: float, level: Level) -> CircleMap | None:
     """Return the circle map of a torus in units b = 1; None on the separatrix."""
     try:
-        return work.get(circle_map, a, h, f, level)
+        return work.need(Task(circle_map, a, h, f, level))
     except Separatrix:
         return None
 
@@ -133,7 +134,7 @@ def limit_cycles(
     """Return the stable and the unstable limit cycle on the torus of a circle map, see `torus.cycles`; None without."""
     if theta is None or theta.kind != "hyperbolic":
         return None
-    return work.get(cycles, hess, theta.h, theta.f, theta.fixed_points[0], level, half_width)
+    return work.need(Task(cycles, hess, theta.h, theta.f, theta.fixed_points[0], level, half_width))
 
 
 @dataclass(frozen=True)

@@ -10,6 +10,7 @@ from typing import Any, TypeVar
 
 import numpy as np
 
+from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.scene import State
 from hess_explorer.scenes.framework.work import Work
 from hess_explorer.views import theme
@@ -115,7 +116,7 @@ def constrained_solid(work: Work, body: Body, orbit: Orbit | FreeMotion) -> Soli
     omega, gamma = (
         (orbit.omega, orbit.gamma) if isinstance(orbit, FreeMotion) else (orbit.states[:, :2], orbit.states[:, 2:])
     )
-    shape, about_shape = ellipsoid_of_inertia((I11, I22, I13, I23), work.get(check_body, I11, I22, I13, I23))
+    shape, about_shape = ellipsoid_of_inertia((I11, I22, I13, I23), work.need(Task(check_body, I11, I22, I13, I23)))
     return Solid(orbit.times, omega, gamma, centre_of_mass((b1, b2, b3)), shape, about_shape)
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from types import EllipsisType
 from typing import Any, ParamSpec, TypeVar, cast, overload
@@ -97,14 +97,6 @@ class Work:
             if known is None:
                 self._todo.append(task)
         return self.need(preview) if known is None and isinstance(preview, Task) else cast("T | None", known)
-
-    def get(self, function: Callable[P, T], *arguments: P.args, **none: P.kwargs) -> T:
-        """Return function(*arguments), from the cache if it is known."""
-        return self.need(Task(function, *arguments, **none))
-
-    def later(self, function: Callable[P, T], *arguments: P.args, **none: P.kwargs) -> T | None:
-        """Return the result of a background computation; None until it is known and while a slider is held."""
-        return None if self.dragging else self.need(Task(function, *arguments, **none), preview=None)
 
     def newest(self, chains: Sequence[Sequence[Task[T]]], last: bool = False) -> list[T | None]:
         """Return the last cached result of each chain of tasks, or None, and add the tasks after it to `todo`.

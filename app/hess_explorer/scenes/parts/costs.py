@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.scene import State
 from hess_explorer.scenes.framework.trial import Refused, Trial, measured
 from hess_explorer.scenes.framework.work import Work
@@ -43,7 +44,10 @@ class Costs:
     @cached_property
     def found(self) -> dict[Trial[Any], tuple[LevelCost, ...] | Refused | None]:
         """The samples of each trial, one per level, or the reason why there are none; None until known."""
-        return {trial: self.work.later(measured, trial, self.shown) for trial in self.trials}
+        return {
+            trial: (None if self.work.dragging else self.work.need(Task(measured, trial, self.shown), preview=None))
+            for trial in self.trials
+        }
 
     @cached_property
     def samples(self) -> dict[Trial[Any], tuple[LevelCost, ...]]:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Protocol
 
+from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.hess_case import HeavyHess, limit_cycles, map_or_none
 from hess_explorer.scenes.framework.parameters import choice
 from hess_explorer.scenes.framework.part import Host, Part
@@ -130,7 +131,7 @@ class HessSurface(Part[OnTorus]):
         if map_ is None or torus_density.reason_for_no_density(map_, self.host.turning):
             return None, "No density."
         try:
-            return self.work.get(density_along, map_, POINTS, self.host.level), ""
+            return self.work.need(Task(density_along, map_, POINTS, self.host.level)), ""
         except InvalidParameter as error:
             return None, str(error)
 

@@ -9,6 +9,7 @@ from functools import cached_property
 
 import numpy as np
 
+from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.scene import Motion
 from hess_explorer.scenes.framework.work import Work
 from hess_explorer.views.caption import Caption
@@ -47,14 +48,14 @@ class Precision:
         others = (
             ()
             if self.work.dragging or mechanics.others_take_long(*self.followed.named)
-            else self.work.get(mechanics.measure_others, *self.followed.named, SAMPLES)
+            else self.work.need(Task(mechanics.measure_others, *self.followed.named, SAMPLES))
         )
-        return self.work.get(mechanics.measure_levels, *self.followed.named, SAMPLES) + others
+        return self.work.need(Task(mechanics.measure_levels, *self.followed.named, SAMPLES)) + others
 
     @cached_property
     def growing(self) -> mechanics.ErrorGrowth:
         """Errors and drifts over time."""
-        return self.work.get(mechanics.growth, *self.followed.named, self.followed.weights, SAMPLES)
+        return self.work.need(Task(mechanics.growth, *self.followed.named, self.followed.weights, SAMPLES))
 
     @cached_property
     def times(self) -> Array:

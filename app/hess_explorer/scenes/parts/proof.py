@@ -68,7 +68,7 @@ class Proof(Part[_Host]):
             return None
         if not has_flint():
             return ProvedError("proofs need python-flint: pip install 'hess-explorer[prove]'")
-        return self.work.later(judged, self.host.finding, self.host.motion(), self.units)
+        return self.work.need(Task(judged, self.host.finding, self.host.motion(), self.units), preview=None)
 
     @property
     def band(self) -> list[list[Array]]:

@@ -9,6 +9,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
+from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.orbit_batches import in_batches
 from hess_explorer.scenes.framework.part import Host, Part
 from hess_explorer.scenes.framework.trial import Trial
@@ -79,7 +80,7 @@ class RotationAcross(Part[_Host]):
         """The known orbits with the positions of their starts along the line, and whether they are complete."""
         plan = self.work.plan(Kind.ROTATION)
         count, crossings = _HELD[:2] if self.work.dragging else (plan.side(_ACROSS), self._crossings_on_line(plan))
-        starts = self.work.get(on_line, self.host.poincare, self.ends, count)
+        starts = self.work.need(Task(on_line, self.host.poincare, self.ends, count))
         found: list[tuple[float, Array]] = []
         for some in in_batches(starts):
             task = self.section.batch(tuple(state for _, state in some), True, crossings, plan.level)
