@@ -26,7 +26,7 @@ if __name__ == "__main__":
 from tornado.httpclient import AsyncHTTPClient
 
 from hess_explorer.headless.screenshot import server_process
-from hess_explorer.protocol.parameters import Number
+from hess_explorer.protocol.specs import Number
 from hess_explorer.scenes import scenes
 from support.measured import write_measured
 from support.processes import memory, worked

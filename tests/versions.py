@@ -27,7 +27,7 @@ AGES = {"oldest": "lowest-direct", "newest": "highest"}
 
 async def _scenes(base):
     """Return the number of scenes that open and answer."""
-    from hess_explorer.protocol.parameters import Number
+    from hess_explorer.protocol.specs import Number
     from hess_explorer.scenes import scenes
     from support.visitor import Visitor
 

@@ -1,7 +1,7 @@
+from .chaplygin_ball.ball_scattering import BallScattering, ball_scattering
 from .chaplygin_ball.energy_surface import Strip
 from .chaplygin_ball.equations import BallBody
 from .chaplygin_ball.integrable_cases import period
-from .chaplygin_ball.scattering import BallScattering, ball_scattering
 from .computations import (
     cloud,
     rotation_along_line,
@@ -16,9 +16,9 @@ from .dynamics.megno_map import MegnoMap, megno_map
 from .dynamics.orbit import solve
 from .dynamics.orbit_diagram import Cascade, Diagram, Hysteresis
 from .dynamics.periodic import PeriodicOrbit
+from .dynamics.plane_section import Plane, SectionPoints, section, section_points, sections
 from .dynamics.regime import Dynamics, Regime, dynamics_of, regime
 from .dynamics.return_map import ReturnMap
-from .dynamics.section import Plane, SectionPoints, section, section_points, sections
 from .dynamics.spectrum import Spectrum, lyapunov_spectrum
 from .dynamics.system import Body, ParametrizedSystem, System, systems
 from .dynamics.tube import ProvedOrbit, Tube, proved_error, proved_orbit, right_until, tube

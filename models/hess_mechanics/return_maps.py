@@ -13,8 +13,8 @@ from functools import partial
 
 import numpy as np
 
+from hess_mechanics.chaplygin_ball.ball_section import BallSection
 from hess_mechanics.chaplygin_ball.equations import BallBody
-from hess_mechanics.chaplygin_ball.section import BallSection
 from hess_mechanics.dynamics.attraction import arrivals
 from hess_mechanics.dynamics.basins import Contraction, SectionOrbits, attractors
 from hess_mechanics.dynamics.cells import Window, centres, evenly
@@ -35,9 +35,9 @@ from hess_mechanics.numerics.parallel import share
 from hess_mechanics.numerics.results import Array, angle_facts, frozen
 from hess_mechanics.suslov.equations import SuslovBody
 from hess_mechanics.suslov.quartic import QuarticBody, QuarticSection
-from hess_mechanics.suslov.section import SuslovSection, require_reached
+from hess_mechanics.suslov.suslov_section import SuslovSection, require_reached
 from hess_mechanics.suslov_hess.equations import HessBody
-from hess_mechanics.suslov_hess.section import TorusSection
+from hess_mechanics.suslov_hess.torus_section import TorusSection
 
 __all__ = [
     "Basins",

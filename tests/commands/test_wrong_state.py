@@ -8,7 +8,7 @@ import hess_explorer as hess
 from hess_explorer.__main__ import main
 from hess_explorer.export.picture_data import address
 from hess_explorer.page.opening import opening
-from hess_explorer.protocol.parameters import (
+from hess_explorer.protocol.specs import (
     PAGE_KEYS,
     Link,
     encode,

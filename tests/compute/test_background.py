@@ -13,7 +13,7 @@ from hess_explorer.compute.background import Background
 from hess_explorer.compute.cache import ResultCache, Task
 from hess_explorer.page.connection import Connection
 from hess_explorer.page.session import Session
-from hess_explorer.protocol.parameters import MAX_QUERY, decode, encode, places, written
+from hess_explorer.protocol.specs import MAX_QUERY, decode, encode, places, written
 from hess_explorer.scenes import euler_poisson
 from hess_explorer.scenes.framework.scene import Scene
 from hess_explorer.scenes.framework.work import Work

@@ -9,7 +9,7 @@ from hess_explorer.export.code import code
 from hess_explorer.export.columns import columns_of
 from hess_explorer.export.notebook import notebook
 from hess_explorer.export.picture_data import address, picture_data
-from hess_explorer.protocol.parameters import encode
+from hess_explorer.protocol.specs import encode
 from hess_explorer.scenes import scenes
 from support.thorough import sample
 

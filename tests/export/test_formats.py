@@ -13,7 +13,7 @@ from hess_explorer.export.formats import FileRequest
 from hess_explorer.export.picture_data import address, picture_data
 from hess_explorer.export.table import as_csv, as_json
 from hess_explorer.headless.file import content
-from hess_explorer.protocol.parameters import encode
+from hess_explorer.protocol.specs import encode
 from hess_explorer.scenes import scenes
 from support.exported import read
 from support.thorough import sample

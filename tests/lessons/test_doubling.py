@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from hess_explorer.lessons import shipped
-from hess_explorer.protocol.parameters import places
+from hess_explorer.protocol.specs import places
 from hess_explorer.scenes import scenes
 from hess_mechanics import lyapunov_spectrum
-from hess_mechanics.suslov.section import SuslovSection
+from hess_mechanics.suslov.suslov_section import SuslovSection
 from support.deviations import deviations
 from support.diagrams import nearest
 from support.diagrams import settled as many

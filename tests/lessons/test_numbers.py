@@ -10,8 +10,8 @@ from hess_explorer.lessons.lesson import LessonStep, StateLink
 from hess_explorer.lessons.reading import without_tries
 from hess_explorer.scenes import scenes
 from hess_mechanics import circle_map, level
+from hess_mechanics.chaplygin_ball.ball_scattering import ball_scattering
 from hess_mechanics.chaplygin_ball.equations import BallBody
-from hess_mechanics.chaplygin_ball.scattering import ball_scattering
 from support import lesson_on_constraints, lesson_on_doubling, lesson_on_evidence, lessons_on_tori, scene_texts
 from support.numbers import mistakes, places
 

@@ -21,7 +21,7 @@ from hess_mechanics.dynamics.lyapunov import lyapunov_exponent
 from hess_mechanics.dynamics.shadowing import away_from, errors_in_pixels, right_crossings, typical
 from hess_mechanics.numerics.accuracy import PLANS, REFERENCE, STANDARD, Kind
 from hess_mechanics.suslov.equations import SYSTEM, SuslovBody
-from hess_mechanics.suslov.section import SuslovSection
+from hess_mechanics.suslov.suslov_section import SuslovSection
 from hess_mechanics.suslov_hess.mode_locking import lock_boundary
 from hess_mechanics.suslov_hess.rotation_number import Torus, rotation_errors, rows, rows_error, values_at
 from support.deviations import deviations

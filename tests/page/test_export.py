@@ -18,7 +18,7 @@ from hess_explorer.export.notebook import notebook
 from hess_explorer.export.picture_data import address, picture_data
 from hess_explorer.export.table import as_csv
 from hess_explorer.headless.drawing import png_of
-from hess_explorer.protocol.parameters import MAX_QUERY
+from hess_explorer.protocol.specs import MAX_QUERY
 from support.accessible import assert_accessible
 from support.command_line import typed
 from support.films import frames_of, tags_of

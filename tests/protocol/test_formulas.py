@@ -6,7 +6,7 @@ import numpy as np
 from pytest import approx, mark, raises
 
 from hess_explorer.protocol.formulas import MOST, drive, polynomial
-from hess_explorer.protocol.parameters import Formula
+from hess_explorer.protocol.specs import Formula
 from hess_mechanics.errors import InvalidParameter
 
 PIECES = [

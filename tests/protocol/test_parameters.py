@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from mpmath import mp, mpf
 
 from hess_explorer.page.opening import THEME, opening, query_of
-from hess_explorer.protocol.parameters import (
+from hess_explorer.protocol.specs import (
     CLIENT,
     MAX_QUERY,
     VERSION,

@@ -10,7 +10,7 @@ from hess_explorer.commands.serve import _shown
 from hess_explorer.compute.cells import Outcome
 from hess_explorer.export.picture_data import complete, picture_data
 from hess_explorer.page.requested import RequestedState
-from hess_explorer.protocol.parameters import decode, encode
+from hess_explorer.protocol.specs import decode, encode
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.cells import COARSE
 from hess_explorer.scenes.framework.chart_cells import STORED

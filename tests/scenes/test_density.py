@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 from pytest import approx
 
-from hess_explorer.protocol.parameters import places
+from hess_explorer.protocol.specs import places
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework import points
 from hess_explorer.scenes.parts.sections import density
-from hess_explorer.views.density import tones
+from hess_explorer.views.plane.density import tones
 from hess_mechanics import section
 from hess_mechanics.dynamics.section_density import visits
 from support.deviations import deviations, mean_of

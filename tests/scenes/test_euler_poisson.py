@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from pytest import approx
 
-from hess_explorer.protocol.parameters import places
+from hess_explorer.protocol.specs import places
 from hess_explorer.scenes.framework.periodic_search import NONE
 from hess_mechanics import circle_map, f_max, level, lyapunov_spectrum
 from hess_mechanics.dynamics.birkhoff import rotation_number

@@ -18,8 +18,8 @@ from hess_explorer.assets import STATIC
 from hess_explorer.compute.background import Background
 from hess_explorer.compute.cache import CACHE
 from hess_explorer.page import session
-from hess_explorer.protocol.parameters import Choice, Formula, Number, Places, written
-from hess_explorer.scenes.parts import precision
+from hess_explorer.protocol.specs import Choice, Formula, Number, Places, written
+from hess_explorer.scenes.parts.orbits import precision
 from hess_explorer.views import theme
 from hess_explorer.views.layers import Axes
 from hess_explorer.views.text import with_formulas

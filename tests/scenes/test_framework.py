@@ -7,8 +7,8 @@ from functools import cached_property
 import numpy as np
 import pytest
 
-from hess_explorer.scenes.framework.parameters import accuracy_level, like, number, specs_of
 from hess_explorer.scenes.framework.scene import Motion, Scene, State
+from hess_explorer.scenes.framework.sliders import accuracy_level, like, number, specs_of
 from hess_explorer.scenes.speed_accuracy import speed_and_accuracy
 from hess_mechanics import systems
 from hess_mechanics.euler_poisson.equations import HeavyBody

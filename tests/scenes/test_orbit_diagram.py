@@ -12,7 +12,7 @@ from hess_explorer.scenes import scenes
 from hess_explorer.views.text import digits
 from hess_mechanics import check_body, lyapunov_spectrum
 from hess_mechanics.dynamics.point_sets import set_distance
-from hess_mechanics.suslov.section import SuslovSection
+from hess_mechanics.suslov.suslov_section import SuslovSection
 from support.deviations import deviations
 from support.diagrams import crossings, settled
 from support.suslov import field

@@ -11,7 +11,7 @@ from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework import periodic_search
 from hess_explorer.scenes.framework.periodic_search import NONE
 from hess_explorer.views.layers import Axes
-from hess_explorer.views.periodic import within
+from hess_explorer.views.plane.periodic import within
 from hess_mechanics.dynamics.periodic import apart
 from support.ball import returned as ball_returned
 from support.view import View, values_of

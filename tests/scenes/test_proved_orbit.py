@@ -11,7 +11,7 @@ import pytest
 import oracle
 from hess_explorer.compute.cache import Task
 from hess_explorer.scenes import scenes
-from hess_explorer.scenes.parts.proof import judged
+from hess_explorer.scenes.parts.orbits.proof import judged
 from hess_mechanics import circle_map, level
 from hess_mechanics.suslov_hess.equations import SYSTEM
 from support.thorough import sample

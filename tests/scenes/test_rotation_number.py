@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from pytest import approx
 
-from hess_explorer.protocol.parameters import decode
+from hess_explorer.protocol.specs import decode
 from hess_explorer.scenes import scenes
 from hess_mechanics import circle_map, f_max
 from hess_mechanics.numerics.accuracy import REFERENCE

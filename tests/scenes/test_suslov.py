@@ -10,12 +10,12 @@ import numpy as np
 import pytest
 from pytest import approx
 
-from hess_explorer.protocol.parameters import places
+from hess_explorer.protocol.specs import places
 from hess_explorer.scenes import scenes
-from hess_explorer.views.section_plane import joined
+from hess_explorer.views.plane.section_plane import joined
 from hess_mechanics import SuslovBody, lyapunov_spectrum
 from hess_mechanics.dynamics.basins import contraction
-from hess_mechanics.dynamics.section import occupied_cells
+from hess_mechanics.dynamics.plane_section import occupied_cells
 from support.deviations import deviations
 from support.free_suslov import shown
 from support.moved import from_moved_starts

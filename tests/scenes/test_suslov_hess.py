@@ -12,7 +12,7 @@ from pytest import approx
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.hess_case import proved
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.circle_map import EVENLY, about
+from hess_explorer.views.maps.circle_map import EVENLY, about
 from hess_mechanics import circle_map, f_max
 from hess_mechanics.numerics.accuracy import REFERENCE
 from hess_mechanics.suslov_hess.bifurcation import curve_point

@@ -14,7 +14,7 @@ from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.stage import Stage
 from hess_explorer.scenes.framework.trial import Trial, bare, measured, needed, section_error
 from hess_explorer.scenes.framework.work import AUTO
-from hess_explorer.scenes.parts.costs import Costs
+from hess_explorer.scenes.parts.orbits.costs import Costs
 from hess_mechanics.dynamics.trade import LevelCost, beyond
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.accuracy import LEVELS, PLANS, Kind

@@ -7,7 +7,7 @@ import pytest
 from tornado.httpclient import AsyncHTTPClient, HTTPClientError
 from tornado.websocket import WebSocketClosedError
 
-from hess_explorer.protocol.parameters import MAX_QUERY
+from hess_explorer.protocol.specs import MAX_QUERY
 from hess_explorer.server import limits
 from hess_explorer.server.export import Export
 from hess_explorer.server.headers import QUERY_LIMIT

@@ -10,7 +10,7 @@ from tornado.websocket import WebSocketClosedError
 
 from hess_explorer.lessons import shipped
 from hess_explorer.protocol.messages import ALIVE
-from hess_explorer.protocol.parameters import encode
+from hess_explorer.protocol.specs import encode
 from hess_explorer.rooms import room
 from hess_explorer.scenes import scenes
 from hess_explorer.server.room_socket import Outbox

@@ -11,7 +11,7 @@ from hess_explorer.lessons import shipped
 from hess_explorer.page.descriptions import describe
 from hess_explorer.page.session import Session
 from hess_explorer.protocol.messages import Request, parse
-from hess_explorer.protocol.parameters import Formula, Number, Places, decode
+from hess_explorer.protocol.specs import Formula, Number, Places, decode
 from hess_explorer.protocol.wire import Wire
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.stage import Stage

@@ -1,6 +1,6 @@
 """The scene of the Euler–Poisson sections with all its computations."""
 
-from hess_explorer.protocol.parameters import places
+from hess_explorer.protocol.specs import places
 from hess_explorer.scenes import scenes
 from hess_mechanics.euler_poisson.andoyer import AndoyerSection
 from support.view import View

@@ -22,7 +22,7 @@ from hess_explorer.commands.compute import command_of
 from hess_explorer.commands.output import PATIENCE
 from hess_explorer.compute.budget import limited
 from hess_explorer.page.requested import linked
-from hess_explorer.protocol.parameters import CLIENT, Choice, Formula, Link, Number, Places, written
+from hess_explorer.protocol.specs import CLIENT, Choice, Formula, Link, Number, Places, written
 from hess_explorer.scenes import scenes
 from hess_mechanics.catalogue import catalogue
 from hess_mechanics.numerics.jit import seconds_compiling

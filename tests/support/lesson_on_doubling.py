@@ -7,7 +7,7 @@ from functools import cache
 import numpy as np
 
 from hess_explorer.lessons import shipped
-from hess_explorer.protocol.parameters import places
+from hess_explorer.protocol.specs import places
 from hess_explorer.scenes import scenes
 from hess_mechanics import level, lyapunov_spectrum, period_doublings, periodic_orbit, return_map
 from hess_mechanics.dynamics.parameter_diagram import doublings, sets_of

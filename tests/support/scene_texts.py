@@ -10,7 +10,7 @@ from hess_explorer.protocol import formulas
 from hess_explorer.scenes import ball_section, quartic, scenes
 from hess_explorer.scenes.framework import periodic_search, trial
 from hess_explorer.scenes.parts.sections import basins, density
-from hess_explorer.views import layered_section
+from hess_explorer.views.plane import layered_section
 from hess_mechanics import (
     LEVELS,
     ReturnMap,

@@ -3,7 +3,7 @@
 import numpy as np
 from pytest import approx
 
-from hess_explorer.protocol.parameters import Number, Places
+from hess_explorer.protocol.specs import Number, Places
 from hess_explorer.scenes import scenes
 from hess_mechanics import HessBody, solve, systems, turning_points
 

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from hess_explorer.scenes.framework import work
-from hess_explorer.views import section_plane
 from hess_explorer.views.layers import Axes
+from hess_explorer.views.plane import section_plane
 from hess_explorer.views.text import digits, ranging, with_error
 from hess_mechanics.parameters import plain
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from hess_explorer.views.layered_section import apart
+from hess_explorer.views.plane.layered_section import apart
 
 
 def drawn(points, x_range=(-3.0, 3.0), y_range=(-1.0, 1.0)):

@@ -86,7 +86,7 @@ def assigned(value: Callable[[str], T], example: str) -> Callable[[str], tuple[s
 
 def state_of(text: str) -> str:
     """Return the encoded query of a link, which may lack the part up to "?"."""
-    from hess_explorer.protocol.parameters import query_in
+    from hess_explorer.protocol.specs import query_in
 
     if len(text) > _MAX_STATE:
         raise argparse.ArgumentTypeError(f"the state has {len(text)} characters; at most {_MAX_STATE} are allowed")

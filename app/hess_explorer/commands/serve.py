@@ -121,7 +121,7 @@ def _shown(found: xr.Dataset, at: Mapping[str, float]) -> str:
     """
     import numpy as np
 
-    from hess_explorer.protocol.parameters import Number, encode
+    from hess_explorer.protocol.specs import Number, encode
     from hess_explorer.scenes import scenes
     from hess_explorer.scenes.framework.chart_cells import STORED
     from hess_mechanics.errors import InvalidParameter

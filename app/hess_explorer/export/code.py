@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from hess_explorer.export.picture_data import Address
-from hess_explorer.protocol.parameters import Number, Places, Spec, Value, places
+from hess_explorer.protocol.specs import Number, Places, Spec, Value, places
 
 __all__ = ["code", "lines_of"]
 

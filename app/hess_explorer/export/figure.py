@@ -16,10 +16,10 @@ import numpy as np
 from hess_explorer.export.formats import WIDTHS, holding
 from hess_explorer.export.picture_data import PictureData
 from hess_explorer.views import theme
-from hess_explorer.views.cloud import CloudPlane
 from hess_explorer.views.elements import as_it_is, on_paper, overlay
 from hess_explorer.views.layers import Layer
 from hess_explorer.views.plot import Plot
+from hess_explorer.views.space.cloud import CloudPlane
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.results import Array
 

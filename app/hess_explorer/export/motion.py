@@ -8,11 +8,11 @@ import numpy as np
 
 from hess_explorer.export.figure import densities
 from hess_explorer.export.picture_data import PictureData
-from hess_explorer.views.body import BodyInSpace
-from hess_explorer.views.cloud import CloudPlane
 from hess_explorer.views.plot import Plot
-from hess_explorer.views.poisson_sphere import Sphere
-from hess_explorer.views.torus_in_space import TorusInSpace
+from hess_explorer.views.space.body import BodyInSpace
+from hess_explorer.views.space.cloud import CloudPlane
+from hess_explorer.views.space.poisson_sphere import Sphere
+from hess_explorer.views.space.torus_in_space import TorusInSpace
 from hess_mechanics.numerics.results import Array
 
 __all__ = ["film_times", "loop_lines", "loop_times", "moves", "period"]

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from importlib.metadata import version
 from typing import Any, TypeVar
 
-from hess_explorer.protocol.parameters import CLIENT, Choice, Link, Value, Values, encode
+from hess_explorer.protocol.specs import CLIENT, Choice, Link, Value, Values, encode
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Scene
 from hess_explorer.views.layers import Axes, Columns

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Literal
 
-from hess_explorer.protocol.parameters import Values
+from hess_explorer.protocol.specs import Values
 
 __all__ = ["TIME", "Animation", "HiddenLayer", "Lesson", "LessonError", "LessonStep", "Prediction", "StateLink"]
 

@@ -19,7 +19,7 @@ from hess_explorer.lessons.lesson import (
     Prediction,
     StateLink,
 )
-from hess_explorer.protocol.parameters import Controlled, Link, Number, refusal
+from hess_explorer.protocol.specs import Controlled, Link, Number, refusal
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Scene
 from hess_explorer.views.layers import Layer

@@ -13,12 +13,12 @@ import numpy as np
 from hess_explorer.library.own_state import LevelState, OwnState
 from hess_explorer.protocol.expressions import NotANumber
 from hess_explorer.protocol.expressions import evaluate as number_of
-from hess_explorer.protocol.parameters import Value, written
+from hess_explorer.protocol.specs import Value, written
 from hess_explorer.scenes.framework.charted import Charts, of_motion
-from hess_explorer.scenes.framework.parameters import number, places
 from hess_explorer.scenes.framework.part import part
 from hess_explorer.scenes.framework.scene import Preset, Scene
-from hess_explorer.scenes.parts.exponent import exponent_picture
+from hess_explorer.scenes.framework.sliders import number, places
+from hess_explorer.scenes.parts.orbits.exponent import exponent_picture
 from hess_explorer.scenes.parts.sections import (
     Branch,
     branch_picture,
@@ -33,7 +33,7 @@ from hess_explorer.scenes.parts.sections import (
 )
 from hess_explorer.views.layers import Columns
 from hess_explorer.views.picture import Picture
-from hess_explorer.views.poisson_sphere import Sphere, gamma_columns
+from hess_explorer.views.space.poisson_sphere import Sphere, gamma_columns
 from hess_mechanics.catalogue import computations_of
 from hess_mechanics.dynamics.cells import evenly
 from hess_mechanics.dynamics.system import System

@@ -9,12 +9,12 @@ from typing import ClassVar
 import numpy as np
 
 from hess_explorer.compute.cache import Task
-from hess_explorer.protocol.parameters import Value, Values, written
-from hess_explorer.scenes.framework.parameters import accuracy_level, exponent_time, parameter, time_span
+from hess_explorer.protocol.specs import Value, Values, written
 from hess_explorer.scenes.framework.part import Start, part
 from hess_explorer.scenes.framework.periodic_search import Closed, NotPeriodic
 from hess_explorer.scenes.framework.scene import State
-from hess_explorer.scenes.parts.exponent import Exponent
+from hess_explorer.scenes.framework.sliders import accuracy_level, exponent_time, parameter, time_span
+from hess_explorer.scenes.parts.orbits.exponent import Exponent
 from hess_explorer.scenes.parts.sections import (
     MEGNO,
     Indicator,

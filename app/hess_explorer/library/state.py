@@ -18,7 +18,7 @@ from hess_explorer.export.code import code
 from hess_explorer.export.columns import Table, columns_of
 from hess_explorer.export.formats import FileRequest, holding
 from hess_explorer.export.picture_data import CLIENT_KEPT, Address, PictureData, address, compute, picture_of
-from hess_explorer.protocol.parameters import Number, Places, Spec, Value, query_in, refusal, written
+from hess_explorer.protocol.specs import Number, Places, Spec, Value, query_in, refusal, written
 from hess_explorer.scenes import scene_named, scenes
 from hess_explorer.scenes.framework.scene import Scene
 from hess_mechanics.errors import InvalidParameter

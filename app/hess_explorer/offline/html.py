@@ -17,7 +17,7 @@ from hess_explorer.assets import STATIC
 from hess_explorer.bundle import bundle
 from hess_explorer.offline.recording import Recording
 from hess_explorer.page.component import styles
-from hess_explorer.protocol.parameters import CLIENT
+from hess_explorer.protocol.specs import CLIENT
 
 __all__ = ["HOME", "document", "frame_size", "module_address"]
 

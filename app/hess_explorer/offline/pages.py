@@ -11,7 +11,7 @@ from hess_explorer.offline.html import HOME, document
 from hess_explorer.offline.plan import Family, Slider, across, family, read_slider, slider_of
 from hess_explorer.offline.recording import Recording, Report
 from hess_explorer.page.lesson_description import describe_lesson
-from hess_explorer.protocol.parameters import Values, encode
+from hess_explorer.protocol.specs import Values, encode
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.part import part
 from hess_explorer.scenes.framework.scene import Scene

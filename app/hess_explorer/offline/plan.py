@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from hess_explorer.page.controls import slider_limits
-from hess_explorer.protocol.parameters import Number, Values
+from hess_explorer.protocol.specs import Number, Values
 from hess_explorer.scenes.framework.scene import Scene
 from hess_mechanics.errors import InvalidParameter
 

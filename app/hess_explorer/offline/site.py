@@ -11,7 +11,7 @@ from hess_explorer.lessons import shipped
 from hess_explorer.offline.html import HOME
 from hess_explorer.offline.pages import COUNT, accumulates, lesson_page, state_page
 from hess_explorer.page.controls import slider_limits
-from hess_explorer.protocol.parameters import Number, Value, encode
+from hess_explorer.protocol.specs import Number, Value, encode
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Scene
 from hess_mechanics.errors import InvalidParameter

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from hess_explorer.protocol.parameters import Number, Values
+from hess_explorer.protocol.specs import Number, Values
 from hess_explorer.protocol.wire import Wire
 from hess_explorer.scenes.framework.scene import Scene
 

@@ -14,7 +14,7 @@ from hess_explorer.lessons import tries
 from hess_explorer.lessons.reading import without_tries
 from hess_explorer.page.glossary import explained
 from hess_explorer.page.lesson_description import steps
-from hess_explorer.protocol.parameters import Choice, Controlled, Number
+from hess_explorer.protocol.specs import Choice, Controlled, Number
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Scene
 from hess_explorer.views.plot import Plot

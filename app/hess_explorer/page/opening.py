@@ -10,7 +10,7 @@ from urllib.parse import urlencode
 from hess_explorer.lessons import shipped
 from hess_explorer.lessons.lesson import Lesson
 from hess_explorer.page.requested import linked
-from hess_explorer.protocol.parameters import CLIENT, Choice, Controlled, Link, Names, Number, Values
+from hess_explorer.protocol.specs import CLIENT, Choice, Controlled, Link, Names, Number, Values
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Scene
 

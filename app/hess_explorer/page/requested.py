@@ -6,7 +6,7 @@ import math
 from typing import Any
 
 from hess_explorer.lessons.lesson import StateLink
-from hess_explorer.protocol.parameters import Choice, Formula, Link, Number, Value, Values
+from hess_explorer.protocol.specs import Choice, Formula, Link, Number, Value, Values
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Scene
 

@@ -19,7 +19,7 @@ from hess_explorer.page.lesson_description import describe_lesson
 from hess_explorer.page.requested import RequestedState
 from hess_explorer.protocol.expressions import NotANumber, evaluate
 from hess_explorer.protocol.messages import Answer, PictureBox, PicturePoint, Request, StateAnswer, StepChoice
-from hess_explorer.protocol.parameters import Formula, Number, Places, Values, encode
+from hess_explorer.protocol.specs import Formula, Number, Places, Values, encode
 from hess_explorer.protocol.wire import Wire
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Report, Scene

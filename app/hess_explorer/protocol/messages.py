@@ -27,7 +27,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, TypeVar
 
-from hess_explorer.protocol.parameters import Value
+from hess_explorer.protocol.specs import Value
 
 __all__ = [
     "ALIVE",

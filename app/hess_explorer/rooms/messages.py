@@ -20,7 +20,7 @@ import re
 from dataclasses import dataclass
 from typing import Any
 
-from hess_explorer.protocol.parameters import MAX_QUERY
+from hess_explorer.protocol.specs import MAX_QUERY
 
 __all__ = ["CODE", "MOST_POINTS", "End", "Follow", "Guess", "Lead", "Message", "Open", "Show", "parse"]
 

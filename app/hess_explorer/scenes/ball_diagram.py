@@ -8,15 +8,15 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import ClassVar
 
-from hess_explorer.protocol.parameters import Value
+from hess_explorer.protocol.specs import Value
 from hess_explorer.scenes.diagrams import DiagramState, charts, pictures
 from hess_explorer.scenes.framework import ball_parameters as ball
-from hess_explorer.scenes.framework.parameters import like, parameter
 from hess_explorer.scenes.framework.scene import Preset, Scene
-from hess_explorer.scenes.parts.orbit_diagram import parameter_of_diagram
-from hess_explorer.views.velocity_plane import orbit_columns
+from hess_explorer.scenes.framework.sliders import like, parameter
+from hess_explorer.scenes.parts.diagrams.growing_diagram import parameter_of_diagram
+from hess_explorer.views.plane.velocity_plane import orbit_columns
+from hess_mechanics.chaplygin_ball.ball_section import BallSection
 from hess_mechanics.chaplygin_ball.equations import BallBody
-from hess_mechanics.chaplygin_ball.section import BallSection
 from hess_mechanics.parameters import H_BALL
 
 

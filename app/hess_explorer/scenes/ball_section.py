@@ -10,15 +10,15 @@ from functools import cached_property
 import numpy as np
 
 from hess_explorer.compute.cache import Task
-from hess_explorer.protocol.parameters import Values
+from hess_explorer.protocol.specs import Values
 from hess_explorer.scenes.framework import ball_parameters as ball
 from hess_explorer.scenes.framework.charted import Charts, of_motion
 from hess_explorer.scenes.framework.orbit_batches import OrbitBatch, batch_of
-from hess_explorer.scenes.framework.parameters import accuracy_level, choice, number, parameter, time_span
 from hess_explorer.scenes.framework.part import Start, part
 from hess_explorer.scenes.framework.scene import Preset, Scene
+from hess_explorer.scenes.framework.sliders import accuracy_level, choice, number, parameter, time_span
 from hess_explorer.scenes.framework.solid_body import Solid, constrained_solid, solid_body
-from hess_explorer.scenes.parts.proof import Proof, proved_error_shown
+from hess_explorer.scenes.parts.orbits.proof import Proof, proved_error_shown
 from hess_explorer.scenes.parts.sections import (
     Branch,
     Orbit,
@@ -38,20 +38,17 @@ from hess_explorer.scenes.parts.sections import (
     shown_in_section,
     which,
 )
-from hess_explorer.views import scattering_map as square
-from hess_explorer.views import section_plane
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.graph import ANGLE, ANGLE_TICKS
+from hess_explorer.views.graphs.graph import ANGLE, ANGLE_TICKS
 from hess_explorer.views.layers import Axes
+from hess_explorer.views.maps import scattering_map as square
+from hess_explorer.views.plane import section_plane
+from hess_explorer.views.plane.velocity_plane import orbit_alone, orbit_columns, pixels_per_unit, room_for
 from hess_explorer.views.plot import Plot
-from hess_explorer.views.poisson_sphere import Direction, along_the_orbit, centre_of_mass
+from hess_explorer.views.space.poisson_sphere import Direction, along_the_orbit, centre_of_mass
 from hess_explorer.views.text import digits, vector
-from hess_explorer.views.velocity_plane import orbit_alone, orbit_columns, pixels_per_unit, room_for
-from hess_mechanics.chaplygin_ball import section as mechanics
-from hess_mechanics.chaplygin_ball.energy_surface import lowest_energy
-from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody
-from hess_mechanics.chaplygin_ball.integrable_cases import area_integral, has_area_integral, is_reversible
-from hess_mechanics.chaplygin_ball.section import (
+from hess_mechanics.chaplygin_ball import ball_section as mechanics
+from hess_mechanics.chaplygin_ball.ball_section import (
     ball_section,
     fastest,
     forbidden_band,
@@ -59,7 +56,10 @@ from hess_mechanics.chaplygin_ball.section import (
     seeds,
     state_at,
 )
-from hess_mechanics.dynamics.section import occupied_cells
+from hess_mechanics.chaplygin_ball.energy_surface import lowest_energy
+from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody
+from hess_mechanics.chaplygin_ball.integrable_cases import area_integral, has_area_integral, is_reversible
+from hess_mechanics.dynamics.plane_section import occupied_cells
 from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.parameters import H_BALL

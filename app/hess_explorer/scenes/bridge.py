@@ -10,23 +10,24 @@ from functools import cached_property
 import numpy as np
 
 from hess_explorer.compute.cache import Task
-from hess_explorer.protocol.parameters import Values
+from hess_explorer.protocol.specs import Values
 from hess_explorer.scenes.framework import hess_case
 from hess_explorer.scenes.framework.charted import Charts, of_torus
 from hess_explorer.scenes.framework.hess_case import HeavyHess
-from hess_explorer.scenes.framework.parameters import Slider, accuracy_level, choice, number, parameter, slider_within
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
+from hess_explorer.scenes.framework.sliders import Slider, accuracy_level, choice, number, parameter, slider_within
 from hess_explorer.scenes.framework.solid_body import Solid, heavy_solid, hess_solid, solid_body
 from hess_explorer.scenes.framework.work import orbit_status
-from hess_explorer.views import andoyer, theme, torus_plane
-from hess_explorer.views import circle_map as circle
+from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.chart import LG_OF_0, lg, lg_axis
-from hess_explorer.views.graph import over_time
+from hess_explorer.views.graphs.chart import LG_OF_0, lg, lg_axis
+from hess_explorer.views.graphs.graph import over_time
 from hess_explorer.views.layers import Columns
+from hess_explorer.views.maps import circle_map as circle
+from hess_explorer.views.plane import andoyer, torus_plane
+from hess_explorer.views.plane.velocity_plane import nice_above, picture
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits, ranging
-from hess_explorer.views.velocity_plane import nice_above, picture
 from hess_mechanics import parameters as known
 from hess_mechanics.euler_poisson.andoyer import coordinates, hess_circle
 from hess_mechanics.euler_poisson.hess_isomorphism import Bridge, largest_distance, share_of

@@ -12,22 +12,22 @@ import numpy as np
 from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.charted import Charted, Charts, of_motion, tensor_of
 from hess_explorer.scenes.framework.circle_left import DIGITS, PHI, Gamma_picture, sphere
-from hess_explorer.scenes.framework.parameters import accuracy_level, parameter, time_span
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
+from hess_explorer.scenes.framework.sliders import accuracy_level, parameter, time_span
 from hess_explorer.scenes.framework.solid_body import Solid, constrained_solid, solid_body
 from hess_explorer.scenes.framework.trial import Trial, curve_error
 from hess_explorer.scenes.framework.work import orbit_status
-from hess_explorer.scenes.parts.proof import Proof, proved_error_shown
+from hess_explorer.scenes.parts.orbits.proof import Proof, proved_error_shown
 from hess_explorer.scenes.parts.sections import Orbit
-from hess_explorer.views import scattering_map as square
 from hess_explorer.views import theme
-from hess_explorer.views import velocity_plane as plane
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import arrows, curves, levels, names, region, ring
+from hess_explorer.views.maps import scattering_map as square
+from hess_explorer.views.plane import velocity_plane as plane
 from hess_explorer.views.text import digits as in_digits
 from hess_explorer.views.text import vector
 from hess_mechanics import parameters as known
-from hess_mechanics.chaplygin_ball import scattering as model
+from hess_mechanics.chaplygin_ball import ball_scattering as model
 from hess_mechanics.chaplygin_ball.energy_surface import Strip
 from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody
 from hess_mechanics.chaplygin_ball.strip_orbits import StripOrbit, largest_distance, strip_orbits

@@ -11,7 +11,7 @@ from typing import TypeVar
 import numpy as np
 
 from hess_explorer.compute.cache import Task
-from hess_explorer.protocol.parameters import Values, written
+from hess_explorer.protocol.specs import Values, written
 from hess_explorer.scenes.framework.charted import Charted, Charts, parameters_of
 from hess_explorer.scenes.framework.continuation import Continuation
 from hess_explorer.scenes.framework.part import Start, part
@@ -19,8 +19,8 @@ from hess_explorer.scenes.framework.periodic_search import NONE, Closed
 from hess_explorer.scenes.framework.scene import Motion
 from hess_explorer.scenes.framework.solid_body import Solid, constrained_solid, solid_body
 from hess_explorer.scenes.framework.windows import boxed
-from hess_explorer.scenes.parts.diagram_density import DiagramDensity
-from hess_explorer.scenes.parts.orbit_diagram import (
+from hess_explorer.scenes.parts.diagrams.diagram_density import DiagramDensity
+from hess_explorer.scenes.parts.diagrams.growing_diagram import (
     BACKWARD,
     BOUNDS,
     COORDINATES,
@@ -29,18 +29,20 @@ from hess_explorer.scenes.parts.orbit_diagram import (
     DiagramParameters,
     OrbitDiagram,
 )
-from hess_explorer.scenes.parts.proof import Proof
-from hess_explorer.scenes.parts.regime import Regime, few
+from hess_explorer.scenes.parts.orbits.proof import Proof
+from hess_explorer.scenes.parts.orbits.regime import Regime, few
 from hess_explorer.scenes.parts.sections import Orbit
-from hess_explorer.views import branch, density, layered_section, periodic, theme
+from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.graph import about_0, over_time
+from hess_explorer.views.graphs.graph import about_0, over_time
 from hess_explorer.views.layers import Axes, curves, dots, levels, names, points
+from hess_explorer.views.maps import branch
 from hess_explorer.views.picture import Picture
+from hess_explorer.views.plane import density, layered_section, periodic
+from hess_explorer.views.plane.velocity_plane import pixels_per_unit, room_for
 from hess_explorer.views.plot import Plot
-from hess_explorer.views.poisson_sphere import along_the_orbit, centre_of_mass
+from hess_explorer.views.space.poisson_sphere import along_the_orbit, centre_of_mass
 from hess_explorer.views.text import digits
-from hess_explorer.views.velocity_plane import pixels_per_unit, room_for
 from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.dynamics.orbit_diagram import Cascade
 from hess_mechanics.dynamics.periodic import PeriodicOrbit

@@ -10,12 +10,14 @@ from typing import ClassVar
 
 import numpy as np
 
-from hess_explorer.protocol.parameters import Value, Values, written
+from hess_explorer.protocol.specs import Value, Values, written
 from hess_explorer.scenes.framework.charted import Charts, of_motion
 from hess_explorer.scenes.framework.hess_case import HeavyHess
 from hess_explorer.scenes.framework.inertia import limits_of_moments
 from hess_explorer.scenes.framework.orbit_batches import OrbitBatch, batch_of
-from hess_explorer.scenes.framework.parameters import (
+from hess_explorer.scenes.framework.part import Start, part
+from hess_explorer.scenes.framework.scene import Preset, Scene
+from hess_explorer.scenes.framework.sliders import (
     TURN,
     Slider,
     accuracy_level,
@@ -26,14 +28,18 @@ from hess_explorer.scenes.framework.parameters import (
     places,
     time_span,
 )
-from hess_explorer.scenes.framework.part import Start, part
-from hess_explorer.scenes.framework.scene import Preset, Scene
 from hess_explorer.scenes.framework.solid_body import Solid, heavy_solid, solid_body
 from hess_explorer.scenes.framework.windows import inside
-from hess_explorer.scenes.parts.exponent import Exponent, exponent_picture, exponent_trial
-from hess_explorer.scenes.parts.hess_split import HessSplit, split_picture
-from hess_explorer.scenes.parts.hess_surface import INVARIANT, HeavyTorus, HessSurface, shaded_by, surface_picture
-from hess_explorer.scenes.parts.proof import Proof, proved_error_shown
+from hess_explorer.scenes.parts.diagrams.hess_split import HessSplit, split_picture
+from hess_explorer.scenes.parts.orbits.exponent import Exponent, exponent_picture, exponent_trial
+from hess_explorer.scenes.parts.orbits.hess_surface import (
+    INVARIANT,
+    HeavyTorus,
+    HessSurface,
+    shaded_by,
+    surface_picture,
+)
+from hess_explorer.scenes.parts.orbits.proof import Proof, proved_error_shown
 from hess_explorer.scenes.parts.sections import (
     Branch,
     Clicks,
@@ -55,11 +61,11 @@ from hess_explorer.scenes.parts.sections import (
     which,
 )
 from hess_explorer.scenes.parts.sections.rotation_across import RotationAcross, rotation_picture, rotation_trial
-from hess_explorer.views import andoyer
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import Columns, column
-from hess_explorer.views.poisson_sphere import Direction, along_the_orbit, gamma_columns
-from hess_explorer.views.section_plane import joined
+from hess_explorer.views.plane import andoyer
+from hess_explorer.views.plane.section_plane import joined
+from hess_explorer.views.space.poisson_sphere import Direction, along_the_orbit, gamma_columns
 from hess_explorer.views.text import digits, vector
 from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.euler_poisson.andoyer import AndoyerSection, hess_curve, relation

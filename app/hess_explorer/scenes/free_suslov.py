@@ -10,21 +10,21 @@ from functools import cached_property
 import numpy as np
 
 from hess_explorer.compute.cache import Task
-from hess_explorer.protocol.parameters import Values
+from hess_explorer.protocol.specs import Values
 from hess_explorer.scenes.framework import free_body
 from hess_explorer.scenes.framework.charted import Charted, Charts, tensor_of
 from hess_explorer.scenes.framework.circle_left import Gamma_picture
-from hess_explorer.scenes.framework.parameters import ONE_TURN, Slider, accuracy_level, choice, parameter, time_span
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
+from hess_explorer.scenes.framework.sliders import ONE_TURN, Slider, accuracy_level, choice, parameter, time_span
 from hess_explorer.scenes.framework.solid_body import Solid, constrained_solid, solid_body
 from hess_explorer.scenes.framework.work import orbit_status
 from hess_explorer.views import theme
-from hess_explorer.views import velocity_plane as plane
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.graph import branches, over_time
+from hess_explorer.views.graphs.graph import branches, over_time
 from hess_explorer.views.layers import Columns, Sign, arrows, curves, line, text
+from hess_explorer.views.plane import velocity_plane as plane
 from hess_explorer.views.plot import Plot
-from hess_explorer.views.poisson_sphere import Circle, Direction, Sphere, ends
+from hess_explorer.views.space.poisson_sphere import Circle, Direction, Sphere, ends
 from hess_explorer.views.text import digits, vector
 from hess_mechanics import parameters as known
 from hess_mechanics.dynamics.sampling import MOST_SAMPLES, PIXELS

@@ -12,16 +12,17 @@ import numpy as np
 from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.charted import Charts, of_torus
 from hess_explorer.scenes.framework.hess_case import BY_THE_UNSTABLE_CYCLE, PHI0, RIS, UNSURE, HeavyHess, reduced_motion
-from hess_explorer.scenes.framework.parameters import Slider, accuracy_level, number, parameter
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
+from hess_explorer.scenes.framework.sliders import Slider, accuracy_level, number, parameter
 from hess_explorer.scenes.framework.solid_body import Solid, heavy_solid, solid_body
-from hess_explorer.views import andoyer, theme
+from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.chart import LG_OF_0, lg, lg_axis
+from hess_explorer.views.graphs.chart import LG_OF_0, lg, lg_axis
+from hess_explorer.views.graphs.leak import distances
 from hess_explorer.views.layers import Columns, Range, column, curves
-from hess_explorer.views.leak import distances
+from hess_explorer.views.plane import andoyer
 from hess_explorer.views.plot import Plot
-from hess_explorer.views.poisson_sphere import Circle, Direction, Sphere, gamma_columns, parallels
+from hess_explorer.views.space.poisson_sphere import Circle, Direction, Sphere, gamma_columns, parallels
 from hess_explorer.views.text import digits, ranging
 from hess_mechanics import parameters as known
 from hess_mechanics.euler_poisson import hess_manifold as mechanics

@@ -11,7 +11,8 @@ import numpy as np
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.charted import Charted, Charts
-from hess_explorer.scenes.framework.parameters import (
+from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
+from hess_explorer.scenes.framework.sliders import (
     ONE_TURN,
     Slider,
     accuracy_level,
@@ -21,19 +22,20 @@ from hess_explorer.scenes.framework.parameters import (
     slider_within,
     time_span,
 )
-from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
 from hess_explorer.scenes.framework.solid_body import Solid, constrained_solid, solid_body
 from hess_explorer.scenes.framework.work import orbit_status
-from hess_explorer.views import period_graph, plane_domain, plane_potential, theme
+from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.graph import pieces
+from hess_explorer.views.graphs import period_graph
+from hess_explorer.views.graphs.graph import pieces
+from hess_explorer.views.graphs.period_graph import has_periods, period_axis
 from hess_explorer.views.layers import Columns, Layer, curves, points, ring
-from hess_explorer.views.period_graph import has_periods, period_axis
-from hess_explorer.views.plane_domain import plane_columns
+from hess_explorer.views.plane import plane_domain, plane_potential
+from hess_explorer.views.plane.plane_domain import plane_columns
+from hess_explorer.views.plane.velocity_plane import nice_above
 from hess_explorer.views.plot import Plot
-from hess_explorer.views.poisson_sphere import EQUATOR, Direction, Mark, Sphere, centre_of_mass, levels_about
+from hess_explorer.views.space.poisson_sphere import EQUATOR, Direction, Mark, Sphere, centre_of_mass, levels_about
 from hess_explorer.views.text import digits, vector
-from hess_explorer.views.velocity_plane import nice_above
 from hess_mechanics import parameters as known
 from hess_mechanics.numerics.results import Array, Orbit
 from hess_mechanics.suslov import kharlamova as mechanics

@@ -12,18 +12,18 @@ import numpy as np
 from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.charted import Charts, of_torus
 from hess_explorer.scenes.framework.inertia import limits_of_moments
-from hess_explorer.scenes.framework.parameters import Slider, accuracy_level, parameter, time_span
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
+from hess_explorer.scenes.framework.sliders import Slider, accuracy_level, parameter, time_span
 from hess_explorer.scenes.framework.solid_body import CIRCULAR_SECTION
 from hess_explorer.scenes.framework.work import orbit_status
 from hess_explorer.views import theme
-from hess_explorer.views.body import BodyInSpace, Curve, Rod, Shape, Trail
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import CENTRE_OF_MASS, Columns, Sign, column, line
+from hess_explorer.views.plane.velocity_plane import pixels_per_unit
 from hess_explorer.views.plot import Plot
-from hess_explorer.views.poisson_sphere import Circle, Mark
+from hess_explorer.views.space.body import BodyInSpace, Curve, Rod, Shape, Trail
+from hess_explorer.views.space.poisson_sphere import Circle, Mark
 from hess_explorer.views.text import digits, ranging, vector
-from hess_explorer.views.velocity_plane import pixels_per_unit
 from hess_mechanics import parameters as known
 from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.euler_poisson.loxodromic_pendulum import LoxodromicMotion, LoxodromicPendulum, loxodromic_motion

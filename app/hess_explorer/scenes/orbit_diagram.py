@@ -8,14 +8,14 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import ClassVar
 
-from hess_explorer.protocol.parameters import Value
+from hess_explorer.protocol.specs import Value
 from hess_explorer.scenes.diagrams import DiagramState, charts, pictures
-from hess_explorer.scenes.framework.parameters import like
 from hess_explorer.scenes.framework.scene import Preset, Scene
-from hess_explorer.scenes.parts.orbit_diagram import parameter_of_diagram
-from hess_explorer.views.velocity_plane import orbit_columns
+from hess_explorer.scenes.framework.sliders import like
+from hess_explorer.scenes.parts.diagrams.growing_diagram import parameter_of_diagram
+from hess_explorer.views.plane.velocity_plane import orbit_columns
 from hess_mechanics.suslov.equations import SuslovBody
-from hess_mechanics.suslov.section import SuslovSection
+from hess_mechanics.suslov.suslov_section import SuslovSection
 
 _PARAMETERS = {"h": "h", "I₁₁": "I11", "I₂₂": "I22", "I₁₃": "I13", "I₂₃": "I23", "b₁": "b1", "b₂": "b2", "b₃": "b3"}
 

@@ -12,7 +12,10 @@ import numpy as np
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.formulas import drive, polynomial
-from hess_explorer.scenes.framework.parameters import (
+from hess_explorer.scenes.framework.part import Start, part
+from hess_explorer.scenes.framework.periodic_search import NotPeriodic
+from hess_explorer.scenes.framework.scene import Preset, Scene, State
+from hess_explorer.scenes.framework.sliders import (
     ONE_TURN,
     accuracy_level,
     choice,
@@ -22,20 +25,18 @@ from hess_explorer.scenes.framework.parameters import (
     parameter,
     time_span,
 )
-from hess_explorer.scenes.framework.part import Start, part
-from hess_explorer.scenes.framework.periodic_search import NotPeriodic
-from hess_explorer.scenes.framework.scene import Preset, Scene, State
-from hess_explorer.scenes.parts.exponent import Exponent, exponent_picture, exponent_trial
+from hess_explorer.scenes.parts.orbits.exponent import Exponent, exponent_picture, exponent_trial
 from hess_explorer.scenes.parts.sections import Orbit
-from hess_explorer.views import section_plane, theme
+from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.graph import over_time, with_room
+from hess_explorer.views.graphs.graph import over_time, with_room
 from hess_explorer.views.layers import Columns, Range, line
+from hess_explorer.views.plane import section_plane
 from hess_explorer.views.plot import Plot
-from hess_explorer.views.poisson_sphere import Sphere, gamma_columns
+from hess_explorer.views.space.poisson_sphere import Sphere, gamma_columns
 from hess_explorer.views.text import digits
 from hess_mechanics.dynamics.orbit import solve
-from hess_mechanics.dynamics.section import section
+from hess_mechanics.dynamics.plane_section import section
 from hess_mechanics.dynamics.system import System
 from hess_mechanics.numerics.results import Array, SectionCrossings
 from hess_mechanics.parameters import I11, I13, I22, I23, MAX_STEP

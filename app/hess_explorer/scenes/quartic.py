@@ -9,10 +9,12 @@ from functools import cached_property
 
 import numpy as np
 
-from hess_explorer.protocol.parameters import Values
+from hess_explorer.protocol.specs import Values
 from hess_explorer.scenes.framework.charted import Charts, of_motion
 from hess_explorer.scenes.framework.orbit_batches import OrbitBatch, batch_of
-from hess_explorer.scenes.framework.parameters import (
+from hess_explorer.scenes.framework.part import Start, part
+from hess_explorer.scenes.framework.scene import Preset, Scene
+from hess_explorer.scenes.framework.sliders import (
     Slider,
     accuracy_level,
     number,
@@ -20,11 +22,9 @@ from hess_explorer.scenes.framework.parameters import (
     slider_within,
     time_span,
 )
-from hess_explorer.scenes.framework.part import Start, part
-from hess_explorer.scenes.framework.scene import Preset, Scene
 from hess_explorer.scenes.framework.solid_body import Solid, constrained_solid, solid_body
 from hess_explorer.scenes.framework.windows import Window
-from hess_explorer.scenes.parts.proof import Proof, proved_error_shown
+from hess_explorer.scenes.parts.orbits.proof import Proof, proved_error_shown
 from hess_explorer.scenes.parts.sections import (
     Branch,
     Orbit,
@@ -44,12 +44,12 @@ from hess_explorer.scenes.parts.sections import (
     shown_in_section,
     which,
 )
-from hess_explorer.views import plane_domain, section_plane
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import Axes
-from hess_explorer.views.poisson_sphere import Sphere, centre_of_mass, parallels
+from hess_explorer.views.plane import plane_domain, section_plane
+from hess_explorer.views.plane.velocity_plane import centred, nice_above
+from hess_explorer.views.space.poisson_sphere import Sphere, centre_of_mass, parallels
 from hess_explorer.views.text import digits, staying, vector
-from hess_explorer.views.velocity_plane import centred, nice_above
 from hess_mechanics.errors import ModelError
 from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.results import Array

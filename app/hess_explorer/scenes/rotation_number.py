@@ -14,14 +14,14 @@ import numpy as np
 from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.charted import Charts, of_torus
 from hess_explorer.scenes.framework.hess_case import map_or_none, possible_f
-from hess_explorer.scenes.framework.parameters import accuracy_level, choice, number, parameter, places
 from hess_explorer.scenes.framework.scene import Preset, Scene, State
+from hess_explorer.scenes.framework.sliders import accuracy_level, choice, number, parameter, places
 from hess_explorer.scenes.framework.trial import COLOUR_UNIT, Trial, boundary_error, colour_error, curve_error
 from hess_explorer.scenes.framework.windows import Window, boxed, inside, tidy_window, window_of
-from hess_explorer.views import circle_map as circle
-from hess_explorer.views import rotation_line, rotation_plane
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import Axes, CellGrid
+from hess_explorer.views.maps import circle_map as circle
+from hess_explorer.views.maps import rotation_line, rotation_plane
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits, superscript
 from hess_mechanics import parameters as known

@@ -13,18 +13,18 @@ from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework import free_body
 from hess_explorer.scenes.framework.charted import Charted, Charts, tensor_of
 from hess_explorer.scenes.framework.circle_left import CIRCLES, DIGITS, PHI, sphere
-from hess_explorer.scenes.framework.parameters import Slider, accuracy_level, parameter
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
+from hess_explorer.scenes.framework.sliders import Slider, accuracy_level, parameter
 from hess_explorer.scenes.framework.solid_body import Solid, constrained_solid, solid_body
 from hess_explorer.scenes.framework.trial import Trial, curve_error
 from hess_explorer.scenes.framework.work import drift_status
-from hess_explorer.views import scattering_map as square
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import curves, levels, ring
+from hess_explorer.views.maps import scattering_map as square
+from hess_explorer.views.plane.velocity_plane import pixels_per_unit, velocity_columns
 from hess_explorer.views.text import digits as in_digits
 from hess_explorer.views.text import vector
-from hess_explorer.views.velocity_plane import pixels_per_unit, velocity_columns
 from hess_mechanics import parameters as known
 from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.numerics.accuracy import Kind, Plan

@@ -10,16 +10,16 @@ from functools import cached_property
 import numpy as np
 
 from hess_explorer.compute.cache import Task
-from hess_explorer.protocol.parameters import Values
-from hess_explorer.scenes.framework.parameters import ONE_TURN, accuracy_level, choice, number, parameter, time_span
+from hess_explorer.protocol.specs import Values
 from hess_explorer.scenes.framework.scene import Preset, Scene, State
+from hess_explorer.scenes.framework.sliders import ONE_TURN, accuracy_level, choice, number, parameter, time_span
 from hess_explorer.scenes.framework.trial import Trial
-from hess_explorer.views import cloud
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.graph import with_room
+from hess_explorer.views.graphs.graph import with_room
 from hess_explorer.views.layers import Columns, Range, column
 from hess_explorer.views.plot import Plot
-from hess_explorer.views.poisson_sphere import Direction, Sphere
+from hess_explorer.views.space import cloud
+from hess_explorer.views.space.poisson_sphere import Direction, Sphere
 from hess_explorer.views.text import digits, ranging, vector
 from hess_mechanics import parameters as known
 from hess_mechanics.chaplygin_ball.energy_surface import Strip

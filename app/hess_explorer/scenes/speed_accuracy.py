@@ -8,12 +8,12 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-from hess_explorer.protocol.parameters import Spec, Value, Values
-from hess_explorer.scenes.framework.parameters import Slider
+from hess_explorer.protocol.specs import Spec, Value, Values
 from hess_explorer.scenes.framework.scene import Scene, State
+from hess_explorer.scenes.framework.sliders import Slider
 from hess_explorer.scenes.framework.trial import Trial, bare
-from hess_explorer.scenes.parts.costs import Costs, costs_picture
-from hess_explorer.scenes.parts.precision import PRECISION_PICTURES, Precision
+from hess_explorer.scenes.parts.orbits.costs import Costs, costs_picture
+from hess_explorer.scenes.parts.orbits.precision import PRECISION_PICTURES, Precision
 from hess_explorer.views.picture import Picture
 
 __all__ = ["SpeedAccuracy", "speed_and_accuracy"]

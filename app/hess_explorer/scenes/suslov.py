@@ -10,10 +10,12 @@ from functools import cached_property
 import numpy as np
 
 from hess_explorer.compute.cache import Task
-from hess_explorer.protocol.parameters import Value
+from hess_explorer.protocol.specs import Value
 from hess_explorer.scenes.framework.charted import Charted, Charts, of_motion, parameters_of
 from hess_explorer.scenes.framework.orbit_batches import OrbitBatch, batch_of
-from hess_explorer.scenes.framework.parameters import (
+from hess_explorer.scenes.framework.part import Start, part
+from hess_explorer.scenes.framework.scene import Preset, Scene
+from hess_explorer.scenes.framework.sliders import (
     TURN,
     accuracy_level,
     choice,
@@ -22,11 +24,9 @@ from hess_explorer.scenes.framework.parameters import (
     places,
     time_span,
 )
-from hess_explorer.scenes.framework.part import Start, part
-from hess_explorer.scenes.framework.scene import Preset, Scene
 from hess_explorer.scenes.framework.solid_body import Solid, constrained_solid, solid_body
-from hess_explorer.scenes.parts.exponent import Exponent, exponent_trial
-from hess_explorer.scenes.parts.proof import Proof, proved_error_shown
+from hess_explorer.scenes.parts.orbits.exponent import Exponent, exponent_trial
+from hess_explorer.scenes.parts.orbits.proof import Proof, proved_error_shown
 from hess_explorer.scenes.parts.sections import (
     Clicks,
     Orbit,
@@ -44,18 +44,20 @@ from hess_explorer.scenes.parts.sections import (
     which,
 )
 from hess_explorer.scenes.parts.sections.basins import Basins, basins_trial
-from hess_explorer.views import conformal_time, layered_section, theme
+from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.graph import over_time, settled_range, thinned
+from hess_explorer.views.graphs import conformal_time
+from hess_explorer.views.graphs.graph import over_time, settled_range, thinned
 from hess_explorer.views.layers import Axes, levels
+from hess_explorer.views.plane import layered_section
+from hess_explorer.views.plane.section_plane import joined
+from hess_explorer.views.plane.velocity_plane import nice_above, orbit_alone, orbit_columns, pixels_per_unit
 from hess_explorer.views.plot import Plot
-from hess_explorer.views.poisson_sphere import along_the_orbit, centre_of_mass
-from hess_explorer.views.section_plane import joined
+from hess_explorer.views.space.poisson_sphere import along_the_orbit, centre_of_mass
 from hess_explorer.views.text import digits, with_error
-from hess_explorer.views.velocity_plane import nice_above, orbit_alone, orbit_columns, pixels_per_unit
 from hess_mechanics.dynamics.basins import MeanDivergence, mean_divergence
+from hess_mechanics.dynamics.plane_section import occupied_cells
 from hess_mechanics.dynamics.sampling import HALF_A_PIXEL
-from hess_mechanics.dynamics.section import occupied_cells
 from hess_mechanics.errors import WorkLimit
 from hess_mechanics.numerics.accuracy import Kind, Level, cheapest
 from hess_mechanics.numerics.results import Array
@@ -63,7 +65,7 @@ from hess_mechanics.parameters import B1, B2, B3, H_SUSLOV, I11, I13, I22, I23
 from hess_mechanics.rigid_body.inertia import check_body
 from hess_mechanics.suslov.equations import SYSTEM, SuslovBody
 from hess_mechanics.suslov.principal_axis import Conformal, conformal
-from hess_mechanics.suslov.section import SuslovSection
+from hess_mechanics.suslov.suslov_section import SuslovSection
 
 _MOST_STEPS = 100_000
 _CELLS = 32

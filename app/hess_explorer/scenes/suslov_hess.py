@@ -13,21 +13,21 @@ from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework import hess_case
 from hess_explorer.scenes.framework.charted import Charts, of_torus
 from hess_explorer.scenes.framework.hess_case import Proved, limit_cycles, map_or_none, possible_f, possible_I23, proved
-from hess_explorer.scenes.framework.parameters import Slider, accuracy_level, number, parameter, slider_within
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
+from hess_explorer.scenes.framework.sliders import Slider, accuracy_level, number, parameter, slider_within
 from hess_explorer.scenes.framework.solid_body import Solid, hess_solid, solid_body
 from hess_explorer.scenes.framework.trial import COLOUR_UNIT, Trial, boundary_error, colour_error, curve_error
 from hess_explorer.scenes.framework.work import orbit_status
-from hess_explorer.scenes.parts.hess_surface import INVARIANT, HessSurface, shaded_by, surface_picture
-from hess_explorer.scenes.parts.proof import Proof, proved_error_shown
-from hess_explorer.views import bifurcation_diagram as diagram
-from hess_explorer.views import circle_map as circle
-from hess_explorer.views import torus_density, torus_plane
+from hess_explorer.scenes.parts.orbits.hess_surface import INVARIANT, HessSurface, shaded_by, surface_picture
+from hess_explorer.scenes.parts.orbits.proof import Proof, proved_error_shown
 from hess_explorer.views.layers import CellGrid, Columns
+from hess_explorer.views.maps import bifurcation_diagram as diagram
+from hess_explorer.views.maps import circle_map as circle
+from hess_explorer.views.plane import torus_density, torus_plane
+from hess_explorer.views.plane.velocity_plane import nice_above, picture
 from hess_explorer.views.plot import Plot
-from hess_explorer.views.poisson_sphere import Circle, Direction, Sphere, parallels
+from hess_explorer.views.space.poisson_sphere import Circle, Direction, Sphere, parallels
 from hess_explorer.views.text import digits
-from hess_explorer.views.velocity_plane import nice_above, picture
 from hess_mechanics import parameters as known
 from hess_mechanics.errors import InvalidParameter, Separatrix
 from hess_mechanics.numerics.accuracy import DRAFT, Kind, Level

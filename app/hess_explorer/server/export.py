@@ -18,7 +18,7 @@ from hess_explorer.export.formats import FORMATS, SERVED_SECONDS, WIDTHS, FileRe
 from hess_explorer.export.notebook import PROGRAMS
 from hess_explorer.export.picture_data import address, compute
 from hess_explorer.offline.pages import planned, state_page
-from hess_explorer.protocol.parameters import MAX_QUERY, Choice, Number, decode
+from hess_explorer.protocol.specs import MAX_QUERY, Choice, Number, decode
 from hess_explorer.scenes import scenes
 from hess_explorer.server.home import home_of
 from hess_explorer.server.refusal import refuse

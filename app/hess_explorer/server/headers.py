@@ -14,7 +14,7 @@ from panel.io.server import DocHandler
 
 from hess_explorer.assets import modules_path
 from hess_explorer.page.opening import THEME
-from hess_explorer.protocol.parameters import MAX_QUERY, decode
+from hess_explorer.protocol.specs import MAX_QUERY, decode
 from hess_explorer.server.refusal import refuse
 
 __all__ = ["GuardedDocument", "policy"]

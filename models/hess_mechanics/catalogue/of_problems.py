@@ -19,11 +19,11 @@ from hess_mechanics.catalogue.declared import (
     largest_difference,
     number_of,
 )
+from hess_mechanics.chaplygin_ball.ball_scattering import ball_scattering
 from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.chaplygin_ball.integrable_cases import period
 from hess_mechanics.chaplygin_ball.phase_cloud import Cloud
 from hess_mechanics.chaplygin_ball.phase_cloud_density import CloudHistory, Density, course, density
-from hess_mechanics.chaplygin_ball.scattering import ball_scattering
 from hess_mechanics.computations import cloud
 from hess_mechanics.dynamics.motions import usual, whole
 from hess_mechanics.errors import OutsideRegion, Separatrix

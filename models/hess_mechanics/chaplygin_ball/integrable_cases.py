@@ -24,7 +24,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody
-from hess_mechanics.dynamics.section import Plane, section
+from hess_mechanics.dynamics.plane_section import Plane, section
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.accuracy import LEVELS, Accuracy, Status
 from hess_mechanics.numerics.arguments import as_a, as_level, as_place

@@ -27,9 +27,9 @@ from hess_mechanics.dynamics.ensemble import complete
 from hess_mechanics.dynamics.megno import CHAOTIC, REGULAR, Megno, longest_span, megno
 from hess_mechanics.dynamics.orbit_diagram import SAME, period_of
 from hess_mechanics.dynamics.periodic import apart, find_periodic, place_units
+from hess_mechanics.dynamics.plane_section import section
 from hess_mechanics.dynamics.point_sets import SetDistance, nearest, set_distance
 from hess_mechanics.dynamics.return_map import ReturnMap
-from hess_mechanics.dynamics.section import section
 from hess_mechanics.dynamics.spectrum import ensemble_mean, lyapunov_spectrum, volume_sign
 from hess_mechanics.dynamics.symmetry import sign_symmetries
 from hess_mechanics.dynamics.system import Problem

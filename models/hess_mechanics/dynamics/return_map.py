@@ -24,7 +24,7 @@ import numpy as np
 from hess_mechanics.dynamics.cells import evenly
 from hess_mechanics.dynamics.orbit import MAX_STEPS, end_of, require_finite_states, require_steps, unfinished
 from hess_mechanics.dynamics.periodic import apart
-from hess_mechanics.dynamics.section import SectionPoints, Surface, section_points
+from hess_mechanics.dynamics.plane_section import SectionPoints, Surface, section_points
 from hess_mechanics.dynamics.symmetry import Mirror, symmetries
 from hess_mechanics.dynamics.system import Problem, System
 from hess_mechanics.dynamics.variation import onto_surface

@@ -13,8 +13,8 @@ from typing import Any
 
 import numpy as np
 
+from hess_mechanics.dynamics.plane_section import AnglePlane, Plane
 from hess_mechanics.dynamics.return_map import PoincareSection
-from hess_mechanics.dynamics.section import AnglePlane, Plane
 from hess_mechanics.dynamics.system import ParametrizedSystem, System
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.arguments import as_number, as_pairs

@@ -23,7 +23,7 @@ from hess_mechanics.dynamics.orbit import (
     require_finite_states,
     require_steps,
 )
-from hess_mechanics.dynamics.section import Surface, section
+from hess_mechanics.dynamics.plane_section import Surface, section
 from hess_mechanics.dynamics.system import Body, Problem
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import Accuracy, Level, Status

@@ -28,8 +28,8 @@ from numpy.typing import NDArray
 from hess_mechanics import parameters as known
 from hess_mechanics.dynamics.cells import Window, centres, evenly
 from hess_mechanics.dynamics.motions import body_parameters, on_section, usual
+from hess_mechanics.dynamics.plane_section import MAX_STEPS, SectionPoints, section_points
 from hess_mechanics.dynamics.return_map import PoincareSection
-from hess_mechanics.dynamics.section import MAX_STEPS, SectionPoints, section_points
 from hess_mechanics.dynamics.system import Problem, System
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.euler_poisson.andoyer_kernels import cross, least_excess, roots_into

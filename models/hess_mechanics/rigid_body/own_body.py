@@ -18,7 +18,7 @@ from typing import Any
 
 import numpy as np
 
-from hess_mechanics.dynamics.section import Plane
+from hess_mechanics.dynamics.plane_section import Plane
 from hess_mechanics.dynamics.system import System
 from hess_mechanics.errors import InvalidParameter, NotPositiveDefinite, WorkLimit
 from hess_mechanics.numerics.arguments import as_parts, as_whole

@@ -27,8 +27,8 @@ from typing import Any
 import numpy as np
 
 from hess_mechanics.dynamics.orbit import solve
+from hess_mechanics.dynamics.plane_section import Plane, section
 from hess_mechanics.dynamics.sampling import PIXELS, sampled_orbit
-from hess_mechanics.dynamics.section import Plane, section
 from hess_mechanics.dynamics.system import Body, System, in_units_of_time
 from hess_mechanics.numerics.accuracy import Accuracy
 from hess_mechanics.numerics.results import Array, Orbit, frozen

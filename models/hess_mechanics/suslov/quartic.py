@@ -20,9 +20,9 @@ import numpy as np
 
 from hess_mechanics import parameters as known
 from hess_mechanics.dynamics.motions import on_section, usual
+from hess_mechanics.dynamics.plane_section import Plane, SectionPoints, occupied_cells, section_points
 from hess_mechanics.dynamics.return_map import PoincareSection
 from hess_mechanics.dynamics.sampling import PIXELS
-from hess_mechanics.dynamics.section import Plane, SectionPoints, occupied_cells, section_points
 from hess_mechanics.dynamics.system import System
 from hess_mechanics.errors import InvalidParameter, NoField, OutsideRegion, WorkLimit
 from hess_mechanics.numerics.accuracy import Accuracy

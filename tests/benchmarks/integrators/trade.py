@@ -3,7 +3,7 @@
 import math
 from dataclasses import dataclass
 
-from hess_explorer.protocol.parameters import Choice
+from hess_explorer.protocol.specs import Choice
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.trial import bare
 from hess_explorer.views.text import digits

@@ -8,9 +8,9 @@ from pytest import approx, mark, raises
 from scipy.integrate import solve_ivp
 
 from hess_mechanics import level
+from hess_mechanics.chaplygin_ball.ball_scattering import ball_scattering, starts
 from hess_mechanics.chaplygin_ball.energy_surface import Strip
 from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody
-from hess_mechanics.chaplygin_ball.scattering import ball_scattering, starts
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import LEVELS, Status
 from support.mechanics import scipy_states

@@ -7,17 +7,17 @@ from pytest import approx, mark, raises
 
 from hess_explorer.scenes import scenes
 from hess_mechanics import lyapunov_spectrum
-from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody
-from hess_mechanics.chaplygin_ball.section import (
+from hess_mechanics.chaplygin_ball.ball_section import (
     BallSection,
     ball_section,
     forbidden_band,
     seeds,
     state_at,
 )
+from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody
 from hess_mechanics.dynamics.ensemble import ensemble
 from hess_mechanics.dynamics.lyapunov import lyapunov_exponent
-from hess_mechanics.dynamics.section import occupied_cells
+from hess_mechanics.dynamics.plane_section import occupied_cells
 from hess_mechanics.errors import InvalidParameter, OutsideRegion, WorkLimit
 from support.ball import divergence, first_returns, occupied
 from support.deviations import deviations

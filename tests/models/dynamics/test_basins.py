@@ -6,7 +6,7 @@ from scipy.integrate import solve_ivp
 
 from hess_mechanics import SuslovBody
 from hess_mechanics.dynamics.basins import Contraction, contraction
-from hess_mechanics.suslov.section import SuslovSection
+from hess_mechanics.suslov.suslov_section import SuslovSection
 from support.diagrams import spread
 from support.suslov import divergence, field
 

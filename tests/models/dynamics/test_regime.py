@@ -23,7 +23,7 @@ from hess_mechanics.dynamics.point_sets import SetDistance
 from hess_mechanics.dynamics.regime import Dynamics, MotionKind, dynamics_of, regime
 from hess_mechanics.errors import NoReturn
 from hess_mechanics.suslov_hess.bifurcation import f_max_each
-from hess_mechanics.suslov_hess.section import TorusSection
+from hess_mechanics.suslov_hess.torus_section import TorusSection
 from support.deviations import deviations
 from support.diagrams import spread
 from support.mechanics import apart, scipy_crossings

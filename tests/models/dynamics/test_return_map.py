@@ -18,7 +18,7 @@ from hess_mechanics import (
 from hess_mechanics.dynamics.periodic import find_periodic, shoot
 from hess_mechanics.errors import InvalidParameter, NotConverged, OutsideRegion
 from hess_mechanics.numerics.patience import limited_by
-from hess_mechanics.suslov.section import SuslovSection
+from hess_mechanics.suslov.suslov_section import SuslovSection
 from support.mechanics import differences
 
 HEAVY = HeavyBody.hess((1.0, 1.6, 4.0), 1.0)

@@ -9,7 +9,7 @@ from pytest import approx, mark, raises
 from scipy.optimize import brentq
 
 from hess_mechanics import LEVELS, Level, Plane, Status, level, section, sections, solve
-from hess_mechanics.dynamics.section import MAX_CROSSINGS
+from hess_mechanics.dynamics.plane_section import MAX_CROSSINGS
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from support.mechanics import EQUILIBRIA, SYSTEMS, every_level, every_system, scipy_crossings
 from support.refusals import refused

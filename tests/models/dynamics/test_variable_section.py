@@ -22,9 +22,9 @@ from hess_mechanics import (
 )  # fmt: skip
 from hess_mechanics.dynamics.ensemble import complete
 from hess_mechanics.dynamics.megno_map import ENDED, NOWHERE
+from hess_mechanics.dynamics.plane_section import AnglePlane
 from hess_mechanics.dynamics.return_map import ReturnMap
 from hess_mechanics.dynamics.sampling import sampled_orbit
-from hess_mechanics.dynamics.section import AnglePlane
 from hess_mechanics.dynamics.variable_section import variable_section
 from hess_mechanics.errors import InvalidParameter, NoReturn, OutsideRegion, WorkLimit
 from hess_mechanics.numerics.accuracy import STANDARD

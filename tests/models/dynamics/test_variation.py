@@ -7,7 +7,7 @@ from pytest import approx, mark, raises
 from scipy.linalg import expm
 
 from hess_mechanics import Plane, SuslovBody, level, return_matrix, systems, transition_matrix
-from hess_mechanics.dynamics.section import section
+from hess_mechanics.dynamics.plane_section import section
 from hess_mechanics.dynamics.variation import onto_surface
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.rigid_body.reversal import Reversal

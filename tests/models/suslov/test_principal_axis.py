@@ -8,7 +8,7 @@ from scipy.integrate import solve_ivp
 from hess_mechanics import SuslovBody, level, section, systems
 from hess_mechanics.errors import WorkLimit
 from hess_mechanics.suslov.principal_axis import conformal, divergence, energy_gradient, poisson_matrix
-from hess_mechanics.suslov.section import SuslovSection
+from hess_mechanics.suslov.suslov_section import SuslovSection
 from support.mechanics import differences
 from support.refusals import refused
 

@@ -13,7 +13,7 @@ from hess_mechanics.dynamics.attraction import arrivals
 from hess_mechanics.dynamics.basins import SectionOrbits, attractors
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import DRAFT, PRECISE
-from hess_mechanics.suslov.section import SuslovSection
+from hess_mechanics.suslov.suslov_section import SuslovSection
 from support.deviations import deviations
 from support.diagrams import settled
 from support.mechanics import scipy_crossings

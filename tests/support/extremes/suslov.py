@@ -9,7 +9,7 @@ import numpy as np
 import oracle
 from hess_mechanics import SuslovBody, f_max, section
 from hess_mechanics.suslov.equations import SYSTEM
-from hess_mechanics.suslov.section import SuslovSection
+from hess_mechanics.suslov.suslov_section import SuslovSection
 from hess_mechanics.suslov_hess.rotation_number import values_at
 
 WHOLE = ((-pi, 0.0), (pi, pi))

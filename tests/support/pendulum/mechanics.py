@@ -8,8 +8,8 @@ from math import inf, pi, sqrt
 
 import numpy as np
 
+from hess_mechanics.dynamics.plane_section import Plane
 from hess_mechanics.dynamics.return_map import PoincareSection
-from hess_mechanics.dynamics.section import Plane
 from hess_mechanics.dynamics.system import System, in_units_of_time
 from hess_mechanics.numerics.results import Array, Mask
 

@@ -3,9 +3,9 @@
 from dataclasses import dataclass
 from functools import cached_property
 
-from hess_explorer.scenes.framework.parameters import accuracy_level, number, places, time_span
 from hess_explorer.scenes.framework.part import Start, part
 from hess_explorer.scenes.framework.scene import Preset, Scene, State
+from hess_explorer.scenes.framework.sliders import accuracy_level, number, places, time_span
 from hess_explorer.scenes.parts.sections import (
     Orbit,
     Section,

@@ -16,12 +16,12 @@ import numpy as np
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.compute.cells import Outcome
-from hess_explorer.protocol.parameters import Choice, Number, Places, Spec, Values
+from hess_explorer.protocol.specs import Choice, Number, Places, Spec, Values
 from hess_explorer.scenes.framework.cells import COARSE, found_by_rows
 from hess_explorer.scenes.framework.chart_cells import STORED, Cells, Side, chart_row, swept
 from hess_explorer.scenes.framework.charted import Charts, Numbers
-from hess_explorer.scenes.framework.parameters import declared, specs_of
 from hess_explorer.scenes.framework.part import Part, part
+from hess_explorer.scenes.framework.sliders import declared, specs_of
 from hess_explorer.scenes.framework.trial import bare
 from hess_explorer.scenes.framework.windows import Window, boxed, inside, tidy_window, window_of
 from hess_explorer.views.caption import Caption

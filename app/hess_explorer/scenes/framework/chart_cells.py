@@ -10,7 +10,7 @@ import numpy as np
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.compute.cells import evaluate, refused
-from hess_explorer.protocol.parameters import places, written
+from hess_explorer.protocol.specs import places, written
 from hess_explorer.scenes.framework.charted import Arguments, Charted
 from hess_explorer.scenes.framework.windows import Window
 from hess_explorer.views.layers import Range

@@ -7,13 +7,13 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any, TypeVar
 
-from hess_explorer.scenes.framework.parameters import ONE_TURN
+from hess_explorer.scenes.framework.sliders import ONE_TURN
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.graph import over_time
+from hess_explorer.views.graphs.graph import over_time
 from hess_explorer.views.layers import Layer, Sign, levels
 from hess_explorer.views.plot import Plot
-from hess_explorer.views.poisson_sphere import Circle, Direction, Sphere, ends
+from hess_explorer.views.space.poisson_sphere import Circle, Direction, Sphere, ends
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.parameters import CIRCLE_PHASE, Parameter
 

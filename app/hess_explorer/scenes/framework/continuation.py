@@ -16,8 +16,8 @@ from hess_explorer.scenes.framework.families import Begin
 from hess_explorer.scenes.framework.part import Host, Part
 from hess_explorer.scenes.framework.periodic_search import Closed, NotFound, Place
 from hess_explorer.scenes.framework.windows import Window
-from hess_explorer.views.branch import bifurcations
 from hess_explorer.views.caption import Caption
+from hess_explorer.views.maps.branch import bifurcations
 from hess_explorer.views.text import conjugates, digits
 from hess_mechanics.dynamics import continuation as mechanics
 from hess_mechanics.dynamics.continuation import Bifurcation, continued, gone_on

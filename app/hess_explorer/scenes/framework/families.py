@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from hess_explorer.compute.cache import Task
-from hess_explorer.protocol.parameters import Value
+from hess_explorer.protocol.specs import Value
 from hess_explorer.scenes.framework.part import Sectioned
 from hess_explorer.scenes.framework.periodic_search import Closed, NotFound, Place, sought
 from hess_mechanics.dynamics.return_map import PoincareSection, ReturnMap

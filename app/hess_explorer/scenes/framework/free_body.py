@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
-from hess_explorer.scenes.framework.parameters import Slider
+from hess_explorer.scenes.framework.sliders import Slider
 from hess_explorer.views.text import digits
 from hess_mechanics import parameters
 from hess_mechanics.errors import InvalidParameter

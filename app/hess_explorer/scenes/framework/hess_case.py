@@ -11,15 +11,15 @@ from functools import cached_property
 from typing import Any
 
 from hess_explorer.compute.cache import Task
-from hess_explorer.protocol.parameters import Values
+from hess_explorer.protocol.specs import Values
 from hess_explorer.scenes.framework.inertia import limits_of_moments
-from hess_explorer.scenes.framework.parameters import ONE_TURN, Slider, slider_within
 from hess_explorer.scenes.framework.scene import Motion
+from hess_explorer.scenes.framework.sliders import ONE_TURN, Slider, slider_within
 from hess_explorer.scenes.framework.work import Work
 from hess_explorer.views.layers import Columns
+from hess_explorer.views.plane.torus_plane import cycle_columns
+from hess_explorer.views.plane.velocity_plane import pixels_per_unit
 from hess_explorer.views.text import digits
-from hess_explorer.views.torus_plane import cycle_columns
-from hess_explorer.views.velocity_plane import pixels_per_unit
 from hess_mechanics import parameters as known
 from hess_mechanics.errors import ModelError, NoField, Separatrix
 from hess_mechanics.euler_poisson.equations import HeavyBody

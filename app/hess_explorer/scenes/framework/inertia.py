@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from hess_explorer.scenes.framework.parameters import Slider
+from hess_explorer.scenes.framework.sliders import Slider
 from hess_mechanics.parameters import I1 as FIRST
 
 __all__ = ["limits_of_moments"]

@@ -6,8 +6,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TypeVar
 
+from hess_mechanics.dynamics.plane_section import SectionPoints
 from hess_mechanics.dynamics.return_map import PoincareSection
-from hess_mechanics.dynamics.section import SectionPoints
 from hess_mechanics.numerics.results import Array, frozen
 
 __all__ = ["OrbitBatch", "batch_of", "in_batches"]

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Generic, Protocol, Self, TypeVar
 
-from hess_explorer.protocol.parameters import Values
+from hess_explorer.protocol.specs import Values
 from hess_explorer.scenes.framework.work import Work
 from hess_mechanics.dynamics.return_map import PoincareSection
 

@@ -11,12 +11,12 @@ from pathlib import Path
 from typing import Any, ClassVar, Generic, Self, TypeVar, cast
 
 from hess_explorer.compute.cache import Task
-from hess_explorer.protocol.parameters import Choice, Number, Spec, Value, Values
+from hess_explorer.protocol.specs import Choice, Number, Spec, Value, Values
 from hess_explorer.scenes.framework.chart import charting
 from hess_explorer.scenes.framework.chart_picture import chart_picture
 from hess_explorer.scenes.framework.charted import Charts
-from hess_explorer.scenes.framework.parameters import Slider, specs_of
 from hess_explorer.scenes.framework.part import Host, Part, part
+from hess_explorer.scenes.framework.sliders import Slider, specs_of
 from hess_explorer.scenes.framework.trial import Trial, bare, needed, orbit_trial
 from hess_explorer.scenes.framework.work import Work
 from hess_explorer.views.layers import Columns, Sign

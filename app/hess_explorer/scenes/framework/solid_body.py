@@ -14,10 +14,10 @@ from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.scene import State
 from hess_explorer.scenes.framework.work import Work
 from hess_explorer.views import theme
-from hess_explorer.views.body import BodyInSpace, Rod, Shape, Trail, Wheels
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import CENTRE_OF_MASS, Sign
-from hess_explorer.views.poisson_sphere import Direction, centre_of_mass
+from hess_explorer.views.space.body import BodyInSpace, Rod, Shape, Trail, Wheels
+from hess_explorer.views.space.poisson_sphere import Direction, centre_of_mass
 from hess_explorer.views.text import digits
 from hess_mechanics.dynamics.system import Body
 from hess_mechanics.euler_poisson.equations import HeavyBody

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from hess_explorer.protocol.parameters import Value, Values, places, written
+from hess_explorer.protocol.specs import Value, Values, places, written
 from hess_mechanics.dynamics.cells import Window
 
 __all__ = ["Window", "boxed", "inside", "tidy_window", "window_of"]

@@ -29,7 +29,7 @@ from hess_mechanics.errors import NotConverged
 from hess_mechanics.numerics.accuracy import PRECISE, Accuracy, Kind, Plan
 from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array, Mask
-from hess_mechanics.suslov.section import SuslovSection
+from hess_mechanics.suslov.suslov_section import SuslovSection
 
 __all__ = ["Basins", "basins_trial"]
 

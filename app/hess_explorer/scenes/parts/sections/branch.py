@@ -9,20 +9,20 @@ from typing import Any, Protocol, Self
 
 import numpy as np
 
-from hess_explorer.protocol.parameters import Number, Values
+from hess_explorer.protocol.specs import Number, Values
 from hess_explorer.scenes.framework.continuation import Continuation
 from hess_explorer.scenes.framework.families import Begin, Family
-from hess_explorer.scenes.framework.parameters import Slider, choice, number, specs_of
 from hess_explorer.scenes.framework.part import Part, Sectioned
 from hess_explorer.scenes.framework.periodic_search import PERIODS
+from hess_explorer.scenes.framework.sliders import Slider, choice, number, specs_of
 from hess_explorer.scenes.framework.windows import Window
 from hess_explorer.scenes.parts.sections.periodic_orbit import PeriodicOrbit
-from hess_explorer.views import branch as view
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import Axes, Range, curves, points
-from hess_explorer.views.periodic import seen
+from hess_explorer.views.maps import branch as view
 from hess_explorer.views.picture import Corners, Picture
+from hess_explorer.views.plane.periodic import seen
 from hess_explorer.views.plot import Plot
 from hess_mechanics.numerics.results import Array
 

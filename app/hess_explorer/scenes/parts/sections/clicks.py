@@ -10,10 +10,10 @@ from typing import Any, Protocol
 import numpy as np
 
 from hess_explorer.compute.cache import Task
-from hess_explorer.protocol.parameters import Values, places, written
+from hess_explorer.protocol.specs import Values, places, written
 from hess_explorer.scenes.framework.orbit_batches import OrbitBatch, in_batches
-from hess_explorer.scenes.framework.parameters import number, specs_of
 from hess_explorer.scenes.framework.part import Host, Part, Start
+from hess_explorer.scenes.framework.sliders import number, specs_of
 from hess_explorer.scenes.framework.windows import Window
 from hess_explorer.scenes.parts.sections.section import Section
 from hess_explorer.views.text import digits

@@ -14,7 +14,7 @@ from hess_explorer.scenes.framework.points import stages_of
 from hess_explorer.scenes.framework.windows import Window
 from hess_explorer.scenes.framework.work import drift_status
 from hess_explorer.scenes.parts.sections.section import Section
-from hess_explorer.views import density as view
+from hess_explorer.views.plane import density as view
 from hess_mechanics.dynamics.cells import evenly
 from hess_mechanics.dynamics.return_map import PoincareSection
 from hess_mechanics.dynamics.section_density import Visits, visits

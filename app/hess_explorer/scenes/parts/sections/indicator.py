@@ -11,14 +11,14 @@ import numpy as np
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.cells import CELLS, COARSE, DENSITY, Arguments, changed, found_by_rows
-from hess_explorer.scenes.framework.parameters import choice
 from hess_explorer.scenes.framework.part import Part
+from hess_explorer.scenes.framework.sliders import choice
 from hess_explorer.scenes.framework.trial import Trial
 from hess_explorer.scenes.framework.windows import Window
 from hess_explorer.scenes.parts.sections.section import Section
-from hess_explorer.views import layered_section
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import Layer
+from hess_explorer.views.plane import layered_section
 from hess_explorer.views.text import digits
 from hess_mechanics.dynamics.megno import CHAOTIC, REGULAR
 from hess_mechanics.dynamics.megno_map import ENDED, row_of_cells, time_of

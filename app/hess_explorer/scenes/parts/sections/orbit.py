@@ -13,7 +13,7 @@ from hess_explorer.scenes.framework.scene import Motion
 from hess_explorer.scenes.framework.work import orbit_status
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.graph import with_room
+from hess_explorer.views.graphs.graph import with_room
 from hess_explorer.views.layers import Columns, Range, column, line
 from hess_explorer.views.picture import Picture
 from hess_explorer.views.plot import Plot

@@ -10,9 +10,8 @@ from typing import Any, Protocol, TypeVar
 import numpy as np
 
 from hess_explorer.compute.cache import Task
-from hess_explorer.protocol.parameters import Value
+from hess_explorer.protocol.specs import Value
 from hess_explorer.scenes.framework.cells import DENSITY
-from hess_explorer.scenes.framework.parameters import choice, number
 from hess_explorer.scenes.framework.part import Part
 from hess_explorer.scenes.framework.periodic_search import (
     ANY,
@@ -30,10 +29,11 @@ from hess_explorer.scenes.framework.periodic_search import (
     sought,
 )
 from hess_explorer.scenes.framework.scene import Preset
+from hess_explorer.scenes.framework.sliders import choice, number
 from hess_explorer.scenes.parts.sections.section import Section
-from hess_explorer.views import periodic as view
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import Layers
+from hess_explorer.views.plane import periodic as view
 from hess_explorer.views.text import conjugates, digits
 from hess_mechanics.dynamics import periodic as mechanics
 from hess_mechanics.dynamics.manifolds import Intersection, Manifold

@@ -7,13 +7,14 @@ from typing import Any
 
 import numpy as np
 
-from hess_explorer.protocol.parameters import written
+from hess_explorer.protocol.specs import written
 from hess_explorer.scenes.framework.trial import Trial, section_error
 from hess_explorer.scenes.framework.windows import Window, inside
 from hess_explorer.scenes.parts.sections.indicator import indicator_layer, indicator_trial
 from hess_explorer.scenes.parts.sections.periodic_orbit import periodic_layers
-from hess_explorer.views import density, layered_section, section_plane, theme
+from hess_explorer.views import theme
 from hess_explorer.views.layers import Axes, Layers
+from hess_explorer.views.plane import density, layered_section, section_plane
 from hess_explorer.views.plot import Plot
 from hess_mechanics.numerics.accuracy import Kind
 from hess_mechanics.numerics.results import Array

@@ -17,7 +17,7 @@ from hess_explorer.scenes.framework.windows import Window
 from hess_explorer.scenes.parts.sections.section import Section
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.graph import with_room
+from hess_explorer.views.graphs.graph import with_room
 from hess_explorer.views.layers import Axes, Range, curves, points, region
 from hess_explorer.views.picture import Picture
 from hess_explorer.views.plot import Plot

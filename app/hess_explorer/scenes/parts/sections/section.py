@@ -11,19 +11,19 @@ from typing import Any, Protocol
 import numpy as np
 
 from hess_explorer.compute.cache import Task
-from hess_explorer.protocol.parameters import Values, places
+from hess_explorer.protocol.specs import Values, places
 from hess_explorer.scenes.framework.orbit_batches import OrbitBatch, batch_of
-from hess_explorer.scenes.framework.parameters import number
 from hess_explorer.scenes.framework.part import Part, Sectioned, Start
 from hess_explorer.scenes.framework.periodic_search import NotPeriodic, Periodic, Place
+from hess_explorer.scenes.framework.sliders import number
 from hess_explorer.scenes.framework.windows import Window, boxed, tidy_window, window_of
 from hess_explorer.scenes.framework.work import drift_status, kept_status
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.section_plane import joined
+from hess_explorer.views.plane.section_plane import joined
 from hess_mechanics.dynamics.cells import evenly
+from hess_mechanics.dynamics.plane_section import section_points
 from hess_mechanics.dynamics.return_map import PoincareSection
 from hess_mechanics.dynamics.sampling import PIXELS
-from hess_mechanics.dynamics.section import section_points
 from hess_mechanics.dynamics.shadowing import right_crossings, typical
 from hess_mechanics.errors import OutsideRegion, WorkLimit
 from hess_mechanics.numerics.accuracy import STANDARD, Kind, Level, Plan

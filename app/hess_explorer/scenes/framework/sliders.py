@@ -1,0 +1,166 @@
+"""Declarations of a scene's parameters: fields of its state, in the terms of the library param."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import field, fields, replace
+from typing import Any
+
+from hess_explorer.protocol.specs import Choice, Formula, Number, Places, Spec, Value
+from hess_explorer.scenes.framework.work import AUTO
+from hess_mechanics.numerics.accuracy import LEVELS
+from hess_mechanics.parameters import Group, Parameter
+
+__all__ = [
+    "HIDDEN",
+    "ONE_TURN",
+    "SHOWN",
+    "TURN",
+    "Slider",
+    "accuracy_level",
+    "choice",
+    "declared",
+    "exponent_time",
+    "formula",
+    "like",
+    "number",
+    "parameter",
+    "places",
+    "proved_error_shown",
+    "slider_within",
+    "specs_of",
+    "time_span",
+]
+
+Slider = tuple[float, float, float]
+"""(low, high, step)."""
+
+ONE_TURN = (-math.pi, math.pi)
+"""Bounds of an angle that a click sets: a picture shows one turn."""
+
+TURN = 3.14159
+"""Half a turn, with the digits of a place in a link."""
+_SPEC = "spec"
+HIDDEN, SHOWN = "not shown", "shown"
+
+
+def declared(spec: Spec, compare: bool = True) -> Any:
+    """Return the field of a parameter; compare : whether results of the state can depend on it."""
+    return field(default=spec.default, metadata={_SPEC: spec}, compare=compare)
+
+
+def parameter(known: Parameter, default: float | None = None, **changes: Any) -> Any:
+    """Return the field of a parameter from `hess_mechanics.parameters`.
+
+    Parameters
+    ----------
+    known : its description there.
+    default : another default.
+    changes : other fields of `Parameter`, such as softbounds, step or doc.  State a reason beside other bounds.
+    """
+    return declared(Number(**known.changed(default=known.default if default is None else default, **changes)))
+
+
+def number(
+    symbol: str,
+    default: float,
+    softbounds: tuple[float, float],
+    step: float,
+    *,
+    bounds: tuple[float, float],
+    label: str,
+    doc: str,
+    group: Group = "State",
+    means: str = "",
+) -> Any:
+    """Declare a number: its slider covers `softbounds` in steps; typed values and links are limited to `bounds`."""
+    return declared(Number("", symbol, label, default, softbounds, step, bounds, doc, group, means=means))
+
+
+def choice(label: str, options: tuple[str, ...], default: str, *, doc: str, group: Group = "Computation") -> Any:
+    """Declare a choice from a fixed list of names."""
+    return declared(Choice("", label, options, default, doc, group))
+
+
+def formula(label: str, default: str, reads: Callable[[str], object], *, doc: str) -> Any:
+    """Declare a formula; reads : raises `InvalidParameter` for texts that are none."""
+    return declared(Formula("", label, default, doc, reads=reads))
+
+
+def places(label: str, most: int, low: tuple[float, float], high: tuple[float, float], default: str = "") -> Any:
+    """Declare points set with the mouse, at most `most`, between two corners; they have no control."""
+    return declared(Places("", label, most, low, high, default))
+
+
+def accuracy_level() -> Any:
+    """Declare the level of accuracy, with the same description in every scene."""
+    return choice(
+        "Accuracy",
+        (*LEVELS, AUTO),
+        "standard",
+        doc="Promised error of an orbit: draft 1e-3, standard 1e-6, precise 1e-9; reference: the floor of "
+        "double precision. One orbit costs about the same at every level: reference takes 0.67 to 3.1 × "
+        "as long as draft, whose error is up to 0.22 pixels. Draft is cheaper where it computes less: "
+        "of sections 25 % of the crossings (3.6 to 7.2 ×, error up to 1.3 pixels), of basins 33 % of "
+        "the cells along a side (7.7 ×, 0.41 % of the cells change). Auto: the cheapest that shows all "
+        "of it right to half a pixel.",
+    )
+
+
+def proved_error_shown() -> Any:
+    """Declare whether the proved error of the orbit on show is computed."""
+    return choice(
+        "Proved error",
+        (HIDDEN, SHOWN),
+        HIDDEN,
+        doc="Proved upper bound of the orbit's error, on the status line. Where it exceeds a pixel, a band and "
+        "circles enclose the true orbit at the times of the samples.",
+    )
+
+
+def exponent_time(default: float, longest: float, most: float, what: str) -> Any:
+    """Declare the averaging time along the orbit on show."""
+    return number(
+        "T",
+        default,
+        (10.0, longest),
+        10.0,
+        bounds=(1.0, most),
+        label="Time of the exponent",
+        group="Computation",
+        doc=f"How long {what} averaged.",
+    )
+
+
+def time_span(default: float, longest: float, *, step: float = 1.0, most: float = 1e4, what: str = "the orbit") -> Any:
+    """Declare a time span; the slider ends at `longest`, typed values at `most`."""
+    return number(
+        "t",
+        default,
+        (1.0, longest),
+        step,
+        bounds=(0.01, most),
+        label="Time span",
+        doc=f"How long {what} is followed.",
+        group="Computation",
+    )
+
+
+def like(state: type[Any], name: str, default: Value | None = None, **changes: Any) -> Any:
+    """Declare a parameter like that of another state, with another default or other arguments of `number` if given."""
+    spec: Any = next(one for one in specs_of(state) if one.name == name)
+    return declared(replace(spec, default=spec.default if default is None else default, **changes))
+
+
+def slider_within(largest: float) -> Slider:
+    """Return a slider from −largest to largest, with round ends and some hundreds of round steps."""
+    digits = 2 - math.floor(math.log10(largest))
+    step = float(f"1e{-digits}")
+    end = round(math.floor(largest / step) * step, digits)
+    return -end, end, step
+
+
+def specs_of(state: type[Any]) -> tuple[Spec, ...]:
+    """Return the specifications of all parameters of a state, in the order of their declarations."""
+    return tuple(replace(one.metadata[_SPEC], name=one.name) for one in fields(state) if _SPEC in one.metadata)

@@ -1,0 +1,1 @@
+"""Parts about diagrams over a parameter."""

@@ -1,0 +1,189 @@
+"""An orbit diagram shaded by the density of a million points, which grow while one looks."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import ClassVar, Protocol
+
+import numpy as np
+
+from hess_explorer.compute.cache import Task
+from hess_explorer.scenes.framework.families import Family
+from hess_explorer.scenes.framework.part import Host, Part
+from hess_explorer.scenes.framework.periodic_search import Place
+from hess_explorer.scenes.framework.points import stages_of
+from hess_explorer.scenes.framework.windows import Window
+from hess_explorer.scenes.framework.work import drift_status
+from hess_explorer.views.plane import density as view
+from hess_mechanics.dynamics.orbit_diagram import Diagram
+from hess_mechanics.dynamics.section_density import Visits, visits_over
+from hess_mechanics.numerics.accuracy import Accuracy, Kind, cheapest, plan
+from hess_mechanics.numerics.results import Array
+
+__all__ = ["DiagramDensity"]
+
+_COLUMNS, _ROWS = 4, 512
+"""Columns of pixels for each value of the parameter in the diagram, and rows."""
+_GROUPS = 2
+"""Groups of columns of each way, computed one after the other: for two cores, and so that points arrive soon."""
+_SKIPPED = 30
+"""Crossings left out: the orbit of a column starts where the nearest value of the diagram ended, so it has settled."""
+_FIRST, _GROWTH = 50_000, 4
+"""Crossings in all columns in the first stage, and how many times as many each further stage has."""
+_STAGES = {"draft": 2, "standard": 3, "precise": 3, "reference": 4}
+"""Stages by accuracy level: about a million crossings at `standard`."""
+_ERRORS = 100.0
+"""Errors of the level in a pixel: an orbit that settles forgets its errors, so a coarse level shows the same."""
+_NEAR = 3
+"""Rows within which the way back counts as the same as the way there."""
+
+
+class _Host(Host, Protocol):
+    @property
+    def family(self) -> Family: ...
+
+    @property
+    def frame(self) -> Window: ...
+
+    @property
+    def side(self) -> int: ...
+
+    @property
+    def along_values(self) -> Array: ...
+
+    @property
+    def branches(self) -> Mapping[str, Sequence[Diagram]]:
+        """The known pieces of each way."""
+
+
+@dataclass(frozen=True, eq=False)
+class DiagramDensity(Part[_Host]):
+    """Points of the orbits of a diagram, counted in the pixels of the window.
+
+    The diagram gives the place to which the orbit settles at each of its values.  Between two values there are further
+    columns.  The orbits are followed in stages, each of which makes them some times as long.
+
+    forward : direction of time of each way: backward in time, back, and there, in this order.
+    """
+
+    forward: ClassVar[Mapping[str, bool]] = {"backward": False, "falling": True, "rising": True}
+
+    @cached_property
+    def _ends(self) -> dict[str, Array]:
+        """The last place at each value, in rising order, by way; only of ways that are complete."""
+        return {
+            way: np.concatenate([one.ends for one in parts])[:: -1 if way == "falling" else 1]
+            for way, parts in self.host.branches.items()
+            if sum(len(one.values) for one in parts) == self.host.along_values.size
+        }
+
+    @property
+    def _columns(self) -> int:
+        return _COLUMNS * self.host.along_values.size
+
+    def _chains(self, way: str) -> list[list[Task[Visits]]]:
+        """Return the stages of each group of columns of a way."""
+        (x0, y0), (x1, y1) = self.host.frame
+        ends = self._ends[way]
+        shares = (np.arange(self._columns) + 0.5) / self._columns
+        values = x0 + shares * (x1 - x0)
+        starts = ends[np.rint(shares * (len(ends) - 1)).astype(int)]
+        points, stages = stages_of(_FIRST, _STAGES[self.work.chosen], _GROWTH)
+        first = max(1, points // (len(self.host.branches) * self._columns))
+        level = plan(Kind.SECTION, cheapest(_ERRORS * (y1 - y0) / _ROWS)).level
+        groups = (
+            _Columns(
+                self.host.family,
+                tuple(values[some].tolist()),
+                self.host.side,
+                (y0, y1),
+                tuple(map(tuple, starts[some].tolist())),
+                first,
+                self.forward[way],
+                level,
+            )
+            for some in np.array_split(np.arange(self._columns), _GROUPS)
+        )
+        return [[Task(_stage, one, number) for number in range(stages)] for one in groups]
+
+    @cached_property
+    def _found(self) -> dict[str, list[Visits | None]]:
+        """The newest known visits of each group of columns, by way; none while a slider is held."""
+        if self.work.dragging:
+            return {}
+        chains = {way: self._chains(way) for way in self.forward if way in self._ends}
+        found = iter(self.work.newest([one for way in chains.values() for one in way], last=True))
+        return {way: [next(found) for _ in groups] for way, groups in chains.items()}
+
+    @property
+    def _visits(self) -> list[Visits]:
+        return [one for groups in self._found.values() for one in groups if one is not None]
+
+    @property
+    def points(self) -> int:
+        """The number of known points in the window."""
+        return sum(one.points for one in self._visits)
+
+    @property
+    def _complete(self) -> bool:
+        """True if all ways are known in all columns."""
+        return set(self._found) == set(self.host.branches) and all(
+            one is not None for groups in self._found.values() for one in groups
+        )
+
+    def counts(self, way: str) -> Array:
+        """Return the points (n, m) of a way in each pixel."""
+        groups = [one.counts for one in self._found.get(way, ()) if one is not None]
+        return np.concatenate(groups, axis=1) if groups else np.zeros((_ROWS, self._columns), np.uint32)
+
+    @cached_property
+    def tones(self) -> Sequence[Array]:
+        """The tones of the picture, see `views.density.tones`; empty until they are known."""
+        if not (self._complete and self.points):
+            return ()
+        backward, back, there = (self.counts(way) for way in self.forward)
+        from scipy.ndimage import maximum_filter1d
+
+        near = maximum_filter1d(there, 2 * _NEAR + 1, axis=0) > 0
+        # Where both ways agree they have one colour.
+        return view.tones((backward, np.where(near, 0, back), there + np.where(near, back, 0)))
+
+    @property
+    def said(self) -> str:
+        """The number of points in words; an empty string until they are shown."""
+        return f"{self.points:,} points. " if self.tones else ""
+
+    def status(self) -> Iterator[str]:
+        """Yield the size and drift of the density."""
+        if self.asked("_found") and self.points:
+            yield f"density {self.points} points"
+            yield from drift_status(one.drift for one in self._visits)
+
+
+@dataclass(frozen=True)
+class _Columns:
+    """Columns of pixels whose orbits are followed together; first : crossings of each in the first stage."""
+
+    family: Family
+    values: tuple[float, ...]
+    side: int
+    reach: tuple[float, float]
+    starts: tuple[Place, ...]
+    first: int
+    forward: bool
+    level: Accuracy
+
+    def visits(self, starts: Sequence[Place] | Array, skipped: int, crossings: int) -> Visits:
+        """Return the visits of orbits from these places."""
+        some = self.family, self.values, self.side, self.reach, _ROWS
+        return visits_over(*some, starts, skipped, crossings, self.forward, self.level)
+
+
+def _stage(columns: _Columns, number: int) -> Visits:
+    """Return the visits of some columns up to a stage."""
+    if number == 0:
+        return columns.visits(columns.starts, _SKIPPED, columns.first)
+    before = Task(_stage, columns, number - 1).get()
+    return columns.visits(before.ends, 0, columns.first * _GROWTH**number).after(before)

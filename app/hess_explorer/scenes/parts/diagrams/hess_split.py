@@ -1,0 +1,149 @@
+"""The splitting of the separatrices of the Hess manifold near the Hess case, over ε, computed in pieces."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from hess_explorer.compute.cache import Task
+from hess_explorer.scenes.framework.part import Host, Part
+from hess_explorer.scenes.framework.periodic_search import NotFound
+from hess_explorer.views import theme
+from hess_explorer.views.caption import Caption
+from hess_explorer.views.graphs.graph import about_0
+from hess_explorer.views.layers import Axes, curves, levels, points, ring
+from hess_explorer.views.plot import Plot
+from hess_explorer.views.text import digits, with_error
+from hess_mechanics.errors import ModelError
+from hess_mechanics.euler_poisson.hess_split import HessTorus, Split, slope_of, split_at
+from hess_mechanics.numerics.accuracy import PRECISE
+from hess_mechanics.numerics.patience import go_on
+from hess_mechanics.numerics.results import Array
+
+__all__ = ["HessSplit", "split_picture"]
+
+_QUARTERS = np.arange(-4, 5) / 4.0
+_WIDE = 0.02
+"""Half-width of the graph if ε = 0."""
+_CLOSE = (1e-3, -1e-3, 2e-3, -2e-3)
+"""Values of ε for the slope at ε = 0."""
+
+
+@dataclass(frozen=True, eq=False)
+class HessSplit(Part[Host]):
+    """The splitting of the separatrices of the Hess manifold near the Hess case.
+
+    torus : the torus of the Hess case itself; away : ε of the state on show.
+    """
+
+    torus: HessTorus
+    away: float
+
+    @property
+    def reach(self) -> float:
+        """The half-width of the graph."""
+        return abs(self.away) or _WIDE
+
+    @cached_property
+    def _splits(self) -> list[Split | NotFound] | None:
+        """The splits at the values of ε of the graph and of the slope; None until all are known."""
+        asked = dict.fromkeys([*(self.reach * _QUARTERS).tolist(), *_CLOSE])
+        # Without separatrices at ε = 0 nothing can split.
+        first = self.work.need(Task(_split, self.torus, 0.0), preview=None)
+        if first is None or isinstance(first, NotFound):
+            return None if first is None else [first]
+        found = [self.work.need(Task(_split, self.torus, value), preview=None) for value in asked]
+        known = [one for one in found if one is not None]
+        return known if len(known) == len(found) else None
+
+    def splits(self) -> list[Split]:
+        """Return the known splits within the graph, sorted by ε."""
+        found = [one for one in self._splits or () if isinstance(one, Split) and abs(one.away) <= self.reach]
+        return sorted(found, key=lambda one: one.away)
+
+    @property
+    def split(self) -> Split | None:
+        """The split of this state; None if unknown."""
+        return next((one for one in self.splits() if one.away == self.away), None)
+
+    @property
+    def slope(self) -> tuple[float, float] | None:
+        """The slope of the split at ε = 0 and its error; None if unknown."""
+        close = {one.away: one for one in self._splits or () if isinstance(one, Split) and one.away in _CLOSE}
+        return slope_of([close[value] for value in _CLOSE]) if len(close) == len(_CLOSE) else None
+
+    def caption(self) -> Caption:
+        """Return the caption of the picture."""
+        if self._splits is None:
+            return Caption(self.work.awaited())
+        if self.split is None or self.slope is None:
+            return Caption("No separatrices are found here.")
+        value, error = self.split.value, self.split.error
+        place = f"at l = {digits(self.split.l)}; as ε → 0: {digits(self.slope[0], 4)} ε."
+        if self.away and abs(value) <= error:
+            return Caption("No split is seen.", f"Less than {digits(error, 1)} {place}")
+        if abs(value) <= error:
+            return Caption("The separatrices are not split.", f"Less than {digits(error, 1)} {place}")
+        return Caption("The separatrices are split.", f"By {digits(value)} ± {digits(error, 1)} {place}")
+
+    def message(self) -> str:
+        """Return the reason why the graph is empty; an empty string if it is not."""
+        reasons = [one.reason for one in self._splits or () if isinstance(one, NotFound)]
+        return reasons[0] if reasons and not self.splits() else ""
+
+    def derived(self) -> Iterator[str]:
+        """Yield the slope of the split at ε = 0."""
+        if self.asked("_splits") and self.slope is not None:
+            yield f"split/ε → {with_error(*self.slope)}"
+
+    def notes(self) -> Iterator[str]:
+        """Yield the reasons why splits on the graph are missing."""
+        if self.asked("_splits") and self.splits():
+            reasons = {one.reason for one in self._splits or () if isinstance(one, NotFound)}
+            yield from (f"Some splits are not known. {reason}" for reason in sorted(reasons))
+
+
+def _split(torus: HessTorus, away: float) -> Split | NotFound:
+    try:
+        return split_at(torus, away, PRECISE)
+    except ModelError as error:
+        go_on()
+        return NotFound(str(error))
+
+
+def _values(found: HessSplit) -> Array:
+    return np.array([(one.away, one.value) for one in found.splits()]).reshape(-1, 2).T
+
+
+def _line(found: HessSplit, axes: Axes) -> list[Array]:
+    return [] if found.slope is None else [np.array([[x, found.slope[0] * x] for x in axes.x])]
+
+
+split_picture = Plot[HessSplit](
+    name="split",
+    title="Split of the separatrices",
+    caption=HessSplit.caption,
+    folded="Show the split of the separatrices",
+    axes=("ε", "split in L/G"),
+    first=Axes((-_WIDE, _WIDE), (-1.0, 1.0)),
+    message=HessSplit.message,
+    on_click=lambda s, x, y: {"away": x},
+    x=lambda s: (-1.1 * s.reach, 1.1 * s.reach),
+    y=lambda s: about_0(_values(s)[1], 1e-12) if s.splits() else None,
+    layers=(
+        levels("levels", lambda s: [0.0] if s.splits() else []),
+        curves("slope", within=_line, color=theme.MUTED, dash="dashed", label="linear, with the slope at ε = 0"),
+        points(
+            "splits",
+            lambda s: _values(s) if s.splits() else None,
+            color=theme.UNSTABLE,
+            size=10,
+            label="distance of the separatrices",
+        ),
+        ring("here", lambda s: [(s.split.away, s.split.value)] if s.split else [], color=theme.INK),
+    ),
+).of
+"""The picture of the split over ε."""

@@ -1,0 +1,157 @@
+"""The largest Lyapunov exponent of the orbit on show."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, Protocol
+
+import numpy as np
+
+from hess_explorer.compute.cache import Task
+from hess_explorer.scenes.framework.part import Host, Part, Start
+from hess_explorer.scenes.framework.periodic_search import NotFound, Periodic
+from hess_explorer.scenes.framework.trial import Trial
+from hess_explorer.views import theme
+from hess_explorer.views.caption import Caption
+from hess_explorer.views.graphs.graph import over_time, thinned, with_room
+from hess_explorer.views.layers import Axes, Range
+from hess_explorer.views.picture import Picture
+from hess_explorer.views.plane.velocity_plane import nice_above
+from hess_explorer.views.plot import Plot
+from hess_explorer.views.text import digits, with_error
+from hess_mechanics.dynamics import lyapunov
+from hess_mechanics.dynamics.system import Body
+from hess_mechanics.errors import MotionEnds
+from hess_mechanics.numerics.accuracy import Kind, Level, Plan
+from hess_mechanics.numerics.results import Array
+
+__all__ = ["Exponent", "exponent_picture", "exponent_trial"]
+
+_LONG = 2000.0
+"""The longest time for which levels are compared."""
+
+
+class _Host(Host, Protocol):
+    @property
+    def body(self) -> Body:
+        """The equations and their parameters.  Raises `ModelError`."""
+
+    @property
+    def start(self) -> Start:
+        """The state at t = 0.  Raises `ModelError`."""
+
+    @property
+    def long(self) -> float:
+        """The averaging time."""
+
+    @property
+    def periodic_orbit(self) -> Periodic:
+        """The periodic orbit on show, if any."""
+
+
+@dataclass(frozen=True, eq=False)
+class Exponent(Part[_Host]):
+    """The largest Lyapunov exponent; for a periodic orbit it follows from the multipliers."""
+
+    @property
+    def growth(self) -> tuple[float, float] | None:
+        """ln|μ₁|/T and ln|μ₁μ₂|/T of the periodic orbit on show; None without one."""
+        return self.host.periodic_orbit.growth
+
+    @property
+    def later(self) -> bool:
+        """True if nothing is computed now: a slider is held, or a periodic orbit is shown or searched for."""
+        return self.work.dragging or self.host.periodic_orbit.looking or self.growth is not None
+
+    @cached_property
+    def _answer(self) -> lyapunov.Exponent | NotFound | None:
+        if self.later:
+            return None
+        plan = self.work.plan(Kind.EXPONENT)
+        return self.work.need(
+            Task(_exponent, self.host.body, self.host.start, plan.share * self.host.long, plan.level), preview=None
+        )
+
+    @property
+    def found(self) -> lyapunov.Exponent | None:
+        """The exponent of an orbit that is not periodic; None until known, and if the motion ends early."""
+        return None if isinstance(self._answer, NotFound) else self._answer
+
+    def at(self, plan: Plan) -> lyapunov.Exponent:
+        """Return the exponent, computed at once."""
+        return lyapunov.lyapunov_exponent(self.host.body, self.host.start, plan.share * self.host.long, plan.level)
+
+    @property
+    def rates(self) -> tuple[Array, Array] | None:
+        """Times and mean growth rates; None until known."""
+        if self.growth is not None:
+            return np.array([0.0, self.host.long]), np.full(2, self.growth[0])
+        return None if self.found is None else thinned(self.found.times, self.found.rates)
+
+    @property
+    def axis(self) -> Range | None:
+        """The vertical range of the picture; None until the exponent is known."""
+        if self.growth is not None:
+            return with_room(np.array([0.0, self.growth[0]]), 0.1, 1e-6)
+        if self.found is None:
+            return None
+        later = self.found.rates[len(self.found.rates) // 10 :]
+        return min(0.0, 1.05 * float(later.min())), nice_above(1.05 * max(1e-6, float(later.max())))
+
+    @property
+    def caption(self) -> Caption:
+        """The caption of the picture."""
+        if self.growth is not None:
+            return Caption("From the multipliers of the periodic orbit.", f"ln|μ₁|/T = {digits(self.growth[0])}.")
+        found = self._answer
+        if found is None:
+            return Caption(self.work.awaited())
+        if isinstance(found, NotFound):
+            return Caption("No exponent: the motion ends early.")
+        end = float(found.times[-1])
+        grows = f"Not chaotic: {found.no_chaos}." if found.no_chaos else "Looks chaotic."
+        kind = "Looks regular." if found.is_regular else grows
+        return Caption(kind, f"λ = {with_error(found.value, found.spread)} after t = {digits(end)}.")
+
+    def notes(self) -> Iterator[str]:
+        """Yield the reason why the motion ends early, with time and place."""
+        if self.asked("_answer") and isinstance(self._answer, NotFound):
+            yield self._answer.reason
+
+
+def _exponent(body: Body, start: Start, span: float, level: Level) -> lyapunov.Exponent | NotFound:
+    """Return the exponent, or the reason why the motion ends early: other tasks go on."""
+    try:
+        return lyapunov.lyapunov_exponent(body, start, span, level)
+    except MotionEnds as error:
+        return NotFound(str(error))
+
+
+def exponent_picture(folded: str = "") -> Picture[Any]:
+    """Return the picture of the mean growth rate over time."""
+    return Plot(
+        name="exponent",
+        title="Largest Lyapunov exponent",
+        caption=lambda s: s.exponent.caption,
+        axes=("t", "λ"),
+        folded=folded,
+        first=Axes((0.0, 200.0), (0.0, 1.0)),
+        x=lambda s: (0.0, s.exponent.host.long),
+        y=lambda s: s.exponent.axis,
+        layers=(over_time("lambda", lambda s: s.exponent.rates, color=theme.ORBIT),),
+    )
+
+
+def exponent_trial() -> Trial[Any]:
+    """Return the trial of the exponent, computed at each level."""
+    return Trial(
+        Kind.EXPONENT,
+        ("exponent",),
+        lambda s, plan: s.exponent.at(plan),
+        lambda s, found, truth: abs(found.value - truth.value) / max(truth.spread, 1e-12),
+        unit="of what it changes by in the second half of its time",
+        seen=10.0,
+        most=(("long", _LONG),),
+    )

@@ -1,0 +1,161 @@
+"""The torus of a motion of the Hess case as a surface in three dimensions, with its density if that is asked for."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, Protocol
+
+from hess_explorer.compute.cache import Task
+from hess_explorer.scenes.framework.hess_case import HeavyHess, limit_cycles, map_or_none
+from hess_explorer.scenes.framework.part import Host, Part
+from hess_explorer.scenes.framework.sliders import choice
+from hess_explorer.views.caption import Caption
+from hess_explorer.views.plane import torus_density
+from hess_explorer.views.space.torus_in_space import FORMULA, POINTS, Curve, TorusInSpace, about
+from hess_mechanics.errors import InvalidParameter, ModelError, Separatrix
+from hess_mechanics.numerics.accuracy import Level
+from hess_mechanics.numerics.results import Array, Complex
+from hess_mechanics.suslov_hess.bifurcation import TurningPoints
+from hess_mechanics.suslov_hess.circle_map import CircleMap
+from hess_mechanics.suslov_hess.embedding import CrossSection, cross_section, density_along, embedded
+from hess_mechanics.suslov_hess.torus import Track
+
+__all__ = ["INVARIANT", "HeavyTorus", "HessSurface", "OnTorus", "shaded_by", "surface_picture"]
+
+PLAIN, INVARIANT = "plain", "invariant density"
+
+
+def shaded_by() -> Any:
+    """Declare whether the torus in space shows the invariant density."""
+    return choice(
+        "Torus in space",
+        (PLAIN, INVARIANT),
+        PLAIN,
+        doc="The torus is greener where its invariant density is larger. There is one where no limit cycle exists.",
+    )
+
+
+class OnTorus(Host, Protocol):
+    """A host with a torus of the Hess case, in units b = 1."""
+
+    @property
+    def level(self) -> Level:
+        """The level of accuracy."""
+
+    @property
+    def h(self) -> float:
+        """The energy.  Raises `ModelError`."""
+
+    @property
+    def turning(self) -> TurningPoints | None:
+        """The turning points of n3; None on the separatrix.  Raises `ModelError`."""
+
+    @property
+    def map(self) -> CircleMap | None:
+        """The circle map; None on the separatrix.  Raises `ModelError`."""
+
+    @property
+    def cycles(self) -> tuple[Track, Track] | None:
+        """The stable and the unstable limit cycle, if they exist.  Raises `ModelError`."""
+
+
+@dataclass(frozen=True, eq=False)
+class HeavyTorus(Part[Host]):
+    """The torus of the Hess manifold with the integrals of a heavy body."""
+
+    heavy: HeavyHess
+
+    @property
+    def level(self) -> Level:
+        """The level of accuracy."""
+        return self.work.level
+
+    @property
+    def h(self) -> float:
+        """The energy in units b = 1."""
+        return self.heavy.bridge.in_units_of_b(self.heavy.h, self.heavy.f)[0]
+
+    @cached_property
+    def turning(self) -> TurningPoints | None:
+        """The turning points of n3; None on the separatrix."""
+        try:
+            return self.heavy.turning
+        except Separatrix:
+            return None
+
+    @cached_property
+    def map(self) -> CircleMap | None:
+        """The circle map; None on the separatrix."""
+        bridge = self.heavy.bridge
+        return map_or_none(self.work, bridge.hess.a, *bridge.in_units_of_b(self.heavy.h, self.heavy.f), self.level)
+
+    @cached_property
+    def cycles(self) -> tuple[Track, Track] | None:
+        """The stable and the unstable limit cycle, if they exist."""
+        hess = self.heavy.bridge.hess
+        return limit_cycles(
+            self.work, hess, self.map, self.level, hess.frequency_unit * math.sqrt(2.0 * (self.h + 1.0))
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class HessSurface(Part[OnTorus]):
+    """The torus as a surface, and the curves on it.
+
+    shaded : whether by its invariant density; orbit() : the orbit on show as reduced states (n, 5) in units b = 1, and
+    its times (n,); says() : the second part of the caption.
+    """
+
+    shaded: bool
+    orbit: Callable[[], tuple[Array, Array]]
+    says: Callable[[], str] = lambda: FORMULA
+
+    @cached_property
+    def section(self) -> CrossSection | None:
+        """The cross-section of the surface; None if no motion has these integrals."""
+        try:
+            return cross_section(self.host.h, self.host.turning, POINTS)
+        except ModelError:
+            return None
+
+    @cached_property
+    def density(self) -> tuple[Complex | None, str]:
+        """The points ζ_s of the invariant density along the cross-section, or None and the reason."""
+        if not self.shaded or self.section is None:
+            return None, ""
+        map_ = self.host.map
+        # The verdict says why.
+        if map_ is None or torus_density.reason_for_no_density(map_, self.host.turning):
+            return None, "No density."
+        try:
+            return self.work.need(Task(density_along, map_, POINTS, self.host.level)), ""
+        except InvalidParameter as error:
+            return None, str(error)
+
+    def curves(self) -> dict[str, Curve]:
+        """Return the orbit and the limit cycles, by their looks."""
+        if self.section is None:
+            return {}
+        states, times = self.orbit()
+        found = {"orbit": Curve(embedded(states, self.host.h), times)}
+        for look, cycle in zip(("stable", "unstable"), self.host.cycles or (), strict=False):
+            found[look] = Curve(embedded(cycle.orbit.states, self.host.h))
+        return found
+
+    def caption(self) -> Caption:
+        """Return the caption: what the surface is, its formula, and why it has no density."""
+        if self.section is None:
+            return Caption("No torus.", "The Hess manifold has no motion with these h and f.")
+        return about(self.host.map, self.host.turning, self.says(), self.density[1])
+
+
+surface_picture = TorusInSpace[HessSurface](
+    caption=HessSurface.caption,
+    surface=lambda s: s.section,
+    zeta=lambda s: s.density[0],
+    curves=HessSurface.curves,
+).of
+"""The picture of the surface."""

@@ -1,0 +1,87 @@
+"""The time τ, dτ = γ3 dt, along a motion with e on a principal axis, and the Poisson brackets that depend on γ."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TypeVar
+
+import numpy as np
+
+from hess_explorer.views import theme
+from hess_explorer.views.caption import Caption
+from hess_explorer.views.graphs.graph import about_0, over_time, pieces, thinned
+from hess_explorer.views.layers import Axes, Layers, curves, levels, mapped
+from hess_explorer.views.plot import Plot
+from hess_explorer.views.text import digits
+from hess_mechanics.numerics.results import Array
+from hess_mechanics.suslov.principal_axis import Conformal
+
+__all__ = ["about", "picture"]
+
+S = TypeVar("S")
+Found = Callable[[S], Conformal | None]
+
+_LEAST = 2.5
+"""Half height of the axis at least, so that the brackets, of order 1 away from γ3 = 0, are visible."""
+
+
+def about(found: Conformal) -> Caption:
+    """Return the caption of a motion in both times."""
+    turned = {0: "never", 1: "once"}.get(found.turns, f"{found.turns} times")
+    return Caption(
+        "Hamiltonian in the time τ.",
+        f"ẋ = γ₃{{x, E}} to {digits(found.left_over, 1)}; τ reverses {turned} on the equator.",
+    )
+
+
+def _bracket(found: Found[S], i: int) -> Callable[[S, Axes], list[Array]]:
+    """Return the graph of a bracket, cut at the equator, where it is infinite."""
+
+    def graph(state: S, axes: Axes) -> list[Array]:
+        motion = found(state)
+        if motion is None:
+            return []
+        values, top = motion.brackets[:, i], 1.5 * axes.y[1]
+        kept = np.abs(values) < top
+        return pieces(np.column_stack([motion.orbit.times, np.where(kept, values, 0.0)]), kept, top)
+
+    return graph
+
+
+def picture(found: Found[S], reason: Callable[[S], str], span: Callable[[S], float]) -> Plot[S]:
+    """Return the plot of τ, {ω1, γ3} and {ω2, γ3} against t, or of the reason for their absence."""
+
+    def caption(state: S) -> Caption:
+        motion = found(state)
+        return Caption(numbers=reason(state)) if motion is None else about(motion)
+
+    layers: Layers[S] = (
+        levels("levels", lambda s: [] if found(s) is None else [0.0]),
+        curves("first", within=_bracket(found, 0), color=theme.MAP, width=1.5, label="{ω₁, γ₃} = γ₂/(I₁₁γ₃)"),
+        curves(
+            "second",
+            within=_bracket(found, 1),
+            color=theme.MUTED,
+            width=1.5,
+            dash="dashed",
+            label="{ω₂, γ₃} = −γ₁/(I₂₂γ₃)",
+        ),
+        over_time(
+            "tau",
+            mapped(found, lambda motion: thinned(motion.orbit.times, motion.tau)),
+            color=theme.ORBIT,
+            label="conformal time τ",
+            tag="τ",
+        ),
+    )
+    return Plot(
+        name="conformal",
+        title="Conformal time and brackets",
+        caption=caption,
+        axes=("t", "τ"),
+        first=Axes((0.0, 60.0), (-3.0, 3.0)),
+        x=lambda s: (0.0, span(s)),
+        y=mapped(found, lambda motion: about_0(motion.tau, _LEAST)),
+        layers=layers,
+        folded="Show the conformal time",
+    )

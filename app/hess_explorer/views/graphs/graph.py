@@ -1,0 +1,97 @@
+"""Graphs of functions: curves over an angle, in as many branches as they need."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from typing import TypeVar
+
+import numpy as np
+
+from hess_explorer.views.layers import Layer, Range, curves, mapped
+from hess_explorer.views.plane.velocity_plane import centred, nice_above
+from hess_mechanics.numerics.results import Array, Mask
+
+__all__ = [
+    "ANGLE",
+    "ANGLE_TICKS",
+    "about_0",
+    "branches",
+    "over_time",
+    "pieces",
+    "settled_range",
+    "thinned",
+    "with_room",
+]
+
+S = TypeVar("S")
+
+ANGLE: Range = (-math.pi, math.pi)
+"""The axis of an angle."""
+ANGLE_TICKS = ((-math.pi, "−π"), (-math.pi / 2, "−π/2"), (0.0, "0"), (math.pi / 2, "π/2"), (math.pi, "π"))
+_POINTS = 600
+"""Number of points of a curve over a long time that a picture resolves."""
+
+
+def over_time(
+    name: str,
+    data: Callable[[S], tuple[Array, Array] | None],
+    *,
+    color: str,
+    dash: str = "solid",
+    label: str = "",
+    tag: str = "",
+) -> Layer[S]:
+    """Return the layer of a graph; data(state) = times and values (n,), or None if unknown."""
+    return curves(
+        name, mapped(data, lambda found: [np.column_stack(found)]), color=color, dash=dash, label=label, tag=tag
+    )
+
+
+def settled_range(curves: Sequence[Array]) -> Range:
+    """Return an axis for curves (n,) over a long time, with room for 0 and for all but their first tenth."""
+    settled = np.concatenate([y[len(y) // 10 :] for y in curves])
+    low, high = float(settled.min()), float(settled.max())
+    room = 0.08 * max(1e-6, high - low)
+    return min(0.0, low) - room, max(0.0, high) + room
+
+
+def about_0(values: Array, least: float) -> Range:
+    """Return an axis about 0 with a round limit for values, whose largest counts as at least `least`."""
+    return centred(nice_above(1.2 * max(float(np.abs(values).max()), least)))
+
+
+def with_room(values: Array, share: float, least: float = 0.0) -> Range:
+    """Return an axis for values with a margin on both sides: a share of their range, at least `least`."""
+    low, high = float(values.min()), float(values.max())
+    room = max(least, share * (high - low))
+    return low - room, high + room
+
+
+def thinned(x: Array, y: Array) -> tuple[Array, Array]:
+    """Return a curve reduced to the number of points that a picture resolves."""
+    kept = np.unique(np.linspace(0, len(x) - 1, _POINTS).astype(int))
+    return x[kept], y[kept]
+
+
+def branches(x: Array, y: Array, period: float) -> list[Array]:
+    """Return a curve over an angle, cut at ±period/2; each part reaches to the edge."""
+    x, y = np.asarray(x, float), np.asarray(y, float)
+    cuts = np.flatnonzero(np.abs(np.diff(x)) > period / 2)
+    edges = np.copysign(period / 2, x[cuts])
+    before, after = np.abs(edges - x[cuts]), np.abs(edges + x[cuts + 1])
+    share = np.divide(before, before + after, out=np.zeros(cuts.size), where=before + after > 0.0)
+    heights = y[cuts] + share * (y[cuts + 1] - y[cuts])
+    at = np.repeat(cuts + 1, 2)
+    x, y = np.insert(x, at, np.column_stack([edges, -edges]).ravel()), np.insert(y, at, np.repeat(heights, 2))
+    return np.split(np.column_stack([x, y]), cuts + 2 + 2 * np.arange(cuts.size))
+
+
+def pieces(curve: Array, kept: Mask, jump: float = math.inf) -> list[Array]:
+    """Return the parts of a curve (n, 2) where `kept` (n,) holds, also cut at jumps in height."""
+    cuts = np.flatnonzero((kept[1:] != kept[:-1]) | (np.abs(np.diff(curve[:, 1])) > jump)) + 1
+    return [
+        part
+        for part, whole in zip(np.split(curve, cuts), np.split(kept, cuts), strict=True)
+        if whole[0] and len(part) > 1
+    ]

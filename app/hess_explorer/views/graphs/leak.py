@@ -1,0 +1,36 @@
+"""Distance of leaking orbits from the Hess manifold over time."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import TypeVar
+
+from hess_explorer.views import theme
+from hess_explorer.views.graphs.chart import lg
+from hess_explorer.views.graphs.graph import over_time
+from hess_explorer.views.layers import Layers
+from hess_mechanics.euler_poisson.hess_manifold import Leak
+from hess_mechanics.numerics.results import Array
+
+__all__ = ["distances"]
+
+S = TypeVar("S")
+
+
+def distances(leaks: Callable[[S], Mapping[str, Leak]], distance: Callable[[Leak], Array]) -> Layers[S]:
+    """Return the curves of lg of a distance (n,) over time for the orbits "own" (chosen accuracy) and "reference"."""
+
+    def curve(state: S, name: str) -> tuple[Array, Array]:
+        leak = leaks(state)[name]
+        return leak.run.times, lg(distance(leak))
+
+    return (
+        over_time(
+            "reference",
+            lambda s: curve(s, "reference"),
+            color=theme.LEVELS["reference"],
+            dash="dotdash",
+            label="orbit at reference accuracy",
+        ),
+        over_time("own", lambda s: curve(s, "own"), color=theme.MAP, label="orbit that leaks, at the chosen accuracy"),
+    )

@@ -1,0 +1,45 @@
+"""The period of an orbit over its initial direction."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import TypeVar
+
+import numpy as np
+
+from hess_explorer.views import theme
+from hess_explorer.views.layers import Axes, Layers, Range, curves, ring
+from hess_explorer.views.plane.velocity_plane import nice_above
+from hess_mechanics.numerics.results import Array
+
+__all__ = ["has_periods", "layers", "period_axis"]
+
+S = TypeVar("S")
+
+
+def has_periods(periods: Array) -> bool:
+    """Return whether any period of (α, T), (n, 2), is finite."""
+    return bool(np.isfinite(periods[:, 1]).any())
+
+
+def period_axis(periods: Array, here: float = 0.0) -> Range:
+    """Return an axis with room for most periods, as some are infinite, and for the period on show if finite."""
+    finite = periods[np.isfinite(periods[:, 1]), 1]
+    if not finite.size:
+        return 0.0, 20.0
+    return 0.0, nice_above(max(1.5 * float(np.median(finite)), 1.1 * here if math.isfinite(here) else 0.0))
+
+
+def layers(periods: Callable[[S], Array], here: Callable[[S], tuple[float, float] | None]) -> Layers[S]:
+    """Return the layers: T against α from (α, T), (n, 2), and a ring at the orbit on show; infinite T is clipped."""
+
+    def curve(state: S, axes: Axes) -> list[Array]:
+        found = periods(state)
+        return [np.minimum(found, (np.inf, 4.0 * axes.y[1]))] if has_periods(found) else []
+
+    def chosen(state: S, axes: Axes) -> list[tuple[float, float]]:
+        place = here(state) if has_periods(periods(state)) else None
+        return [] if place is None else [(place[0], min(place[1], axes.y[1]))]
+
+    return curves("T", within=curve, color=theme.ORBIT), ring("chosen", within=chosen, size=18)

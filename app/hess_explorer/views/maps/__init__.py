@@ -1,0 +1,1 @@
+"""Maps and diagrams: circle maps, scattering, rotation numbers, branches."""

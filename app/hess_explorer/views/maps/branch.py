@@ -1,0 +1,137 @@
+"""Branches of periodic orbits over a parameter, by stability, with their bifurcations."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import TypeVar
+
+import numpy as np
+
+from hess_explorer.views import theme
+from hess_explorer.views.layers import Axes, Layers, curves, names, points
+from hess_explorer.views.plane.periodic import seen, sign_of, within
+from hess_mechanics.dynamics.continuation import Bifurcation, Branch
+from hess_mechanics.numerics.results import Array
+
+__all__ = ["bifurcations", "layers", "strands"]
+
+S = TypeVar("S")
+_SHORT = {"Neimark–Sacker": "N–S"}
+
+
+def strands(branch: Branch, side: int, sign: str) -> list[Array]:
+    """Return the parts (n, 2) of a branch with one sign of `sign_of`: the parameter and one coordinate of each place.
+
+    At a change of sign the parts reach to the bifurcation.
+    """
+    signs = [sign_of(kind) for kind in branch.kinds]
+    found: list[Array] = []
+    for j in range(branch.period):
+        run: list[tuple[float, float]] = []
+        for i, (value, places) in enumerate(zip(branch.values, branch.places, strict=True)):
+            here = (float(value), float(places[j, side]))
+            between = sorted(
+                (one for one in branch.bifurcations if one.after == i - 1),
+                key=lambda one: float(np.abs(one.places - branch.places[max(0, i - 1)]).max()),
+            )
+            for one in between:
+                met = (one.value, float(one.places[j, side]))
+                run = _ended(found, [*run, met] if run else [])
+                run = [met] if signs[i] == sign else []
+            # Without a bifurcation between them, a point of neither sign belongs to the previous part.
+            if signs[i] == sign or (run and signs[i] == "neither"):
+                run.append(here)
+            else:
+                run = _ended(found, run)
+        _ended(found, run)
+    return found
+
+
+def _ended(found: list[Array], run: list[tuple[float, float]]) -> list[tuple[float, float]]:
+    if len(run) > 1:
+        found.append(np.array(run))
+    return []
+
+
+def layers(
+    branches: Callable[[S], Sequence[Branch]], side: Callable[[S], int], turn: Callable[[S], float]
+) -> Layers[S]:
+    """Return the branches over the parameter: one coordinate of all places, with period `turn` or ∞."""
+
+    def parts(sign: str) -> Callable[[S, Axes], list[Array]]:
+        def of(state: S, axes: Axes) -> list[Array]:
+            up = Axes(axes.y, axes.x)
+            return [
+                part[:, ::-1]
+                for one in branches(state)
+                for strand in strands(one, side(state), sign)
+                for part in within(strand[:, ::-1], turn(state), up)
+            ]
+
+        return of
+
+    def marked(state: S, axes: Axes) -> list[tuple[float, float, str]]:
+        up, found = Axes(axes.y, axes.x), []
+        for one in bifurcations(branches(state)):
+            y = one.places[:, side(state)]
+            there = seen(np.column_stack([y, np.full(len(y), one.value)]), turn(state), up)
+            inside = [(float(x), float(height)) for height, x in there if axes.x[0] <= x <= axes.x[1]]
+            # Only the highest place carries the name, as names at all places would overlap.
+            found += [
+                (x, y, _SHORT.get(one.kind, one.kind) if y == max(inside, key=lambda at: at[1])[1] else "")
+                for x, y in inside
+            ]
+        return found
+
+    def places(state: S, axes: Axes) -> Array | None:
+        found = [(x, y) for x, y, _ in marked(state, axes)]
+        return np.array(found).T if found else None
+
+    return (
+        curves(
+            "branch-attracts",
+            within=parts("attracts"),
+            color=theme.STABLE,
+            width=3.0,
+            label="branch of a stable periodic orbit",
+            tag="stable",
+        ),
+        curves(
+            "branch-neither",
+            within=parts("neither"),
+            color=theme.SHEET,
+            width=3.0,
+            label="branch of an elliptic or parabolic one",
+            tag="elliptic",
+        ),
+        curves(
+            "branch-repels",
+            within=parts("repels"),
+            color=theme.UNSTABLE,
+            width=3.0,
+            dash="dashed",
+            label="branch of an unstable one",
+            tag="unstable",
+        ),
+        points(
+            "bifurcations",
+            within=places,
+            size=10,
+            color=theme.LOCKED,
+            edge=theme.INK,
+            edge_width=1.5,
+            label="bifurcation",
+        ),
+        names("bifurcation-names", within=marked, size=13, above=7),
+    )
+
+
+def bifurcations(branches: Sequence[Branch]) -> list[Bifurcation]:
+    """Return all bifurcations without duplicates, sorted by the parameter."""
+    found: list[Bifurcation] = []
+    for one in (one for branch in branches for one in branch.bifurcations):
+        if not any(
+            one.kind == known.kind and abs(one.value - known.value) <= one.error + known.error for known in found
+        ):
+            found.append(one)
+    return sorted(found, key=lambda one: one.value)

@@ -1,0 +1,165 @@
+"""The circle map Θ(φ) on the square (−π, π]², its fixed points or its invariant density, and a cobweb."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import TypeVar
+
+import numpy as np
+
+from hess_explorer.views import theme
+from hess_explorer.views.caption import Caption
+from hess_explorer.views.graphs.graph import ANGLE, ANGLE_TICKS
+from hess_explorer.views.layers import Layers, curves, line, mapped, points
+from hess_explorer.views.picture import Values
+from hess_explorer.views.plot import Plot
+from hess_explorer.views.text import digits
+from hess_mechanics.numerics.results import Array
+from hess_mechanics.suslov_hess.circle_map import CircleMap
+from hess_mechanics.suslov_hess.invariant_measure import invariant_measure
+
+__all__ = ["EVENLY", "about", "cobweb", "cycles", "picture", "riccati_matrix"]
+
+S = TypeVar("S")
+Click = Callable[[S, float, float], Values]
+
+_COBWEB = 60
+"""Number of returns in the cobweb."""
+EVENLY = 0.25
+"""Height of a uniform density as a share of the frame; 0 is at the bottom."""
+_DENSITY = np.linspace(*ANGLE, 241)
+_BEYOND = 100.0
+"""Density relative to the uniform one that lies beyond the frame."""
+
+
+def cobweb(iterates: Array) -> tuple[Array, Array]:
+    """Return the staircase (φ0, φ0) → (φ0, φ1) → (φ1, φ1) → …"""
+    return np.repeat(iterates, 2)[:-1], np.repeat(iterates, 2)[1:]
+
+
+def _copies(circle_map: CircleMap) -> list[Array]:
+    """Return the graph and its copies one turn up and down; the frame clips them to the square."""
+    phi, theta = circle_map.graph
+    return [np.column_stack([phi, theta + turn]) for turn in (0.0, -2 * math.pi, 2 * math.pi)]
+
+
+def _fixed(circle_map: CircleMap, stable: bool) -> tuple[list[float], list[float]]:
+    found = [point.phi for point in circle_map.fixed_points if (point.log_multiplier <= 0) == stable]
+    return found, found
+
+
+def _density(circle_map: CircleMap) -> list[Array]:
+    """Return the smooth invariant density above the bottom of the frame, if it exists."""
+    if circle_map.kind != "elliptic":
+        return []
+    relative = np.minimum(_BEYOND, 2.0 * math.pi * invariant_measure(circle_map).density(_DENSITY))
+    return [np.column_stack([_DENSITY, -math.pi + EVENLY * 2.0 * math.pi * relative])]
+
+
+def picture(
+    map: Callable[[S], CircleMap | None],
+    iterates: Callable[[S], Array | None],
+    caption: Callable[[S], Caption],
+    title: str = "Circle map",
+    dot: tuple[str, str] | None = None,
+    on_click: Click[S] | None = None,
+) -> Plot[S]:
+    """Return the plot of a circle map (None on the separatrix), with fixed points or density and a cobweb."""
+    return Plot(
+        name="circle",
+        title=title,
+        caption=caption,
+        axes=("φ", "Θ(φ)"),
+        x=ANGLE,
+        y=ANGLE,
+        ticks=ANGLE_TICKS,
+        dot=dot,
+        message=lambda s: "" if map(s) is not None else "Separatrix: no return",
+        on_click=on_click,
+        starts=on_click is not None,
+        layers=_layers(map, iterates),
+    )
+
+
+def _layers(map: Callable[[S], CircleMap | None], iterates: Callable[[S], Array | None]) -> Layers[S]:
+    """Return the layers: diagonal, Θ, stable (filled) and unstable (hollow) fixed points or density, cobweb."""
+    here = ("phi", "theta")
+    return (
+        line(
+            "diagonal",
+            mapped(map, lambda theta: (ANGLE, ANGLE)),
+            columns=here,
+            color=theme.MUTED,
+            dash="dotted",
+            width=1.5,
+            tag="diagonal",
+        ),
+        curves("density", mapped(map, _density), color=theme.STABLE, width=1.5, label="density", tag="density"),
+        line(
+            "cobweb",
+            mapped(iterates, lambda found: cobweb(found[: _COBWEB + 1])),
+            columns=here,
+            color=theme.ORBIT,
+            width=1,
+        ),
+        curves("map", mapped(map, _copies), color=theme.MAP, width=2.5, label="Θ", tag="Θ"),
+        points(
+            "stable",
+            mapped(map, lambda theta: _fixed(theta, True)),
+            columns=here,
+            size=12,
+            edge_width=3,
+            color=theme.STABLE,
+            tag="stable",
+        ),
+        points(
+            "unstable",
+            mapped(map, lambda theta: _fixed(theta, False)),
+            columns=here,
+            size=12,
+            edge_width=3,
+            hollow=True,
+            color=theme.UNSTABLE,
+            tag="unstable",
+        ),
+    )
+
+
+def cycles(theta: CircleMap) -> str:
+    """Return the cycles of a torus in words; a parabolic map without a fixed point of its own is the identity."""
+    if theta.kind == "parabolic":
+        return "the two cycles have merged" if theta.fixed_points else "every orbit closes"
+    return "two limit cycles" if theta.kind == "hyperbolic" else "no cycle"
+
+
+def about(theta: CircleMap | None, proof: str = "") -> Caption:
+    """Return the kind of a map, its trace and rotation number, and its multipliers; None on the separatrix.
+
+    proof : the proved statement, if known.  It replaces the kind and the numbers that it encloses, or the whole caption
+    if it says that there is no torus.
+    """
+    if theta is None:
+        return Caption("Separatrix: no return.")
+    if "no torus" in proof:
+        return Caption(numbers=proof)
+    kind = f"{theta.kind.capitalize()}: {cycles(theta)}."
+    trace, rho = f"|trace| = {digits(theta.trace)}", f"ρ = {digits(theta.rotation_number)}"
+    if "cycle" in proof:
+        statement, bounds = proof.split(", ", 1)
+        return Caption(f"{statement}.", f"{rho}, {bounds}" if "|trace|" in bounds else f"{trace}, {rho}, {bounds}")
+    multipliers = {
+        "hyperbolic": f"; multipliers {', '.join(digits(point.multiplier) for point in theta.fixed_points)}",
+        "parabolic": "; multiplier 1",
+    }.get(theta.kind, "")
+    numbers = f"{trace}, {rho}{multipliers}."
+    return Caption(kind, f"{numbers} {proof}" if proof else numbers)
+
+
+def riccati_matrix(theta: CircleMap) -> str:
+    """Return the two entries of the Riccati matrix."""
+    alpha, beta = theta.alpha_beta
+    return (
+        f"Riccati matrix α = {digits(alpha.real)} {'−' if alpha.imag < 0.0 else '+'} {digits(abs(alpha.imag))} i, "
+        f"β = {digits(beta.imag)} i"
+    )

@@ -1,0 +1,1 @@
+"""Pictures in a plane: of ω, of γ, of coordinates, of sections."""

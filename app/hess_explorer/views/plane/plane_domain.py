@@ -1,0 +1,112 @@
+"""The (q1, q2)-plane of a point in a potential: admissible domain, equipotentials, orbit."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import TypeVar
+
+import numpy as np
+
+from hess_explorer.views import theme
+from hess_explorer.views.caption import Caption
+from hess_explorer.views.graphs.graph import about_0, over_time
+from hess_explorer.views.layers import Axes, Columns, Layers, Regions, column, curves, line, region, ring
+from hess_explorer.views.plane.velocity_plane import about_origin, square
+from hess_explorer.views.plot import Plot
+from hess_explorer.views.space.poisson_sphere import gamma_columns
+from hess_explorer.views.text import digits, staying
+from hess_mechanics.numerics.results import Array, Orbit
+
+__all__ = ["ground", "momentum_picture", "orbit", "picture", "plane_columns"]
+
+S = TypeVar("S")
+
+
+def plane_columns(orbit: Orbit, q: Array, **more: Array) -> Columns:
+    """Return the columns of an orbit for this plane and the sphere, with q (m, 2) and more for the player."""
+    return {
+        "t": column(orbit.times),
+        "q1": column(q[:, 0]),
+        "q2": column(q[:, 1]),
+        **gamma_columns(orbit.states[:, 2:]),
+        **{name: column(one) for name, one in more.items()},
+    }
+
+
+def picture(
+    title: str,
+    caption: Callable[[S], Caption],
+    half_width: Callable[[S], float],
+    names: tuple[str, str],
+    layers: Layers[S],
+    dots: Mapping[str, tuple[str, str]] | None = None,
+) -> Plot[S]:
+    """Return the plot of the plane, with a point moving along the orbit; a click sets the parameters `names`."""
+    return Plot(
+        name="domain",
+        title=title,
+        caption=caption,
+        axes=("q₁", "q₂"),
+        x=about_origin(half_width),
+        y=about_origin(half_width),
+        dot=("q1", "q2"),
+        dots=dots,
+        layers=layers,
+        on_click=lambda s, x, y: dict(zip(names, (x, y), strict=True)),
+        starts=True,
+    )
+
+
+def ground(
+    edge: Callable[[S], Array], forbidden: Callable[[S], Sequence[Array]], levels: Callable[[S], Sequence[Array]]
+) -> Layers[S]:
+    """Return the layers below the orbit: grey outside the edge (n, 2) and inside closed curves; equipotentials."""
+
+    def grey(state: S, axes: Axes) -> Regions:
+        outer = edge(state)
+        # While a slider is held, the axes may be smaller or larger than the domain.
+        frame = square(2.0 * max(axes.x[1], float(abs(outer).max())))
+        return [[frame, outer], *([part] for part in forbidden(state))]
+
+    return (
+        region("forbidden", within=grey, label="impossible", tag="impossible"),
+        curves("levels", levels, color=theme.MUTED, width=1, label="equipotentials"),
+    )
+
+
+def orbit(start: Callable[[S], tuple[float, float]], label: str = "") -> Layers[S]:
+    """Return the layers: the track of the orbit and a ring at its start."""
+    return (
+        line("orbit", track="orbit", columns=("q1", "q2"), color=theme.ORBIT, label="orbit", tag="orbit"),
+        ring("start", lambda s: [start(s)], label=label, tag="start"),
+    )
+
+
+def momentum_picture(
+    momentum: Callable[[S], tuple[Array, Array]], least: Callable[[S], float], is_integral: Callable[[S], bool]
+) -> Plot[S]:
+    """Return the plot of q1p2 − q2p1 over time, (n,) each: an integral if the force is central.
+
+    least : minimal half height of the axis; is_integral : whether the force is central.
+    """
+
+    def about(state: S) -> Caption:
+        _, values = momentum(state)
+        if is_integral(state):
+            return Caption(
+                "An integral, as I₁₁ = I₂₂.",
+                f"{digits(float(values[0]))}, constant to {digits(float(np.ptp(values)), 1)}.",
+            )
+        return Caption("No integral, as I₁₁ ≠ I₂₂.", f"Here it is {staying(values)}.")
+
+    return Plot(
+        name="momentum",
+        title="q₁p₂ − q₂p₁ against time",
+        caption=about,
+        axes=("t", "q₁p₂ − q₂p₁"),
+        folded="Show q₁p₂ − q₂p₁ against time",
+        x=lambda s: (0.0, float(momentum(s)[0][-1])),
+        dot=("t", "momentum"),
+        y=lambda s: about_0(momentum(s)[1], least(s)),
+        layers=(over_time("G", momentum, color=theme.ORBIT),),
+    )

@@ -1,0 +1,100 @@
+"""The motion with e on a principal axis in a potential U(γ1, γ2), in the (q1, q2)-plane."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TypeVar
+
+import numpy as np
+
+from hess_explorer.views import theme
+from hess_explorer.views.caption import Caption
+from hess_explorer.views.layers import curves, line, ring
+from hess_explorer.views.plane.plane_domain import ground
+from hess_explorer.views.plane.velocity_plane import about_origin
+from hess_explorer.views.plot import Plot
+from hess_explorer.views.text import digits
+from hess_mechanics.numerics.results import Array
+from hess_mechanics.suslov.plane_potential import (
+    PlaneMotion,
+    PotentialBody,
+    forbidden,
+    level_curve,
+)
+
+__all__ = ["about", "picture"]
+
+S = TypeVar("S")
+
+_LEVELS = (0.1, 0.25, 0.5, 0.75, 0.95)
+"""Levels of the equipotentials, in units of the largest U on the edge."""
+
+
+def about(body: PotentialBody, motion: PlaneMotion) -> Caption:
+    """Return the caption of a motion: whether and why it closes, and whether a further integral exists."""
+    if motion.fixed:
+        return Caption("A fixed point: nothing changes.")
+    if motion.period is not None:
+        return Caption(
+            "Periodic: it crosses the equator twice.",
+            f"T = {digits(motion.period)}, back to the start to {digits(motion.missed, 1)}.",
+        )
+    integral = (
+        f"F₂ is constant to {digits(motion.integral, 1)}: integrable."
+        if body.separates
+        else f"F₂ changes by {digits(100.0 * motion.integral, 2)} %."
+    )
+    if motion.one_sided:
+        return Caption("Too slow to reach the equator.", f"It stays on one side. {integral}")
+    return Caption(
+        "Fewer than two equator crossings.", f"Up to t = {digits(float(motion.orbit.times[-1]))}. {integral}"
+    )
+
+
+def _largest(body: PotentialBody) -> float:
+    angle = np.linspace(0.0, 2.0 * np.pi, 121)
+    return float(body.potential(np.stack([np.cos(angle), np.sin(angle)], axis=-1)).max())
+
+
+def picture(
+    name: Callable[[S], str],
+    body: Callable[[S], PotentialBody],
+    motion: Callable[[S], PlaneMotion],
+    half_width: Callable[[S], float],
+) -> Plot[S]:
+    """Return the plot of the domain: equipotentials of U, and the motion from the start of the scene's orbit."""
+
+    def edge(state: S) -> Array:
+        angle = np.linspace(0.0, 2.0 * np.pi, 241)
+        return body(state).place(np.stack([np.cos(angle), np.sin(angle)], axis=-1))
+
+    def levels(state: S) -> list[Array]:
+        top = _largest(body(state))
+        return [body(state).place(part) for share in _LEVELS for part in level_curve(body(state), share * top)]
+
+    def too_high(state: S) -> list[Array]:
+        return [body(state).place(part) for part in forbidden(body(state), motion(state).energy)]
+
+    def orbit(state: S) -> tuple[Array, Array]:
+        q = body(state).place(motion(state).orbit.states[:, 2:4])
+        return q[:, 0], q[:, 1]
+
+    def start(state: S) -> list[tuple[float, float]]:
+        x, y = orbit(state)
+        return [(float(x[0]), float(y[0]))]
+
+    return Plot(
+        name="potential",
+        title=lambda s: f"Potential: {name(s)}",
+        caption=lambda s: about(body(s), motion(s)),
+        axes=("q₁", "q₂"),
+        x=about_origin(half_width),
+        y=about_origin(half_width),
+        folded="Show another potential",
+        layers=(
+            *ground(edge, too_high, levels),
+            curves("border", lambda s: [edge(s)], color=theme.MUTED, width=1),
+            line("orbit", orbit, color=theme.ORBIT, width=1.3),
+            ring("start", start),
+        ),
+    )

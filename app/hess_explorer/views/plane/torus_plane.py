@@ -1,0 +1,104 @@
+"""A torus M²(h, f) of the Hess case in the (ω1, ω2)-plane: admissible ring, an orbit, limit cycles."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TypeVar
+
+import numpy as np
+
+from hess_explorer.views import theme
+from hess_explorer.views.caption import Caption
+from hess_explorer.views.layers import Columns, Layers, Regions, line, region
+from hess_explorer.views.maps.circle_map import cycles
+from hess_explorer.views.plane.velocity_plane import band, ring_outside, velocity_columns
+from hess_explorer.views.text import digits, ranging
+from hess_mechanics.numerics.results import Array
+from hess_mechanics.suslov_hess.bifurcation import TurningPoints
+from hess_mechanics.suslov_hess.circle_map import CircleMap
+from hess_mechanics.suslov_hess.torus import Track
+
+__all__ = ["about", "about_heights", "cycle_columns", "layers", "phases_at_returns", "track_columns"]
+
+S = TypeVar("S")
+
+_PLANE = ("omega1", "omega2")
+
+
+def layers(
+    ring: Callable[[S], tuple[Array, Array]],
+    half_width: Callable[[S], float],
+    proved: Callable[[S], Regions] = lambda s: (),
+) -> Layers[S]:
+    """Return the layers: tracks "orbit", "stable" and "unstable" in the ring between two ellipses, proved band."""
+    return (
+        region(
+            "forbidden",
+            lambda s: ring_outside(*ring(s), half_width(s)),
+            edge=theme.MUTED,
+            label="impossible",
+            tag="impossible",
+            moving=True,
+        ),
+        band(proved),
+        line("orbit", track="orbit", columns=_PLANE, color=theme.ORBIT, width=1.3, label="orbit", tag="orbit"),
+        line(
+            "stable",
+            track="stable",
+            columns=_PLANE,
+            color=theme.STABLE,
+            width=3,
+            label="stable cycle",
+            tag="stable cycle",
+        ),
+        line(
+            "unstable",
+            track="unstable",
+            columns=_PLANE,
+            color=theme.UNSTABLE,
+            width=3,
+            dash="dashed",
+            label="unstable cycle",
+            tag="unstable cycle",
+        ),
+    )
+
+
+def phases_at_returns(track: Track, theta: CircleMap, iterates: Array) -> Array:
+    """Return the phase of the last return at each time of an orbit (n,); `iterates` : phases of all returns."""
+    index = np.floor(track.orbit.times / theta.period).astype(int)
+    return np.asarray(iterates[np.minimum(index, len(iterates) - 1)])
+
+
+def track_columns(track: Track, **more: Array) -> Columns:
+    """Return the columns of an orbit and further columns for the player."""
+    return velocity_columns(track.times, track.omega, track.gamma, phi=track.phi, **more)
+
+
+def cycle_columns(cycles: tuple[Track, Track] | None, i: int) -> Columns | None:
+    """Return the columns of the stable (0) or the unstable (1) limit cycle."""
+    return None if cycles is None else velocity_columns(None, cycles[i].omega, cycles[i].gamma)
+
+
+def about(theta: CircleMap | None, turning: TurningPoints | None) -> Caption:
+    """Return the fate of the orbit on its torus; both None on the separatrix."""
+    if theta is None or turning is None:
+        return Caption("The orbit comes to rest in infinite time.")
+    n1, n2 = turning.roots[1:]
+    orbit = {
+        "hyperbolic": "The orbit tends to the stable limit cycle.",
+        "parabolic": f"{cycles(theta).capitalize()}.",
+    }.get(theta.kind, "No limit cycle: the orbit winds for ever.")
+    if n2 - n1 < 1e-6:
+        orbit = "Bifurcation curve: the torus is a circle."
+    return Caption(orbit, f"|w| {ranging(turning.initial_rho, turning.final_rho)}.")
+
+
+def about_heights(turning: TurningPoints | None) -> Caption:
+    """Return the range of heights of the vertical; None on the separatrix."""
+    if turning is None:
+        return Caption("The vertical tends to n₃ = −1.", "The upper equilibrium.")
+    n1, n2 = turning.roots[1:]
+    if digits(n1) == digits(n2):
+        return Caption("The vertical γ has constant height.", f"n₃ = {digits(n1)}.")
+    return Caption("The vertical γ between two heights.", f"n₃ = {digits(n1)} and {digits(n2)}.")

@@ -1,0 +1,257 @@
+"""The (ω1, ω2)-plane: columns of a motion, forbidden regions, line of equilibria, arrows, round axes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import TypeVar
+
+import numpy as np
+
+from hess_explorer.views import theme
+from hess_explorer.views.caption import Caption
+from hess_explorer.views.layers import (
+    Axes,
+    Columns,
+    Layer,
+    Layers,
+    Range,
+    Regions,
+    arrows,
+    column,
+    curves,
+    line,
+    points,
+    rectangle,
+    region,
+)
+from hess_explorer.views.picture import Values
+from hess_explorer.views.plot import Plot
+from hess_explorer.views.space.poisson_sphere import gamma_columns
+from hess_explorer.views.text import digits
+from hess_mechanics.dynamics.sampling import PIXELS
+from hess_mechanics.numerics.results import Array, Orbit
+
+__all__ = [
+    "about_origin",
+    "arcs",
+    "arrows_at",
+    "arrows_on",
+    "band",
+    "beside",
+    "centred",
+    "energy_levels",
+    "equilibria",
+    "halves",
+    "nice_above",
+    "orbit",
+    "orbit_alone",
+    "orbit_columns",
+    "outside",
+    "picture",
+    "pixels_per_unit",
+    "ring_outside",
+    "room_for",
+    "square",
+    "to_the_edge",
+    "velocity_columns",
+]
+
+S = TypeVar("S")
+
+
+def velocity_columns(times: Array | None, omega: Array, gamma: Array, **more: Array) -> Columns:
+    """Return the columns of ω (m, 2) and γ (m, 3) for this plane and the sphere, and more for the player."""
+    moving = {} if times is None else {"t": column(times)}
+    return {
+        **moving,
+        "omega1": column(omega[:, 0]),
+        "omega2": column(omega[:, 1]),
+        **gamma_columns(gamma),
+        **{name: column(one) for name, one in more.items()},
+    }
+
+
+def orbit_columns(orbit: Orbit, **more: Array) -> Columns:
+    """Return the `velocity_columns` of states (ω1, ω2, γ)."""
+    return velocity_columns(orbit.times, orbit.states[:, :2], orbit.states[:, 2:], **more)
+
+
+def pixels_per_unit(half_width: float) -> tuple[float, ...]:
+    """Return pixels per unit of ω1, ω2, γ1, γ2, γ3; the plane shows |ω| ≤ half_width, the sphere |γ| ≤ 1."""
+    radius = 0.5 * PIXELS
+    w = radius / half_width
+    return w, w, radius, radius, radius
+
+
+def picture(
+    caption: Callable[[S], Caption],
+    half_width: Callable[[S], float],
+    layers: Layers[S],
+    title: str = "Angular velocity (ω₁, ω₂)",
+    on_click: Callable[[S, float, float], Values] | None = None,
+) -> Plot[S]:
+    """Return the plot of the plane, with a point moving along the orbit."""
+    return Plot(
+        name="omega",
+        title=title,
+        caption=caption,
+        axes=("ω₁", "ω₂"),
+        x=about_origin(half_width),
+        y=about_origin(half_width),
+        dot=("omega1", "omega2"),
+        on_click=on_click,
+        starts=on_click is not None,
+        layers=layers,
+    )
+
+
+def orbit(label: str) -> Layer[S]:
+    """Return the track of the orbit, bold."""
+    return line(
+        "orbit", track="orbit", columns=("omega1", "omega2"), color=theme.ORBIT, width=2.5, label=label, tag="orbit"
+    )
+
+
+def band(data: Callable[[S], Regions]) -> Layer[S]:
+    """Return the layer of polygons (n, 2) that enclose the true orbit where they are wider than a pixel."""
+    return region("band", data, color=theme.SHEET, label="proved enclosure of the orbit", moving=True)
+
+
+def orbit_alone(
+    half_width: Callable[[S], float],
+    energy: Callable[[S], float],
+    proved: Callable[[S], Regions],
+    label: str = "",
+) -> Plot[S]:
+    """Return the plane with only the track of the orbit and the proved band; `energy` goes to the caption."""
+    return picture(
+        lambda s: Caption("The chosen orbit.", f"E = {digits(energy(s))}."), half_width, (band(proved), orbit(label))
+    )
+
+
+def nice_above(value: float) -> float:
+    """Return the next of 1, 1.5, 2, 3, 4, 5, 6, 8 times a power of ten."""
+    power = 10.0 ** np.floor(np.log10(value))
+    return float(power * next(step for step in (1, 1.5, 2, 3, 4, 5, 6, 8, 10) if step * power >= value * (1 - 1e-12)))
+
+
+def room_for(speed: float) -> float:
+    """Return half the width of a plane with room for |ω| = `speed`."""
+    return nice_above(1.05 * max(1e-9, speed))
+
+
+def centred(half_width: float) -> Range:
+    """Return the range of an axis about 0."""
+    return -half_width, half_width
+
+
+def about_origin(half_width: Callable[[S], float]) -> Callable[[S], Range]:
+    """Return the range of an axis about 0 as a function of the state."""
+    return lambda state: centred(half_width(state))
+
+
+def square(half_width: float) -> Array:
+    """Return a square (4, 2) about 0."""
+    return rectangle(centred(half_width), centred(half_width))
+
+
+def outside(curve: Array, half_width: float) -> list[Array]:
+    """Return the outside of a closed curve (m, 2), as a part of a `region`."""
+    return [square(half_width), curve]
+
+
+def ring_outside(inner: Array, outer: Array, half_width: float) -> Regions:
+    """Return all but the ring between two closed curves (m, 2), as a `region` larger than any held axes."""
+    return [outside(outer, 4.0 * half_width), [inner]]
+
+
+def beside(inner: Array, outer: Array, half_width: float) -> Array:
+    """Return label places (2, 2): inside a point (2,) of one closed curve and outside a point of the other."""
+    gap = 0.09 * half_width
+    lengths = np.linalg.norm([inner, outer], axis=1)
+    return np.array([inner * (1.0 - min(1.0, gap / lengths[0])), outer * (1.0 + gap / lengths[1])])
+
+
+def halves(
+    stable: Callable[[S, Axes], Array], unstable: Callable[[S, Axes], Array], labels: tuple[str, str]
+) -> Layers[S]:
+    """Return the layers of the stable and the unstable half of the line of equilibria, segments (2, 2).
+
+    The label in the picture is the part of the legend's entry before the comma.
+    """
+    tags = [label.split(",")[0] for label in labels]
+    return (
+        line(
+            "stable",
+            within=lambda s, axes: stable(s, axes).T,
+            color=theme.STABLE,
+            width=3,
+            label=labels[0],
+            tag=tags[0],
+        ),
+        line(
+            "unstable",
+            within=lambda s, axes: unstable(s, axes).T,
+            color=theme.UNSTABLE,
+            width=3,
+            dash="dashed",
+            label=labels[1],
+            tag=tags[1],
+        ),
+    )
+
+
+def to_the_edge(point: Array, half_width: float, axes: Axes) -> Array:
+    """Return the half line (2, 2) from 0 through a point (2,) beyond the picture and any held axes."""
+    far = max(half_width, axes.x[1]) / max(float(np.max(np.abs(point))), 1e-300)
+    return np.array([np.zeros(2), far * np.asarray(point)])
+
+
+def equilibria(stable: Callable[[S], Array], unstable: Callable[[S], Array]) -> Layers[S]:
+    """Return the layers of a stable point (2,), filled, and an unstable one, hollow."""
+    return (
+        points("stable-point", lambda s: stable(s)[:, None], color=theme.STABLE, size=11, edge_width=3),
+        points(
+            "unstable-point", lambda s: unstable(s)[:, None], color=theme.UNSTABLE, size=11, edge_width=3, hollow=True
+        ),
+    )
+
+
+def energy_levels(data: Callable[[S], Sequence[Array]], half_width: Callable[[S], float], label: str) -> Layers[S]:
+    """Return the layers of curves (m, 2) of other energies, with arrows from their first to their last point."""
+    return (
+        curves("levels", data, color=theme.MUTED, width=1, label=label),
+        arrows("level-arrows", lambda s: arrows_on(data(s), half_width(s)), color=theme.MUTED, size=8),
+    )
+
+
+def arcs(data: Callable[[S], Sequence[Array]]) -> Layer[S]:
+    """Return the layer of thin curves (m, 2) along orbits; `arrows` show the direction."""
+    return curves("arcs", data, color=theme.ORBIT, width=1, alpha=0.5)
+
+
+def arrows_at(places: Sequence[tuple[Array, int]]) -> Array:
+    """Return x, y, angle for `arrows` at the i-th point of each curve (m, 2), or the nearest inner point."""
+    found = []
+    for curve, place in places:
+        if len(curve) > 2:
+            i = min(max(place, 1), len(curve) - 2)
+            found.append((curve[i], curve[i + 1] - curve[i - 1]))
+    return _arrows(found)
+
+
+def arrows_on(curves: Sequence[Array], half_width: float) -> Array:
+    """Return x, y, angle for `arrows` in the middle of each curve (m, 2) that is long enough."""
+    found = []
+    for curve in curves:
+        length = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(curve, axis=0), axis=1))])
+        if length[-1] < 0.02 * half_width:
+            continue
+        i = min(int(np.searchsorted(length, 0.5 * length[-1])), len(curve) - 1)
+        found.append((curve[i], curve[i] - curve[i - 1]))
+    return _arrows(found)
+
+
+def _arrows(found: Sequence[tuple[Array, Array]]) -> Array:
+    """Return x, y, angle (3, n) of triangles at (place, step); angle 0 points upwards."""
+    return np.array([(*place, np.arctan2(*step[::-1]) - np.pi / 2) for place, step in found]).reshape(-1, 3).T

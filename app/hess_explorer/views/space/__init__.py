@@ -1,0 +1,1 @@
+"""Pictures in space: the body, spheres, tori, clouds."""

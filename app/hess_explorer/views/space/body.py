@@ -1,0 +1,233 @@
+"""The solid body in space, and the curves that its points draw on a fixed sphere; rendered by "body.js"."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any, ClassVar, TypeVar
+
+import numpy as np
+
+from hess_explorer.views import theme
+from hess_explorer.views.layers import Sign, Sources, column
+from hess_explorer.views.picture import Picture
+from hess_explorer.views.space.poisson_sphere import Circle, Direction, Mark, drawn
+from hess_mechanics.numerics.results import Array
+from hess_mechanics.rigid_body.attitude import Attitude, Lying, travelled
+from hess_mechanics.rigid_body.inertia import paired_weights
+
+__all__ = ["BodyInSpace", "Curve", "Rod", "Shape", "Trail", "Wheels", "seen_in_space"]
+
+S = TypeVar("S")
+
+LARGEST = 0.8
+"""Longest semi-axis of the ellipsoid, in radii of the fixed sphere."""
+
+_COLUMNS = ("g1", "g2", "g3", "e1", "e2", "e3")
+
+
+_WEIGHT = 0.07
+"""Largest radius of a weight; its centre is that far above the surface."""
+_WALL = 0.71
+"""Radius of the middle of a hollow ball's wall."""
+_THINNEST = 0.12
+"""Smallest semi-axis, relative to the longest: a thinner body would be invisible from the side."""
+
+
+@dataclass(frozen=True)
+class Shape:
+    """Ellipsoid of a body with a fixed point, in the coordinates of its attitude.
+
+    axes : (3, 3), principal axes in rows; moments : (3,); names : names of the axes.
+    section : (3,), normal of a circular section of the gyration ellipsoid, with the radius of the middle moment;
+    selects the gyration ellipsoid (M, I⁻¹M) = const.  None selects the ellipsoid of inertia (ω, Iω) = const.
+    """
+
+    axes: Array
+    moments: Array
+    section: Array | None
+    names: tuple[str, str, str] = ("1", "2", "3")
+
+    @classmethod
+    def of_tensor(cls, tensor: Array, section: Sequence[float] | Array | None = None) -> Shape:
+        """Return the shape of a tensor of inertia (3, 3), with unnamed axes."""
+        moments, vectors = np.linalg.eigh(tensor)
+        # Round-off may make a very small moment zero or negative.
+        moments = np.maximum(moments, 1e-9 * moments[-1])
+        return cls(vectors.T, moments, None if section is None else np.asarray(section, float), ("", "", ""))
+
+    @property
+    def semi_axes(self) -> Array:
+        """Semi-axes of the ellipsoid, proportional to √I1 : √I2 : √I3 or to their inverses; shape (3,)."""
+        lengths = np.sqrt(self.moments) if self.section is not None else 1.0 / np.sqrt(self.moments)
+        return LARGEST * np.maximum(lengths / np.max(lengths), _THINNEST)
+
+    def weights(self, centre: Array | None, hollow: bool) -> Array:
+        """Return six weights with these moments and their centre of mass along `centre`, (n, 4) as x, y, z, radius.
+
+        Their volumes are proportional to their masses.  Empty if there are none; hollow : they lie in a ball's wall.
+        """
+        arms = np.full(3, _WALL) if hollow else self.semi_axes + _WEIGHT
+        masses = paired_weights(self.moments, arms, None if centre is None else self.axes @ centre)
+        if masses is None:
+            return np.empty((0, 4))
+        radii = _WEIGHT * np.cbrt(masses / np.max(masses))
+        at = arms[:, None] * self.axes
+        return np.column_stack([np.vstack([at, -at]), radii.T.ravel()])
+
+
+@dataclass(frozen=True)
+class Wheels:
+    """Vagner's wheels for the constraint (ω, e) = 0: they roll on a fixed shell without slipping sideways.
+
+    The axles are parallel; `at` and −`at` touch the shell; the wheels lie in the plane of `at` and `e`.  The velocity
+    ω × at has no component along the axle at × e if and only if (ω, e) = 0.
+
+    at : unit vector of the body orthogonal to e; e : unit vector of the constraint; look : of the trace, as in `Rod`.
+    """
+
+    at: Sequence[float] | Array
+    e: Sequence[float] | Array
+    look: str = "orbit"
+
+
+@dataclass(frozen=True)
+class Trail:
+    """The trace of a body direction on the unit sphere; look as in `Rod`."""
+
+    along: Sequence[float] | Array
+    look: str
+
+
+@dataclass(frozen=True)
+class Rod:
+    """A rod from the fixed point to the unit sphere, along a direction of the body, with a dot and a label.
+
+    look : "mass" (ends in a ball), "axis", "orbit", "second", "stable", "unstable" or "muted".
+    """
+
+    along: Sequence[float] | Array
+    look: str
+    label: str = ""
+
+
+@dataclass(frozen=True)
+class Curve:
+    """A curve in space, components (n, 3) along (γ, e, γ × e); look as in `Rod`, or "limit"; width in pixels."""
+
+    points: Array
+    look: str
+    weight: float = 0.0
+
+
+def seen_in_space(points: Array) -> Array:
+    """Convert components along (γ, e, γ × e) to the axes of the picture: e, γ × −e and, upwards, −γ."""
+    return np.stack([points[..., 1], -points[..., 2], -points[..., 0]], axis=-1)
+
+
+_WHEEL = Sign(
+    "wheels of the constraint: (ω, e) = 0, e in their plane",
+    "dot",
+    f"background: {theme.FORBIDDEN}; border: 2.5px solid",
+)
+_TRACE = "trace of a wheel; a dot for each of its turns"
+_WEIGHTS = Sign("weights with the body's moments of inertia", "dot", "background: #7C8794")
+
+
+@dataclass(frozen=True, kw_only=True)
+class BodyInSpace(Picture[S]):
+    """The sphere fixed in space, with γ downwards like gravity, and the body inside at the player's time.
+
+    shape(state) : the ellipsoid of the body, or None.
+    motion(state) : its attitude and the times (n,) in the player's units, or None.
+    wheels : the wheels of its constraint; trail(state) : the trail of one of its points or None.
+    mass(state) : direction of the centre of mass of its weights, or None.
+    hollow : draw a glass ball rolling on an inner ball instead of the ellipsoid; heavy(state) : whether γ is gravity.
+    attitude : the picture whose attitude it follows, if it has none of its own.
+    rods : fixed to the body; curves : in space; circles, marks : fixed in the space of the picture.
+    bare : omit the lines of the sphere.
+    """
+
+    shape: Callable[[S], Shape | None] = lambda state: None
+    motion: Callable[[S], tuple[Attitude | Lying, Array] | None] | None = None
+    wheels: Wheels | None = None
+    trail: Callable[[S], Trail | None] = lambda state: None
+    mass: Callable[[S], Array | None] = lambda state: None
+    hollow: bool = False
+    heavy: Callable[[S], bool] = lambda state: True
+    attitude: str = ""
+    rods: Callable[[S], Sequence[Rod]] = lambda state: ()
+    curves: Callable[[S], Sequence[Curve]] = lambda state: ()
+    circles: Sequence[Circle] = ()
+    marks: Sequence[Mark] = ()
+    bare: bool = False
+
+    kind: ClassVar[str] = "sphere"
+
+    @property
+    def needs(self) -> frozenset[str]:
+        """The pictures whose data must be there for it."""
+        return super().needs | ({self.attitude} if self.attitude else set())
+
+    @property
+    def tracks(self) -> frozenset[str]:
+        """The track "orbit", which sets the time of the player."""
+        return frozenset({"orbit"})
+
+    @property
+    def legend(self) -> tuple[Sign, ...]:
+        """Entries that the picture adds to the legend of its scene."""
+        colour = "" if self.wheels is None else theme.SHADES[self.wheels.look][0]
+        wheels = (_WHEEL, Sign(_TRACE, "line", f"border-top: 3px dotted {colour}")) if colour else ()
+        return (*self.signs, *wheels, *((_WEIGHTS,) if self.motion else ()))
+
+    def describe(self) -> dict[str, Any]:
+        """Return the description of the picture for the browser."""
+        title = self.title if isinstance(self.title, str) else "The body in space"
+        return {
+            **super().describe(),
+            "tracks": {},
+            "attitude": self.attitude or self.name,
+            "title": title,
+            "bare": self.bare,
+        }
+
+    def data(self, state: S) -> Sources:
+        """Return the columns of the body, its motion and the other marks."""
+        shape = self.shape(state)
+        motion = None if self.motion is None else self.motion(state)
+        if self.motion is not None and motion is None:
+            return {self.name: {}}
+        columns: dict[str, Any] = {}
+        if motion is not None:
+            attitude, times = motion
+            directions = attitude.axes[:, :2].reshape(len(times), 6)
+            columns = {"t": column(times), **{name: column(directions[:, i]) for i, name in enumerate(_COLUMNS)}}
+        if shape is not None:
+            semi = [LARGEST] * 3 if self.hollow else shape.semi_axes.tolist()
+            radius = LARGEST * math.sqrt(float(np.median(shape.moments) / np.max(shape.moments)))
+            columns |= {
+                "axes": shape.axes.tolist(),
+                "semi": semi,
+                "names": list(shape.names),
+                "hollow": self.hollow,
+                "weights": shape.weights(self.mass(state), self.hollow).tolist(),
+                "section": [] if shape.section is None else [*map(float, shape.section), radius],
+            }
+        if self.wheels is not None and motion is not None:
+            wheels = self.wheels
+            columns["wheels"] = [*map(float, wheels.at), *map(float, wheels.e), wheels.look]
+            columns["arc"] = column(travelled(attitude.axes, wheels.at, wheels.e))
+        trail = self.trail(state)
+        if trail is not None:
+            columns["trail"] = [*map(float, trail.along), trail.look]
+        label = "γ, gravity" if self.heavy(state) else "γ"
+        return {
+            self.name: {
+                **columns,
+                "rods": [[*map(float, one.along), one.look, one.label] for one in self.rods(state)],
+                "curves": [[one.look, one.weight, *column(seen_in_space(one.points).T)] for one in self.curves(state)],
+                **drawn(Direction((0.0, 0.0, -1.0), label), self.circles, self.marks),
+            }
+        }

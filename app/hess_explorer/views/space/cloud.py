@@ -1,0 +1,255 @@
+"""Clouds of phase points on the (ω1, ω2)-plane and the sphere, drawn by "cloud.js", and their density."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any, ClassVar, TypeVar
+
+import numpy as np
+
+from hess_explorer.views import theme
+from hess_explorer.views.caption import Caption
+from hess_explorer.views.graphs.graph import over_time
+from hess_explorer.views.layers import Axes, Layer, Layers, Sign, Sources, column, levels, line, points
+from hess_explorer.views.picture import Picture
+from hess_explorer.views.plane.velocity_plane import centred, nice_above
+from hess_explorer.views.text import digits, ranging
+from hess_mechanics.chaplygin_ball.energy_surface import Strip, line_of_rest
+from hess_mechanics.chaplygin_ball.phase_cloud_density import BIN, SMALLEST, Clouds, Density
+from hess_mechanics.dynamics.sampling import PIXELS
+from hess_mechanics.numerics.results import Array
+
+__all__ = [
+    "CloudPlane",
+    "about_course",
+    "about_ends",
+    "course_layers",
+    "density_axes",
+    "density_layers",
+    "largest_distance",
+    "room",
+    "status_of",
+]
+
+S = TypeVar("S")
+
+_ANGLES = np.linspace(0.0, 2.0 * math.pi, 97)
+
+
+def _frames(columns: Sequence[Array]) -> np.ndarray:
+    """Return columns (n, m) as one block [frame][column][point] in single precision."""
+    # Millions of numbers: double precision would take twice the memory.
+    return np.stack([one.T for one in columns], axis=1).astype(np.float32).ravel()
+
+
+def room(found: Clouds) -> float:
+    """Return half the width of a plane with room for all ω of the clouds."""
+    return nice_above(1.1 * found.fastest)
+
+
+def about_ends(found: Clouds) -> Caption:
+    """Return the median distance of the points from s = 0 at the start and at the end."""
+    before, after = (digits(math.exp(float(np.median(found.cloud.log_s[:, i]))), 3) for i in (0, -1))
+    return Caption(
+        numbers=f"{found.cloud.signs.size} points: half of them start within |s| < {before}, and end within {after}."
+    )
+
+
+def status_of(found: Clouds) -> Iterator[str]:
+    """Yield the size, cost and errors of the clouds for the status line."""
+    cloud, other = found.cloud, found.other
+    yield (
+        f"{cloud.level}: {cloud.signs.size} points, {cloud.times.size} frames, {cloud.cost.steps} Taylor steps, "
+        f"error of ω/ν, γ and ln|s| ≤ {cloud.error_estimate:.1e} ({cloud.status})"
+    )
+    if other is not None:
+        yield f"beside ≤ {other.errors.max():.1e}"
+
+
+def about_course(found: Clouds, of_patch: bool) -> Caption:
+    """Return the change of small volumes, or with `of_patch` of the volume of the patch."""
+    course = found.course
+    if of_patch:
+        text = f"The patch keeps {digits(course.volume[-1], 3)} of its volume"
+    else:
+        text = (
+            f"Mean of div v {ranging(course.divergence[0, 0], course.divergence[0, -1], 3)}; "
+            f"mean of ln s(t)/s(0) at the end {digits(course.log_growth[0, -1], 3)}"
+        )
+    return Caption(numbers=f"{text}; the second cloud preserves volume." if found.other is not None else f"{text}.")
+
+
+def largest_distance(found: Clouds, exact: Clouds) -> float:
+    """Return the largest distance in pixels, in the plane and on the sphere, of points from more exact ones."""
+    to_pixels = 0.5 * PIXELS * np.array([1.0 / room(exact)] * 2 + [1.0] * 3)
+    away = to_pixels * (_points(found) - _points(exact))
+    return max(float(np.linalg.norm(part, axis=-1).max()) for part in (away[..., :2], away[..., 2:]))
+
+
+def _points(found: Clouds) -> Array:
+    """Return ω1, ω2 and γ (n, m, 5) of the points of all clouds in all frames."""
+    states = np.concatenate([found.cloud.omega, found.cloud.gamma], axis=-1)
+    return states if found.other is None else np.concatenate([states, found.other.states])
+
+
+@dataclass(frozen=True, kw_only=True)
+class CloudPlane(Picture[S]):
+    """The (ω1, ω2)-plane; its source holds the frames of all clouds, also for a sphere with `clouds`.
+
+    clouds(state) : the moving clouds; half_width(state) : axes ± half_width.
+    strip(state) : σ1, σ2 and the line of equilibria at the energy h.
+    b3(state) : the field in which the second cloud moves, with I13 = I23 = 0.
+    density : source of the density over |s| at the player's time, filled by the browser.
+    """
+
+    clouds: Callable[[S], Clouds]
+    strip: Callable[[S], Strip]
+    half_width: Callable[[S], float]
+    b3: Callable[[S], float]
+    density: str
+
+    kind: ClassVar[str] = "cloud"
+
+    @property
+    def tracks(self) -> frozenset[str]:
+        """The track "orbit", which sets the time of the player."""
+        return frozenset({"orbit"})
+
+    @property
+    def first_axes(self) -> Axes:
+        """The axes before the first state."""
+        return Axes(centred(1.0), centred(1.0))
+
+    @property
+    def legend(self) -> tuple[Sign, ...]:
+        """Entries that the picture adds to the legend of its scene."""
+        return (
+            Sign("stable half, s = 0", "line", f"border-top: 3px solid {theme.STABLE}"),
+            Sign("unstable half, s = 0", "line", f"border-top: 3px dashed {theme.UNSTABLE}"),
+            *self.signs,
+        )
+
+    def describe(self) -> dict[str, Any]:
+        """Return the description of the picture for the browser."""
+        return {**super().describe(), "density": self.density}
+
+    def ranges(self, state: S, held: Axes | None) -> Axes:
+        """Return the axes that fit a state."""
+        axis = centred(self.half_width(state))
+        return Axes(axis, axis)
+
+    def data(self, state: S) -> Sources:
+        """Return the frames of the clouds, and the ends of the halves of the line of equilibria."""
+        found, strip = self.clouds(state), self.strip(state)
+        cloud, body, log_s = found.cloud, strip.body, found.density.log_s
+        count = 2 if body.D else 1
+        marks = [
+            [look, *map(float, point)]
+            for look, ends in (("stable", strip.stable), ("unstable", strip.unstable))
+            for point in ends[:count]
+        ]
+        second = {} if found.other is None else {"frames1": _frames(list(np.moveaxis(found.other.states, -1, 0)))}
+        return {
+            self.name: {
+                "times": column(np.abs(cloud.times)),
+                "sense": -1 if cloud.times[-1] < 0.0 else 1,
+                "frames0": _frames([cloud.along, cloud.log_s, *np.moveaxis(cloud.gamma, -1, 0)]),
+                "signs0": column(cloud.signs),
+                "body": [body.I11, body.I22, body.I13, body.I23, body.D, self.b3(state)],
+                "points": marks,
+                "bins": [float(log_s[0]) - 0.5 * BIN, BIN, log_s.size],
+                **second,
+            }
+        }
+
+    def framed(self, state: S, axes: Axes | None, drawn: Sources) -> Sources:
+        """Return σ1, σ2 and the line of equilibria, extended beyond the frame."""
+        assert axes is not None
+        strip, half = self.strip(state), axes.x[1]
+        xi, _ = line_of_rest(strip.body)
+        far = 3.0 * half * xi
+        edges = [strip.sigma1(_ANGLES)] + ([strip.sigma2(_ANGLES)] if strip.body.D else [])
+        return {
+            self.name: {
+                "half": half,
+                "curves": [
+                    *(["muted", *column(edge.T)] for edge in edges),
+                    ["stable", [0.0, -far[0]], [0.0, -far[1]]],
+                    ["unstable", [0.0, far[0]], [0.0, far[1]]],
+                ],
+            }
+        }
+
+
+def density_axes(found: Clouds) -> Axes:
+    """Return axes between powers of ten about |s| of the cloud; the curve c/|s| joins the corners."""
+    lowest = max(SMALLEST, float(np.quantile(found.cloud.log_s[:, -1], 0.02)))
+    low = math.floor(lowest / math.log(10.0))
+    high = max(math.ceil(float(found.density.log_s[-1]) / math.log(10.0)), low + 1)
+    middle = math.log10(found.density.height)
+    return Axes((10.0**low, 10.0**high), (10.0 ** (middle - high - 1.5), 10.0 ** (middle - low + 1.5)))
+
+
+def _inside(s: Array, share: Array, axes: Axes) -> tuple[Array, Array]:
+    """Return the share of points per unit of |s| within the frame, from the share per unit of ln|s|."""
+    y = np.divide(share, s)
+    (x0, x1), (y0, y1) = axes.x, axes.y
+    seen = (s >= x0) & (s <= x1) & (y >= y0) & (y <= y1)
+    return s[seen], y[seen]
+
+
+def density_layers(density: Callable[[S], Density]) -> Layers[S]:
+    """Return the layers of the density over |s| (log–log): at the start, the end and the player's time, and the mean.
+
+    The browser fills "now", the share at the player's time.
+    """
+
+    def limit(state: S, axes: Axes) -> tuple[Array, Array]:
+        ends = np.array(axes.x)
+        return ends, density(state).height / ends
+
+    def of(share: Callable[[Density], Array]) -> Callable[[S, Axes], tuple[Array, Array]]:
+        return lambda s, axes: _inside(np.exp(density(s).log_s), share(density(s)), axes)
+
+    now: Layer[S] = points("now", color=theme.POINT, edge=theme.INK, size=7, label="at the moving time")
+    return (
+        line("limit", within=limit, color=theme.MUTED, width=3, dash="dotted", label="c/|s|", tag="c/|s|"),
+        line(
+            "first",
+            within=of(lambda one: one.first),
+            color=theme.MUTED,
+            width=1,
+            dash="dashed",
+            label="start",
+            tag="start",
+        ),
+        line("last", within=of(lambda one: one.last), color=theme.MUTED, width=1, label="end; energy h", tag="end"),
+        line("mean", within=of(lambda one: one.mean), color=theme.ORBIT, label="cloud; its mean", tag="mean"),
+        now,
+    )
+
+
+def course_layers(times: Callable[[S], Array], course: Callable[[S], Array], beside: Callable[[S], bool]) -> Layers[S]:
+    """Return the layers of mean, minimum, maximum (3, m) over the cloud at times (m,); track "orbit" holds the mean.
+
+    beside : whether there is a cloud on a principal axis, whose values are 0.
+    """
+
+    def extreme(name: str, i: int) -> Layer[S]:
+        return over_time(name, lambda s: (times(s), course(s)[i]), color=theme.MUTED, dash="dashed")
+
+    return (
+        levels("levels", lambda s: [0.0]),
+        extreme("least", 1),
+        extreme("largest", 2),
+        line(
+            "beside",
+            lambda s: ((0.0, times(s)[-1]), (0.0, 0.0)) if beside(s) else None,
+            color=theme.MAP,
+            dash="dotdash",
+            label="cloud on a principal axis",
+        ),
+        line("mean", track="orbit", columns=("t", "mean"), color=theme.ORBIT),
+    )

@@ -1,0 +1,665 @@
+"""Poincaré sections: crossings of a plane or another surface by one orbit or many."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Protocol
+
+import numpy as np
+
+from hess_mechanics.dynamics.orbit import (
+    ESCAPED,
+    LARGEST,
+    as_max_step,
+    as_max_steps,
+    drift_of,
+    end_of,
+    require_finite_states,
+    unfinished,
+)
+from hess_mechanics.dynamics.system import Body, Problem, System
+from hess_mechanics.errors import InvalidParameter, MotionEnds, WorkLimit
+from hess_mechanics.numerics.accuracy import Accuracy, Level
+from hess_mechanics.numerics.arguments import as_level
+from hess_mechanics.numerics.labelled import Labels, Result, components
+from hess_mechanics.numerics.measured import measured
+from hess_mechanics.numerics.parallel import THREADS, share
+from hess_mechanics.numerics.patience import go_on
+from hess_mechanics.numerics.results import Array, Cost, SectionCrossings, angle_facts, frozen, unit_of
+
+__all__ = [
+    "MAX_CROSSINGS",
+    "AnglePlane",
+    "Plane",
+    "SectionPoints",
+    "Surface",
+    "occupied_cells",
+    "section",
+    "section_points",
+    "sections",
+]
+
+MAX_CROSSINGS = 100_000
+MAX_STEPS = 5_000_000
+_ROOM = 1000
+"""Crossings for which memory is allocated at first; few orbits have more."""
+_PARTS = 8
+"""Time intervals into which a section of many orbits is divided."""
+_BEFORE = 1e-6
+"""Time before the end of a motion, in units in which its rates are O(1), after which its crossings do not count."""
+_SHARE = 4
+"""Orbits per task of the thread pool."""
+
+
+@dataclass(frozen=True)
+class Plane:
+    """The plane normal·y = offset in state space.
+
+    Parameters
+    ----------
+    normal : tuple of float, shape (d,)
+        Normal vector; its length does not matter.
+    offset : float, default 0
+        Value of normal·y on the plane.
+    sense : {1, -1, 0}, default 1
+        Crossings that count: from below (1), from above (−1), or both (0).
+
+    Raises
+    ------
+    InvalidParameter
+        If the normal is zero or not finite, or `sense` is another number.
+    """
+
+    normal: tuple[float, ...]
+    offset: float = 0.0
+    sense: int = 1
+
+    def __post_init__(self) -> None:
+        if not (all(map(math.isfinite, self.normal)) and any(self.normal) and math.isfinite(self.offset)):
+            raise InvalidParameter("A plane needs a finite normal other than 0 and a finite offset.")
+        if self.sense not in (-1, 0, 1):
+            raise InvalidParameter("The sense of a crossing is 1 (from below), −1 (from above) or 0 (both).")
+
+    def gradient(self, state: Array) -> Array:
+        """Return the normal.
+
+        Parameters
+        ----------
+        state : ndarray, shape (d,)
+            Any state.
+
+        Returns
+        -------
+        ndarray, shape (d,)
+            The normal, as given.
+        """
+        return np.array(self.normal)
+
+    def scaled(self, system: System, problem: Problem) -> tuple[Callable[..., tuple[int, int]], Array, float]:
+        """Return the crossing kernel with the plane in the units of a problem.
+
+        Parameters
+        ----------
+        system : System
+            The equations of motion.
+        problem : Problem
+            The initial states and their units.
+
+        Returns
+        -------
+        cross : callable
+            Kernel that finds the crossings.
+        normal : ndarray, shape (d,)
+            Normal vector of length 1.
+        offset : float
+            Offset for this normal.
+
+        Raises
+        ------
+        InvalidParameter
+            If the normal does not have d components, or the offset is too large.
+        """
+        if len(self.normal) != len(system.variables):
+            raise InvalidParameter(f"The normal of the plane has {len(system.variables)} components here.")
+        largest = max(map(abs, self.normal))
+        normal = np.array(self.normal) / largest * problem.scale
+        length = float(np.linalg.norm(normal))
+        offset = self.offset / largest / length
+        if not math.isfinite(offset):
+            raise InvalidParameter("The offset of the plane is too large for its normal: choose a smaller one.")
+        return system.cross, normal / length, offset
+
+
+@dataclass(frozen=True)
+class AnglePlane:
+    """The planes on which an angle equals a value up to full turns, for stroboscopic sections.
+
+    Parameters
+    ----------
+    index : int
+        Index of the angle among the variables.
+    value : float, default 0
+        The value, in radians.
+    sense : {1, -1, 0}, default 1
+        Crossings that count: with increasing angle (1), with decreasing angle (−1), or both (0).
+
+    Raises
+    ------
+    InvalidParameter
+        If the value is not finite, or `sense` is another number.
+
+    Examples
+    --------
+    >>> import math
+    >>> from hess_mechanics import System, section
+    >>> from hess_mechanics.dynamics.plane_section import AnglePlane
+    >>> turning = System("turning", lambda y, p: (1,), "phase")
+    >>> found = section(turning.at(), (0.0,), AnglePlane(0, math.pi), 20.0, "precise")
+    >>> [round(t / math.pi, 9) for t in found.times]
+    [1.0, 3.0, 5.0]
+    """
+
+    index: int
+    value: float = 0.0
+    sense: int = 1
+
+    def __post_init__(self) -> None:
+        # The conditions are those of a plane.
+        Plane((1.0,), self.value, self.sense)
+
+    def gradient(self, state: Array) -> Array:
+        """Return the gradient of the angle.
+
+        Parameters
+        ----------
+        state : ndarray, shape (d,)
+            Any state.
+
+        Returns
+        -------
+        ndarray, shape (d,)
+            1 for the angle, 0 for the other variables.
+        """
+        return np.array(np.arange(len(state)) == self.index, float)
+
+    def scaled(self, system: System, problem: Problem) -> tuple[Callable[..., tuple[int, int]], Array, float]:
+        """Return the crossing kernel and its constants in the units of a problem.
+
+        Parameters
+        ----------
+        system : System
+            The equations of motion.
+        problem : Problem
+            The initial states and their units.
+
+        Returns
+        -------
+        cross : callable
+            Kernel that finds the crossings.
+        constants : ndarray, shape (3,)
+            Index of the angle, its scale, and the value.
+        offset : float
+            0.
+
+        Raises
+        ------
+        InvalidParameter
+            If the system has no variable with this index.
+        """
+        if self.index not in range(len(system.variables)):
+            raise InvalidParameter(f"{system.title}: the index of the angle is from 0 to {len(system.variables) - 1}.")
+        return system.cross_angle, np.array([self.index, problem.scale[self.index], self.value]), 0.0
+
+
+class Surface(Protocol):
+    """A surface in state space."""
+
+    def gradient(self, state: Array) -> Array:
+        """Return the gradient (d,) of the function that vanishes on the surface, at a state (d,) of the surface."""
+
+    @property
+    def sense(self) -> int:
+        """Crossings that count: 1 from below, −1 from above, 0 both."""
+
+    def scaled(self, system: System, problem: Problem) -> tuple[Callable[..., tuple[int, int]], Array, float]:
+        """Return the crossing kernel, the normal and the offset in units in which the states are O(1)."""
+
+
+@dataclass(frozen=True)
+class _Search:
+    """A search for crossings by the orbits from `starts` (n, d); all else is in units in which the states are O(1)."""
+
+    body: Body
+    plane: Surface
+    starts: Array
+    problem: Problem
+    end: float
+    level: Level
+    crossings: int
+    max_step: float
+    max_steps: int
+
+    @classmethod
+    def of(
+        cls,
+        body: Body,
+        states: Sequence[Sequence[float]] | Array,
+        plane: Surface,
+        end: float,
+        level: Level,
+        crossings: int,
+        max_step: float | None,
+        max_steps: int,
+    ) -> _Search:
+        """Validate the arguments and scale them.  Raises `InvalidParameter`, `WorkLimit`."""
+        if not math.isfinite(end):
+            raise InvalidParameter("The end of the time span must be finite.")
+        if not 1 <= crossings <= MAX_CROSSINGS:
+            raise WorkLimit(f"The number of crossings must lie between 1 and {MAX_CROSSINGS}.")
+        problem = Problem.of(body, states)
+        if not hasattr(plane, "scaled"):
+            raise InvalidParameter("A section needs a surface, such as Plane(normal, offset).")
+        plane.scaled(body.system, problem)
+        starts = np.array(states, float, ndmin=2)
+        longest = as_max_step(max_step, problem)
+        most = as_max_steps(max_steps)
+        return cls(body, plane, starts, problem, end * problem.nu, level, crossings, longest, most)
+
+    def run(
+        self, problem: Problem, start: Array, end: float, level: Level, spent: int = 0
+    ) -> tuple[tuple[Array, Array], int, WorkLimit | None]:
+        """Return (times, states) of the crossings of the orbit of a problem from `start`, the steps, and its end."""
+        cross, normal, offset = self.plane.scaled(problem.system, problem)
+        longest = problem.system.longest_step(level, end, self.max_step)
+        room, total = min(self.crossings, _ROOM), 0
+        while True:
+            times, states = np.full(room, np.nan), np.zeros((room, self.problem.scale.size))
+            found, steps = cross(
+                start,
+                problem.parameters,
+                normal,
+                offset,
+                self.plane.sense,
+                end,
+                level.order,
+                level.tolerance,
+                longest,
+                self.max_steps - spent - total,
+                times,
+                states,
+            )
+            ended: WorkLimit | None = None
+            if found < 0:
+                ended = unfinished(self.problem, found, times[-1], states[-1], self.max_steps)
+                found = room - 1
+            elif np.abs(states[:found]).max(initial=0.0) >= ESCAPED:
+                # Round-off has taken the motion past a pole.
+                ended = end_of(problem, start, end)
+            if ended is not None:
+                if not isinstance(ended, MotionEnds):
+                    raise ended
+                found = int(np.count_nonzero(np.abs(times[:found]) < abs(ended.time) * self.problem.nu - _BEFORE))
+            total += steps
+            if ended or found < room or room == self.crossings:
+                break
+            room = min(self.crossings, 10 * room)
+        require_finite_states(states[:found])
+        return (times[:found].copy(), states[:found].copy()), total, ended
+
+    def measured(self, i: int) -> SectionCrossings:
+        """Return the crossings of orbit i, with an error estimate from a more accurate run with a nearby start."""
+        nearby = self.problem.nearby()
+        problems = [self.problem, nearby]
+
+        def run(level: Level, spent: int) -> tuple[tuple[Array, Array], int]:
+            own = problems[level.aside]
+            crossings, steps, ended = self.run(own, own.states[i], self.end, level, spent)
+            if ended is not None:
+                raise ended
+            if not level.aside:
+                problems[1] = nearby.rounded(np.vstack((self.problem.states[i], crossings[1])))
+            return crossings, steps
+
+        found = measured(self.level, run, self._apart)
+        (times, scaled), (other_times, others) = found.result, found.other
+        both = min(len(scaled), len(others))
+        nu, scale = self.problem.nu, self.problem.scale
+        states = scaled * scale
+        difference = found.safety * np.abs(scaled[:both] - others[:both])
+        system, p = self.body.system, np.asarray(self.body.parameters, float)
+        return SectionCrossings(
+            system.name,
+            self.level.name,
+            frozen(times / nu),
+            frozen(states),
+            found.status,
+            float((difference * scale).max(initial=0.0)) + 2e-16 * max(1.0, nu),
+            drift_of(system, self.starts[i], states, p),
+            found.cost,
+            system.variables,
+            time_error(found.safety, times, other_times) / nu,
+            angles=system.angles,
+        )
+
+    def _apart(self, one: tuple[Array, Array], other: tuple[Array, Array]) -> float:
+        """Return the difference of the states at the crossings of two runs, ∞ if these are not the same crossings."""
+        (times, states), (other_times, others) = one, other
+        both = min(len(states), len(others))
+        off = float(np.abs(times[:both] - other_times[:both]).max(initial=0.0))
+        # One crossing may differ, at the very end of the time span.
+        extra = np.concatenate((times[both:], other_times[both:]))
+        near = 10.0 * max(self.level.promise, off)
+        same = len(extra) == 0 or (len(extra) == 1 and abs(extra[0] - self.end) <= near)
+        return float(np.abs(states[:both] - others[:both]).max(initial=0.0)) if same else math.inf
+
+
+def time_error(safety: float, times: Array, others: Array) -> float:
+    """Return the error of the times (n,) of crossings, from those of another run and from their own rounding."""
+    both = min(times.size, others.size)
+    off = float(np.abs(times[:both] - others[:both]).max(initial=0.0))
+    return safety * off + 4e-16 * float(np.abs(times).max(initial=0.0))
+
+
+def section(
+    body: Body,
+    state: Sequence[float] | Array,
+    plane: Surface,
+    end: float,
+    level: Accuracy,
+    crossings: int = MAX_CROSSINGS,
+    max_step: float | None = None,
+    max_steps: int = MAX_STEPS,
+) -> SectionCrossings:
+    """Return the crossings of a surface by one orbit.
+
+    Parameters
+    ----------
+    body : Body
+        The body.
+    state : array_like, shape (d,)
+        Initial state at time 0.
+    plane : Plane or Surface
+        The surface.
+    end : float
+        End of the time span; may be negative.
+    level : str or Level
+        Accuracy level.
+    crossings : int, default 100 000
+        Largest number of crossings.
+    max_step : float, optional
+        Longest step, see `solve`.
+    max_steps : int, default 5 000 000
+        Largest number of steps of all runs together.
+
+    Returns
+    -------
+    SectionCrossings
+        Times and states of the crossings, with status, error estimates and drift of the integrals.
+
+    Raises
+    ------
+    InvalidParameter
+        If a number is not finite, or the plane does not fit the state.
+    WorkLimit
+        If the orbit needs too many steps.
+
+    Notes
+    -----
+    Crossings are roots of the orbit's own Taylor polynomials.  Errors of states and times are measured as in `solve`,
+    crossing by crossing.  The promise and the status of a level are those of the states.  The times have an error of
+    their own, which is the larger one along a conservative motion, where it grows with the time: choose a more exact
+    level if it is too large.  If two runs find different crossings, the more accurate one is used.
+
+    Examples
+    --------
+    >>> from hess_mechanics import Plane, level, section, systems
+    >>> suslov = systems()["suslov"]
+    >>> found = section(*suslov.example_motion, Plane((0.0, 0.0, 0.0, 0.0, 1.0)), 50.0, level("precise"), 5)
+    >>> bool(abs(found.states[:, 4]).max() < 1e-9)
+    True
+    """
+    start = np.array(state, float)[None]
+    return sections(body, start, plane, end, level, crossings, threads=1, max_step=max_step, max_steps=max_steps)[0]
+
+
+def sections(
+    body: Body,
+    states: Sequence[Sequence[float]] | Array,
+    plane: Surface,
+    end: float,
+    level: Accuracy,
+    crossings: int = MAX_CROSSINGS,
+    threads: int = THREADS,
+    max_step: float | None = None,
+    max_steps: int = MAX_STEPS,
+) -> list[SectionCrossings]:
+    """Return the crossings of a surface by several orbits, computed on all cores.
+
+    The fastest orbit sets the unit of time for all of them.
+
+    Parameters
+    ----------
+    body : Body
+        The body.
+    states : array_like, shape (n, d)
+        Initial states at time 0.
+    plane : Plane or Surface
+        The surface.
+    end : float
+        End of the time span; may be negative.
+    level : str or Level
+        Accuracy level.
+    crossings : int, default 100 000
+        Largest number of crossings per orbit.
+    threads : int, optional
+        Number of threads.  By default one per core, at most eight.
+    max_step : float, optional
+        Longest step, see `solve`.
+    max_steps : int, default 5 000 000
+        Largest number of steps for each orbit.
+
+    Returns
+    -------
+    list of SectionCrossings
+        The crossings of each orbit, as `section` returns them.
+
+    Raises
+    ------
+    InvalidParameter
+        If a number is not finite, or the plane does not fit the states.
+    WorkLimit
+        If an orbit needs too many steps.
+
+    Examples
+    --------
+    >>> from hess_mechanics import Plane, level, sections, systems
+    >>> suslov = systems()["suslov"]
+    >>> body, state = suslov.example_motion
+    >>> len(sections(body, [state], Plane((0.0, 0.0, 0.0, 0.0, 1.0)), 50.0, level("precise"), 5))
+    1
+    """
+    level = as_level(level)
+    search = _Search.of(body, states, plane, end, level, crossings, max_step, max_steps)
+    found: dict[int, SectionCrossings] = {}
+
+    def one(orbit: int) -> None:
+        found[orbit] = search.measured(orbit)
+
+    share(one, len(search.starts), threads, _SHARE)
+    return [found[i] for i in range(len(search.starts))]
+
+
+@dataclass(frozen=True)
+class SectionPoints(Result):
+    """Crossings of several orbits, each computed once.
+
+    The points lie on the surface and on the levels of the integrals.  There is no error estimate along the orbits,
+    which would soon be meaningless for chaotic motions; `section` has one.
+
+    Attributes
+    ----------
+    states : list of ndarray, shape (n, d)
+        States at the crossings of each orbit.
+    drift : dict of str to float
+        Largest drift of each integral.
+    cost : Cost
+        Steps and time.
+    variables : tuple of str
+        Names of the variables.
+    reasons : tuple of str
+        Why each orbit ends before the time span does, with time and place; empty for the others.
+    angles : tuple of str
+        Names of the variables that are angles; they count on over full turns.
+    """
+
+    states: list[Array]
+    drift: Mapping[str, float]
+    cost: Cost
+    variables: tuple[str, ...] = ()
+    reasons: tuple[str, ...] = ()
+    angles: tuple[str, ...] = ()
+
+    def labels(self) -> Labels:
+        """Return the variables at all crossings, labelled with the number of the orbit.
+
+        Returns
+        -------
+        Labels
+            The variables over the crossings.
+        """
+        orbit = np.repeat(np.arange(len(self.states)), [len(one) for one in self.states])
+        points = np.concatenate([np.empty((0, len(self.variables))), *self.states])
+        return Labels(
+            {"orbit": (("crossing",), orbit)},
+            components(self.variables, points, "crossing"),
+            {name: "rad" if name in self.angles else unit_of(name) for name in self.variables},
+            {
+                **{f"drift of {name}": value for name, value in self.drift.items()},
+                "steps": self.cost.steps,
+                **angle_facts(self.angles),
+            },
+        )
+
+
+def section_points(
+    body: Body,
+    states: Sequence[Sequence[float]] | Array,
+    plane: Surface,
+    end: float,
+    level: Accuracy,
+    crossings: int,
+    threads: int = THREADS,
+    most_steps: int = MAX_STEPS,
+) -> SectionPoints:
+    """Return the crossings of a surface by several orbits, each computed once, for pictures.
+
+    An orbit that falls behind the average rate of crossings in one part of the time span ends there.  A motion that
+    escapes keeps its crossings up to its end.
+
+    Parameters
+    ----------
+    body : Body
+        The body.
+    states : array_like, shape (n, d)
+        Initial states at time 0.
+    plane : Plane or Surface
+        The surface.
+    end : float
+        End of the time span; may be negative.
+    level : str or Level
+        Accuracy level.
+    crossings : int
+        Largest number of crossings per orbit.
+    threads : int, optional
+        Number of threads.  By default one per core, at most eight.
+    most_steps : int, default 5 000 000
+        Largest number of steps per orbit.
+
+    Returns
+    -------
+    SectionPoints
+        States at the crossings of each orbit.
+
+    Raises
+    ------
+    InvalidParameter
+        If a number is not finite, or the plane does not fit the states.
+    WorkLimit
+        If an orbit needs too many steps.
+
+    Examples
+    --------
+    >>> from hess_mechanics import Plane, level, section_points, systems
+    >>> suslov = systems()["suslov"]
+    >>> body, state = suslov.example_motion
+    >>> plane = Plane((0.0, 0.0, 0.0, 0.0, 1.0))
+    >>> section_points(body, [state], plane, 100.0, level("standard"), 5).states[0].shape
+    (5, 5)
+    """
+    level = as_level(level)
+    begun = time.perf_counter()
+    search = _Search.of(body, states, plane, end, level, crossings, None, most_steps)
+    count = len(search.starts)
+    parts = max(1, min(_PARTS, crossings // 10))
+    one_part = replace(search, crossings=-(-crossings // parts))
+    problem = search.problem.nearby() if level.aside else search.problem
+    found: dict[int, tuple[Array, int]] = {}
+    reasons = [""] * count
+
+    def follow(orbit: int) -> tuple[Array, int]:
+        pieces: list[Array] = []
+        start, steps = problem.states[orbit], 0
+        for _ in range(parts):
+            go_on()
+            (_, points), taken, ended = one_part.run(problem, start, search.end / parts, level, steps)
+            pieces.append(points)
+            steps += taken
+            if ended is not None:
+                reasons[orbit] = str(end_of(search.problem, search.problem.states[orbit], search.end) or ended)
+                break
+            if len(points) < one_part.crossings:
+                break
+            start = points[-1]
+        points = np.concatenate(pieces)[:crossings]
+        if reasons[orbit]:
+            points = points[np.logical_and.accumulate(np.abs(points).max(axis=1, initial=0.0) <= LARGEST)]
+        return points * search.problem.scale, steps
+
+    refused: list[WorkLimit] = []
+
+    def one(orbit: int) -> None:
+        # A single orbit beyond the limit stops the whole section.
+        if not refused:
+            try:
+                found[orbit] = follow(orbit)
+            except WorkLimit as error:
+                refused.append(error)
+
+    share(one, count, threads, _SHARE)
+    if refused:
+        raise refused[0]
+    p = np.asarray(body.parameters, float)
+    drifts = [drift_of(body.system, search.starts[i], found[i][0], p) for i in range(count) if len(found[i][0])]
+    drift = {name: max(one[name] for one in drifts) for name in (drifts[0] if drifts else ())}
+    wall_ms = (time.perf_counter() - begun) * 1e3
+    return SectionPoints(
+        [frozen(found[i][0]) for i in range(count)],
+        drift,
+        Cost(sum(steps for _, steps in found.values()), wall_ms),
+        body.system.variables,
+        tuple(reasons),
+        body.system.angles,
+    )
+
+
+def occupied_cells(points: Array, across: int = 32) -> int:
+    """Return the number of across × across equal cells that hold a point: few on a curve, many in a chaotic sea.
+
+    The points (n, 2) are angles in (−π, π] × [0, π], and the cells cover this rectangle.
+    """
+    x = np.floor((points[:, 0] + math.pi) / (2.0 * math.pi) * across).astype(int) % across
+    y = np.minimum((points[:, 1] / math.pi * across).astype(int), across - 1)
+    return int(np.unique(x * across + y).size)

@@ -1,0 +1,119 @@
+"""Section of one Suslov–Hess torus: n3 increases through the middle of its range; the coordinate is the angle of w.
+
+At fixed (h, f), units b = 1, let w = ρ (sin φ, cos φ), ρ² = 2(h + n3), at n3 = (n3^(1) + n3^(2))/2.  Then
+
+    (n1, n2) = (f/ρ) w/ρ + √(1 − n3² − f²/ρ²) (cos φ, −sin φ),   as ṅ3 = n1 w2 − n2 w1 > 0.
+
+The return map is conjugate to Θ of `circle_map`, whose section is the lower turning point n3 = n3^(1): the multipliers
+of both are equal.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from contextlib import suppress
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import ClassVar
+
+import numpy as np
+
+from hess_mechanics import parameters as known
+from hess_mechanics.dynamics.motions import on_section, usual
+from hess_mechanics.dynamics.plane_section import Plane
+from hess_mechanics.dynamics.return_map import PoincareSection
+from hess_mechanics.dynamics.system import System
+from hess_mechanics.errors import ModelError
+from hess_mechanics.numerics.accuracy import PRECISE
+from hess_mechanics.numerics.results import Array, Mask
+from hess_mechanics.suslov_hess.bifurcation import TurningPoints, turning_points
+from hess_mechanics.suslov_hess.circle_map import circle_map
+from hess_mechanics.suslov_hess.equations import SYSTEM
+
+__all__ = ["SECTION", "TorusSection"]
+
+
+@dataclass(frozen=True)
+class TorusSection(PoincareSection):
+    """Section of the torus (h, f) of the reduced equations with coupling a, units b = 1, with the coordinate φ.
+
+    Raises `OutsideRegion`, `Separatrix`, `InvalidParameter` if there is no torus.
+    """
+
+    a: float
+    h: float
+    f: float
+
+    names: ClassVar[tuple[str]] = ("φ",)
+    turns: ClassVar[tuple[float]] = (2.0 * math.pi,)
+    window: ClassVar[tuple[tuple[float, float], ...]] = ((-math.pi, math.pi),)
+    system: ClassVar[System] = SYSTEM
+
+    @cached_property
+    def turning(self) -> TurningPoints:
+        """The turning points of n3."""
+        return turning_points(self.h, self.f)
+
+    @property
+    def n3(self) -> float:
+        """The middle of the range of n3."""
+        return 0.5 * (self.turning.roots[1] + self.turning.roots[2])
+
+    @property
+    def parameters(self) -> tuple[float, ...]:
+        """The parameters a and b = 1."""
+        return (self.a, 1.0)
+
+    @property
+    def surface(self) -> Plane:
+        """The plane that n3 crosses upwards."""
+        return Plane((0.0, 0.0, 0.0, 0.0, 1.0), self.n3)
+
+    @property
+    def slowness(self) -> float:
+        """The time between two crossings in units of the fastest motion, from the period of n3."""
+        return max(1.0, 0.1 * self.turning.period * math.sqrt(2.0 * (self.h + 3.0)))
+
+    @property
+    def constants(self) -> Mapping[str, float]:
+        """The constants a, h and f."""
+        return {"a": self.a, "h": self.h, "f": self.f}
+
+    @cached_property
+    def measure(self) -> str:
+        """The measure of `invariant_measure`, which exists where no cycle does."""
+        # The map degenerates where h + n3 = 0 is reached, for f = 0.
+        with suppress(ModelError):
+            if circle_map(self.a, self.h, self.f, PRECISE).kind == "elliptic":
+                return "the trace of the circle map is below 2, so the torus has a smooth invariant measure"
+        return ""
+
+    def moved(self, name: str, value: float) -> TorusSection:
+        """Return the section with another value of one constant."""
+        return replace(self, **{name: value})
+
+    def states_at(self, phi: Array) -> tuple[Array, Mask]:
+        """Return the states (n, 5) at φ (n,) and the mask of possible states, which is True everywhere."""
+        n3 = self.n3
+        rho = math.sqrt(2.0 * (self.h + n3))
+        along = self.f / rho
+        across = math.sqrt(max(0.0, 1.0 - n3 * n3 - along * along))
+        s, c = np.sin(phi), np.cos(phi)
+        gamma = along * s + across * c, along * c - across * s, np.full(s.size, n3)
+        return np.column_stack([rho * s, rho * c, *gamma]), np.isfinite(s)
+
+    def places_of(self, states: Array) -> Array:
+        """Return φ (n, 1) of states (n, 5)."""
+        return np.arctan2(states[:, :1], states[:, 1:2])
+
+
+SECTION = on_section(
+    "torus",
+    "Suslov–Hess case, a point of a torus",
+    (usual(known.A_HESS, 0.7), usual(known.H_HESS, 0.5), known.F_HESS),
+    (usual(known.CIRCLE_PHASE, 1.0),),
+    lambda values: TorusSection(values["a"], values["h"], values["f"]),
+    SYSTEM,
+)
+"""Motions from the middle of the range of n3, on the torus (h, f) in units b = 1."""
