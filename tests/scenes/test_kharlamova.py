@@ -109,17 +109,17 @@ def test_at_first_a_section_has_the_beginnings_of_all_its_orbits(name):
     view = View(scenes()[name], values)
     first, whole = view.begun, view.result
     # All crossings; and a second run of both, for how many of them are right.
-    assert (len(view.first.todo), first.section.others.shape, view.first.total) == (3, (20 * 30, 2), 3)
+    assert (len(view.first.todo), first.section.points().shape, view.first.total) == (3, (20 * 30, 2), 3)
     assert (view.report.todo, view.report.total) == ((), 3)
     # Later a chaotic orbit shows that its steps were others.
-    begun = first.section.others.reshape(20, 30, 2)[:, :8]
-    assert whole.section.others.reshape(20, 45, 2)[:, :8] == approx(begun, abs=1e-5)
+    begun = first.section.points().reshape(20, 30, 2)[:, :8]
+    assert whole.section.points().reshape(20, 45, 2)[:, :8] == approx(begun, abs=1e-5)
     # The chosen orbit is there at once.
     assert len(first.section.own) == 45
     held = View(scenes()[name], values, dragging=True)
     assert (held.report.todo, len(held.result.section.own)) == ((), 30)
     # At the draft, whose first points are the same to the eye, but for an orbit or two that part fast.
-    drawn = held.result.section.others.reshape(20, 30, 2)[:, :3]
+    drawn = held.result.section.points().reshape(20, 30, 2)[:, :3]
     assert np.sort(np.abs(drawn - begun[:, :3]).max(axis=(1, 2)))[-3] < 1e-3
 
 

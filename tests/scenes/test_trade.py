@@ -156,7 +156,7 @@ def test_the_cost_of_all_is_measured_when_its_picture_is_unfolded():
 def test_a_chaotic_section_has_no_error_and_says_so():
     trial = next(one for one in SUSLOV.trials if one.kind == Kind.SECTION)
     costs = tuple(LevelCost(name, 1.0, nan, True) for name in LEVELS)
-    work = types.SimpleNamespace(dragging=False, later=lambda *_: costs)
+    work = types.SimpleNamespace(dragging=False, need=lambda *_, **__: costs)
     found = Costs(work, bare(SUSLOV.of(SUSLOV.defaults())), (trial,))
     assert found.about().numbers == "Section has no error to measure: all of it is chaotic, or there is nothing."
     assert (found.curve(trial), found.rings(), found.level("draft"), [*found.rows()]) == (None, [], None, [])

@@ -87,6 +87,8 @@ def lost(step):
 
 
 ROWS = {
+    # It has no numbers.
+    "introduction": {},
     "limit-cycles-and-locking": {
         "−0.3959 turns": lambda s: (here(s).rotation_number,),
         "trace is less than 2": threshold,

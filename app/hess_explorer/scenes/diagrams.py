@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TypeVar
+from typing import ClassVar, TypeVar
 
 import numpy as np
 
@@ -15,19 +16,33 @@ from hess_explorer.protocol.specs import Values, written
 from hess_explorer.scenes.framework.charted import Charted, Charts, parameters_of
 from hess_explorer.scenes.framework.continuation import Continuation
 from hess_explorer.scenes.framework.part import Start, part
-from hess_explorer.scenes.framework.periodic_search import NONE, Closed
-from hess_explorer.scenes.framework.scene import Motion
+from hess_explorer.scenes.framework.periodic_search import NONE, PERIODS, Closed
+from hess_explorer.scenes.framework.scene import Motion, State
+from hess_explorer.scenes.framework.sliders import (
+    accuracy_level,
+    choice,
+    exponent_time,
+    number,
+    parameter,
+    places,
+    proved_error_shown,
+    time_span,
+)
 from hess_explorer.scenes.framework.solid_body import Solid, constrained_solid, solid_body
 from hess_explorer.scenes.framework.windows import boxed
 from hess_explorer.scenes.parts.diagrams.diagram_density import DiagramDensity
 from hess_explorer.scenes.parts.diagrams.growing_diagram import (
+    ANEW,
     BACKWARD,
     BOUNDS,
     COORDINATES,
     FALLING,
+    FARTHEST,
+    FOLLOWED,
     RISING,
-    DiagramParameters,
+    WAYS,
     OrbitDiagram,
+    parameter_of_diagram,
 )
 from hess_explorer.scenes.parts.orbits.proof import Proof
 from hess_explorer.scenes.parts.orbits.regime import Regime, few
@@ -43,13 +58,16 @@ from hess_explorer.views.plane.velocity_plane import pixels_per_unit, room_for
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.space.poisson_sphere import along_the_orbit, centre_of_mass
 from hess_explorer.views.text import digits
+from hess_mechanics.chaplygin_ball.ball_section import BallSection
 from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.dynamics.orbit_diagram import Cascade
 from hess_mechanics.dynamics.periodic import PeriodicOrbit
 from hess_mechanics.numerics.results import Array, SectionCrossings
+from hess_mechanics.parameters import B1, B2, B3, H_SUSLOV, I11, I13, I22, I23
 from hess_mechanics.rigid_body.inertia import check_body
 from hess_mechanics.rigid_body.reversal import rate, reversals
 from hess_mechanics.suslov.equations import SuslovBody
+from hess_mechanics.suslov.suslov_section import SuslovSection
 
 __all__ = ["DiagramState", "charts", "pictures"]
 
@@ -59,8 +77,96 @@ _TOP, _LINE = 0.06, 0.07
 
 
 @dataclass(frozen=True)
-class DiagramState(DiagramParameters):
-    """Attractors of a section over one parameter, and one orbit at the current value of that parameter."""
+class DiagramState(State, ABC):
+    """Attractors of a section over one parameter, and one orbit at the current value of that parameter.
+
+    symbols : symbol of each parameter of the section → its name.
+    """
+
+    I11: float = parameter(I11)
+    I22: float = parameter(I22)
+    I13: float = parameter(I13)
+    I23: float = parameter(I23)
+    b1: float = parameter(B1)
+    b2: float = parameter(B2)
+    b3: float = parameter(B3)
+    h: float = parameter(H_SUSLOV)
+    along: str = parameter_of_diagram(("h",), "h")
+    first: float = number(
+        "from", -0.15, (-3.0, 6.0), 0.01, bounds=FARTHEST, label="Diagram from", doc="Value at the left edge."
+    )
+    last: float = number(
+        "to", 0.3, (-3.0, 6.0), 0.01, bounds=FARTHEST, label="Diagram to", doc="Value at the right edge."
+    )
+    shown: str = choice("Coordinate of the section", COORDINATES, "ψ", doc="Quantity on the vertical axis.")
+    ways: str = choice(
+        "Followed",
+        tuple(WAYS),
+        next(iter(WAYS)),
+        doc="There: the parameter rises. Back: it falls. Backward in time, motions tend to repellers.",
+    )
+    begins: str = choice(
+        "Each value starts",
+        (FOLLOWED, ANEW),
+        FOLLOWED,
+        doc="A followed orbit stays with its attractor, and may differ on the way back.",
+    )
+    steps: float = number(
+        "n",
+        150.0,
+        (30.0, 300.0),
+        10.0,
+        bounds=(2.0, 600.0),
+        label="Values of the parameter",
+        doc="Number of evenly spaced values.",
+        group="Computation",
+    )
+    transient: float = number(
+        "N₀",
+        300.0,
+        (0.0, 1000.0),
+        10.0,
+        bounds=(0.0, 5000.0),
+        label="Crossings left out",
+        doc="Crossings left out at each value, until the orbit has settled.",
+        group="Computation",
+    )
+    count: float = number(
+        "N",
+        60.0,
+        (10.0, 200.0),
+        5.0,
+        bounds=(2.0, 500.0),
+        label="Crossings shown",
+        doc="Crossings drawn at each value, after those left out.",
+        group="Computation",
+    )
+    window: str = places("The window of the diagram", 2, *BOUNDS)
+    branch: str = choice(
+        "Branch of a periodic orbit",
+        (NONE, *PERIODS),
+        NONE,
+        group="State",
+        doc="Over the diagram: the periodic orbit that Newton's method finds from the chosen place, "
+        "continued in the parameter, through folds. A click on it shows that orbit.",
+    )
+    span: float = time_span(60.0, 400.0, what="the chosen orbit")
+    long: float = exponent_time(4000.0, 5000.0, 2e4, "the mean divergence is")
+    certain: str = proved_error_shown()
+    accuracy: str = accuracy_level()
+    chosen: str = places("The place of the chosen orbit", 1, *BOUNDS)
+
+    symbols: ClassVar[Mapping[str, str]]
+
+    @property
+    @abstractmethod
+    def E(self) -> float:
+        """The energy."""
+
+    @property
+    @abstractmethod
+    def poincare(self) -> SuslovSection | BallSection:
+        """The section γ3 = 0.  Raises `ModelError`."""
 
     @property
     def body(self) -> SuslovBody | BallBody:

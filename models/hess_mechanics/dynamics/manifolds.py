@@ -266,8 +266,8 @@ def manifold(
         raise InvalidParameter("The length of a manifold, its sagitta and its longest chord must be positive numbers.")
     if side not in (-1, 1):
         raise InvalidParameter("The side must be 1 (along the direction of the saddle) or -1 (against it).")
-    if len(map_.turns) != 2:
-        raise InvalidParameter("Manifolds need a section with two coordinates: this one has a single coordinate.")
+    if len(getattr(map_, "turns", ())) != 2:
+        raise InvalidParameter("A manifold needs the return map of a section with two coordinates: give another map.")
     forwards = map_.inverse() if stable else map_
     curve = _begun(forwards, saddle, side, place)
     points, parameters, ended = _followed(curve, length, sagitta, longest, most, returns)

@@ -120,7 +120,7 @@ def test_where_a_manifold_comes_to():
 def test_what_has_no_manifolds_is_refused():
     with raises(InvalidParameter, match="Only a saddle"):
         manifold(henon(0.1), find_periodic(henon(0.1), (0.6, 0.2), 1), 1.0)
-    with raises(InvalidParameter, match="Manifolds need a section with two coordinates"):
+    with raises(InvalidParameter, match="the return map of a section with two coordinates"):
         manifold(arnold(0.1), find_periodic(arnold(0.1), (0.3,), 1), 1.0)
     m = bent_saddle()
     saddle = find_periodic(m, (0.1, 0.2), 1)

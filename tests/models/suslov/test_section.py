@@ -147,7 +147,9 @@ def test_the_basins_of_the_example_are_those_that_scipy_finds():
     body, E = TWO
     orbits = SectionOrbits(SuslovSection(body, E, 3), DRAFT)
     starts = orbits.section.spread(WHOLE, 6)
-    which = arrivals(orbits, attractors(orbits.section, 1000.0, DRAFT).sets, *orbits.places_of(np.array(starts)).T)
+    which = arrivals(
+        orbits, attractors(orbits.section, 1000.0, DRAFT).sets, *orbits.section.places_of(np.array(starts)).T
+    )
     assert set(which.number) == {0, 1}
     exact = []
     for start in starts:

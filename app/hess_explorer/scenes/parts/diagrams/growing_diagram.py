@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import product
-from typing import ClassVar
+from typing import Protocol
 
 import numpy as np
 
@@ -15,20 +14,9 @@ from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.specs import Values, written
 from hess_explorer.protocol.specs import places as points_of
 from hess_explorer.scenes.framework.families import Begin, Family
-from hess_explorer.scenes.framework.part import Part, Start
+from hess_explorer.scenes.framework.part import Part, Sectioned, Start
 from hess_explorer.scenes.framework.periodic_search import NONE, PERIODS
-from hess_explorer.scenes.framework.scene import State
-from hess_explorer.scenes.framework.sliders import (
-    TURN,
-    accuracy_level,
-    choice,
-    exponent_time,
-    number,
-    parameter,
-    places,
-    proved_error_shown,
-    time_span,
-)
+from hess_explorer.scenes.framework.sliders import TURN, choice, specs_of
 from hess_explorer.scenes.framework.windows import Window, tidy_window, window_of
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import Range
@@ -40,16 +28,18 @@ from hess_mechanics.dynamics.parameter_diagram import diagram, doublings, neares
 from hess_mechanics.errors import OutsideRegion
 from hess_mechanics.numerics.accuracy import Accuracy, Kind, plan
 from hess_mechanics.numerics.results import Array
-from hess_mechanics.parameters import B1, B2, B3, H_SUSLOV, I11, I13, I22, I23
 from hess_mechanics.suslov.suslov_section import SuslovSection
 
 __all__ = [
+    "ANEW",
     "BACKWARD",
     "BOUNDS",
     "COORDINATES",
     "FALLING",
+    "FARTHEST",
+    "FOLLOWED",
     "RISING",
-    "DiagramParameters",
+    "WAYS",
     "OrbitDiagram",
     "parameter_of_diagram",
 ]
@@ -90,101 +80,54 @@ def parameter_of_diagram(symbols: tuple[str, ...], default: str) -> str:
     return declared
 
 
-@dataclass(frozen=True)
-class DiagramParameters(State, ABC):
-    """The parameters of a body, of the diagram of its section, and of one orbit.
-
-    symbols : symbol of each parameter of the section → its name.
-    """
-
-    I11: float = parameter(I11)
-    I22: float = parameter(I22)
-    I13: float = parameter(I13)
-    I23: float = parameter(I23)
-    b1: float = parameter(B1)
-    b2: float = parameter(B2)
-    b3: float = parameter(B3)
-    h: float = parameter(H_SUSLOV)
-    along: str = parameter_of_diagram(("h",), "h")
-    first: float = number(
-        "from", -0.15, (-3.0, 6.0), 0.01, bounds=FARTHEST, label="Diagram from", doc="Value at the left edge."
-    )
-    last: float = number(
-        "to", 0.3, (-3.0, 6.0), 0.01, bounds=FARTHEST, label="Diagram to", doc="Value at the right edge."
-    )
-    shown: str = choice("Coordinate of the section", COORDINATES, "ψ", doc="Quantity on the vertical axis.")
-    ways: str = choice(
-        "Followed",
-        tuple(WAYS),
-        next(iter(WAYS)),
-        doc="There: the parameter rises. Back: it falls. Backward in time, motions tend to repellers.",
-    )
-    begins: str = choice(
-        "Each value starts",
-        (FOLLOWED, ANEW),
-        FOLLOWED,
-        doc="A followed orbit stays with its attractor, and may differ on the way back.",
-    )
-    steps: float = number(
-        "n",
-        150.0,
-        (30.0, 300.0),
-        10.0,
-        bounds=(2.0, 600.0),
-        label="Values of the parameter",
-        doc="Number of evenly spaced values.",
-        group="Computation",
-    )
-    transient: float = number(
-        "N₀",
-        300.0,
-        (0.0, 1000.0),
-        10.0,
-        bounds=(0.0, 5000.0),
-        label="Crossings left out",
-        doc="Crossings left out at each value, until the orbit has settled.",
-        group="Computation",
-    )
-    count: float = number(
-        "N",
-        60.0,
-        (10.0, 200.0),
-        5.0,
-        bounds=(2.0, 500.0),
-        label="Crossings shown",
-        doc="Crossings drawn at each value, after those left out.",
-        group="Computation",
-    )
-    window: str = places("The window of the diagram", 2, *BOUNDS)
-    branch: str = choice(
-        "Branch of a periodic orbit",
-        (NONE, *PERIODS),
-        NONE,
-        group="State",
-        doc="Over the diagram: the periodic orbit that Newton's method finds from the chosen place, "
-        "continued in the parameter, through folds. A click on it shows that orbit.",
-    )
-    span: float = time_span(60.0, 400.0, what="the chosen orbit")
-    long: float = exponent_time(4000.0, 5000.0, 2e4, "the mean divergence is")
-    certain: str = proved_error_shown()
-    accuracy: str = accuracy_level()
-    chosen: str = places("The place of the chosen orbit", 1, *BOUNDS)
-
-    symbols: ClassVar[Mapping[str, str]]
-
+class _Host(Sectioned, Protocol):
     @property
-    @abstractmethod
-    def E(self) -> float:
-        """The energy."""
-
-    @property
-    @abstractmethod
     def poincare(self) -> SuslovSection | BallSection:
         """The section γ3 = 0.  Raises `ModelError`."""
 
+    @property
+    def symbols(self) -> Mapping[str, str]:
+        """The symbol of each parameter of the section → its name."""
+
+    @property
+    def along(self) -> str: ...
+
+    @property
+    def first(self) -> float: ...
+
+    @property
+    def last(self) -> float: ...
+
+    @property
+    def shown(self) -> str: ...
+
+    @property
+    def ways(self) -> str: ...
+
+    @property
+    def begins(self) -> str: ...
+
+    @property
+    def steps(self) -> float: ...
+
+    @property
+    def transient(self) -> float: ...
+
+    @property
+    def count(self) -> float: ...
+
+    @property
+    def window(self) -> str: ...
+
+    @property
+    def branch(self) -> str: ...
+
+    @property
+    def chosen(self) -> str: ...
+
 
 @dataclass(frozen=True, eq=False)
-class OrbitDiagram(Part[DiagramParameters]):
+class OrbitDiagram(Part[_Host]):
     """The points to which the orbits of a section settle, over one of its parameters."""
 
     def admitted(self, notes: list[str]) -> Values:
@@ -193,12 +136,13 @@ class OrbitDiagram(Part[DiagramParameters]):
         if first == last:
             first = min(first, FARTHEST[1] - 1.0)
             last = first + 1.0
+        default = next(one.default for one in specs_of(type(self.host)) if one.name == "chosen")
         window = tidy_window(self.host.window)
         (x0, _), (x1, _) = window_of(window, ((first, 0.0), (last, 0.0)))
         return {
             "first": first,
             "last": last,
-            "chosen": self.host.chosen or type(self.host).chosen,
+            "chosen": self.host.chosen or default,
             "window": window if x0 < last and x1 > first else "",
         }
 
