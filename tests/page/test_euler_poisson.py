@@ -18,16 +18,16 @@ from collections import Counter
 from pathlib import Path
 from hess_explorer.scenes.parts.sections import section as sections
 
-gate, piece, begun = Path(sys.argv.pop(1)), sections.section_points, Counter()
+gate, piece, begun = Path(sys.argv.pop(1)), sections.section_crossings, Counter()
 
 @functools.wraps(piece)
-def held(section, starts, surface, end, level, crossings, **limits):
+def held(section, starts, crossings, *more, **limits):
     begun[section.h] += crossings == 4000
     while 20 < section.h < 21 and begun[section.h] > 6 and gate.exists():
         time.sleep(0.02)
-    return piece(section, starts, surface, end, level, crossings, **limits)
+    return piece(section, starts, crossings, *more, **limits)
 
-sections.section_points = held
+sections.section_crossings = held
 """ + UNWARMED[1]
 """The server; a section of 4000 crossings at 20 < h < 21 stops growing after six pieces, while a file is there."""
 

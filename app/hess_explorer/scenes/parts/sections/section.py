@@ -21,8 +21,7 @@ from hess_explorer.scenes.framework.work import drift_status, kept_status
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.plane.section_plane import joined
 from hess_mechanics.dynamics.cells import evenly
-from hess_mechanics.dynamics.plane_section import section_points
-from hess_mechanics.dynamics.return_map import PoincareSection
+from hess_mechanics.dynamics.return_map import PoincareSection, section_crossings
 from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.dynamics.shadowing import right_crossings, typical
 from hess_mechanics.errors import OutsideRegion, WorkLimit
@@ -69,11 +68,10 @@ def start_on(section: PoincareSection, text: str) -> Start:
 def crossings_from(
     section: PoincareSection, starts: tuple[Start, ...], crossings: int, forward: bool, level: Level
 ) -> OrbitBatch:
-    """Return so many crossings of the orbits from some states, forward in time."""
-    fastest = float(np.max(section.system.frequency(np.array(starts).T, np.array(section.parameters)), initial=0.0))
-    end = _TURNS * crossings * section.slowness / (fastest or 1.0)
+    """Return so many crossings of the orbits from some states."""
     return batch_of(
-        section, section_points(section, starts, section.surface, end, level, crossings, most_steps=_MOST_STEPS)
+        section,
+        section_crossings(section, np.array(starts), crossings, _TURNS, level, not forward, most_steps=_MOST_STEPS),
     )
 
 
