@@ -111,18 +111,21 @@ def build(
     if folder.exists() and not {one.name for one in folder.iterdir()} <= own:
         raise InvalidParameter(f"The folder {str(folder)!r} holds other files: choose an empty one.")
     sizes = dict[str, int]()
-    for done, (name, path) in enumerate([*files.items(), ("", _INDEX)], 1):
-        if path == _INDEX:
-            content = _LINKS.format(parts="\n".join(_parts(files))).encode()
-        elif name in shipped():
-            content = lesson_page(shipped()[name], count, home=home)
-        else:
-            content = _scene_page(scenes()[name], count, home)
+
+    def write(path: str, content: bytes) -> None:
         (folder / path).parent.mkdir(parents=True, exist_ok=True)
         write_whole(folder / path, content)
         sizes[path] = len(content)
-        if report is not None and name:
+
+    for done, (name, path) in enumerate(files.items(), 1):
+        lesson = shipped().get(name)
+        if lesson is None:
+            write(path, _scene_page(scenes()[name], count, home))
+        else:
+            write(path, lesson_page(lesson, count, home=home))
+        if report is not None:
             report(name, done, len(files))
+    write(_INDEX, _LINKS.format(parts="\n".join(_parts(files))).encode())
     return sizes
 
 
@@ -137,13 +140,11 @@ def _scene_page(scene: Scene[Any], count: int, home: str) -> bytes:
     values, _ = scene.admit({**scene.defaults(), **light})
     if "points" in values or accumulates(scene):
         count = max(2, count // 4)
-    sliders = []
-    for spec in scene.specs:
-        if isinstance(spec, Number) and spec.name in scene.essential and spec.name not in _WINDOW:
-            low, high, _ = slider_limits(spec, scene.limits(values))
-            sliders.append((scene.essential.index(spec.name), f"{spec.name}={low}:{high}:{count}"))
-    chosen = [text for _, text in sorted(sliders)[:2]]
-    return state_page(encode(scene.name, values), sliders=chosen, home=home)[1]
+    numbers = {spec.name: spec for spec in scene.specs if isinstance(spec, Number) and spec.name not in _WINDOW}
+    names = [name for name in scene.essential if name in numbers][:2]
+    ends = [slider_limits(numbers[name], scene.limits(values))[:2] for name in names]
+    sliders = [f"{name}={low}:{high}:{count}" for name, (low, high) in zip(names, ends, strict=True)]
+    return state_page(encode(scene.name, values), sliders=sliders, home=home)[1]
 
 
 def _parts(files: Mapping[str, str]) -> Iterator[str]:
