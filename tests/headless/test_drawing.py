@@ -50,7 +50,7 @@ def test_a_file_is_the_canvas_of_the_page_at_the_same_size(link, picture, browse
     with opened(browser, path.as_uri(), (422, 522), device_scale_factor=SHARP) as page:
         canvas = page.locator(".host canvas").first
         edge = canvas.evaluate("canvas => canvas.clientWidth")
-        # What moves on a sphere or torus is on a second canvas; a screenshot may begin between two pixels.
+        # A sphere or torus has a second canvas for moving points; a screenshot may begin between two pixels.
         shown = Image.new("RGBA", (round(SHARP * edge),) * 2, "white")
         for url in page.locator(".host canvas").evaluate_all("all => all.map((one) => one.toDataURL())"):
             layer = Image.open(io.BytesIO(base64.b64decode(url.partition(",")[2]))).convert("RGBA")

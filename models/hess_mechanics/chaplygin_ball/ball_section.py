@@ -37,7 +37,6 @@ __all__ = [
     "forbidden_band",
     "outside_band",
     "seeds",
-    "spread_section",
     "state_at",
 ]
 
@@ -118,13 +117,6 @@ def ball_section(
             f"{crossings} crossings take an orbit more than {most_steps} steps here: choose fewer of them, "
             "or smaller I13 and I23."
         ) from None
-
-
-def spread_section(
-    body: BallBody, h: float, orbits: int, crossings: int, level: Accuracy, most_steps: int
-) -> SectionPoints:
-    """Return the section of the given number of orbits, `ball_section` from `seeds`."""
-    return ball_section(body, h, seeds(body, h, orbits), crossings, level, most_steps)
 
 
 def fastest(body: BallBody, start: tuple[float, ...], span: float) -> float:

@@ -40,7 +40,6 @@ __all__ = [
     "level_error",
     "quartic_section",
     "seeds",
-    "spread_section",
     "start_on_section",
     "state_at",
     "visited",
@@ -388,11 +387,6 @@ def quartic_section(
             f"{crossings} crossings take an orbit more than {most_steps} steps here: choose fewer of them, "
             "a smaller h, or I11 and I22 less different."
         ) from None
-
-
-def spread_section(body: QuarticBody, orbits: int, crossings: int, level: Accuracy, most_steps: int) -> SectionPoints:
-    """Return the section of the given number of orbits, `quartic_section` from `seeds`."""
-    return quartic_section(body, seeds(body, orbits), crossings, level, most_steps)
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""What a scene charts: numbers of the catalogue, and their arguments in a state."""
+"""Numbers of the catalogue that a scene charts, and their arguments in a state."""
 
 from __future__ import annotations
 

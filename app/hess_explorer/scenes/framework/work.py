@@ -7,7 +7,7 @@ import time
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from types import EllipsisType
-from typing import Any, ParamSpec, TypeVar, cast, overload
+from typing import Any, TypeVar, cast, overload
 
 from hess_explorer.compute.cache import CACHE, Task
 from hess_mechanics.dynamics.sampling import HALF_A_PIXEL
@@ -26,7 +26,6 @@ AUTO = "auto"
 """The accuracy that is set by measurement."""
 
 T = TypeVar("T")
-P = ParamSpec("P")
 
 
 class Work:
