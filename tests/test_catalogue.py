@@ -91,7 +91,7 @@ def test_a_sweep_and_the_cells_of_a_chart_hold_the_same_number(key, drafted):
     given = {each: value for each, value in of.example.items() if not isinstance(value, str)}
     last = of.parameters[-1].name
     over = {last: [of.values(given)[last]]}
-    found = sweep(key, over, numbers=[name], level="draft", **{each: given[each] for each in given if each != last})
+    found = sweep(key, over, numbers=[name], accuracy="draft", **{each: given[each] for each in given if each != last})
     assert found[name.replace("-", "_")].values.item() == exact
     # A chart is over two parameters, the first cell of this one is the example.
     first, second = of.parameters[:2]

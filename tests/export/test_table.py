@@ -17,7 +17,7 @@ from support.view import STATE
 def test_the_graph_of_the_circle_map_is_that_of_the_mechanics_to_the_last_digits():
     facts, table = read(as_csv(picture_data("h=1.2&f=0.3&accuracy=reference", "circle")))
     assert (facts["scene"], facts["picture"], facts["parameters"]["h"]) == ("suslov-hess", "circle", 1.2)
-    found = circle_map(a=0.28 / 0.96, h=1.2, f=0.3, level=level("reference"))
+    found = circle_map(a=0.28 / 0.96, h=1.2, f=0.3, accuracy=level("reference"))
     graph = [row for row in table if row["layer"] == "map"]
     x, y = (np.array([float(row[name]) for row in graph]) for name in "xy")
     assert len(x) > 100

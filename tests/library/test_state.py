@@ -168,7 +168,7 @@ def test_pictures_and_results_are_drawn_with_either_extension(backend):
     try:
         for plot in (
             hess.state("suslov-hess", accuracy="draft").plot("sphere"),
-            circle_map(a=0.5, h=1.5, f=0.6, level=level("draft")).plot(),
+            circle_map(a=0.5, h=1.5, f=0.6, accuracy=level("draft")).plot(),
             basins(return_map(TWO, E=1.842, accuracy="draft"), cells=(6, 4)).plot(),
         ):
             assert hv.render(plot) is not None

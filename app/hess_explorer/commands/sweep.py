@@ -64,7 +64,7 @@ def _swept(options: Options) -> xr.Dataset:
             defined(name, "function", callable) if ":" in name else name,
             dict(options.over),
             numbers=options.numbers and options.numbers.split(","),
-            level=options.accuracy,
+            accuracy=options.accuracy,
             store=options.store,
             workers=options.workers,
             scheduler=options.scheduler,

@@ -49,7 +49,7 @@ def sweep(
     over: Mapping[str, Axis],
     *,
     numbers: Sequence[str] | None = None,
-    level: Accuracy = "precise",
+    accuracy: Accuracy = "precise",
     store: str | Path | None = None,
     workers: str | int | None = None,
     scheduler: str | Client | None = None,
@@ -63,14 +63,14 @@ def sweep(
     computation : str, Computation or callable
         A name of the catalogue such as "circle-map" or "lyapunov suslov", which defines the parameters, their bounds
         and defaults; or a computation of a system of your own.  Or your function: its parameters are numbers given by
-        name, and it returns a number or a named tuple of numbers, whose fields become variables.  A parameter `level`
+        name, and it returns a number or a named tuple of numbers, whose fields become variables.  A parameter `accuracy`
         receives the level.  The function is called once before the sweep begins.
     over : mapping of str
         The swept parameters: (low, high, count) for evenly spaced values with both ends, or a list of values.
     numbers : sequence of str, optional
         Numbers of the computation, by default the first, or all of a function.  Each is a variable, with `_` for `-` in
         its name.
-    level : str or Level
+    accuracy : str or Level
         "draft", "standard", "precise" or "reference".
     store : str or Path, optional
         Folder of a Zarr group that keeps every finished piece.  The same call resumes an interrupted sweep.
@@ -123,7 +123,7 @@ def sweep(
     [2.0, 6.0]
     """
     require_libraries()
-    plan = _planned(computation, numbers, over, fixed, as_level_name(level))
+    plan = _planned(computation, numbers, over, fixed, as_level_name(accuracy))
     path = None if store is None else Path(store)
     place: Any = path if path is not None and exists(path, plan) else None
     todo = None if place is None else missing(place, plan)

@@ -207,7 +207,7 @@ def ball_scattering(
     phis: Sequence[float] | Array,
     h: float,
     distance: float,
-    level: Accuracy,
+    accuracy: Accuracy,
     most_steps: float = MOST_STEPS,
 ) -> BallScattering:
     """Return the circles that motions from one circle of N^u approach, over the phase at the start.
@@ -225,8 +225,8 @@ def ball_scattering(
     distance : float
         Distance of the start from N^u: ω(0) is along ξ + distance·η.  Its sign selects the side; 1e-10 ≤ |distance| ≤
         0.1.
-    level : Level or str
-        Accuracy level or its name, see `level`.
+    accuracy : Level or str
+        Accuracy level or its name, see `accuracy`.
     most_steps : float, optional
         Limit on the steps, which are estimated beforehand.
 
@@ -258,7 +258,7 @@ def ball_scattering(
     >>> ball_scattering(body, 1.0, [0.0, 1.0], 1.0, 1e-6, "standard").theta_plus.round(4)
     array([2.0347, 2.1257])
     """
-    level = as_level(level)
+    level = as_level(accuracy)
     start = time.perf_counter()
     strip = Strip(body, h)
     xi, eta = line_of_rest(body)
@@ -308,10 +308,10 @@ def ball_scattering(
 
 
 def all_phases(
-    body: BallBody, theta_minus: float, count: int, distance: float, level: Accuracy, most_steps: float
+    body: BallBody, theta_minus: float, count: int, distance: float, accuracy: Accuracy, most_steps: float
 ) -> BallScattering:
     """Return `ball_scattering` at `count` equidistant phases from −π to π; θ⁺ does not depend on the energy.
 
     Raises `InvalidParameter`, `WorkLimit`.
     """
-    return ball_scattering(body, theta_minus, np.linspace(-math.pi, math.pi, count), 1.0, distance, level, most_steps)
+    return ball_scattering(body, theta_minus, np.linspace(-math.pi, math.pi, count), 1.0, distance, accuracy, most_steps)

@@ -101,7 +101,7 @@ def ball_section(
     h: float,
     starts: Sequence[Sequence[float]],
     crossings: int,
-    level: Accuracy,
+    accuracy: Accuracy,
     most_steps: int = MAX_STEPS,
 ) -> SectionPoints:
     """Return the first `crossings` crossings of each orbit from `starts`, on all cores, as in `section_points`.
@@ -111,7 +111,7 @@ def ball_section(
     speed = math.sqrt(2.0 * (h + math.hypot(*body.parameters[5:])) / min(body.I11, body.I22))
     end = crossings * _TURNS * math.sqrt(1.0 + body.D / min(body.I11, body.I22)) / speed
     try:
-        return section_points(body, starts, EQUATOR, end, level, crossings, most_steps=most_steps)
+        return section_points(body, starts, EQUATOR, end, accuracy, crossings, most_steps=most_steps)
     except WorkLimit:
         raise WorkLimit(
             f"{crossings} crossings take an orbit more than {most_steps} steps here: choose fewer of them, "

@@ -227,7 +227,7 @@ def _run(states: Array, p: Array, times: Array, level: Level, max_steps: int) ->
     return out, int(each.sum())
 
 
-def carried(body: BallBody, states: Array, times: Array, level: Accuracy) -> Cloud:
+def carried(body: BallBody, states: Array, times: Array, accuracy: Accuracy) -> Cloud:
     """Return the cloud of the phase points `states` (n, 5) at `times` (m,), all ≥ 0 or all ≤ 0, with b = 0.
 
     The error of every sixteenth point, and of those that start closest to s = 0, is estimated by a second run with a
@@ -235,7 +235,7 @@ def carried(body: BallBody, states: Array, times: Array, level: Accuracy) -> Clo
     with that tolerance, down to the floor of double precision. Raises `InvalidParameter` (a field; I13 = I23 = 0; a
     point with s = 0), `WorkLimit`.
     """
-    level = as_level(level)
+    level = as_level(accuracy)
     start = time.perf_counter()
     if any(body.parameters[5:]):
         raise InvalidParameter("1/|I13ω1 + I23ω2| is an invariant density only without a field: set b1 = b2 = b3 = 0.")

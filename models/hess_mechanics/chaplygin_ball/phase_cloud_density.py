@@ -181,7 +181,7 @@ def clouds(
     count: int,
     span: float,
     field: float | None,
-    level: Accuracy,
+    accuracy: Accuracy,
 ) -> Clouds:
     """Return clouds of `count` points of a `patch` at an angle, or of a `shell`, up to `span`, which may be negative.
 
@@ -191,8 +191,8 @@ def clouds(
     one = count if field is None else count // 2
     states = shell(body, h, spread, one) if angle is None else patch(body, h, angle, spread, one)
     times = frame_times(body, states, span, abs(field or 0.0))
-    cloud, other = carried(body, states, times, level), None
+    cloud, other = carried(body, states, times, accuracy), None
     if field is not None:
         principal = BallBody(body.I11, body.I22, 0.0, 0.0, body.D, 0.0, 0.0, field)
-        other = complete(ensemble(principal, states, times, level))
+        other = complete(ensemble(principal, states, times, accuracy))
     return Clouds(cloud, course(cloud), density(cloud), sides(cloud), other)

@@ -21,7 +21,7 @@ StripOrbit = tuple[Array, int]
 """ω (m, 2), a point for each pixel of a plot of the strip, and the index of the initial state."""
 
 
-def strip_orbits(body: BallBody, count: int, level: Accuracy = DRAFT) -> tuple[StripOrbit, ...]:
+def strip_orbits(body: BallBody, count: int, accuracy: Accuracy = DRAFT) -> tuple[StripOrbit, ...]:
     """Return orbits of E = 1, b = 0 through states spread evenly over the strip, nearly from N^u to N^s.
 
     Without a field the energy only sets the unit of time: the ω of E = h are √h times as large.
@@ -32,8 +32,8 @@ def strip_orbits(body: BallBody, count: int, level: Accuracy = DRAFT) -> tuple[S
     speed = math.sqrt(2.0 / min(body.I11, body.I22))
     tick = 2.0 * 1.1 * speed / PIXELS
     times = _times(body, speed)
-    there = complete(ensemble(body, states, times, level)).states[:, :, :2]
-    back = complete(ensemble(body, states, -times, level)).states[:, :, :2]
+    there = complete(ensemble(body, states, times, accuracy)).states[:, :, :2]
+    back = complete(ensemble(body, states, -times, accuracy)).states[:, :, :2]
     orbits = []
     for i in range(count):
         before, after = (_as_far_as_the_line(states[i, :2], half[i], eta, tick) for half in (back, there))

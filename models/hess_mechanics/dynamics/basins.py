@@ -119,11 +119,11 @@ class Attractors:
         return max(self.contractions, key=lambda one: one.mean, default=None)
 
 
-def attractors(section: PoincareSection, span: float, level: Accuracy) -> Attractors:
+def attractors(section: PoincareSection, span: float, accuracy: Accuracy) -> Attractors:
     """Return the attractors of a section; `span` is the time over which a divergence is averaged.
 
     Raises `InvalidParameter`, `WorkLimit`.
     """
-    found = recurrent_sets(SectionOrbits(section, level))
+    found = recurrent_sets(SectionOrbits(section, accuracy))
     on_each = tuple(contraction(section, state, span) for state in found.states)
     return Attractors(found.kept([one.attracts for one in on_each]), on_each)

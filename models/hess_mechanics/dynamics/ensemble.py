@@ -60,7 +60,7 @@ def ensemble(
     body: Body,
     states: Sequence[Sequence[float]] | Array,
     times: Sequence[float] | Array,
-    level: Accuracy = "precise",
+    accuracy: Accuracy = "precise",
     threads: int = THREADS,
     max_step: float | None = None,
     max_steps: int = MAX_STEPS,
@@ -79,7 +79,7 @@ def ensemble(
         Initial states at time 0.
     times : array_like, shape (m,)
         Times of the result, monotonic from 0 forward or backward.
-    level : str or Level, default "precise"
+    accuracy : str or Level, default "precise"
         Accuracy level.
     threads : int, optional
         Number of threads.  By default one per core, at most eight.
@@ -108,7 +108,7 @@ def ensemble(
     >>> ensemble(body, [state, state], [0.0, 1.0, 2.0], level("precise")).states.shape
     (2, 3, 5)
     """
-    level = as_level(level)
+    level = as_level(accuracy)
     start = time.perf_counter()
     t = checked_times(times)
     problem = Problem.of(body, states)

@@ -75,7 +75,7 @@ class Exponent(Result):
         return self.value < 2.0 * math.log(max(math.e, self.times.size)) / float(self.times[-1])
 
 
-def lyapunov_exponent(body: Body, state: Sequence[float], span: float, level: Accuracy = STANDARD) -> Exponent:
+def lyapunov_exponent(body: Body, state: Sequence[float], span: float, accuracy: Accuracy = STANDARD) -> Exponent:
     """Return the largest Lyapunov exponent of an orbit.
 
     Parameters
@@ -86,7 +86,7 @@ def lyapunov_exponent(body: Body, state: Sequence[float], span: float, level: Ac
         Initial state.
     span : float
         Time span, in units of the problem; negative for backward in time.
-    level : str or Level, default "standard"
+    accuracy : str or Level, default "standard"
         Accuracy level.  A named level means its `Plan` for exponents.
 
     Returns
@@ -113,7 +113,7 @@ def lyapunov_exponent(body: Body, state: Sequence[float], span: float, level: Ac
     >>> float(lyapunov_exponent(*suslov.example_motion, 50.0).times[-1])
     50.0
     """
-    level = plan(Kind.EXPONENT, level).level
+    level = plan(Kind.EXPONENT, accuracy).level
     span = checked_span(span, "a Lyapunov exponent")
     problem = Problem.of(body, [state])
     samples = abs(span) / _INTERVAL * problem.nu

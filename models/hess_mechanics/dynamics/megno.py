@@ -128,7 +128,7 @@ def megno(
     body: Body,
     states: Sequence[Sequence[float]] | Array,
     span: float,
-    level: Accuracy = STANDARD,
+    accuracy: Accuracy = STANDARD,
     threads: int = THREADS,
 ) -> Megno:
     """Return MEGNO of several motions, computed on all cores.
@@ -141,7 +141,7 @@ def megno(
         Initial states.
     span : float
         Time span, in units of the problem; negative for backward in time.
-    level : str or Level, default "standard"
+    accuracy : str or Level, default "standard"
         Accuracy level.
     threads : int, optional
         Number of threads.  By default one per core, at most eight.
@@ -172,7 +172,7 @@ def megno(
     >>> megno(body, [state], 100.0).values.shape
     (1,)
     """
-    level = as_level(level)
+    level = as_level(accuracy)
     checked_span(span, "an indicator")
     begun = time.perf_counter()
     problem = Problem.of(body, states)

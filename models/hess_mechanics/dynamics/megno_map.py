@@ -79,7 +79,7 @@ class MegnoMap(Result):
 
 
 def row_of_cells(
-    section: PoincareSection, window: Window, cells: tuple[int, int], row: int, t: float, level: Accuracy
+    section: PoincareSection, window: Window, cells: tuple[int, int], row: int, t: float, accuracy: Accuracy
 ) -> Array:
     """Return Ȳ, kind and end, shape (3, m), of the motions from the centres of one row of cells.
 
@@ -95,7 +95,7 @@ def row_of_cells(
         Index of the row, from below.
     t : float
         Time span.
-    level : str or Level
+    accuracy : str or Level
         Accuracy level.
 
     Raises
@@ -111,7 +111,7 @@ def row_of_cells(
     out = np.full((3, m), np.nan)
     out[1] = NOWHERE
     if there.any():
-        found = megno(section, states[there], t, level, threads=1)
+        found = megno(section, states[there], t, accuracy, threads=1)
         kinds = np.where(np.array(found.reasons, bool), ENDED, found.chaotic + 2 * found.attracted)
         out[:, there] = found.values, kinds, found.ends
     return frozen(out)

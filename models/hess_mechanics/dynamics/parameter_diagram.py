@@ -36,10 +36,10 @@ def diagram(
     kept: int,
     follow: bool,
     backward: bool,
-    level: Accuracy,
+    accuracy: Accuracy,
 ) -> Diagram:
     """Return the orbit diagram of the sections of a family; parameters as in `orbit_diagram`."""
-    level = as_level(level)
+    level = as_level(accuracy)
     return diagram_over(
         lambda value: ReturnMap(family(value), level, backward), name, values, start, transient, kept, follow, again
     )
@@ -72,9 +72,9 @@ class Sets:
     repeller: Array
 
 
-def sets_of(section: PoincareSection, start: Place, transient: int, kept: int, level: Accuracy) -> Sets:
+def sets_of(section: PoincareSection, start: Place, transient: int, kept: int, accuracy: Accuracy) -> Sets:
     """Return the attractor and repeller that the orbit from `start` reaches.  Raises `OutsideRegion`, `WorkLimit`."""
-    level = as_level(level)
+    level = as_level(accuracy)
     found = (
         ReturnMap(section, level, backward).orbit(np.array(start), transient + kept)[transient:]
         for backward in (False, True)
@@ -82,12 +82,12 @@ def sets_of(section: PoincareSection, start: Place, transient: int, kept: int, l
     return Sets(*(frozen(one.copy()) for one in found))
 
 
-def at_state(section: PoincareSection, start: Place, transient: int, kept: int, t: float, level: Accuracy) -> Dynamics:
+def at_state(section: PoincareSection, start: Place, transient: int, kept: int, t: float, accuracy: Accuracy) -> Dynamics:
     """Classify the orbit from `start`; without comparisons if it does not return.  Raises `OutsideRegion`, `WorkLimit`.
 
     t : averaging time.
     """
-    map_ = ReturnMap(section, as_level(level))
+    map_ = ReturnMap(section, as_level(accuracy))
     motion = regime(map_, start, transient, min(kept, 400), t)
     try:
         return compared(map_, motion, start, transient, kept)

@@ -368,7 +368,7 @@ def section(
     state: Sequence[float] | Array,
     plane: Surface,
     end: float,
-    level: Accuracy,
+    accuracy: Accuracy,
     crossings: int = MAX_CROSSINGS,
     max_step: float | None = None,
     max_steps: int = MAX_STEPS,
@@ -385,7 +385,7 @@ def section(
         The surface.
     end : float
         End of the time span; may be negative.
-    level : str or Level
+    accuracy : str or Level
         Accuracy level.
     crossings : int, default 100 000
         Largest number of crossings.
@@ -422,7 +422,7 @@ def section(
     True
     """
     start = np.array(state, float)[None]
-    return sections(body, start, plane, end, level, crossings, threads=1, max_step=max_step, max_steps=max_steps)[0]
+    return sections(body, start, plane, end, accuracy, crossings, threads=1, max_step=max_step, max_steps=max_steps)[0]
 
 
 def sections(
@@ -430,7 +430,7 @@ def sections(
     states: Sequence[Sequence[float]] | Array,
     plane: Surface,
     end: float,
-    level: Accuracy,
+    accuracy: Accuracy,
     crossings: int = MAX_CROSSINGS,
     threads: int = THREADS,
     max_step: float | None = None,
@@ -450,7 +450,7 @@ def sections(
         The surface.
     end : float
         End of the time span; may be negative.
-    level : str or Level
+    accuracy : str or Level
         Accuracy level.
     crossings : int, default 100 000
         Largest number of crossings per orbit.
@@ -481,7 +481,7 @@ def sections(
     >>> len(sections(body, [state], Plane((0.0, 0.0, 0.0, 0.0, 1.0)), 50.0, level("precise"), 5))
     1
     """
-    level = as_level(level)
+    level = as_level(accuracy)
     search = _Search.of(body, states, plane, end, level, crossings, max_step, max_steps)
     found: dict[int, SectionCrossings] = {}
 
@@ -549,7 +549,7 @@ def section_points(
     states: Sequence[Sequence[float]] | Array,
     plane: Surface,
     end: float,
-    level: Accuracy,
+    accuracy: Accuracy,
     crossings: int,
     threads: int = THREADS,
     most_steps: int = MAX_STEPS,
@@ -569,7 +569,7 @@ def section_points(
         The surface.
     end : float
         End of the time span; may be negative.
-    level : str or Level
+    accuracy : str or Level
         Accuracy level.
     crossings : int
         Largest number of crossings per orbit.
@@ -599,7 +599,7 @@ def section_points(
     >>> section_points(body, [state], plane, 100.0, level("standard"), 5).states[0].shape
     (5, 5)
     """
-    level = as_level(level)
+    level = as_level(accuracy)
     begun = time.perf_counter()
     search = _Search.of(body, states, plane, end, level, crossings, None, most_steps)
     count = len(search.starts)

@@ -132,7 +132,7 @@ def section_crossings(
     starts: Array,
     crossings: int,
     turns: float,
-    level: Accuracy,
+    accuracy: Accuracy,
     backward: bool = False,
     **limits: int,
 ) -> SectionPoints:
@@ -142,7 +142,7 @@ def section_crossings(
     `most_steps`.
     """
     end = turns * crossings * section.slowness / Problem.of(section, starts).nu
-    return section_points(section, starts, section.surface, -end if backward else end, level, crossings, **limits)
+    return section_points(section, starts, section.surface, -end if backward else end, accuracy, crossings, **limits)
 
 
 @dataclass(frozen=True)

@@ -69,7 +69,7 @@ def sampled_orbit(
     state: Sequence[float],
     span: float,
     weights: Sequence[float],
-    level: Accuracy,
+    accuracy: Accuracy,
     most: int = MOST_SAMPLES,
     max_step: float | None = None,
 ) -> Orbit:
@@ -81,7 +81,7 @@ def sampled_orbit(
 
     def sampled(span: float) -> Orbit:
         times = sample_times(body, np.array(state), span, np.array(weights), SAGITTA, most)
-        return solve(body, state, times, level, max_step=max_step)
+        return solve(body, state, times, accuracy, max_step=max_step)
 
     try:
         return sampled(span)

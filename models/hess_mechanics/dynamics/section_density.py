@@ -53,7 +53,7 @@ def visits(
     starts: Sequence[Sequence[float]] | Array,
     crossings: int,
     forward: bool,
-    level: Accuracy,
+    accuracy: Accuracy,
 ) -> Visits:
     """Return the visits of the first `crossings` crossings of each orbit from `starts` (k, d), on one core.
 
@@ -67,7 +67,7 @@ def visits(
     starts = np.asarray(starts, float)
     for first in range(0, len(starts), _TOGETHER):
         some = starts[first : first + _TOGETHER]
-        found = complete(section_crossings(section, some, crossings, _TURNS, level, not forward, threads=1))
+        found = complete(section_crossings(section, some, crossings, _TURNS, accuracy, not forward, threads=1))
         for states in found.states:
             places = section.places_of(states[section.is_on(states)])
             within = places[np.all((places >= low) & (places < high), axis=1)]
@@ -91,7 +91,7 @@ def visits_over(
     skipped: int,
     crossings: int,
     forward: bool,
-    level: Accuracy,
+    accuracy: Accuracy,
 ) -> Visits:
     """Return the visits of one orbit at each value of a parameter, in a column of cells for each, on one core.
 
@@ -111,7 +111,7 @@ def visits_over(
             if not there[0]:
                 continue
             found = complete(
-                section_crossings(section, state, skipped + crossings, _TURNS, level, not forward, threads=1)
+                section_crossings(section, state, skipped + crossings, _TURNS, accuracy, not forward, threads=1)
             )
         except WorkLimit:
             raise

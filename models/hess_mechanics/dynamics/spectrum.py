@@ -281,7 +281,7 @@ def no_chaos(problem: Problem, start: Array, states: Array, span: float, level: 
     return ""
 
 
-def lyapunov_spectrum(body: Body, state: Sequence[float] | Array, span: float, level: Accuracy = STANDARD) -> Spectrum:
+def lyapunov_spectrum(body: Body, state: Sequence[float] | Array, span: float, accuracy: Accuracy = STANDARD) -> Spectrum:
     """Return all Lyapunov exponents of an orbit.
 
     They are the exponents of the equations in all d variables.
@@ -294,7 +294,7 @@ def lyapunov_spectrum(body: Body, state: Sequence[float] | Array, span: float, l
         Initial state.
     span : float
         Time span, in units of the problem; negative for backward in time.
-    level : str or Level, default "standard"
+    accuracy : str or Level, default "standard"
         Accuracy level.
 
     Returns
@@ -321,7 +321,7 @@ def lyapunov_spectrum(body: Body, state: Sequence[float] | Array, span: float, l
     >>> lyapunov_spectrum(*suslov.example_motion, 200.0).values.shape
     (5,)
     """
-    level = as_level(level)
+    level = as_level(accuracy)
     checked_span(span, "Lyapunov exponents")
     begun = time.perf_counter()
     problem, system = Problem.of(body, [state]), body.system

@@ -109,7 +109,7 @@ class Transition(Result):
 
 
 def transition_matrix(
-    body: Body, state: Sequence[float] | Array, times: float | Sequence[float] | Array, level: Accuracy
+    body: Body, state: Sequence[float] | Array, times: float | Sequence[float] | Array, accuracy: Accuracy
 ) -> Transition:
     """Return the transition matrix ∂y(t)/∂y(0) along an orbit.
 
@@ -123,7 +123,7 @@ def transition_matrix(
         Initial state.
     times : float or array_like, shape (n,)
         Times, monotonic from 0 forward or backward.
-    level : str or Level
+    accuracy : str or Level
         Accuracy level.
 
     Returns
@@ -147,7 +147,7 @@ def transition_matrix(
     >>> bool(abs(np.log(np.linalg.det(found.matrices[-1])) - found.log_volume[-1]) < 1e-9)
     True
     """
-    level = as_level(level)
+    level = as_level(accuracy)
     t = checked_times(np.atleast_1d(np.asarray(times, float)))
     problem, system = Problem.of(body, [state]), body.system
     scaled_times = problem.times(t)
@@ -327,7 +327,7 @@ class Return(Printed):
 
 
 def return_matrix(
-    body: Body, state: Sequence[float] | Array, surface: Surface, end: float, level: Accuracy, returns: int = 1
+    body: Body, state: Sequence[float] | Array, surface: Surface, end: float, accuracy: Accuracy, returns: int = 1
 ) -> Return | None:
     """Return the n-th return of an orbit to a surface, with its derivative.
 
@@ -341,7 +341,7 @@ def return_matrix(
         The surface.
     end : float
         End of the time span; may be negative.
-    level : str or Level
+    accuracy : str or Level
         Accuracy level.
     returns : int, default 1
         Number n of the return.
@@ -366,11 +366,11 @@ def return_matrix(
     >>> bool(abs(found.matrix[4]).max() < 1e-9)  # γ3 = 0 at the return
     True
     """
-    crossings = section(body, state, surface, end, level, returns)
+    crossings = section(body, state, surface, end, accuracy, returns)
     if len(crossings.times) < returns:
         return None
     moment = float(crossings.times[-1])
-    found = transition_matrix(body, state, moment, level)
+    found = transition_matrix(body, state, moment, accuracy)
     end_state = crossings.states[-1]
     rate = np.array(body.system.field(end_state.tolist(), list(body.parameters)), float)
     matrix = onto_surface(found.matrices[0], rate, surface.gradient(end_state))

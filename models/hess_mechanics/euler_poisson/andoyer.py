@@ -312,13 +312,13 @@ class AndoyerSection(PoincareSection):
         self,
         starts: Sequence[Sequence[float]],
         crossings: int,
-        level: Accuracy,
+        accuracy: Accuracy,
         threads: int = THREADS,
         most_steps: int = MAX_STEPS,
     ) -> SectionPoints:
         """Return the first crossings of each orbit, as in `section_points`.  Raises `InvalidParameter`, `WorkLimit`."""
         return section_points(
-            self.body, starts, self.surface, self.time_for(crossings), level, crossings, threads, most_steps
+            self.body, starts, self.surface, self.time_for(crossings), accuracy, crossings, threads, most_steps
         )
 
     def possible(self, l: Array, x: Array) -> Mask:

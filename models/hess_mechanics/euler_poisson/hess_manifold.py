@@ -86,13 +86,13 @@ def _ended(body: HeavyBody, problem: Problem, times: Array, states: Array, level
     return FreeRun(level.name, times, frozen(states), frozen(_relative(body, states)), steps, drift)
 
 
-def run_free(body: HeavyBody, start: tuple[float, ...], end: float, count: int, level: Accuracy) -> FreeRun:
+def run_free(body: HeavyBody, start: tuple[float, ...], end: float, count: int, accuracy: Accuracy) -> FreeRun:
     """Return the Euler–Poisson orbit from a state on the Hess manifold, at `count` equidistant times from 0 to `end`.
 
     It is computed once: `solve` would repeat it with smaller tolerances until the leak is that of round-off.
     Raises `InvalidParameter`, `WorkLimit`.
     """
-    level = as_level(level)
+    level = as_level(accuracy)
     times = frozen(np.linspace(0.0, end, count))
     problem = Problem.of(body, [start])
     out = np.empty((count, 6))
@@ -105,13 +105,13 @@ _BEFORE_HELD = 3.0
 _HELD_SAMPLES = 32
 
 
-def on_manifold(body: HeavyBody, start: tuple[float, ...], end: float, count: int, level: Accuracy) -> FreeRun:
+def on_manifold(body: HeavyBody, start: tuple[float, ...], end: float, count: int, accuracy: Accuracy) -> FreeRun:
     """Return `run_free` with M projected onto the Hess manifold so often that the leak cannot grow.
 
     This integrates the restriction to the manifold (`gess05`) in the variables and with the kernel of Euler–Poisson.
     Raises `InvalidParameter`, `WorkLimit`.
     """
-    level = as_level(level)
+    level = as_level(accuracy)
     times = frozen(np.linspace(0.0, end, count))
     problem = Problem.of(body, [start])
     scaled = problem.times(times)

@@ -46,9 +46,9 @@ class HessTorus:
     h: float
     f: float
 
-    def map_at(self, away: float, level: Accuracy) -> ReturnMap:
+    def map_at(self, away: float, accuracy: Accuracy) -> ReturnMap:
         """Return the return map of g = π/2 with r rotated by the angle `away`."""
-        level = as_level(level)
+        level = as_level(accuracy)
         return ReturnMap(AndoyerSection(HeavyBody.hess(self.moments, self.strength, away), self.h, self.f), level)
 
 
@@ -75,7 +75,7 @@ class Split:
     error: float
 
 
-def saddles(torus: HessTorus, level: Accuracy) -> Saddles:
+def saddles(torus: HessTorus, accuracy: Accuracy) -> Saddles:
     """Return the two limit cycles of the torus in the section.
 
     Raises `OutsideRegion` if the torus has no limit cycles, and as `find_periodic`.
@@ -96,7 +96,7 @@ def saddles(torus: HessTorus, level: Accuracy) -> Saddles:
             "The torus of the Hess manifold has no limit cycles here, so no separatrices: choose an h "
             "and f where |trace| of the circle map is larger than 2."
         )
-    turning, map_ = turning_points(h, f), torus.map_at(0.0, level)
+    turning, map_ = turning_points(h, f), torus.map_at(0.0, accuracy)
     found = []
     for point in sorted(theta.fixed_points, key=lambda one: one.stable):
         state = bridge.from_reduced(bridge.hess.from_units_of_b(turning.state_at_lower_turn(point.phi)[None]))[0]
@@ -111,9 +111,9 @@ def saddles(torus: HessTorus, level: Accuracy) -> Saddles:
     return Saddles(repels, attracts, float(repels[0, 0]) + half)
 
 
-def split_at(torus: HessTorus, away: float, level: Accuracy) -> Split:
+def split_at(torus: HessTorus, away: float, accuracy: Accuracy) -> Split:
     """Return the split of the separatrices with r rotated by the angle `away`.  Raises as `saddles` and `grown`."""
-    known, map_ = saddles(torus, level), torus.map_at(away, level)
+    known, map_ = saddles(torus, accuracy), torus.map_at(away, accuracy)
     unstable = _towards(map_, known.repels, known.l, stable=False)
     stable = _towards(map_, known.attracts, known.l, stable=True)
     try:

@@ -261,7 +261,7 @@ class LoxodromicMotion(Printed):
         return frozen(times[good]), frozen(np.arctan2(apart, change)[good])
 
 
-def loxodromic_motion(pendulum: LoxodromicPendulum, span: float, level: Accuracy) -> LoxodromicMotion:
+def loxodromic_motion(pendulum: LoxodromicPendulum, span: float, accuracy: Accuracy) -> LoxodromicMotion:
     """Return the motion of a loxodromic pendulum from its lowest point.
 
     Parameters
@@ -270,8 +270,8 @@ def loxodromic_motion(pendulum: LoxodromicPendulum, span: float, level: Accuracy
         The pendulum.
     span : float
         Time span in the units of the body.
-    level : Level or str
-        Accuracy level or its name, see `level`.
+    accuracy : Level or str
+        Accuracy level or its name, see `accuracy`.
 
     Returns
     -------
@@ -303,7 +303,7 @@ def loxodromic_motion(pendulum: LoxodromicPendulum, span: float, level: Accuracy
         WITH_ATTITUDE.at((pendulum.a, 1.0)),
         pendulum.start,
         pendulum.length(span),
-        level,
+        accuracy,
         (0.0, 0.0, *(radius,) * 6),
         SAGITTA,
         _MOST,

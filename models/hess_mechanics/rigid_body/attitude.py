@@ -192,7 +192,7 @@ def attitude(
     body: Body,
     start: Sequence[float] | Array,
     span: float,
-    level: Accuracy,
+    accuracy: Accuracy,
     weights: Sequence[float],
     sagitta: float,
     most: int,
@@ -203,7 +203,7 @@ def attitude(
     """
     state = np.asarray(start, float)
     times = sample_times(body, state, span, np.asarray(weights), sagitta, most)
-    orbit = solve(body, state, times, level)
+    orbit = solve(body, state, times, accuracy)
     axes, defect = _orthonormal(orbit.states[:, -6:-3], orbit.states[:, -3:])
     return Attitude(orbit.times, frozen(axes), defect, orbit)
 

@@ -271,9 +271,9 @@ def _log(x: Fraction) -> float:
     return math.log(float(x / Fraction(2) ** shift)) + shift * math.log(2.0)
 
 
-def propagate(of: PassageConstants, arc: int, u: Array, level: Accuracy) -> tuple[Complex, Complex, int]:
+def propagate(of: PassageConstants, arc: int, u: Array, accuracy: Accuracy) -> tuple[Complex, Complex, int]:
     """Return A and B at each u (m,), in any order, and the number of Taylor steps.  Raises `WorkLimit`."""
-    level = as_level(level)
+    level = as_level(accuracy)
     inside = np.clip(u, -of.end, of.end)
     start = np.array([0.0, 1.0, arc * of.kappa, 0.0, 1.0, 0.0, 0.0, 0.0])
     if level.aside:
@@ -296,7 +296,7 @@ def propagate(of: PassageConstants, arc: int, u: Array, level: Accuracy) -> tupl
     return out[:, 4] + 1j * out[:, 5], out[:, 6] + 1j * out[:, 7], total
 
 
-def turning(of: PassageConstants, arc: int, u: Array, level: Accuracy) -> tuple[Complex, Complex, float, int]:
+def turning(of: PassageConstants, arc: int, u: Array, accuracy: Accuracy) -> tuple[Complex, Complex, float, int]:
     """Return A and B at each u (m,), the estimated error of the rotation between any two, and the steps.
 
     The error is estimated as in `orbit.solve`.  Raises `WorkLimit`.
@@ -310,7 +310,7 @@ def turning(of: PassageConstants, arc: int, u: Array, level: Accuracy) -> tuple[
         # Factor 4: a rotation is quadratic in A and B, and both its ends have errors.
         return 4.0 * float((np.abs(one[0] - other[0]) + np.abs(one[1] - other[1])).max())
 
-    found = measured(as_level(level), run, apart)
+    found = measured(as_level(accuracy), run, apart)
     return *found.result, found.error + 1e-15 * (1.0 + of.size), found.cost.steps
 
 
@@ -333,13 +333,13 @@ class FreeRotation:
     cost: Cost
 
 
-def rotation(body: SuslovBody, omega: Sequence[float], times: Sequence[float] | Array, level: Accuracy) -> FreeRotation:
+def rotation(body: SuslovBody, omega: Sequence[float], times: Sequence[float] | Array, accuracy: Accuracy) -> FreeRotation:
     """Return the rotation along the motion that starts with ω(0), at times as in `orbit.solve`.
 
     Raises `InvalidParameter` (a field, I13 = I23 = 0, ω = 0 or on the line of equilibria, times out of order),
     `WorkLimit`.
     """
-    level = as_level(level)
+    level = as_level(accuracy)
     start = time.perf_counter()
     t = checked_times(times)
     motion = passage(body, omega)
@@ -478,7 +478,7 @@ class FreeMotion(Result):
 
 
 def free_motion(
-    body: SuslovBody, omega: Sequence[float], gamma: Sequence[float], times: Sequence[float] | Array, level: Accuracy
+    body: SuslovBody, omega: Sequence[float], gamma: Sequence[float], times: Sequence[float] | Array, accuracy: Accuracy
 ) -> FreeMotion:
     """Return the motion of a body without a field.
 
@@ -492,8 +492,8 @@ def free_motion(
         Vertical γ at t = 0; it is normalised, with a note if its length was not 1.
     times : array_like of float, shape (m,)
         Times in order, all ≥ 0 or all ≤ 0, as in `solve`.
-    level : Level or str
-        Accuracy level or its name, see `level`.
+    accuracy : Level or str
+        Accuracy level or its name, see `accuracy`.
 
     Returns
     -------
@@ -519,7 +519,7 @@ def free_motion(
     >>> motion.omega[-1].round(4)
     array([ 0.8096, -0.3591])
     """
-    level = as_level(level)
+    level = as_level(accuracy)
     begun = time.perf_counter()
     unit, note = unit_vector(gamma)
     turned = rotation(body, omega, times, level)
@@ -604,22 +604,22 @@ def sampled_motion(
     gamma: Sequence[float],
     span: float,
     weights: tuple[float, float],
-    level: Accuracy,
+    accuracy: Accuracy,
     most: int = MOST_SAMPLES,
 ) -> FreeMotion:
     """Return the motion over `span` at the `sample_times` for plots with these weights.  Raises as `rotation`."""
-    return free_motion(body, omega, gamma, sample_times(body, omega, span, weights, SAGITTA, most), level)
+    return free_motion(body, omega, gamma, sample_times(body, omega, span, weights, SAGITTA, most), accuracy)
 
 
 def turned_along_circle(
-    body: SuslovBody, omega: Sequence[float], gamma: Sequence[float], turn: float, level: Accuracy
+    body: SuslovBody, omega: Sequence[float], gamma: Sequence[float], turn: float, accuracy: Accuracy
 ) -> tuple[float, float, float]:
     """Return γ(0), moved by `turn` radians along the circle of all γ(0) with the same ω(0) and the same limit Γ^(−).
 
     Raises as `rotation`.
     """
     # Γ^(−) = (n, γ(0)).
-    n = rotation(body, omega, [1.0], level).limits[0]
+    n = rotation(body, omega, [1.0], accuracy).limits[0]
     n = n / np.linalg.norm(n)
     g = np.array(gamma, float)
     along = n * (n @ g)

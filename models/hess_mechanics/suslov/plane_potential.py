@@ -283,21 +283,21 @@ class PlaneMotion:
     integral: float
 
 
-def motion_from(body: PotentialBody, start: tuple[float, ...], duration: float, level: Accuracy) -> PlaneMotion:
+def motion_from(body: PotentialBody, start: tuple[float, ...], duration: float, accuracy: Accuracy) -> PlaneMotion:
     """Return the motion from a state (5,), sampled for a plot of the plane.
 
     Raises `InvalidParameter`, `WorkLimit`.
     """
-    orbit = sampled_orbit(body, start, duration, (0.0, 0.0, *(0.5 * PIXELS,) * 3), level, MOST_SAMPLES)
+    orbit = sampled_orbit(body, start, duration, (0.0, 0.0, *(0.5 * PIXELS,) * 3), accuracy, MOST_SAMPLES)
     fixed = not np.any(np.array(SYSTEM.field(start, body.parameters)))
     F2 = separable_integral(body, orbit.states)
     integral = float(np.ptp(F2)) / max(float(np.abs(F2).max()), 1e-300)
     period, left = None, math.inf
     if not fixed:
-        times = section(body, start, _EITHER_WAY, duration, level, crossings=2).times
+        times = section(body, start, _EITHER_WAY, duration, accuracy, crossings=2).times
         if len(times) == 2:
             period = 2.0 * float(times[1] - times[0])
-            left = missed(body, start, period, level)
+            left = missed(body, start, period, accuracy)
     energy = body.energy(start)
     one_sided = bool(np.all(body.potential(_ALL_ROUND) > energy))
     return PlaneMotion(orbit, energy, period, left, fixed, one_sided, integral)

@@ -70,7 +70,7 @@ _SPACING = 0.04
 _MOST = 100_000
 
 
-def conformal(body: SuslovBody, start: Sequence[float], duration: float, level: Accuracy) -> Conformal:
+def conformal(body: SuslovBody, start: Sequence[float], duration: float, accuracy: Accuracy) -> Conformal:
     """Return the motion from `start` (5,) over the time `duration` ≠ 0 (negative: backwards), with τ and the brackets.
 
     Raises `InvalidParameter` unless I13 = I23 = 0, `WorkLimit`.
@@ -84,7 +84,7 @@ def conformal(body: SuslovBody, start: Sequence[float], duration: float, level: 
     pairs = max(8.0, abs(duration) * nu / (2.0 * _SPACING))
     if not pairs <= _MOST / 2:
         raise WorkLimit(f"The motion needs more than {_MOST} samples: choose a shorter time span.")
-    orbit = solve(body, start, np.linspace(0.0, duration, 2 * math.ceil(pairs) + 1), level)
+    orbit = solve(body, start, np.linspace(0.0, duration, 2 * math.ceil(pairs) + 1), accuracy)
     y = list(orbit.states.T)
     g3, rates, step = y[4], np.array(SYSTEM.field(y, p)), orbit.times[1]
     # Cubic Hermite interpolation of γ3.

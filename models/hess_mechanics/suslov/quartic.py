@@ -370,7 +370,7 @@ def seeds(body: QuarticBody, count: int) -> list[tuple[float, ...]]:
 
 
 def quartic_section(
-    body: QuarticBody, starts: Sequence[Sequence[float]], crossings: int, level: Accuracy, most_steps: int
+    body: QuarticBody, starts: Sequence[Sequence[float]], crossings: int, accuracy: Accuracy, most_steps: int
 ) -> SectionPoints:
     """Return the first crossings of `body.plane` by each orbit, states as in `section_points`.
 
@@ -381,7 +381,7 @@ def quartic_section(
     if not math.isfinite(end):
         raise InvalidParameter("The motion is too slow for double precision: choose less extreme parameters.")
     try:
-        return section_points(body, starts, body.plane, end, level, crossings, most_steps=most_steps)
+        return section_points(body, starts, body.plane, end, accuracy, crossings, most_steps=most_steps)
     except WorkLimit:
         raise WorkLimit(
             f"{crossings} crossings take an orbit more than {most_steps} steps here: choose fewer of them, "

@@ -161,15 +161,15 @@ def _check_arc(arc: int) -> None:
         raise InvalidParameter("An arc is +1 or −1, the sign of I13ω1 + I23ω2 on it.")
 
 
-def scattering(body: SuslovBody, level: Accuracy, arc: int = 1, distance: float | None = None) -> Scattering:
+def scattering(body: SuslovBody, accuracy: Accuracy, arc: int = 1, distance: float | None = None) -> Scattering:
     """Return the scattering of γ along one arc of the motion of ω.
 
     Parameters
     ----------
     body : SuslovBody
         Body with b = 0 and I13 or I23 not 0.
-    level : Level or str
-        Accuracy level or its name, see `level`.
+    accuracy : Level or str
+        Accuracy level or its name, see `accuracy`.
     arc : int, optional
         Arc σ = ±1, the sign of I13ω1 + I23ω2.
     distance : float, optional
@@ -203,7 +203,7 @@ def scattering(body: SuslovBody, level: Accuracy, arc: int = 1, distance: float 
     >>> round(found.cos_chi, 6)
     -0.907965
     """
-    level = as_level(level)
+    level = as_level(accuracy)
     begun = time.perf_counter()
     _check_arc(arc)
     of = shape(body)

@@ -259,7 +259,7 @@ class SuslovSection(AngleSection):
         starts: Sequence[Sequence[float]],
         crossings: int,
         forward: bool,
-        level: Accuracy,
+        accuracy: Accuracy,
         threads: int = THREADS,
         most_steps: int = MAX_STEPS,
     ) -> SectionPoints:
@@ -270,7 +270,7 @@ class SuslovSection(AngleSection):
         nu = float(np.max(SYSTEM.frequency(np.array(starts, float).T, np.array(self.parameters))))
         end = crossings * _TURNS * self.slowness / max(nu, 1e-300)
         return section_points(
-            self.body, starts, self.surface, end if forward else -end, level, crossings, threads, most_steps
+            self.body, starts, self.surface, end if forward else -end, accuracy, crossings, threads, most_steps
         )
 
     def somewhere(self) -> tuple[float, ...] | None:

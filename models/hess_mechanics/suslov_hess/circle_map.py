@@ -48,12 +48,12 @@ MAX_A = 1e6
 _MAX_STEPS = 200_000
 
 
-def matrices(h: Array, f: Array, a: float, level: Accuracy) -> Array:
+def matrices(h: Array, f: Array, a: float, accuracy: Accuracy) -> Array:
     """Return the rows (Re α, Im α, Im β, L, ζ, steps) of the tori (h[i], f[i]), shape (n, 6); see `monodromy`.
 
     Every (h[i], f[i]) must satisfy |f| ≤ f_max(h).  Raises `WorkLimit`.
     """
-    level = as_level(level)
+    level = as_level(accuracy)
     out = np.empty((h.size, 6))
     if not matrices_into(h, f, float(a), level.order, level.tolerance, _MAX_STEPS, out):
         raise WorkLimit("These tori need too many steps: choose smaller a, or (h, f) farther from (1, 0).")
@@ -304,7 +304,7 @@ def neighbours(h: Array, f: Array, edge: Array) -> tuple[Array, Array]:
     return np.where(h > -1.0 + 1e-9, moved, h), f * (1.0 - 3.0 * 2.0**-53)
 
 
-def circle_map(a: float, h: float, f: float, level: Accuracy) -> CircleMap:
+def circle_map(a: float, h: float, f: float, accuracy: Accuracy) -> CircleMap:
     """Return the circle map of the torus (h, f).
 
     Parameters
@@ -315,8 +315,8 @@ def circle_map(a: float, h: float, f: float, level: Accuracy) -> CircleMap:
         The energy h > −1, in units b = 1.
     f : float
         The area integral, |f| ≤ f_max(h), in units b = 1.
-    level : Level or str
-        Accuracy level or its name, see `level`.
+    accuracy : Level or str
+        Accuracy level or its name, see `accuracy`.
 
     Returns
     -------
@@ -350,7 +350,7 @@ def circle_map(a: float, h: float, f: float, level: Accuracy) -> CircleMap:
     >>> found.kind, len(found.fixed_points)
     ('elliptic', 0)
     """
-    level = as_level(level)
+    level = as_level(accuracy)
     try:
         a, h, f = float(a), float(h), float(f) + 0.0  # f = −0.0 is f = 0
     except (TypeError, ValueError):

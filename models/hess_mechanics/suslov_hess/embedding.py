@@ -85,7 +85,7 @@ def _times(n0: float, n1: float, n2: float, theta: Array) -> Array:
     return np.asarray(np.maximum(0.0, found))
 
 
-def density_along(theta: CircleMap, count: int, level: Accuracy) -> Complex:
+def density_along(theta: CircleMap, count: int, accuracy: Accuracy) -> Complex:
     """Return the points ζ_s (count,) of the invariant density along the cross-section; raises as `wide_enough`."""
     times = cross_section(theta.h, turning_points(theta.h, theta.f), count).times
-    return wide_enough(theta, times, level).zeta
+    return wide_enough(theta, times, accuracy).zeta

@@ -175,7 +175,7 @@ def _jumps(f: float) -> InvalidParameter:
     )
 
 
-def on_torus(measure: InvariantMeasure, times: Sequence[float] | Array, level: Accuracy) -> TorusMeasure:
+def on_torus(measure: InvariantMeasure, times: Sequence[float] | Array, accuracy: Accuracy) -> TorusMeasure:
     """Return ζ_s and δ(s) at the times s ≥ 0 (m,), in units b = 1.
 
     They follow from three orbits whose hyperbolic directions from ζ are 120° apart: their directions from ζ_s stay 120°
@@ -187,7 +187,7 @@ def on_torus(measure: InvariantMeasure, times: Sequence[float] | Array, level: A
     turning = turning_points(measure.h, measure.f)
     starts = np.angle((_CUBE_ROOTS + measure.zeta) / (1.0 + measure.zeta * _CUBE_ROOTS))
     found = [
-        solve(SYSTEM.at((measure.a, 1.0)), turning.state_at_lower_turn(phi), times, level) for phi in starts.tolist()
+        solve(SYSTEM.at((measure.a, 1.0)), turning.state_at_lower_turn(phi), times, accuracy) for phi in starts.tolist()
     ]
     w1, w2 = np.stack([orbit.states[:, :2] for orbit in found]).transpose(2, 0, 1)
     size = np.hypot(w1, w2)
@@ -208,27 +208,27 @@ _NARROWEST = 1e-4
 """Smallest 1 − |ζ_s|: below it the density is too narrow a line to draw, or to find from orbits."""
 
 
-def density_on_torus(theta: CircleMap, level: Accuracy, cells: tuple[int, int] = CELLS) -> Array:
+def density_on_torus(theta: CircleMap, accuracy: Accuracy, cells: tuple[int, int] = CELLS) -> Array:
     """Return the density at the centres of the cells (m, n) of the torus, relative to a uniform one; shape (n, m).
 
     Rows have equal φ and columns equal σ = 2πs/T, both from −π to π; σ = 0 at the return.  The mean is 1.
     Raises `InvalidParameter` if there is no density (limit cycles), at f = 0 and if it is too narrow; `WorkLimit`.
     """
     m, n = 2 * max(1, cells[0] // 2), cells[1]
-    found = wide_enough(theta, (np.arange(m) + 0.5) / m * theta.period, level)
+    found = wide_enough(theta, (np.arange(m) + 0.5) / m * theta.period, accuracy)
     phi = (2.0 * np.arange(n) + 1.0 - n) * math.pi / n
     relative = 2.0 * math.pi * theta.period * found.density(phi)
     return frozen(np.roll(relative, m // 2, axis=0).T.copy())
 
 
-def wide_enough(theta: CircleMap, times: Array, level: Accuracy) -> TorusMeasure:
+def wide_enough(theta: CircleMap, times: Array, accuracy: Accuracy) -> TorusMeasure:
     """Return the invariant measure of a torus at times s ≥ 0 (m,), if its density can be drawn.
 
     Raises `InvalidParameter` if there is no density (limit cycles), at f = 0 and if it is too narrow; `WorkLimit`.
     """
     measure = invariant_measure(theta)
     if measure.gap >= _NARROWEST:
-        found = on_torus(measure, times, level)
+        found = on_torus(measure, times, accuracy)
         width = float(np.min(1.0 - np.abs(found.zeta)))
         if width >= max(_NARROWEST, 10.0 * found.error_estimate):
             return found

@@ -63,7 +63,7 @@ def _rising_roots(function: Callable[[Array], Array], low: Array, high: Array) -
     return x
 
 
-def rotation_number_grid(a: float, h: Sequence[float] | Array, f: Sequence[float] | Array, level: Accuracy) -> Array:
+def rotation_number_grid(a: float, h: Sequence[float] | Array, f: Sequence[float] | Array, accuracy: Accuracy) -> Array:
     """Return the rotation number ρ on a grid of (h, f).
 
     Parameters
@@ -74,8 +74,8 @@ def rotation_number_grid(a: float, h: Sequence[float] | Array, f: Sequence[float
         Energies, −1 < h ≤ 1e12, in units b = 1.
     f : array_like of float, shape (n,)
         Values of the area integral, in units b = 1.
-    level : Level or str
-        Accuracy level or its name, see `level`.
+    accuracy : Level or str
+        Accuracy level or its name, see `accuracy`.
 
     Returns
     -------
@@ -105,7 +105,7 @@ def rotation_number_grid(a: float, h: Sequence[float] | Array, f: Sequence[float
     array([[-0.4427,  0.    ],
            [-0.3426,  0.    ]])
     """
-    level = as_level(level)
+    level = as_level(accuracy)
     hs, fs = np.asarray(h, float), np.asarray(f, float)
     filled = _filled_grid(a, hs, fs, level)
     return frozen(np.where(np.abs(fs)[:, None] <= f_max_each(hs), filled, np.nan))
@@ -187,15 +187,15 @@ def lock_boundary_end(a: float) -> float:
     return math.inf if a == 0 else (1 - 2 * a * a) / (2 * a * math.hypot(1.0, a))
 
 
-def lock_boundary(a: float, level: Accuracy, points: int = 48) -> Array:
+def lock_boundary(a: float, accuracy: Accuracy, points: int = 48) -> Array:
     """Return the boundary |t| = 2 of the lock zone, for f ≥ 0.
 
     Parameters
     ----------
     a : float
         The coupling a = I23/I22, |a| ≤ 1e5.
-    level : Level or str
-        Accuracy level or its name, see `level`.
+    accuracy : Level or str
+        Accuracy level or its name, see `accuracy`.
     points : int, optional
         Number of points.
 
@@ -217,7 +217,7 @@ def lock_boundary(a: float, level: Accuracy, points: int = 48) -> Array:
     >>> abs(circle_map(0.5, h, f, level("precise")).trace - 2.0) < 1e-6
     True
     """
-    level = as_level(level)
+    level = as_level(accuracy)
     check_a(a)
     as_whole("points", points, 3, 100_000)
     if abs(a) > _MAX_A_OF_BOUNDARY:
@@ -249,7 +249,7 @@ def _root(function: Callable[[float], float], low: float, high: float, what: str
     return float(brentq(function, low, high, xtol=1e-15, rtol=1e-14))
 
 
-def lock_boundary_f(a: float, h: float, level: Accuracy) -> float:
+def lock_boundary_f(a: float, h: float, accuracy: Accuracy) -> float:
     """Return the f > 0 with |t| = 2 at given a and h.
 
     Parameters
@@ -258,8 +258,8 @@ def lock_boundary_f(a: float, h: float, level: Accuracy) -> float:
         The coupling a = I23/I22.
     h : float
         The energy, in units b = 1.
-    level : Level or str
-        Accuracy level or its name, see `level`.
+    accuracy : Level or str
+        Accuracy level or its name, see `accuracy`.
 
     Returns
     -------
@@ -280,13 +280,13 @@ def lock_boundary_f(a: float, h: float, level: Accuracy) -> float:
     >>> abs(circle_map(0.5, 0.5, f, level("precise")).trace - 2.0) < 1e-6
     True
     """
-    level = as_level(level)
+    level = as_level(accuracy)
     check_a(a)
     top = turning_points(h, 0.0 if h != 1.0 else 0.5).f_max
     return _root(lambda f: _locked_at(h, f, a, level), 1e-9 * top, top * (1 - 1e-9), "f")
 
 
-def critical_a(h: float, f: float, level: Accuracy, high: float = 10.0) -> float:
+def critical_a(h: float, f: float, accuracy: Accuracy, high: float = 10.0) -> float:
     """Return the a at which the limit cycles of the torus (h, f) appear, |t| = 2.
 
     Parameters
@@ -295,8 +295,8 @@ def critical_a(h: float, f: float, level: Accuracy, high: float = 10.0) -> float
         The energy, in units b = 1.
     f : float
         The area integral, in units b = 1.
-    level : Level or str
-        Accuracy level or its name, see `level`.
+    accuracy : Level or str
+        Accuracy level or its name, see `accuracy`.
     high : float, optional
         Upper end of the search interval (0, high).
 
@@ -321,7 +321,7 @@ def critical_a(h: float, f: float, level: Accuracy, high: float = 10.0) -> float
     >>> [circle_map(factor * a, 0.5, 0.6, level("precise")).kind for factor in (0.99, 1.01)]
     ['elliptic', 'hyperbolic']
     """
-    level = as_level(level)
+    level = as_level(accuracy)
     check_a(high)
     turning_points(h, f)
     return _root(lambda a: _locked_at(h, f, a, level), 1e-9, high, "a")
@@ -339,13 +339,13 @@ def affordable_cells(a: float, cells: tuple[int, int]) -> tuple[int, int]:
 
 
 def rotation_number_window(
-    a: float, h: tuple[float, float], f: tuple[float, float], level: Accuracy, cells: tuple[int, int] = CELLS
+    a: float, h: tuple[float, float], f: tuple[float, float], accuracy: Accuracy, cells: tuple[int, int] = CELLS
 ) -> Array:
     """Return ρ at the centres of the cells (m, n) of a window, shape (n, m).
 
     Cells outside the region have the value at its edge (same h), so that a plot can be clipped along the bifurcation
     curve.  Raises as `rotation_number_grid`.
     """
-    level = as_level(level)
+    level = as_level(accuracy)
     m, n = cells
     return frozen(_filled_grid(a, np.maximum(centres(*h, m), -1.0 + 1e-6), centres(*f, n), level))

@@ -176,9 +176,9 @@ def _together(*numbers: Array | float) -> Iterator[Array]:
         raise InvalidParameter(f"a, h and f must be numbers or arrays of one shape: {error}.") from error
 
 
-def values_at(a: Array | float, h: Array | float, f: Array | float, level: Accuracy) -> TorusValues:
+def values_at(a: Array | float, h: Array | float, f: Array | float, accuracy: Accuracy) -> TorusValues:
     """Return ρ, |t| and locking of tori (a, h, f), arrays (n,) or numbers.  Raises `InvalidParameter`, `WorkLimit`."""
-    level = as_level(level)
+    level = as_level(accuracy)
     a, h, f = _together(a, h, f)
     if a.ndim != 1 or a.size > MAX_POINTS:
         raise WorkLimit(f"At most {MAX_POINTS} tori at a time: choose fewer points.")
@@ -197,31 +197,31 @@ def values_at(a: Array | float, h: Array | float, f: Array | float, level: Accur
     return TorusValues(frozen(rho), frozen(trace), frozen(possible & (discriminant > 0.0)), frozen(possible))
 
 
-def rotation_errors(a: Array | float, h: Array | float, f: Array | float, level: Accuracy) -> Array:
+def rotation_errors(a: Array | float, h: Array | float, f: Array | float, accuracy: Accuracy) -> Array:
     """Return estimated errors (n,) of ρ from `values_at`; NaN if there is no torus.
 
     They compare ρ with that of the `neighbours` at a hundredth of the tolerance.  Raises as `values_at`.
     """
-    level = as_level(level)
+    level = as_level(accuracy)
     energies, fs = np.broadcast_arrays(*np.atleast_1d(h, f))
     aside = neighbours(energies, fs, f_max_each(np.maximum(energies, -1.0)))
     coarse, fine = values_at(a, h, f, level).rho, values_at(a, *aside, level.tightened()).rho
     return frozen(SAFETY * np.abs(coarse - fine) + 4e-16)
 
 
-def lock_curve(plane: str, torus: Torus, window: Sequence[float], level: Accuracy, points: int = 48) -> Array:
+def lock_curve(plane: str, torus: Torus, window: Sequence[float], accuracy: Accuracy, points: int = 48) -> Array:
     """Return the boundary |t| = 2 in a plane of `PLANES` through the torus, for x0 … x1 of `window`; shape (n, 2).
 
     In (h, f) it is `lock_boundary`, f ≥ 0; in the other planes a(h) or a(f), where it exists.
     """
     x0, x1 = window[:2]
     if plane == "h, f":
-        return lock_boundary(torus.a, level, points)
+        return lock_boundary(torus.a, accuracy, points)
     found = []
     for x in _abscissas(plane, torus, x0, x1, points):
         try:
             h, f = (x, torus.f) if plane == "h, a" else (torus.h, x)
-            found.append((x, critical_a(float(h), abs(float(f)), level, 20.0)))
+            found.append((x, critical_a(float(h), abs(float(f)), accuracy, 20.0)))
         except ModelError:
             continue
     return frozen(np.array(found).reshape(-1, 2))
@@ -240,13 +240,13 @@ def _abscissas(plane: str, torus: Torus, x0: float, x1: float, points: int) -> A
 
 
 def perturbed_rotation(
-    a: Array | float, h: Array | float, f: Array | float, epsilon: float, level: Accuracy, count: int = TURNS
+    a: Array | float, h: Array | float, f: Array | float, epsilon: float, accuracy: Accuracy, count: int = TURNS
 ) -> Array:
     """Return ρ (n,) of Θ_ε for tori (a, h, f), arrays (n,) or numbers, by a weighted average over `count` returns.
 
     Raises `InvalidParameter` (|ε| ≥ 1/3), `WorkLimit`.
     """
-    level = as_level(level)
+    level = as_level(accuracy)
     require_finite(epsilon=epsilon)
     if _TERM * abs(epsilon) >= 1.0:
         raise InvalidParameter(
@@ -269,10 +269,10 @@ def perturbed_rotation(
     return frozen(sign * total / (2.0 * math.pi))
 
 
-def place_of(rho: float, name: str, torus: Torus, low: float, high: float, level: Accuracy) -> float | None:
+def place_of(rho: float, name: str, torus: Torus, low: float, high: float, accuracy: Accuracy) -> float | None:
     """Return a value of the parameter `name` ("a", "h", "f") between `low` and `high` with this ρ, or None."""
     x = np.linspace(low, high, 121)
-    values = values_at(**{**vars(torus), name: x}, level=level)
+    values = values_at(**{**vars(torus), name: x}, accuracy=accuracy)
     excess = values.rho - rho
     both = values.possible[1:] & values.possible[:-1]
     # The jump of ρ from −½ to ½ is not a root.
@@ -284,21 +284,21 @@ def place_of(rho: float, name: str, torus: Torus, low: float, high: float, level
     i = int(changes[0])
 
     def difference(value: float) -> float:
-        return float(values_at(**{**vars(torus), name: value}, level=level).rho[0]) - rho
+        return float(values_at(**{**vars(torus), name: value}, accuracy=accuracy).rho[0]) - rho
 
     if difference(float(x[i])) * difference(float(x[i + 1])) > 0.0:
         return None
     return float(brentq(difference, float(x[i]), float(x[i + 1]), xtol=1e-15, rtol=1e-15))
 
 
-def closed_after(torus: Torus, q: int, level: Accuracy) -> float:
+def closed_after(torus: Torus, q: int, accuracy: Accuracy) -> float:
     """Return max |Θ^q(φ) − φ| over 64 phases, in radians: round-off if every orbit closes after q returns.
 
     Raises `InvalidParameter` for q < 1 or q > 1000.
     """
     if not (abs(torus.a) <= MAX_A and 1 <= q <= 1000):
         raise InvalidParameter("The number of returns q must be between 1 and 1000.")
-    theta = circle_map(torus.a, torus.h, torus.f, level)
+    theta = circle_map(torus.a, torus.h, torus.f, accuracy)
     phi = np.linspace(-math.pi, math.pi, 64, endpoint=False)
     image = phi
     for _ in range(q):
@@ -307,13 +307,13 @@ def closed_after(torus: Torus, q: int, level: Accuracy) -> float:
 
 
 def rows(
-    plane: str, torus: Torus, window: Window, cells: tuple[int, int], first: int, last: int, level: Accuracy
+    plane: str, torus: Torus, window: Window, cells: tuple[int, int], first: int, last: int, accuracy: Accuracy
 ) -> TorusValues:
     """Return `values_at` the centres of the cells (m, n) of a window of a plane, for the rows first … last − 1.
 
     The result is flat, row after row: (last − first) × m values.
     """
-    return values_at(**_tori(plane, torus, window, cells, slice(first, last)), level=level)
+    return values_at(**_tori(plane, torus, window, cells, slice(first, last)), accuracy=accuracy)
 
 
 def _tori(plane: str, torus: Torus, window: Window, cells: tuple[int, int], own: slice) -> dict[str, Array]:
@@ -324,9 +324,9 @@ def _tori(plane: str, torus: Torus, window: Window, cells: tuple[int, int], own:
     return {**vars(torus), names[0]: X.ravel(), names[1]: Y.ravel()}
 
 
-def rows_error(plane: str, torus: Torus, window: Window, level: Accuracy) -> float:
+def rows_error(plane: str, torus: Torus, window: Window, accuracy: Accuracy) -> float:
     """Return the 99 % quantile of the estimated error of ρ over a window, from 30 × 20 cells; 0 if none is possible."""
-    errors = rotation_errors(**_tori(plane, torus, window, (30, 20), slice(None)), level=level)
+    errors = rotation_errors(**_tori(plane, torus, window, (30, 20), slice(None)), accuracy=accuracy)
     known = errors[np.isfinite(errors)]
     return float(np.quantile(known, 0.99)) if known.size else 0.0
 
@@ -341,28 +341,28 @@ def together(parts: Sequence[TorusValues]) -> TorusValues:
     )
 
 
-def along(line: ParameterLine, count: int, level: Accuracy) -> TorusValues:
+def along(line: ParameterLine, count: int, accuracy: Accuracy) -> TorusValues:
     """Return `values_at` equidistant points of a line."""
-    return values_at(**{**vars(line.torus), line.name: line.places(count)}, level=level)
+    return values_at(**{**vars(line.torus), line.name: line.places(count)}, accuracy=accuracy)
 
 
-def perturbed_along(line: ParameterLine, count: int, epsilon: float, level: Accuracy, turns: int = TURNS) -> Array:
+def perturbed_along(line: ParameterLine, count: int, epsilon: float, accuracy: Accuracy, turns: int = TURNS) -> Array:
     """Return `perturbed_rotation` at equidistant points of a line, (count,); NaN if there is no torus."""
-    x, possible = line.places(count), along(line, count, level).possible
+    x, possible = line.places(count), along(line, count, accuracy).possible
     out = np.full(count, np.nan)
     if possible.any():
         tori = {**vars(line.torus), line.name: x[possible]}
-        out[possible] = perturbed_rotation(**tori, epsilon=epsilon, level=level, count=turns)
+        out[possible] = perturbed_rotation(**tori, epsilon=epsilon, accuracy=accuracy, count=turns)
     return frozen(out)
 
 
-def periodic_torus(rho: Fraction, line: ParameterLine, level: Accuracy) -> PeriodicTorus | None:
+def periodic_torus(rho: Fraction, line: ParameterLine, accuracy: Accuracy) -> PeriodicTorus | None:
     """Return the torus of a line with this ρ, or None if none is found."""
-    place = place_of(float(rho), line.name, line.torus, line.low, line.high, level)
+    place = place_of(float(rho), line.name, line.torus, line.low, line.high, accuracy)
     if place is None:
         return None
     found = line.torus.at(**{line.name: place})
-    return PeriodicTorus(found, closed_after(found, rho.denominator, level))
+    return PeriodicTorus(found, closed_after(found, rho.denominator, accuracy))
 
 
 def plateaus(rho: Array, possible: Mask) -> list[Fraction]:

@@ -105,12 +105,12 @@ def pixels_per_unit(body: HessBody, half_width: float) -> Array:
     return np.array([w, w * math.hypot(1.0, body.a), radius, radius, radius])
 
 
-def track(body: HessBody, h: float, f: float, phi0: float, span: float, level: Accuracy, half_width: float) -> Track:
+def track(body: HessBody, h: float, f: float, phi0: float, span: float, accuracy: Accuracy, half_width: float) -> Track:
     """Return the orbit of `start_of_track` over `span` (in the time of the body), sampled for `pixels_per_unit`.
 
     Raises `OutsideRegion`, `NoField`, `InvalidParameter`.
     """
-    level = as_level(level)
+    level = as_level(accuracy)
     start, length = start_of_track(body, h, f, phi0, span)
     return _solve_reduced(body, start, _times(body, start, length, half_width), level)
 
@@ -121,7 +121,7 @@ def _times(body: HessBody, start: Array, length: float, half_width: float) -> Ar
 
 
 def cycles(
-    body: HessBody, h: float, f: float, stable: FixedPoint, level: Accuracy, half_width: float
+    body: HessBody, h: float, f: float, stable: FixedPoint, accuracy: Accuracy, half_width: float
 ) -> tuple[Track, Track]:
     """Return the stable and the unstable limit cycle, each over one period and sampled as in `track`.
 
@@ -131,7 +131,7 @@ def cycles(
     turning = turning_points(h, f)
     start = turning.state_at_lower_turn(stable.phi)
     times = _times(body, start, turning.period, half_width)
-    orbit = solve(SYSTEM.at((body.a, 1.0)), start, times, level)
+    orbit = solve(SYSTEM.at((body.a, 1.0)), start, times, accuracy)
     mirrored = orbit.states[::-1] * np.array([-1.0, 1.0, -1.0, 1.0, 1.0])
     image = replace(orbit, times=frozen(turning.period - orbit.times[::-1]), states=frozen(mirrored))
     return _in_body_units(body, orbit), _in_body_units(body, image)

@@ -306,4 +306,4 @@ def test_states_and_parameters_that_cannot_be_computed_raise_a_sentence(system):
         ({"end": 1e5, "plane": Plane(axis(system, 0), 100.0)}, WorkLimit, too_long),
     ):
         with raises(error, match=words):
-            section(**{**given, **wrong}, level="draft", max_steps=10_000)
+            section(**{**given, **wrong}, accuracy="draft", max_steps=10_000)

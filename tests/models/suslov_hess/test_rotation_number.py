@@ -63,10 +63,10 @@ def test_on_the_lock_curve_the_trace_is_two_and_to_one_side_it_locks(plane):
     across = 0 if plane == "h, f" else 1
     for place in curve[1:-1]:
         here = torus.at(**dict(zip(names, place.tolist(), strict=True)))
-        assert values_at(**vars(here), level=REFERENCE).trace[0] == approx(2.0, abs=1e-9)
+        assert values_at(**vars(here), accuracy=REFERENCE).trace[0] == approx(2.0, abs=1e-9)
         beside = (place + step * np.eye(2)[across] for step in (-1e-3, 1e-3))
         sides = [torus.at(**dict(zip(names, point.tolist(), strict=True))) for point in beside]
-        assert [bool(values_at(**vars(side), level=PRECISE).locked[0]) for side in sides] == [False, True]
+        assert [bool(values_at(**vars(side), accuracy=PRECISE).locked[0]) for side in sides] == [False, True]
 
 
 # ---- rational numbers --------------------------------------------------------------------------------------------
