@@ -119,9 +119,9 @@ def ball_section(
         ) from None
 
 
-def fastest(body: BallBody, start: tuple[float, ...], span: float) -> float:
+def fastest(body: BallBody, start: tuple[float, ...], duration: float) -> float:
     """Return the largest |ω| of a few samples along the orbit from a state (5,).  Raises as `solve`."""
-    coarse = solve(body, start, np.linspace(0.0, span, _SAMPLES), DRAFT)
+    coarse = solve(body, start, np.linspace(0.0, duration, _SAMPLES), DRAFT)
     return float(np.hypot(*coarse.states[:, :2].T).max())
 
 

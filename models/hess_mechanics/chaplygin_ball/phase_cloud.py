@@ -189,8 +189,8 @@ def _twice_energy(body: BallBody, states: Array) -> float:
     return 2.0 * float(kinetic_energy(states.T, body.parameters).max())
 
 
-def frame_times(body: BallBody, states: Array, span: float, field: float = 0.0) -> Array:
-    """Return equidistant times from 0 to `span`, both included, for the frames of a cloud from `states` (n, 5).
+def frame_times(body: BallBody, states: Array, duration: float, field: float = 0.0) -> Array:
+    """Return equidistant times from 0 to `duration`, both included, for the frames of a cloud from `states` (n, 5).
 
     The error of cubic interpolation of γ over a time Δ is |d⁴γ/dt⁴| Δ⁴/384, about r|ω|⁴Δ⁴/384 with r = sin(γ, ω), for
     which 2E ≥ (min(I11, I22) + 𝒟r²) ω².  ω changes at the rate div v.  field : |b| of a second cloud from the same
@@ -201,15 +201,15 @@ def frame_times(body: BallBody, states: Array, span: float, field: float = 0.0) 
     turning = math.sqrt(twice / (least + body.D * r * r)) * r**0.25
     about = shell(body, 0.5 * twice, 0.01, 256)
     rate = float(np.abs(divergence(body, about[:, :2], about[:, 2:])).max())
-    wanted = abs(span) * max(turning / _TURN, rate / _CHANGE) + 1.0
+    wanted = abs(duration) * max(turning / _TURN, rate / _CHANGE) + 1.0
     most = max(_LEAST_FRAMES, _MOST_NUMBERS // (5 * len(states)))
     if not wanted <= _SPARSE * most:
-        longest = abs(span) * _SPARSE * most / wanted
+        longest = abs(duration) * _SPARSE * most / wanted
         raise WorkLimit(
             f"In this time the cloud turns too often for {most} frames: choose a time span below {plain(longest, 2)}, "
             "or fewer points."
         )
-    return np.linspace(0.0, span, max(_LEAST_FRAMES, min(most, math.ceil(wanted))))
+    return np.linspace(0.0, duration, max(_LEAST_FRAMES, min(most, math.ceil(wanted))))
 
 
 def _run(states: Array, p: Array, times: Array, level: Level, max_steps: int) -> tuple[Array, int]:

@@ -179,18 +179,18 @@ def clouds(
     angle: float | None,
     spread: float,
     count: int,
-    span: float,
+    duration: float,
     field: float | None,
     accuracy: Accuracy,
 ) -> Clouds:
-    """Return clouds of `count` points of a `patch` at an angle, or of a `shell`, up to `span`, which may be negative.
+    """Return clouds of `count` points of a `patch` at an angle, or of a `shell`, up to `duration`, which may be negative.
 
     field : b3, in which half of them move with I13 = I23 = 0; None for no second cloud.
     Raises `InvalidParameter`, `WorkLimit`.
     """
     one = count if field is None else count // 2
     states = shell(body, h, spread, one) if angle is None else patch(body, h, angle, spread, one)
-    times = frame_times(body, states, span, abs(field or 0.0))
+    times = frame_times(body, states, duration, abs(field or 0.0))
     cloud, other = carried(body, states, times, accuracy), None
     if field is not None:
         principal = BallBody(body.I11, body.I22, 0.0, 0.0, body.D, 0.0, 0.0, field)

@@ -47,9 +47,9 @@ class MeanDivergence:
     mean: Array
 
 
-def mean_divergence(body: Body, start: Sequence[float], span: float) -> MeanDivergence:
-    """Return the mean divergence along the orbit from `start` (d,), at 4000 times in `span`.  Raises as `solve`."""
-    times = np.linspace(0.0, span, _SAMPLES + 1)
+def mean_divergence(body: Body, start: Sequence[float], duration: float) -> MeanDivergence:
+    """Return the mean divergence along the orbit from `start` (d,), at 4000 times in `duration`.  Raises as `solve`."""
+    times = np.linspace(0.0, duration, _SAMPLES + 1)
     rates = body.system.divergence(solve(body, start, times, DRAFT).states, body.parameters)
     steps = 0.5 * (rates[1:] + rates[:-1]) * np.diff(times)
     return MeanDivergence(frozen(times[1:]), frozen(np.cumsum(steps) / times[1:]))
@@ -68,14 +68,14 @@ class Contraction:
         return bool(volume_sign(self.mean, self.error) < 0)
 
 
-def contraction(body: Body, start: Sequence[float], span: float) -> Contraction:
-    """Return the contraction along the orbit from `start` (d,), over the last two thirds of the time `span`.
+def contraction(body: Body, start: Sequence[float], duration: float) -> Contraction:
+    """Return the contraction along the orbit from `start` (d,), over the last two thirds of the time `duration`.
 
     The error is that of the means over 12 intervals of time, treated as independent.  Raises as `solve`.
     """
-    course = mean_divergence(body, start, span)
+    course = mean_divergence(body, start, duration)
     sums = np.concatenate([[0.0], course.mean * course.times])
-    at = np.linspace(span / 3.0, span, _BATCHES + 1)
+    at = np.linspace(duration / 3.0, duration, _BATCHES + 1)
     stretches = np.diff(np.interp(at, np.concatenate([[0.0], course.times]), sums)) / np.diff(at)
     return Contraction(float(stretches.mean()), float(stretches.std(ddof=1) / math.sqrt(_BATCHES)))
 
@@ -119,11 +119,11 @@ class Attractors:
         return max(self.contractions, key=lambda one: one.mean, default=None)
 
 
-def attractors(section: PoincareSection, span: float, accuracy: Accuracy) -> Attractors:
-    """Return the attractors of a section; `span` is the time over which a divergence is averaged.
+def attractors(section: PoincareSection, duration: float, accuracy: Accuracy) -> Attractors:
+    """Return the attractors of a section; `duration` is the time over which a divergence is averaged.
 
     Raises `InvalidParameter`, `WorkLimit`.
     """
     found = recurrent_sets(SectionOrbits(section, accuracy))
-    on_each = tuple(contraction(section, state, span) for state in found.states)
+    on_each = tuple(contraction(section, state, duration) for state in found.states)
     return Attractors(found.kept([one.attracts for one in on_each]), on_each)

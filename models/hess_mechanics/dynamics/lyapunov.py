@@ -75,7 +75,7 @@ class Exponent(Result):
         return self.value < 2.0 * math.log(max(math.e, self.times.size)) / float(self.times[-1])
 
 
-def lyapunov_exponent(body: Body, state: Sequence[float], span: float, accuracy: Accuracy = STANDARD) -> Exponent:
+def lyapunov_exponent(body: Body, state: Sequence[float], duration: float, accuracy: Accuracy = STANDARD) -> Exponent:
     """Return the largest Lyapunov exponent of an orbit.
 
     Parameters
@@ -84,7 +84,7 @@ def lyapunov_exponent(body: Body, state: Sequence[float], span: float, accuracy:
         The body.
     state : array_like, shape (d,)
         Initial state.
-    span : float
+    duration : float
         Time span, in units of the problem; negative for backward in time.
     accuracy : str or Level, default "standard"
         Accuracy level.  A named level means its `Plan` for exponents.
@@ -114,7 +114,7 @@ def lyapunov_exponent(body: Body, state: Sequence[float], span: float, accuracy:
     50.0
     """
     level = plan(Kind.EXPONENT, accuracy).level
-    span = checked_span(span, "a Lyapunov exponent")
+    span = checked_span(duration, "a Lyapunov exponent")
     problem = Problem.of(body, [state])
     samples = abs(span) / _INTERVAL * problem.nu
     if not samples <= MAX_SAMPLES:

@@ -127,7 +127,7 @@ def longest_span(body: Body, state: Sequence[float] | Array) -> float:
 def megno(
     body: Body,
     states: Sequence[Sequence[float]] | Array,
-    span: float,
+    duration: float,
     accuracy: Accuracy = STANDARD,
     threads: int = THREADS,
 ) -> Megno:
@@ -139,7 +139,7 @@ def megno(
         The body.
     states : array_like, shape (n, d)
         Initial states.
-    span : float
+    duration : float
         Time span, in units of the problem; negative for backward in time.
     accuracy : str or Level, default "standard"
         Accuracy level.
@@ -173,21 +173,21 @@ def megno(
     (1,)
     """
     level = as_level(accuracy)
-    checked_span(span, "an indicator")
+    checked_span(duration, "an indicator")
     begun = time.perf_counter()
     problem = Problem.of(body, states)
-    if abs(span) * problem.nu > _LONGEST:
+    if abs(duration) * problem.nu > _LONGEST:
         raise WorkLimit(
             f"The time of an indicator may be at most {plain(_LONGEST / problem.nu, 4)} here: choose a shorter one."
         )
     count, size = problem.states.shape
     # At least one sample per 1/ν, in twelve stretches after the first fifth.
-    samples = 60 * max(4, math.ceil(abs(span) * problem.nu / 60))
-    t = span * problem.nu * np.arange(1, samples + 1) / samples
+    samples = 60 * max(4, math.ceil(abs(duration) * problem.nu / 60))
+    t = duration * problem.nu * np.arange(1, samples + 1) / samples
     first = samples // 5
     direction = one_direction(size)
     found, steps, no_chaos_because = np.empty((6, count)), np.zeros(count, int), [""] * count
-    ends, reasons = np.full(count, abs(span)), [""] * count
+    ends, reasons = np.full(count, abs(duration)), [""] * count
 
     def one(i: int) -> None:
         try:
@@ -210,7 +210,7 @@ def megno(
         volume = along.volume[first - 1 :]
         windows = window_rates(volume, times)
         # The error of the steps, the scatter of stretches, and the remainder on tori, which no scatter shows.
-        floor = (level.tolerance + 1e-15) * steps[i] / abs(span)
+        floor = (level.tolerance + 1e-15) * steps[i] / abs(duration)
         scatter = batch_error(volume[:, None], times)[1][0]
         found[:, i] = y.mean(), *windows, max(scatter, float(np.abs(windows[1:] - windows[0]).max())) + floor
         require_finite_rates(found[:, i])
@@ -219,7 +219,7 @@ def megno(
 
     share(one, count, threads, _SHARE)
     return Megno(
-        abs(span),
+        abs(duration),
         frozen(found[0].copy()),
         frozen(found[1].copy()),
         frozen(found[5].copy()),

@@ -69,14 +69,14 @@ def checked_times(times: float | Sequence[float] | Array) -> Array:
     return t
 
 
-def checked_span(span: float, what: str) -> float:
+def checked_span(duration: float, what: str) -> float:
     """Return the time span of the quantity `what`, validated.  Raises `InvalidParameter`."""
-    if isinstance(span, Real) and not _SHORTEST <= abs(span) < math.inf:
+    if isinstance(duration, Real) and not _SHORTEST <= abs(duration) < math.inf:
         raise InvalidParameter(
             f"The time span of {what} must be a finite number other than 0, of {_SHORTEST:g} or "
             "more: choose one like 100, or -100 for backwards."
         )
-    return as_number("t", span)
+    return as_number("t", duration)
 
 
 def require_steps(steps: int, too_long: str, where: Callable[[], WorkLimit | None] = lambda: None) -> None:

@@ -361,10 +361,10 @@ def _not_seen(map_: ReturnMap, places: Array, start: Sequence[float] | Array) ->
     )
 
 
-def _evidence(map_: ReturnMap, places: Array, span: float) -> _Evidence:
+def _evidence(map_: ReturnMap, places: Array, duration: float) -> _Evidence:
     period, settled = _period(map_, places)
     # A periodic orbit is one whatever its neighbours do; of others an ensemble tells.
-    found = [_indicated(map_, places[-1:] if period else _ensemble(map_, places), time) for time in (span / 2.0, span)]
+    found = [_indicated(map_, places[-1:] if period else _ensemble(map_, places), time) for time in (duration / 2.0, duration)]
     late = found[1]
     windows = late.windows
     mean, error = (windows[0, 0], np.ptp(windows)) if len(windows) == 1 else ensemble_mean(windows)

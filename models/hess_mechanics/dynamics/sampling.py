@@ -34,62 +34,62 @@ _MOST_COARSE = 40_000
 _SAMPLES_PER_STEP = 16
 
 
-def sample_times(body: Body, state: Array, span: float, weights: Array, sagitta: float, most: int) -> Array:
-    """Return at most `most` times from 0 to `span` (nonzero), both included, at which to sample the orbit from `state`.
+def sample_times(body: Body, state: Array, duration: float, weights: Array, sagitta: float, most: int) -> Array:
+    """Return at most `most` times from 0 to `duration` (nonzero), both included, at which to sample the orbit from `state`.
 
     weights (d,) : pixels per unit of each variable; sagitta : largest distance between curve and chord, in pixels.
     If the orbit cannot be computed, the times are evenly spaced, and computing the orbit at them raises the error.
     Raises `InvalidParameter`.
     """
     problem = Problem.of(body, np.array(state, float, ndmin=2))
-    count = int(min(_MOST_COARSE, max(64.0, abs(span) * problem.nu / _COARSE))) + 1
+    count = int(min(_MOST_COARSE, max(64.0, abs(duration) * problem.nu / _COARSE))) + 1
     while True:
-        even = np.linspace(0.0, span, count)
+        even = np.linspace(0.0, duration, count)
         steps, _, states = followed(problem, problem.states[0], even * problem.nu)
         if steps < 0 or not np.all(np.isfinite(states)):
-            return np.linspace(0.0, span, min(most, count))
+            return np.linspace(0.0, duration, min(most, count))
         # Short steps mean that the motion is faster than its angular velocity suggests: sample it more densely.
         needed_count = min(_MOST_COARSE, _SAMPLES_PER_STEP * steps) + 1
         if count >= needed_count:
             break
         count = needed_count
     rates = body.system.rates(states * problem.scale, body.parameters)
-    accelerations = np.gradient(rates, span / (count - 1), axis=0) * weights
+    accelerations = np.gradient(rates, duration / (count - 1), axis=0) * weights
     density = np.sqrt(np.linalg.norm(accelerations, axis=1) / (8.0 * sagitta))
-    density = np.maximum(density, 16.0 / abs(span))  # some samples for a motion at rest too
-    needed = np.concatenate([[0.0], np.cumsum(0.5 * (density[1:] + density[:-1]) * (abs(span) / (count - 1)))])
+    density = np.maximum(density, 16.0 / abs(duration))  # some samples for a motion at rest too
+    needed = np.concatenate([[0.0], np.cumsum(0.5 * (density[1:] + density[:-1]) * (abs(duration) / (count - 1)))])
     samples = int(min(most - 1, np.ceil(needed[-1]))) + 1
     times = np.interp(np.linspace(0.0, needed[-1], samples), needed, even)
-    times[0], times[-1] = 0.0, span
+    times[0], times[-1] = 0.0, duration
     return times
 
 
 def sampled_orbit(
     body: Body,
     state: Sequence[float],
-    span: float,
+    duration: float,
     weights: Sequence[float],
     accuracy: Accuracy,
     most: int = MOST_SAMPLES,
     max_step: float | None = None,
 ) -> Orbit:
-    """Return the orbit from `state` over `span` at the times that `sample_times` chooses.
+    """Return the orbit from `state` over `duration` at the times that `sample_times` chooses.
 
     A motion that ends before is followed up to its end and has a reason.  weights (d,) : pixels per unit of each
     variable; max_step : see `solve`, which raises the same errors.
     """
 
-    def sampled(span: float) -> Orbit:
-        times = sample_times(body, np.array(state), span, np.array(weights), SAGITTA, most)
+    def sampled(duration: float) -> Orbit:
+        times = sample_times(body, np.array(state), duration, np.array(weights), SAGITTA, most)
         return solve(body, state, times, accuracy, max_step=max_step)
 
     try:
-        return sampled(span)
+        return sampled(duration)
     except MotionEnds as error:
         if not abs(error.time) > 0.0:
             raise
         problem = Problem.of(body, [state])
-        reason = str(end_of(problem, problem.states[0], span * problem.nu) or error)
+        reason = str(end_of(problem, problem.states[0], duration * problem.nu) or error)
         return replace(sampled(_drawn_until(body, state, error.time)), status=Status.INCOMPLETE, reason=reason)
 
 

@@ -251,7 +251,7 @@ def ensemble_mean(values: Array) -> tuple[float, float]:
     return float(whole.mean()), math.hypot(scatter, math.sqrt(float(shared.max(initial=0.0))))
 
 
-def no_chaos(problem: Problem, start: Array, states: Array, span: float, level: Level, grows: bool) -> str:
+def no_chaos(problem: Problem, start: Array, states: Array, duration: float, level: Level, grows: bool) -> str:
     """Return why a motion is not chaotic, however its neighbours part; an empty string if there is no reason.
 
     start (d,), states (n, d) at even times and the span are in units of the problem.  Only if neighbours part, `grows`,
@@ -271,8 +271,8 @@ def no_chaos(problem: Problem, start: Array, states: Array, span: float, level: 
         ahead = np.array(system.field(start.tolist(), p.tolist()), float)
         across = ahead / max(float(np.linalg.norm(ahead)), 1e-300)
         times, returns = np.empty(_RETURNS), np.empty((_RETURNS, start.size))
-        longest = system.longest_step(level, span)
-        plane = across, float(across @ start), 0, span
+        longest = system.longest_step(level, duration)
+        plane = across, float(across @ start), 0, duration
         number, _ = system.cross(start, p, *plane, level.order, level.tolerance, longest, MAX_STEPS, times, returns)
         # The first crossing may be the start itself.
         away = np.abs(returns[: max(number, 0)] - start).max(axis=1)
@@ -281,7 +281,7 @@ def no_chaos(problem: Problem, start: Array, states: Array, span: float, level: 
     return ""
 
 
-def lyapunov_spectrum(body: Body, state: Sequence[float] | Array, span: float, accuracy: Accuracy = STANDARD) -> Spectrum:
+def lyapunov_spectrum(body: Body, state: Sequence[float] | Array, duration: float, accuracy: Accuracy = STANDARD) -> Spectrum:
     """Return all Lyapunov exponents of an orbit.
 
     They are the exponents of the equations in all d variables.
@@ -292,7 +292,7 @@ def lyapunov_spectrum(body: Body, state: Sequence[float] | Array, span: float, a
         The body.
     state : array_like, shape (d,)
         Initial state.
-    span : float
+    duration : float
         Time span, in units of the problem; negative for backward in time.
     accuracy : str or Level, default "standard"
         Accuracy level.
@@ -322,10 +322,10 @@ def lyapunov_spectrum(body: Body, state: Sequence[float] | Array, span: float, a
     (5,)
     """
     level = as_level(accuracy)
-    checked_span(span, "Lyapunov exponents")
+    checked_span(duration, "Lyapunov exponents")
     begun = time.perf_counter()
     problem, system = Problem.of(body, [state]), body.system
-    y, d, end = problem.states[0], len(system.variables), span * problem.nu
+    y, d, end = problem.states[0], len(system.variables), duration * problem.nu
     # Other columns in general position.
     frame, speed = frame_ahead(problem, np.cos(1.0 + np.arange(d * d).reshape(d, d) ** 2), _SLOW)
     ahead = speed > _SLOW
@@ -358,12 +358,12 @@ def lyapunov_spectrum(body: Body, state: Sequence[float] | Array, span: float, a
         growth[now] = growth[i] + found.removed + np.log(np.maximum(diagonal, 1e-300))
         volume[now] = volume[i] + found.volume
         y, frame = found.states[-1].copy(), columns[-1]
-    times = abs(span) * np.arange(count + 1) / count
+    times = abs(duration) * np.arange(count + 1) / count
     first = _SETTLES * _SAMPLES
     together = np.column_stack([growth, volume])
     mean, error = batch_error(together[first:], times[first:])
     # Error of the steps themselves.
-    floor = (level.tolerance + 1e-15) * steps / abs(span)
+    floor = (level.tolerance + 1e-15) * steps / abs(duration)
     order = np.argsort(-mean[:-1], kind="stable")
     rates = growth[1:, order] / times[1:, None]
     require_finite_rates(mean, error, rates)

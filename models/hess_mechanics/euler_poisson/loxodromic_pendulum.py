@@ -185,12 +185,12 @@ class LoxodromicPendulum:
             return -most, most
         return (-reach - middle) / self.a, (reach - middle) / self.a
 
-    def length(self, span: float) -> float:
+    def length(self, duration: float) -> float:
         """Return a time span in units b = 1, at most `SETTLED` on the separatrix.
 
         Parameters
         ----------
-        span : float
+        duration : float
             Time span in the units of the body.
 
         Returns
@@ -198,7 +198,7 @@ class LoxodromicPendulum:
         float
             Time span in units b = 1.
         """
-        length = span * self.frequency_unit
+        length = duration * self.frequency_unit
         return min(length, SETTLED) if self.h == 1.0 else length
 
 
@@ -261,14 +261,14 @@ class LoxodromicMotion(Printed):
         return frozen(times[good]), frozen(np.arctan2(apart, change)[good])
 
 
-def loxodromic_motion(pendulum: LoxodromicPendulum, span: float, accuracy: Accuracy) -> LoxodromicMotion:
+def loxodromic_motion(pendulum: LoxodromicPendulum, duration: float, accuracy: Accuracy) -> LoxodromicMotion:
     """Return the motion of a loxodromic pendulum from its lowest point.
 
     Parameters
     ----------
     pendulum : LoxodromicPendulum
         The pendulum.
-    span : float
+    duration : float
         Time span in the units of the body.
     accuracy : Level or str
         Accuracy level or its name, see `accuracy`.
@@ -297,7 +297,7 @@ def loxodromic_motion(pendulum: LoxodromicPendulum, span: float, accuracy: Accur
     >>> float(motion.times[-1]), round(float(motion.l[-1]), 5)
     (4.0, 0.50954)
     """
-    span = checked_span(span, "a loxodromic motion")
+    span = checked_span(duration, "a loxodromic motion")
     radius = 0.5 * PIXELS
     lying = attitude(
         WITH_ATTITUDE.at((pendulum.a, 1.0)),

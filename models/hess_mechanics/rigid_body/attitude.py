@@ -191,7 +191,7 @@ def _turned(several: tuple[Array, ...], v: Array, length: Array) -> tuple[Array,
 def attitude(
     body: Body,
     start: Sequence[float] | Array,
-    span: float,
+    duration: float,
     accuracy: Accuracy,
     weights: Sequence[float],
     sagitta: float,
@@ -202,7 +202,7 @@ def attitude(
     weights, sagitta, most : as for `sample_times`.  Raises `InvalidParameter`, `WorkLimit`.
     """
     state = np.asarray(start, float)
-    times = sample_times(body, state, span, np.asarray(weights), sagitta, most)
+    times = sample_times(body, state, duration, np.asarray(weights), sagitta, most)
     orbit = solve(body, state, times, accuracy)
     axes, defect = _orthonormal(orbit.states[:, -6:-3], orbit.states[:, -3:])
     return Attitude(orbit.times, frozen(axes), defect, orbit)

@@ -56,9 +56,9 @@ def rate(states: Array) -> Array:
     return np.asarray(states[:, 0] * states[:, 2] + states[:, 1] * states[:, 3])
 
 
-def reversals(body: Body, start: Sequence[float], span: float, accuracy: Accuracy) -> SectionCrossings:
-    """Return all times from 0 to `span` at which (ω, γ) is 0, and the states there; see `section`.
+def reversals(body: Body, start: Sequence[float], duration: float, accuracy: Accuracy) -> SectionCrossings:
+    """Return all times from 0 to `duration` at which (ω, γ) is 0, and the states there; see `section`.
 
     Raises `InvalidParameter`, `WorkLimit`.
     """
-    return section(body, start, Reversal(), span, accuracy, MOST)
+    return section(body, start, Reversal(), duration, accuracy, MOST)

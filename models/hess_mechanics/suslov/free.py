@@ -560,23 +560,23 @@ _PASSING = 20.0
 
 
 def sample_times(
-    body: SuslovBody, omega: Sequence[float], span: float, weights: tuple[float, float], sagitta: float, most: int
+    body: SuslovBody, omega: Sequence[float], duration: float, weights: tuple[float, float], sagitta: float, most: int
 ) -> Array:
-    """Return at most `most` times from 0 to `span` ≠ 0 at which the polygon through the samples looks like the curves.
+    """Return at most `most` times from 0 to `duration` ≠ 0 at which the polygon through the samples looks like the curves.
 
     weights : pixels per unit of ω and of γ; sagitta : largest distance between curve and chord, in pixels, as in
     `sampling.sample_times`, with the accelerations in closed form.  If `most` times are too few, the uniform rotation
     near the line of equilibria is sampled less densely.  Raises as `passage`.
     """
     motion = passage(body, omega)
-    of, length = motion.shape, motion.rate * span
+    of, length = motion.shape, motion.rate * duration
     if not (math.isfinite(length) and length != 0.0):
         raise InvalidParameter("The time span must be a finite number other than 0.")
     first_u, last_u = sorted((motion.u0, motion.u0 + length))
     knots = np.clip(np.linspace(-_PASSING, _PASSING, 801), first_u, last_u)
     u = np.unique(np.concatenate([[motion.u0, motion.u0 + length], knots]))
     if u.size == 1:  # u changes by less than round-off
-        return np.linspace(0.0, span, min(most, 17))
+        return np.linspace(0.0, duration, min(most, 17))
     tanh, sech = np.tanh(u), _sech(u)
     speed = np.linalg.norm(_omega(of, motion.arc, tanh, sech), axis=1)
     across = math.hypot(of.c, of.kappa)
@@ -593,8 +593,8 @@ def sample_times(
     count = int(min(most - 1, math.ceil(needed[-1]))) + 1
     samples = np.interp(np.linspace(0.0, needed[-1], count), needed, u)
     times: Array = (samples - motion.u0) / motion.rate
-    times = np.clip(times if span > 0.0 else times[::-1], min(0.0, span), max(0.0, span))
-    times[0], times[-1] = 0.0, span
+    times = np.clip(times if duration > 0.0 else times[::-1], min(0.0, duration), max(0.0, duration))
+    times[0], times[-1] = 0.0, duration
     return times
 
 
@@ -602,13 +602,13 @@ def sampled_motion(
     body: SuslovBody,
     omega: Sequence[float],
     gamma: Sequence[float],
-    span: float,
+    duration: float,
     weights: tuple[float, float],
     accuracy: Accuracy,
     most: int = MOST_SAMPLES,
 ) -> FreeMotion:
-    """Return the motion over `span` at the `sample_times` for plots with these weights.  Raises as `rotation`."""
-    return free_motion(body, omega, gamma, sample_times(body, omega, span, weights, SAGITTA, most), accuracy)
+    """Return the motion over `duration` at the `sample_times` for plots with these weights.  Raises as `rotation`."""
+    return free_motion(body, omega, gamma, sample_times(body, omega, duration, weights, SAGITTA, most), accuracy)
 
 
 def turned_along_circle(

@@ -79,15 +79,15 @@ def _solve_reduced(body: HessBody, start: Array, times: Array, level: Level) -> 
     return _in_body_units(body, solve(SYSTEM.at((body.a, 1.0)), start, times, level))
 
 
-def start_of_track(body: HessBody, h: float, f: float, phi0: float, span: float) -> tuple[Array, float]:
+def start_of_track(body: HessBody, h: float, f: float, phi0: float, duration: float) -> tuple[Array, float]:
     """Return the initial state (5,) and the time span, in units b = 1, of the orbit that `track` follows.
 
     The orbit has the phase φ0 at n3 = n3^(1), and its span is limited to `MAX_RETURNS` periods of n3.  The separatrix
     (h = 1, f = 0) has no lower turning point: the orbit starts there at the maximum of n3.
     Raises `OutsideRegion`, `NoField`, `InvalidParameter`.
     """
-    require_finite(phi0=phi0, span=span)
-    length = span * body.frequency_unit
+    require_finite(phi0=phi0, span=duration)
+    length = duration * body.frequency_unit
     try:
         turning: TurningPoints = turning_points(h, f)
     except Separatrix:
@@ -105,13 +105,13 @@ def pixels_per_unit(body: HessBody, half_width: float) -> Array:
     return np.array([w, w * math.hypot(1.0, body.a), radius, radius, radius])
 
 
-def track(body: HessBody, h: float, f: float, phi0: float, span: float, accuracy: Accuracy, half_width: float) -> Track:
-    """Return the orbit of `start_of_track` over `span` (in the time of the body), sampled for `pixels_per_unit`.
+def track(body: HessBody, h: float, f: float, phi0: float, duration: float, accuracy: Accuracy, half_width: float) -> Track:
+    """Return the orbit of `start_of_track` over `duration` (in the time of the body), sampled for `pixels_per_unit`.
 
     Raises `OutsideRegion`, `NoField`, `InvalidParameter`.
     """
     level = as_level(accuracy)
-    start, length = start_of_track(body, h, f, phi0, span)
+    start, length = start_of_track(body, h, f, phi0, duration)
     return _solve_reduced(body, start, _times(body, start, length, half_width), level)
 
 

@@ -121,10 +121,10 @@ class Exponent(Part[_Host]):
             yield self._answer.reason
 
 
-def _exponent(body: Body, start: Start, span: float, level: Level) -> lyapunov.Exponent | NotFound:
+def _exponent(body: Body, start: Start, duration: float, level: Level) -> lyapunov.Exponent | NotFound:
     """Return the exponent, or the reason why the motion ends early: other tasks go on."""
     try:
-        return lyapunov.lyapunov_exponent(body, start, span, level)
+        return lyapunov.lyapunov_exponent(body, start, duration, level)
     except MotionEnds as error:
         return NotFound(str(error))
 
