@@ -26,7 +26,7 @@ _MOST_ORBITS = 1000
 def cloud(
     body: BallBody,
     h: float,
-    t: float,
+    duration: float,
     *,
     count: int = 1000,
     spread: float = 0.1,
@@ -41,7 +41,7 @@ def cloud(
         The ball.
     h : float
         Energy about which the points are spread at time 0.
-    t : float
+    duration : float
         Time, in units of the problem; may be negative.
     count : int, default 1000
         Number of points, 1 to 20 000.
@@ -77,7 +77,7 @@ def cloud(
         angle,
         spread,
         as_whole("count", count, 1, 20_000),
-        t,
+        duration,
         None,
         as_level(accuracy),
     )

@@ -495,7 +495,16 @@ GAMMA_CIRCLE = Parameter(
     "Where γ starts: the height along ξ of its circle on the sphere.",
 )
 TIME = Parameter(
-    "t", "t", "Time", 50.0, (0.0, 200.0), 1.0, (-1e9, 1e9), "The last time; negative: backward.", "Computation", "time"
+    "duration",
+    "t",
+    "Time",
+    50.0,
+    (0.0, 200.0),
+    1.0,
+    (-1e9, 1e9),
+    "The last time; negative: backward.",
+    "Computation",
+    "time",
 )
 MAX_STEP = Parameter(
     "max_step",
@@ -511,7 +520,7 @@ MAX_STEP = Parameter(
     "time",
 )
 SPAN = Parameter(
-    "t",
+    "duration",
     "t",
     "Time span",
     50.0,

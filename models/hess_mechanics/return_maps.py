@@ -584,7 +584,7 @@ class Basins(Result):
 
 
 def basins(
-    map_: ReturnMap, cells: tuple[int, int] = (16, 12), window: Window | None = None, t: float = 1000.0
+    map_: ReturnMap, cells: tuple[int, int] = (16, 12), window: Window | None = None, duration: float = 1000.0
 ) -> Basins:
     """Return the basins of attraction on a section, computed on all cores.
 
@@ -599,7 +599,7 @@ def basins(
         Number of cells across and up, at most 100 000 together.
     window : ((float, float), (float, float)), optional
         Corners (x0, y0) and (x1, y1) of the window.  By default the whole section.
-    t : float, default 1000
+    duration : float, default 1000
         Time over which the divergence is averaged.
 
     Returns
@@ -626,7 +626,7 @@ def basins(
     section, level = map_.section, plan(Kind.BASINS, map_.accuracy).level
     (x0, y0), (x1, y1) = corners(section, window)
     m, n = as_cells(cells)
-    there = attractors(section, as_number("t", t), level)
+    there = attractors(section, as_number("duration", duration), level)
     x, y = centres(x0, x1, m), centres(y0, y1, n)
     number, crossings = np.empty((n, m)), np.empty((n, m))
 

@@ -21,7 +21,7 @@ from support.mechanics import ROOT
 CIRCLE_MAP = typed("circle-map --h 1.5 --f 0.6 --a 0.5 --accuracy reference")
 SUSLOV = typed(
     "orbit suslov --I11 2 --I22 1 --I13 0.3 --I23 0.5 --b1 0.3 --b2 -.5 --b3 1 --w1 0.8 --w2 -0.4 --g1 0.3 --g2 0.2 "
-    "--g3 0.93 --t 10 --samples 3 --accuracy reference"
+    "--g3 0.93 --duration 10 --samples 3 --accuracy reference"
 )
 OWN = """
 from hess_mechanics import System
@@ -87,7 +87,7 @@ def test_what_double_precision_cannot_hold_is_null_with_a_note(answer, as_table)
 
 @pytest.mark.parametrize("words", ["euler-poisson --a3 9", "suslov --I13 2"])
 def test_moments_of_no_body_are_noted_and_computed(answer, words):
-    (note,) = answer("orbit", *typed(words), "--t", "1")["notes"]
+    (note,) = answer("orbit", *typed(words), "--duration", "1")["notes"]
     assert note.startswith("Not a rigid body")
 
 
@@ -147,7 +147,7 @@ def test_the_help_lists_commands_systems_options_and_numbers(capsys):
 def test_a_system_of_ones_own(answer, refusal, tmp_path):
     file = tmp_path / "own.py"
     file.write_text(OWN)
-    found = answer("orbit", f"{file}:SYSTEM", "--k", "1", "--t", repr(math.pi))
+    found = answer("orbit", f"{file}:SYSTEM", "--k", "1", "--duration", repr(math.pi))
     assert found["computation"] == "orbit spring"
     assert found["numbers"]["x"] == approx(-1.0, abs=1e-9)
     assert "defines no System 'other'" in refusal("orbit", f"{file}:other")
@@ -188,7 +188,7 @@ def test_nothing_is_imported_that_is_not_used(script):
         (replaced(CIRCLE_MAP, "--h", "x" * 5000), "x…' is not a number; write it like 1.5"),
         (replaced(CIRCLE_MAP, "--f", "9"), "choose |f| ≤ 1.81"),
         (replaced(SUSLOV, "--I11", "0"), "I11 = 0 is not between 0.001 and 1000"),
-        (replaced(SUSLOV, "--t", "1e9"), "shorter"),
+        (replaced(SUSLOV, "--duration", "1e9"), "shorter"),
         # Abbreviated, this was `--help`.
         ([*SUSLOV, "--he", "1"], "unrecognized arguments: --he 1"),
         ([*SUSLOV, "--format", "netcdf"], "name a file with --out FILE"),

@@ -13,7 +13,7 @@ from support.command_line import typed
 from support.disk import full_disk, names
 from support.mechanics import ROOT
 
-ORBIT = "orbit hess --t 5 --samples 50 --format csv"
+ORBIT = "orbit hess --duration 5 --samples 50 --format csv"
 FULL = Path("/dev/full")
 
 

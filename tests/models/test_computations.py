@@ -22,7 +22,7 @@ def test_a_heavy_body_is_the_same_from_moments_and_from_their_inverses():
 
 
 def test_an_orbit_has_names_and_units():
-    found = hm.solve(SUSLOV, STATE, t=5.0, accuracy="reference", samples=40)
+    found = hm.solve(SUSLOV, STATE, times=5.0, accuracy="reference", samples=40)
     whole = found.to_xarray()
     assert np.array_equal([whole[name] for name in ("ω1", "ω2", "γ1", "γ2", "γ3")], found.states.T)
     assert (whole["ω1"].attrs["units"], whole["t"].attrs["units"]) == ("rad/T", "T")

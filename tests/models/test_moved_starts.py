@@ -44,7 +44,7 @@ def test_every_component_moves_by_a_few_ulps_and_0_stays_0():
 ENTRIES = {
     "section_points": lambda: section_points(BODY, [START], EQUATOR, 20.0, "draft", 5).states[0],
     "lyapunov_spectrum": lambda: lyapunov_spectrum(BODY, START, 20.0).values,
-    "megno_map": lambda: megno_map(MAP, cells=(2, 2), t=20.0).values,
+    "megno_map": lambda: megno_map(MAP, cells=(2, 2), duration=20.0).values,
     "mean_divergence": lambda: mean_divergence(SuslovBody(*BODY.parameters), START, 20.0).mean,
     "regime": lambda: regime(MAP, POINT, 10, 20, 20.0).places,
 }

@@ -63,8 +63,8 @@ def sweep(
     computation : str, Computation or callable
         A name of the catalogue such as "circle-map" or "lyapunov suslov", which defines the parameters, their bounds
         and defaults; or a computation of a system of your own.  Or your function: its parameters are numbers given by
-        name, and it returns a number or a named tuple of numbers, whose fields become variables.  A parameter `accuracy`
-        receives the level.  The function is called once before the sweep begins.
+        name, and it returns a number or a named tuple of numbers, whose fields become variables.  A parameter
+        `accuracy` receives the level.  The function is called once before the sweep begins.
     over : mapping of str
         The swept parameters: (low, high, count) for evenly spaced values with both ends, or a list of values.
     numbers : sequence of str, optional

@@ -62,8 +62,8 @@ def _limits(max_step: float, max_steps: int) -> dict[str, Any]:
     return {"max_step": max_step or None, "max_steps": max_steps}
 
 
-def _orbit(body: Body, state: State, accuracy: Level, t: float, samples: int, **steps: Any) -> Orbit:
-    return solve(body, state, t, accuracy, samples, **_limits(**steps))
+def _orbit(body: Body, state: State, accuracy: Level, duration: float, samples: int, **steps: Any) -> Orbit:
+    return solve(body, state, duration, accuracy, samples, **_limits(**steps))
 
 
 def _crossings(
@@ -73,30 +73,32 @@ def _crossings(
     offset: float,
     sense: int,
     crossings: int,
-    t: float,
+    duration: float,
     max_step: float,
     max_steps: int,
     **normal: float,
 ) -> SectionCrossings:
     plane = Plane(tuple(normal[f"n_{i + 1}"] for i in range(len(normal))), offset, sense)
-    return section(body, state, plane, t, accuracy, crossings, **_limits(max_step, max_steps))
+    return section(body, state, plane, duration, accuracy, crossings, **_limits(max_step, max_steps))
 
 
-def _exponent(body: Body, state: State, accuracy: Level, t: float) -> Exponent:
-    return lyapunov_exponent(body, state, t, accuracy)
+def _exponent(body: Body, state: State, accuracy: Level, duration: float) -> Exponent:
+    return lyapunov_exponent(body, state, duration, accuracy)
 
 
-def _spectrum(body: Body, state: State, accuracy: Level, t: float) -> Spectrum:
-    return lyapunov_spectrum(body, state, t, accuracy)
+def _spectrum(body: Body, state: State, accuracy: Level, duration: float) -> Spectrum:
+    return lyapunov_spectrum(body, state, duration, accuracy)
 
 
-def _megno(body: Body, state: State, accuracy: Level, t: float) -> Megno:
+def _megno(body: Body, state: State, accuracy: Level, duration: float) -> Megno:
     # One thread: the cells of a sweep share the cores.
-    return complete(megno(body, [state], t, accuracy, threads=1))
+    return complete(megno(body, [state], duration, accuracy, threads=1))
 
 
-def _tube(body: Body, state: State, accuracy: Level, t: float, samples: int, digits: int, seconds: float) -> Tube:
-    times = np.linspace(0.0, t, samples)[1:]
+def _tube(
+    body: Body, state: State, accuracy: Level, duration: float, samples: int, digits: int, seconds: float
+) -> Tube:
+    times = np.linspace(0.0, duration, samples)[1:]
     return tube(body, state, times, digits, seconds * WORK_PER_SECOND)
 
 
@@ -104,13 +106,13 @@ def _proved(
     body: Body,
     state: State,
     accuracy: Level,
-    t: float,
+    duration: float,
     samples: int,
     digits: int,
     seconds: float,
     right_to: float,
 ) -> ProvedOrbit:
-    times = np.linspace(0.0, t, samples)[1:]
+    times = np.linspace(0.0, duration, samples)[1:]
     return proved_orbit(body, state, times, accuracy, right_to, digits, seconds * WORK_PER_SECOND)
 
 
@@ -163,7 +165,7 @@ def computations(of: Motions) -> Iterator[Computation]:
         },
         Kind.ORBIT,
         lambda r, exact: largest_difference(r.states, exact.states),
-        example={"t": 10.0, "samples": 11.0},
+        example={"duration": 10.0, "samples": 11.0},
     )
     yield entry(
         "crossings",
@@ -179,7 +181,7 @@ def computations(of: Motions) -> Iterator[Computation]:
         Kind.SECTION,
         _times_differ,
         unit="time",
-        example={"t": 20.0},
+        example={"duration": 20.0},
     )
     yield entry(
         "lyapunov",
@@ -191,7 +193,7 @@ def computations(of: Motions) -> Iterator[Computation]:
         Kind.EXPONENT,
         lambda r, exact: abs(r.value - exact.value),
         unit="1/time",
-        example={"t": 50.0},
+        example={"duration": 50.0},
     )
     yield entry(
         "spectrum",
@@ -212,7 +214,7 @@ def computations(of: Motions) -> Iterator[Computation]:
         Kind.EXPONENT,
         lambda r, exact: largest_difference(r.values, exact.values),
         unit="1/time",
-        example={"t": 50.0},
+        example={"duration": 50.0},
     )
     yield entry(
         "megno",
@@ -232,7 +234,7 @@ def computations(of: Motions) -> Iterator[Computation]:
         },
         Kind.INDICATOR,
         lambda r, exact: largest_difference(r.values, exact.values),
-        example={"t": 50.0},
+        example={"duration": 50.0},
     )
     exact_times = (usual(known.TIME, 2.0), whole("samples", "n", 5, 2, MAX_SAMPLES, "Evenly spaced times, with 0."))
     yield entry(
@@ -248,7 +250,7 @@ def computations(of: Motions) -> Iterator[Computation]:
         Kind.ORBIT,
         lambda r, exact: r.width,
         group="prove",
-        example={"t": 1.0, "samples": 3.0},
+        example={"duration": 1.0, "samples": 3.0},
     )
     yield entry(
         "proved-orbit",
@@ -263,7 +265,7 @@ def computations(of: Motions) -> Iterator[Computation]:
         Kind.ORBIT,
         lambda r, exact: r.largest,
         group="prove",
-        example={"t": 1.0, "samples": 3.0},
+        example={"duration": 1.0, "samples": 3.0},
     )
 
 

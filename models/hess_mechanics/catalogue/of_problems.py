@@ -136,10 +136,10 @@ _CLOUD = (
 
 
 def _cloud(
-    accuracy: Level, D: float, h: float, spread: float, patch: int, phi: float, count: int, t: float, **I: float
+    accuracy: Level, D: float, h: float, spread: float, patch: int, phi: float, count: int, duration: float, **I: float
 ) -> Cloud:
     angle = phi if patch else None
-    return cloud(BallBody(**I, D=D), h, t, count=count, spread=spread, angle=angle, accuracy=accuracy)
+    return cloud(BallBody(**I, D=D), h, duration, count=count, spread=spread, angle=angle, accuracy=accuracy)
 
 
 def _history(accuracy: Level, **values: Any) -> CloudHistory:
@@ -299,7 +299,7 @@ COMPUTATIONS: tuple[Computation, ...] = (
         {"volume": Number("V", "volume relative to that at t = 0", lambda r: r.volume[-1])},
         Kind.CLOUD,
         lambda r, exact: largest_difference(r.log_s, exact.log_s),
-        example={"count": 50.0, "t": 2.0},
+        example={"count": 50.0, "duration": 2.0},
     ),
     Computation(
         "cloud-history",
@@ -310,7 +310,7 @@ COMPUTATIONS: tuple[Computation, ...] = (
         {"growth": Number("ln s/s₀", "mean growth of small volumes", lambda r: r.log_growth[0, -1])},
         Kind.CLOUD,
         lambda r, exact: largest_difference(r.log_growth, exact.log_growth),
-        example={"count": 50.0, "t": 2.0},
+        example={"count": 50.0, "duration": 2.0},
     ),
     Computation(
         "cloud-density",
@@ -321,6 +321,6 @@ COMPUTATIONS: tuple[Computation, ...] = (
         {"height": Number("h", "mean density in the bins that all points pass", "height")},
         Kind.CLOUD,
         lambda r, exact: abs(r.height - exact.height),
-        example={"count": 50.0, "t": 2.0},
+        example={"count": 50.0, "duration": 2.0},
     ),
 )

@@ -139,9 +139,9 @@ def _basins(
     x1: float,
     y0: float,
     y1: float,
-    t: float,
+    duration: float,
 ) -> Basins:
-    return basins(map_, (across, up), ((x0, y0), (x1, y1)), t)
+    return basins(map_, (across, up), ((x0, y0), (x1, y1)), duration)
 
 
 # ---- numbers ----------------------------------------------------------------------------------------------------
@@ -285,7 +285,7 @@ def computations(of: Motions) -> Iterator[Computation]:
         _OF_MOTION,
         Kind.INDICATOR,
         lambda r, exact: float(r.kind is not exact.kind),
-        example={"transient": 50.0, "t": 50.0},
+        example={"transient": 50.0, "duration": 50.0},
     )
     yield entry(
         "dynamics",
@@ -299,7 +299,7 @@ def computations(of: Motions) -> Iterator[Computation]:
         },
         Kind.INDICATOR,
         lambda r, exact: abs(r.distance - exact.distance),
-        example={"transient": 60.0, "kept": 64.0, "t": 50.0},
+        example={"transient": 60.0, "kept": 64.0, "duration": 50.0},
     )
     if len(example.names) != 2:
         return
@@ -357,7 +357,7 @@ def computations(of: Motions) -> Iterator[Computation]:
         Kind.BASINS,
         lambda r, exact: float(np.mean(r.attractor != exact.attractor)) if _same(r, exact) else math.nan,
         unit="fraction of the cells",
-        example={"across": 2.0, "up": 2.0, "t": 200.0},
+        example={"across": 2.0, "up": 2.0, "duration": 200.0},
     )
 
 

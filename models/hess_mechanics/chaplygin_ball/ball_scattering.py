@@ -314,4 +314,6 @@ def all_phases(
 
     Raises `InvalidParameter`, `WorkLimit`.
     """
-    return ball_scattering(body, theta_minus, np.linspace(-math.pi, math.pi, count), 1.0, distance, accuracy, most_steps)
+    return ball_scattering(
+        body, theta_minus, np.linspace(-math.pi, math.pi, count), 1.0, distance, accuracy, most_steps
+    )

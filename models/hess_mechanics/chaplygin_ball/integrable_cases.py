@@ -73,14 +73,14 @@ class Period(Result):
         )
 
 
-def period(body: BallBody, state: Sequence[float], accuracy: Accuracy = "precise") -> Period:
+def period(body: BallBody, start: Sequence[float], accuracy: Accuracy = "precise") -> Period:
     """Return the period of an orbit of the reversible ball, I13 = I23 = 0 and b3 = 0.
 
     Parameters
     ----------
     body : BallBody
         Ball with I13 = I23 = 0 and b3 = 0.
-    state : sequence of five floats
+    start : sequence of five floats
         Initial state (ω1, ω2, γ1, γ2, γ3).
     accuracy : Level or str, optional
         Accuracy level or its name, see `level`.
@@ -116,7 +116,7 @@ def period(body: BallBody, state: Sequence[float], accuracy: Accuracy = "precise
     level = as_level(accuracy)
     if not is_reversible(as_a(BallBody, body)):
         raise InvalidParameter("Orbits are periodic only for I13 = I23 = 0 and b3 = 0: set these to 0.")
-    p, given = np.array(body.parameters), np.array(as_place(SYSTEM.variables, state))
+    p, given = np.array(body.parameters), np.array(as_place(SYSTEM.variables, start))
     moment = max(body.I11, body.I22) + body.D
     least = min(body.I11, body.I22)
     nu = float(SYSTEM.frequency(given, p)) or 1.0

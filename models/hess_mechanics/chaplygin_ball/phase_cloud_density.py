@@ -183,7 +183,7 @@ def clouds(
     field: float | None,
     accuracy: Accuracy,
 ) -> Clouds:
-    """Return clouds of `count` points of a `patch` at an angle, or of a `shell`, up to `duration`, which may be negative.
+    """Return clouds of `count` points of a `patch` at an angle, or of a `shell`, up to ±`duration`.
 
     field : b3, in which half of them move with I13 = I23 = 0; None for no second cloud.
     Raises `InvalidParameter`, `WorkLimit`.

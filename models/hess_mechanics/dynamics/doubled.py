@@ -41,8 +41,8 @@ class Doubled:
         return np.abs((states - self.pairs.real) - self.pairs.imag)
 
 
-def doubled(body: Body, state: Sequence[float] | Array, times: Sequence[float] | Array) -> Doubled:
-    """Return the orbit from `state` (d,) at times (n,), monotonic from 0, in double-double arithmetic.
+def doubled(body: Body, start: Sequence[float] | Array, times: Sequence[float] | Array) -> Doubled:
+    """Return the orbit from `start` (d,) at times (n,), monotonic from 0, in double-double arithmetic.
 
     The integrator is a Taylor series of order 36 in pairs of doubles (`numerics.doubled_kernels`), about 40 µs per
     step.  State and parameters are rescaled only by powers of two, which is exact.
@@ -56,18 +56,18 @@ def doubled(body: Body, state: Sequence[float] | Array, times: Sequence[float] |
     True
     """
     t = checked_times(times)
-    problem = Problem.of(body, [state])
+    problem = Problem.of(body, [start])
     unit = math.ldexp(1.0, -round(math.log2(problem.nu)))
     p = np.asarray(body.parameters, complex)
     out = np.empty((t.size, problem.scale.size), complex)
-    here, start, left = np.array(state, complex), 0.0, _MOST_STEPS
+    here, begun, left = np.array(start, complex), 0.0, _MOST_STEPS
     for first in range(0, t.size, _AT_ONCE):
         go_on()
         part = slice(first, first + _AT_ONCE)
-        steps = body.system.doubled(here, start, p, problem.scale, unit, t[part], left, out[part])
+        steps = body.system.doubled(here, begun, p, problem.scale, unit, t[part], left, out[part])
         require_steps(
             steps, f"With 31 digits this motion needs more than {_MOST_STEPS} steps: choose a shorter time span."
         )
         require_finite_states(out[part].real)
-        here, start, left = out[part][-1].copy(), float(t[part][-1]), left - steps
+        here, begun, left = out[part][-1].copy(), float(t[part][-1]), left - steps
     return Doubled(frozen(t), frozen(out), frozen(problem.scale))

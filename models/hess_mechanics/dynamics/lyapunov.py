@@ -75,14 +75,14 @@ class Exponent(Result):
         return self.value < 2.0 * math.log(max(math.e, self.times.size)) / float(self.times[-1])
 
 
-def lyapunov_exponent(body: Body, state: Sequence[float], duration: float, accuracy: Accuracy = STANDARD) -> Exponent:
+def lyapunov_exponent(body: Body, start: Sequence[float], duration: float, accuracy: Accuracy = STANDARD) -> Exponent:
     """Return the largest Lyapunov exponent of an orbit.
 
     Parameters
     ----------
     body : Body
         The body.
-    state : array_like, shape (d,)
+    start : array_like, shape (d,)
         Initial state.
     duration : float
         Time span, in units of the problem; negative for backward in time.
@@ -115,7 +115,7 @@ def lyapunov_exponent(body: Body, state: Sequence[float], duration: float, accur
     """
     level = plan(Kind.EXPONENT, accuracy).level
     span = checked_span(duration, "a Lyapunov exponent")
-    problem = Problem.of(body, [state])
+    problem = Problem.of(body, [start])
     samples = abs(span) / _INTERVAL * problem.nu
     if not samples <= MAX_SAMPLES:
         raise WorkLimit(
@@ -124,10 +124,10 @@ def lyapunov_exponent(body: Body, state: Sequence[float], duration: float, accur
         )
     count = max(1, math.ceil(samples))
     times = span * np.arange(1, count + 1) / count
-    start = problem.states[0]
-    found = tangent(problem, start, one_direction(start.size), problem.times(times), level, LONGEST)
+    state = problem.states[0]
+    found = tangent(problem, state, one_direction(state.size), problem.times(times), level, LONGEST)
     rates = found.lengths[:, 0] / np.abs(times)
     require_finite_rates(rates)
     later = rates[count // 2 :]
-    reason = no_chaos(problem, start, found.states, span * problem.nu, level, True)
+    reason = no_chaos(problem, state, found.states, span * problem.nu, level, True)
     return Exponent(frozen(np.abs(times)), frozen(rates), float(later.max() - later.min()), reason)

@@ -116,12 +116,12 @@ class Megno(Result):
         )
 
 
-def longest_span(body: Body, state: Sequence[float] | Array) -> float:
-    """Return the longest time span of MEGNO for motions next to `state`.
+def longest_span(body: Body, start: Sequence[float] | Array) -> float:
+    """Return the longest time span of MEGNO for motions next to `start`.
 
     A third is left as a reserve, because ν differs between neighbouring states.
     """
-    return _LONGEST / (1.5 * Problem.of(body, [state]).nu)
+    return _LONGEST / (1.5 * Problem.of(body, [start]).nu)
 
 
 def megno(

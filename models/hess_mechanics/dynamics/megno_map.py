@@ -79,7 +79,7 @@ class MegnoMap(Result):
 
 
 def row_of_cells(
-    section: PoincareSection, window: Window, cells: tuple[int, int], row: int, t: float, accuracy: Accuracy
+    section: PoincareSection, window: Window, cells: tuple[int, int], row: int, duration: float, accuracy: Accuracy
 ) -> Array:
     """Return Ȳ, kind and end, shape (3, m), of the motions from the centres of one row of cells.
 
@@ -93,7 +93,7 @@ def row_of_cells(
         Numbers (m, n) of cells across and up.
     row : int
         Index of the row, from below.
-    t : float
+    duration : float
         Time span.
     accuracy : str or Level
         Accuracy level.
@@ -111,14 +111,14 @@ def row_of_cells(
     out = np.full((3, m), np.nan)
     out[1] = NOWHERE
     if there.any():
-        found = megno(section, states[there], t, accuracy, threads=1)
+        found = megno(section, states[there], duration, accuracy, threads=1)
         kinds = np.where(np.array(found.reasons, bool), ENDED, found.chaotic + 2 * found.attracted)
         out[:, there] = found.values, kinds, found.ends
     return frozen(out)
 
 
 def megno_map(
-    map_: ReturnMap, cells: tuple[int, int] = (16, 12), window: Window | None = None, t: float = 200.0
+    map_: ReturnMap, cells: tuple[int, int] = (16, 12), window: Window | None = None, duration: float = 200.0
 ) -> MegnoMap:
     """Return MEGNO over the cells of a section, computed on all cores.
 
@@ -130,7 +130,7 @@ def megno_map(
         Number of cells across and up.
     window : ((float, float), (float, float)), optional
         Corners (x0, y0) and (x1, y1) of the window.  By default the whole section.
-    t : float, default 200
+    duration : float, default 200
         Time span; negative for backward in time.
 
     Returns
@@ -148,14 +148,14 @@ def megno_map(
     Examples
     --------
     >>> from hess_mechanics import QuarticBody, megno_map, return_map
-    >>> found = megno_map(return_map(QuarticBody(2.0, 1.0, 1.0, 0.8), accuracy="standard"), cells=(6, 4), t=50.0)
+    >>> found = megno_map(return_map(QuarticBody(2.0, 1.0, 1.0, 0.8), accuracy="standard"), cells=(6, 4), duration=50.0)
     >>> found.values.shape, found.names
     ((4, 6), ('q', 'p'))
     """
     section, level = map_.section, map_.accuracy
     window = (x0, y0), (x1, y1) = corners(section, window)
     m, n = shape = as_cells(cells)
-    span = as_number("t", t)
+    span = as_number("duration", duration)
     rows = np.empty((n, 3, m))
 
     def row(i: int) -> None:

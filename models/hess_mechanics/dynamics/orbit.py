@@ -76,7 +76,7 @@ def checked_span(duration: float, what: str) -> float:
             f"The time span of {what} must be a finite number other than 0, of {_SHORTEST:g} or "
             "more: choose one like 100, or -100 for backwards."
         )
-    return as_number("t", duration)
+    return as_number("duration", duration)
 
 
 def require_steps(steps: int, too_long: str, where: Callable[[], WorkLimit | None] = lambda: None) -> None:
@@ -242,8 +242,8 @@ def drifts_along(system: System, start: Array, states: Array, parameters: Array)
 
 def solve(
     body: Body,
-    state: Sequence[float] | Array,
-    t: float | Sequence[float] | Array,
+    start: Sequence[float] | Array,
+    times: float | Sequence[float] | Array,
     accuracy: Accuracy = "precise",
     samples: int = 500,
     max_step: float | None = None,
@@ -255,14 +255,14 @@ def solve(
     ----------
     body : Body
         A body of this package, or a system with values of its parameters, `System.at`.
-    state : array_like, shape (d,)
+    start : array_like, shape (d,)
         Initial state at time 0: the variables of the body's system, in their order.
-    t : float or array_like, shape (n,)
+    times : float or array_like, shape (n,)
         Times of the result, monotonic from 0 forward or backward; or a single number, the end of the time span.
     accuracy : str or Level, default "precise"
         Accuracy level: "draft", "standard", "precise", "reference", or a level of your own.
     samples : int, default 500
-        Number of evenly spaced times if `t` is a single number.
+        Number of evenly spaced times if `times` is a single number.
     max_step : float, optional
         Longest step, in the unit of time.  By default a hundredth of the time span for a field with functions, else
         none.  Choose it shorter than the shortest pulse of the field: see Notes.
@@ -299,7 +299,7 @@ def solve(
     Examples
     --------
     >>> from hess_mechanics import SuslovBody, solve, systems
-    >>> found = solve(SuslovBody(2.0, 1.0, 0.3, 0.5, 0.3, -0.5, 1.0), (0.8, -0.4, 0.6, 0.0, 0.8), t=10.0)
+    >>> found = solve(SuslovBody(2.0, 1.0, 0.3, 0.5, 0.3, -0.5, 1.0), (0.8, -0.4, 0.6, 0.0, 0.8), 10.0)
     >>> found.states.shape, str(found.status), found.variables
     ((500, 5), 'ok', ('ω1', 'ω2', 'γ1', 'γ2', 'γ3'))
     >>> solve(*systems()["suslov"].example_motion, [0.0, 1.0, 2.0], "draft").states.shape
@@ -307,9 +307,11 @@ def solve(
     """
     level = as_level(accuracy)
     times = checked_times(
-        t if np.ndim(t) else np.linspace(0.0, as_number("t", t), as_whole("samples", samples, 2, MAX_SAMPLES))
+        times
+        if np.ndim(times)
+        else np.linspace(0.0, as_number("times", times), as_whole("samples", samples, 2, MAX_SAMPLES))
     )
-    problem = Problem.of(body, [state])
+    problem = Problem.of(body, [start])
     scaled_times = problem.times(times)
     longest = as_max_step(max_step, problem)
     most_steps = as_max_steps(max_steps)
@@ -339,7 +341,7 @@ def solve(
 
     found = measured(level, run, lambda one, other: float(np.abs(one - other).max()))
     states = found.result * problem.scale
-    drift = drift_of(body.system, np.asarray(state, float), states, np.asarray(body.parameters, float))
+    drift = drift_of(body.system, np.asarray(start, float), states, np.asarray(body.parameters, float))
     absolute = found.safety * float((np.abs(found.result - found.other) * problem.scale).max()) + 2e-16 * max(
         1.0, problem.nu
     )

@@ -82,13 +82,15 @@ def sets_of(section: PoincareSection, start: Place, transient: int, kept: int, a
     return Sets(*(frozen(one.copy()) for one in found))
 
 
-def at_state(section: PoincareSection, start: Place, transient: int, kept: int, t: float, accuracy: Accuracy) -> Dynamics:
+def at_state(
+    section: PoincareSection, start: Place, transient: int, kept: int, duration: float, accuracy: Accuracy
+) -> Dynamics:
     """Classify the orbit from `start`; without comparisons if it does not return.  Raises `OutsideRegion`, `WorkLimit`.
 
-    t : averaging time.
+    duration : averaging time.
     """
     map_ = ReturnMap(section, as_level(accuracy))
-    motion = regime(map_, start, transient, min(kept, 400), t)
+    motion = regime(map_, start, transient, min(kept, 400), duration)
     try:
         return compared(map_, motion, start, transient, kept)
     except NoReturn:

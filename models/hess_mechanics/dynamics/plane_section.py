@@ -248,14 +248,14 @@ class _Search:
         body: Body,
         states: Sequence[Sequence[float]] | Array,
         plane: Surface,
-        end: float,
+        duration: float,
         level: Level,
         crossings: int,
         max_step: float | None,
         max_steps: int,
     ) -> _Search:
         """Validate the arguments and scale them.  Raises `InvalidParameter`, `WorkLimit`."""
-        if not math.isfinite(end):
+        if not math.isfinite(duration):
             raise InvalidParameter("The end of the time span must be finite.")
         if not 1 <= crossings <= MAX_CROSSINGS:
             raise WorkLimit(f"The number of crossings must lie between 1 and {MAX_CROSSINGS}.")
@@ -266,14 +266,14 @@ class _Search:
         starts = np.array(states, float, ndmin=2)
         longest = as_max_step(max_step, problem)
         most = as_max_steps(max_steps)
-        return cls(body, plane, starts, problem, end * problem.nu, level, crossings, longest, most)
+        return cls(body, plane, starts, problem, duration * problem.nu, level, crossings, longest, most)
 
     def run(
-        self, problem: Problem, start: Array, end: float, level: Level, spent: int = 0
+        self, problem: Problem, start: Array, duration: float, level: Level, spent: int = 0
     ) -> tuple[tuple[Array, Array], int, WorkLimit | None]:
         """Return (times, states) of the crossings of the orbit of a problem from `start`, the steps, and its end."""
         cross, normal, offset = self.plane.scaled(problem.system, problem)
-        longest = problem.system.longest_step(level, end, self.max_step)
+        longest = problem.system.longest_step(level, duration, self.max_step)
         room, total = min(self.crossings, _ROOM), 0
         while True:
             times, states = np.full(room, np.nan), np.zeros((room, self.problem.scale.size))
@@ -283,7 +283,7 @@ class _Search:
                 normal,
                 offset,
                 self.plane.sense,
-                end,
+                duration,
                 level.order,
                 level.tolerance,
                 longest,
@@ -297,7 +297,7 @@ class _Search:
                 found = room - 1
             elif np.abs(states[:found]).max(initial=0.0) >= ESCAPED:
                 # Round-off has taken the motion past a pole.
-                ended = end_of(problem, start, end)
+                ended = end_of(problem, start, duration)
             if ended is not None:
                 if not isinstance(ended, MotionEnds):
                     raise ended
@@ -365,9 +365,9 @@ def time_error(safety: float, times: Array, others: Array) -> float:
 
 def section(
     body: Body,
-    state: Sequence[float] | Array,
+    start: Sequence[float] | Array,
     plane: Surface,
-    end: float,
+    duration: float,
     accuracy: Accuracy,
     crossings: int = MAX_CROSSINGS,
     max_step: float | None = None,
@@ -379,11 +379,11 @@ def section(
     ----------
     body : Body
         The body.
-    state : array_like, shape (d,)
+    start : array_like, shape (d,)
         Initial state at time 0.
     plane : Plane or Surface
         The surface.
-    end : float
+    duration : float
         End of the time span; may be negative.
     accuracy : str or Level
         Accuracy level.
@@ -421,15 +421,17 @@ def section(
     >>> bool(abs(found.states[:, 4]).max() < 1e-9)
     True
     """
-    start = np.array(state, float)[None]
-    return sections(body, start, plane, end, accuracy, crossings, threads=1, max_step=max_step, max_steps=max_steps)[0]
+    start = np.array(start, float)[None]
+    return sections(
+        body, start, plane, duration, accuracy, crossings, threads=1, max_step=max_step, max_steps=max_steps
+    )[0]
 
 
 def sections(
     body: Body,
     states: Sequence[Sequence[float]] | Array,
     plane: Surface,
-    end: float,
+    duration: float,
     accuracy: Accuracy,
     crossings: int = MAX_CROSSINGS,
     threads: int = THREADS,
@@ -448,7 +450,7 @@ def sections(
         Initial states at time 0.
     plane : Plane or Surface
         The surface.
-    end : float
+    duration : float
         End of the time span; may be negative.
     accuracy : str or Level
         Accuracy level.
@@ -482,7 +484,7 @@ def sections(
     1
     """
     level = as_level(accuracy)
-    search = _Search.of(body, states, plane, end, level, crossings, max_step, max_steps)
+    search = _Search.of(body, states, plane, duration, level, crossings, max_step, max_steps)
     found: dict[int, SectionCrossings] = {}
 
     def one(orbit: int) -> None:
@@ -548,7 +550,7 @@ def section_points(
     body: Body,
     states: Sequence[Sequence[float]] | Array,
     plane: Surface,
-    end: float,
+    duration: float,
     accuracy: Accuracy,
     crossings: int,
     threads: int = THREADS,
@@ -567,7 +569,7 @@ def section_points(
         Initial states at time 0.
     plane : Plane or Surface
         The surface.
-    end : float
+    duration : float
         End of the time span; may be negative.
     accuracy : str or Level
         Accuracy level.
@@ -601,7 +603,7 @@ def section_points(
     """
     level = as_level(accuracy)
     begun = time.perf_counter()
-    search = _Search.of(body, states, plane, end, level, crossings, None, most_steps)
+    search = _Search.of(body, states, plane, duration, level, crossings, None, most_steps)
     count = len(search.starts)
     parts = max(1, min(_PARTS, crossings // 10))
     one_part = replace(search, crossings=-(-crossings // parts))

@@ -259,7 +259,7 @@ class _Evidence:
 
 
 def regime(
-    map_: ReturnMap, start: Sequence[float] | Array, transient: int = 300, kept: int = 200, t: float = 200.0
+    map_: ReturnMap, start: Sequence[float] | Array, transient: int = 300, kept: int = 200, duration: float = 200.0
 ) -> Regime:
     """Classify the motion from a point of a section.
 
@@ -273,7 +273,7 @@ def regime(
         Crossings discarded, 0 to 20 000.
     kept : int, default 200
         Crossings kept, 1 to 20 000.  Up to 64 times as many are used if they do not decide, at most 20 000.
-    t : float, default 200
+    duration : float, default 200
         Time of MEGNO, at least 30 returns.  Up to 64 times as long if it does not decide.
 
     Returns
@@ -294,17 +294,17 @@ def regime(
     --------
     >>> from hess_mechanics import HessBody, regime, return_map
     >>> P = return_map(HessBody(I22=2.0, I23=1.0, b3=-1.0), h=1.5, f=0.6)
-    >>> regime(P, (0.3,), t=100.0).kind.words  # it tends to the stable limit cycle
+    >>> regime(P, (0.3,), duration=100.0).kind.words  # it tends to the stable limit cycle
     'fixed point'
     """
     transient, kept = as_whole("transient", transient, 0, _MOST_CROSSINGS), as_whole("kept", kept, 1, _MOST_CROSSINGS)
-    start, t = as_place(map_.names, start), as_number("t", t)
+    start, duration = as_place(map_.names, start), as_number("duration", duration)
     places = map_.orbit(np.array(start), transient + kept)
     if len(places) < transient + kept:
         return _not_seen(map_, places, start)
     places = places[transient:]
     # A time of 0, or none, is refused by the indicator itself.
-    span = max(t, _RETURNS * map_.time_of(places[-1])) if t > 0.0 else t
+    span = max(duration, _RETURNS * map_.time_of(places[-1])) if duration > 0.0 else duration
     evidence = _evidence(map_, places, span)
     for _ in range(_ROUNDS - 1):
         if evidence.kind not in (MotionKind.UNDECIDED, MotionKind.SETTLING):
@@ -364,7 +364,10 @@ def _not_seen(map_: ReturnMap, places: Array, start: Sequence[float] | Array) ->
 def _evidence(map_: ReturnMap, places: Array, duration: float) -> _Evidence:
     period, settled = _period(map_, places)
     # A periodic orbit is one whatever its neighbours do; of others an ensemble tells.
-    found = [_indicated(map_, places[-1:] if period else _ensemble(map_, places), time) for time in (duration / 2.0, duration)]
+    found = [
+        _indicated(map_, places[-1:] if period else _ensemble(map_, places), time)
+        for time in (duration / 2.0, duration)
+    ]
     late = found[1]
     windows = late.windows
     mean, error = (windows[0, 0], np.ptp(windows)) if len(windows) == 1 else ensemble_mean(windows)
@@ -439,9 +442,9 @@ def _ensemble(map_: ReturnMap, places: Array) -> Array:
     return np.array(found)
 
 
-def _indicated(map_: ReturnMap, places: Array, t: float) -> Megno:
+def _indicated(map_: ReturnMap, places: Array, duration: float) -> Megno:
     states = map_.state_at(places)
-    return complete(megno(map_.section, states, -t if map_.backward else t, map_.accuracy, threads=1))
+    return complete(megno(map_.section, states, -duration if map_.backward else duration, map_.accuracy, threads=1))
 
 
 def _reversor(map_: ReturnMap, places: Array) -> str:
@@ -473,12 +476,14 @@ def _reversor(map_: ReturnMap, places: Array) -> str:
     return ""
 
 
-def _has_a_curve(map_: ReturnMap, place: Array, t: float) -> bool:
+def _has_a_curve(map_: ReturnMap, place: Array, duration: float) -> bool:
     """True if one more exponent is 0 than the integrals and the direction of motion require.
 
     An attracting invariant curve has such an exponent; an attracting periodic orbit, however long, does not.
     """
-    found = lyapunov_spectrum(map_.section, map_.state_at(place), -t if map_.backward else t, map_.accuracy)
+    found = lyapunov_spectrum(
+        map_.section, map_.state_at(place), -duration if map_.backward else duration, map_.accuracy
+    )
     return found.zeros >= found.integrals + 2
 
 
@@ -561,7 +566,7 @@ class Dynamics(Result):
 
 
 def dynamics_of(
-    map_: ReturnMap, start: Sequence[float] | Array, transient: int = 500, kept: int = 2000, t: float = 1000.0
+    map_: ReturnMap, start: Sequence[float] | Array, transient: int = 500, kept: int = 2000, duration: float = 1000.0
 ) -> Dynamics:
     """Classify the dynamics around the orbits from a point: conservative, dissipative or mixed.
 
@@ -575,7 +580,7 @@ def dynamics_of(
         Crossings discarded of each orbit, 0 to 20 000.
     kept : int, default 2000
         Crossings kept of each orbit, 8 to 20 000.
-    t : float, default 1000
+    duration : float, default 1000
         Time over which the divergence of each orbit is averaged.
 
     Returns
@@ -598,11 +603,11 @@ def dynamics_of(
     --------
     >>> from hess_mechanics import QuarticBody, dynamics_of, return_map
     >>> P = return_map(QuarticBody(2.0, 1.0, 1.0, 0.8), accuracy="standard")
-    >>> dynamics_of(P, (0.3, 0.2), transient=60, kept=64, t=100.0).verdict  # I₁₃ = I₂₃ = 0: the volume is kept
+    >>> dynamics_of(P, (0.3, 0.2), transient=60, kept=64, duration=100.0).verdict  # I₁₃ = I₂₃ = 0: the volume is kept
     'conservative'
     """
     kept = as_whole("kept", kept, 8, _MOST_CROSSINGS)
-    return compared(map_, regime(map_, start, transient, min(kept, 400), t), start, transient, kept)
+    return compared(map_, regime(map_, start, transient, min(kept, 400), duration), start, transient, kept)
 
 
 def compared(map_: ReturnMap, motion: Regime, start: Sequence[float] | Array, transient: int, kept: int) -> Dynamics:

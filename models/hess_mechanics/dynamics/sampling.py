@@ -35,7 +35,7 @@ _SAMPLES_PER_STEP = 16
 
 
 def sample_times(body: Body, state: Array, duration: float, weights: Array, sagitta: float, most: int) -> Array:
-    """Return at most `most` times from 0 to `duration` (nonzero), both included, at which to sample the orbit from `state`.
+    """Return at most `most` sample times of the orbit from `start`, from 0 to `duration` (nonzero) inclusive.
 
     weights (d,) : pixels per unit of each variable; sagitta : largest distance between curve and chord, in pixels.
     If the orbit cannot be computed, the times are evenly spaced, and computing the orbit at them raises the error.
@@ -66,36 +66,36 @@ def sample_times(body: Body, state: Array, duration: float, weights: Array, sagi
 
 def sampled_orbit(
     body: Body,
-    state: Sequence[float],
+    start: Sequence[float],
     duration: float,
     weights: Sequence[float],
     accuracy: Accuracy,
     most: int = MOST_SAMPLES,
     max_step: float | None = None,
 ) -> Orbit:
-    """Return the orbit from `state` over `duration` at the times that `sample_times` chooses.
+    """Return the orbit from `start` over `duration` at the times that `sample_times` chooses.
 
     A motion that ends before is followed up to its end and has a reason.  weights (d,) : pixels per unit of each
     variable; max_step : see `solve`, which raises the same errors.
     """
 
     def sampled(duration: float) -> Orbit:
-        times = sample_times(body, np.array(state), duration, np.array(weights), SAGITTA, most)
-        return solve(body, state, times, accuracy, max_step=max_step)
+        times = sample_times(body, np.array(start), duration, np.array(weights), SAGITTA, most)
+        return solve(body, start, times, accuracy, max_step=max_step)
 
     try:
         return sampled(duration)
     except MotionEnds as error:
         if not abs(error.time) > 0.0:
             raise
-        problem = Problem.of(body, [state])
+        problem = Problem.of(body, [start])
         reason = str(end_of(problem, problem.states[0], duration * problem.nu) or error)
-        return replace(sampled(_drawn_until(body, state, error.time)), status=Status.INCOMPLETE, reason=reason)
+        return replace(sampled(_drawn_until(body, start, error.time)), status=Status.INCOMPLETE, reason=reason)
 
 
-def _drawn_until(body: Body, state: Sequence[float], end: float) -> float:
+def _drawn_until(body: Body, start: Sequence[float], end: float) -> float:
     """Return the time until which a motion that ends is drawn: before its variables are too large for a picture."""
-    problem = Problem.of(body, [state])
+    problem = Problem.of(body, [start])
     times = np.linspace(0.0, end, _MOST_COARSE)[:-1]
     _, _, states = followed(problem, problem.states[0], times * problem.nu)
     large = np.abs(states).max(axis=1) > LARGEST

@@ -281,7 +281,9 @@ def no_chaos(problem: Problem, start: Array, states: Array, duration: float, lev
     return ""
 
 
-def lyapunov_spectrum(body: Body, state: Sequence[float] | Array, duration: float, accuracy: Accuracy = STANDARD) -> Spectrum:
+def lyapunov_spectrum(
+    body: Body, start: Sequence[float] | Array, duration: float, accuracy: Accuracy = STANDARD
+) -> Spectrum:
     """Return all Lyapunov exponents of an orbit.
 
     They are the exponents of the equations in all d variables.
@@ -290,7 +292,7 @@ def lyapunov_spectrum(body: Body, state: Sequence[float] | Array, duration: floa
     ----------
     body : Body
         The body.
-    state : array_like, shape (d,)
+    start : array_like, shape (d,)
         Initial state.
     duration : float
         Time span, in units of the problem; negative for backward in time.
@@ -324,7 +326,7 @@ def lyapunov_spectrum(body: Body, state: Sequence[float] | Array, duration: floa
     level = as_level(accuracy)
     checked_span(duration, "Lyapunov exponents")
     begun = time.perf_counter()
-    problem, system = Problem.of(body, [state]), body.system
+    problem, system = Problem.of(body, [start]), body.system
     y, d, end = problem.states[0], len(system.variables), duration * problem.nu
     # Other columns in general position.
     frame, speed = frame_ahead(problem, np.cos(1.0 + np.arange(d * d).reshape(d, d) ** 2), _SLOW)
@@ -370,7 +372,7 @@ def lyapunov_spectrum(body: Body, state: Sequence[float] | Array, duration: floa
     worst = float(error.max()) + floor
     plans = PLANS[Kind.EXPONENT]
     promise = plans[level.name].promise * problem.nu if level.name in plans else worst
-    number = len(system.integrals(list(state), list(body.parameters)))
+    number = len(system.integrals(list(start), list(body.parameters)))
     return Spectrum(
         system.name,
         level.name,

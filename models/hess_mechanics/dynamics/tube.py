@@ -182,7 +182,7 @@ class ProvedOrbit(Result):
 
 
 def tube(
-    body: Body, state: Sequence[float], times: Sequence[float] | Array, digits: int = 18, most_work: float = MOST_WORK
+    body: Body, start: Sequence[float], times: Sequence[float] | Array, digits: int = 18, most_work: float = MOST_WORK
 ) -> Tube:
     """Return intervals that are proved to contain the orbit from a state.
 
@@ -190,7 +190,7 @@ def tube(
     ----------
     body : Body
         The body; its parameters are taken as exact.
-    state : sequence of float, shape (d,)
+    start : sequence of float, shape (d,)
         Initial state at time 0, taken as exact.
     times : array_like, shape (n,)
         Times, monotonic from 0 forward or backward.
@@ -223,13 +223,13 @@ def tube(
     as_whole("digits", digits, 1, 100)
     begun = time.perf_counter()
     asked = checked_times(times)
-    problem, system = Problem.of(body, [state]), body.system
+    problem, system = Problem.of(body, [start]), body.system
     length = abs(float(asked[-1]))
     best: Tube | None = None
     bits, left = max(_FIRST_BITS, _whole(3.33 * digits + _GUARD_BITS)), most_work
     while True:
         with working(bits):
-            walk = _Walk(system, [float(x) for x in state], [float(x) for x in body.parameters], problem.scale, bits)
+            walk = _Walk(system, [float(x) for x in start], [float(x) for x in body.parameters], problem.scale, bits)
             found, width = walk.through(asked, 10.0 ** (-digits), left)
         left -= walk.work
         if best is None or len(found) > len(best.states):
@@ -579,7 +579,7 @@ def proved_error(orbit: Orbit, found: Tube) -> tuple[float, float]:
 
 def proved_orbit(
     body: Body,
-    state: Sequence[float],
+    start: Sequence[float],
     times: Sequence[float] | Array,
     accuracy: Accuracy = "standard",
     right_to: float = 1e-6,
@@ -592,7 +592,7 @@ def proved_orbit(
     ----------
     body : Body
         The body; its parameters are taken as exact.
-    state : sequence of float, shape (d,)
+    start : sequence of float, shape (d,)
         Initial state at time 0, taken as exact.
     times : array_like, shape (n,)
         Times, monotonic from 0 forward or backward.
@@ -623,12 +623,12 @@ def proved_orbit(
     >>> proved_orbit(*systems()["hess"].example_motion, [0.5]).largest < 1e-6
     True
     """
-    found = tube(body, state, times, digits, most_work)
+    found = tube(body, start, times, digits, most_work)
     if not found.times.size:
         raise WorkLimit(
             "No time is enclosed: reduce the digits or the time, or allow more work; or choose less extreme parameters."
         )
-    orbit = solve(body, state, found.times, accuracy)
+    orbit = solve(body, start, found.times, accuracy)
     least, largest = proved_error(orbit, found)
     return ProvedOrbit(orbit, found, least, largest, right_to, right_until(orbit, found, right_to))
 

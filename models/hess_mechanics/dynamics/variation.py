@@ -109,7 +109,7 @@ class Transition(Result):
 
 
 def transition_matrix(
-    body: Body, state: Sequence[float] | Array, times: float | Sequence[float] | Array, accuracy: Accuracy
+    body: Body, start: Sequence[float] | Array, times: float | Sequence[float] | Array, accuracy: Accuracy
 ) -> Transition:
     """Return the transition matrix ∂y(t)/∂y(0) along an orbit.
 
@@ -119,7 +119,7 @@ def transition_matrix(
     ----------
     body : Body
         The body.
-    state : array_like, shape (d,)
+    start : array_like, shape (d,)
         Initial state.
     times : float or array_like, shape (n,)
         Times, monotonic from 0 forward or backward.
@@ -149,7 +149,7 @@ def transition_matrix(
     """
     level = as_level(accuracy)
     t = checked_times(np.atleast_1d(np.asarray(times, float)))
-    problem, system = Problem.of(body, [state]), body.system
+    problem, system = Problem.of(body, [start]), body.system
     scaled_times = problem.times(t)
     problems = (problem, problem.nearby())
 
@@ -327,7 +327,7 @@ class Return(Printed):
 
 
 def return_matrix(
-    body: Body, state: Sequence[float] | Array, surface: Surface, end: float, accuracy: Accuracy, returns: int = 1
+    body: Body, start: Sequence[float] | Array, surface: Surface, duration: float, accuracy: Accuracy, returns: int = 1
 ) -> Return | None:
     """Return the n-th return of an orbit to a surface, with its derivative.
 
@@ -335,11 +335,11 @@ def return_matrix(
     ----------
     body : Body
         The body.
-    state : array_like, shape (d,)
+    start : array_like, shape (d,)
         Initial state.
     surface : Plane or Surface
         The surface.
-    end : float
+    duration : float
         End of the time span; may be negative.
     accuracy : str or Level
         Accuracy level.
@@ -349,7 +349,7 @@ def return_matrix(
     Returns
     -------
     Return or None
-        The return; None if the orbit does not return n times before `end`.
+        The return; None if the orbit does not return n times before `duration`.
 
     Raises
     ------
@@ -366,11 +366,11 @@ def return_matrix(
     >>> bool(abs(found.matrix[4]).max() < 1e-9)  # γ3 = 0 at the return
     True
     """
-    crossings = section(body, state, surface, end, accuracy, returns)
+    crossings = section(body, start, surface, duration, accuracy, returns)
     if len(crossings.times) < returns:
         return None
     moment = float(crossings.times[-1])
-    found = transition_matrix(body, state, moment, accuracy)
+    found = transition_matrix(body, start, moment, accuracy)
     end_state = crossings.states[-1]
     rate = np.array(body.system.field(end_state.tolist(), list(body.parameters)), float)
     matrix = onto_surface(found.matrices[0], rate, surface.gradient(end_state))

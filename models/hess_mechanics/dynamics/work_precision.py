@@ -71,17 +71,17 @@ class WorkPoint:
 
 
 @lru_cache(maxsize=8)
-def truth(name: str, state: tuple[float, ...], parameters: tuple[float, ...], duration: float, samples: int) -> Doubled:
+def truth(name: str, start: tuple[float, ...], parameters: tuple[float, ...], duration: float, samples: int) -> Doubled:
     """Return the motion with 31 digits at `samples` evenly spaced times up to `duration`; the last few are cached.
 
     name : name of the system.  Raises `InvalidParameter`, `WorkLimit`.
     """
-    return doubled(systems()[name].at(parameters), state, np.linspace(0.0, duration, samples))
+    return doubled(systems()[name].at(parameters), start, np.linspace(0.0, duration, samples))
 
 
 def growth(
     name: str,
-    state: tuple[float, ...],
+    start: tuple[float, ...],
     parameters: tuple[float, ...],
     duration: float,
     weights: tuple[float, ...],
@@ -92,20 +92,20 @@ def growth(
     name : name of the system; weights (d,) : pixels per unit of each variable.
     Raises `InvalidParameter`, `WorkLimit`.
     """
-    system, exact = systems()[name], truth(name, state, parameters, duration, samples)
+    system, exact = systems()[name], truth(name, start, parameters, duration, samples)
     body = system.at(parameters)
     first = system.angular_velocities
     errors, pixels, drifts = {}, {}, {}
     for level in LEVELS.values():
         go_on()
-        states = solve(body, state, exact.times, level).states
+        states = solve(body, start, exact.times, level).states
         difference = exact.away(states)
         errors[level.name] = frozen(np.max(difference / exact.scale, axis=1))
         weighted = difference * np.asarray(weights)
         pixels[level.name] = frozen(
             np.maximum(np.linalg.norm(weighted[:, :first], axis=1), np.linalg.norm(weighted[:, first:], axis=1))
         )
-        along = drifts_along(system, np.array(state), states, np.array(parameters))
+        along = drifts_along(system, np.array(start), states, np.array(parameters))
         drifts[level.name] = {key: frozen(drift) for key, drift in along.items()}
     return ErrorGrowth(exact.times, errors, pixels, drifts)
 
@@ -124,41 +124,41 @@ def _best_of(run: Callable[[], T], repeats: int) -> tuple[float, T]:
 
 
 def measure_levels(
-    name: str, state: tuple[float, ...], parameters: tuple[float, ...], duration: float, samples: int
+    name: str, start: tuple[float, ...], parameters: tuple[float, ...], duration: float, samples: int
 ) -> tuple[WorkPoint, ...]:
     """Measure cost and error of each level; the cost includes the error estimate.  Raises the errors of `growth`."""
-    body, exact = systems()[name].at(parameters), truth(name, state, parameters, duration, samples)
+    body, exact = systems()[name].at(parameters), truth(name, start, parameters, duration, samples)
     points = []
     for level in LEVELS.values():
-        ms, states = _best_of(lambda: solve(body, state, exact.times, level).states, 3)  # noqa: B023 (called at once)
+        ms, states = _best_of(lambda: solve(body, start, exact.times, level).states, 3)  # noqa: B023 (called at once)
         points.append(WorkPoint("Taylor", level.name, ms, float(np.max(exact.away(states) / exact.scale))))
     return tuple(points)
 
 
-def longest_span(name: str, state: Sequence[float], parameters: Sequence[float]) -> float:
+def longest_span(name: str, start: Sequence[float], parameters: Sequence[float]) -> float:
     """Return the longest time span that all levels integrate in about a second.  Raises `InvalidParameter`."""
-    return _LONGEST / Problem.of(systems()[name].at(parameters), [state]).nu
+    return _LONGEST / Problem.of(systems()[name].at(parameters), [start]).nu
 
 
-def others_take_long(name: str, state: Sequence[float], parameters: Sequence[float], duration: float) -> bool:
+def others_take_long(name: str, start: Sequence[float], parameters: Sequence[float], duration: float) -> bool:
     """Return True if SciPy's methods would take long for this motion.  Raises the errors of `growth`.
 
     The decision counts steps and reads no clock, so that equal states always show the same.
     """
     body = systems()[name].at(parameters)
     return (
-        duration * Problem.of(body, [state]).nu > _LONGEST_FOR_OTHERS
-        or solve(body, state, np.array([0.0, duration]), REFERENCE).cost.steps > _MOST_STEPS_FOR_OTHERS
+        duration * Problem.of(body, [start]).nu > _LONGEST_FOR_OTHERS
+        or solve(body, start, np.array([0.0, duration]), REFERENCE).cost.steps > _MOST_STEPS_FOR_OTHERS
     )
 
 
 def measure_others(
-    name: str, state: tuple[float, ...], parameters: tuple[float, ...], duration: float, samples: int
+    name: str, start: tuple[float, ...], parameters: tuple[float, ...], duration: float, samples: int
 ) -> tuple[WorkPoint, ...]:
     """`measure_levels` for SciPy's methods on the plain field, at three tolerances each, without error estimates."""
     from scipy.integrate import solve_ivp  # imported here because it takes 0.3 s
 
-    system, exact = systems()[name], truth(name, state, parameters, duration, samples)
+    system, exact = systems()[name], truth(name, start, parameters, duration, samples)
     evaluations = count(1)
 
     def rates(_: float, y: Sequence[float]) -> Sequence[float]:
@@ -169,7 +169,7 @@ def measure_others(
     points = []
     for method in SLOW_METHODS:
         for tolerance in _TOLERANCES:
-            run = partial(solve_ivp, rates, (0.0, duration), state, method, exact.times, rtol=tolerance, atol=tolerance)
+            run = partial(solve_ivp, rates, (0.0, duration), start, method, exact.times, rtol=tolerance, atol=tolerance)
             ms, solved = _best_of(run, 1)
             points.append(
                 WorkPoint(method, f"{tolerance:.0e}", ms, float(np.max(exact.away(solved.y.T) / exact.scale)))

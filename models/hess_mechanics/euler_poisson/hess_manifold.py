@@ -40,9 +40,9 @@ __all__ = [
 ]
 
 
-def exact_motion(a: float, start: tuple[float, ...], end: float, count: int) -> Orbit:
+def exact_motion(a: float, start: tuple[float, ...], duration: float, count: int) -> Orbit:
     """Return the motion of `eq01` from a state (5,), units b = 1, at equidistant times: it stays on the manifold."""
-    return solve(REDUCED.at((a, 1.0)), start, np.linspace(0.0, end, count), REFERENCE)
+    return solve(REDUCED.at((a, 1.0)), start, np.linspace(0.0, duration, count), REFERENCE)
 
 
 def _relative(body: HeavyBody, states: Array) -> Array:
@@ -86,14 +86,14 @@ def _ended(body: HeavyBody, problem: Problem, times: Array, states: Array, level
     return FreeRun(level.name, times, frozen(states), frozen(_relative(body, states)), steps, drift)
 
 
-def run_free(body: HeavyBody, start: tuple[float, ...], end: float, count: int, accuracy: Accuracy) -> FreeRun:
-    """Return the Euler–Poisson orbit from a state on the Hess manifold, at `count` equidistant times from 0 to `end`.
+def run_free(body: HeavyBody, start: tuple[float, ...], duration: float, count: int, accuracy: Accuracy) -> FreeRun:
+    """Return the Euler–Poisson orbit from a state on the Hess manifold, at `count` even times from 0 to `duration`.
 
     It is computed once: `solve` would repeat it with smaller tolerances until the leak is that of round-off.
     Raises `InvalidParameter`, `WorkLimit`.
     """
     level = as_level(accuracy)
-    times = frozen(np.linspace(0.0, end, count))
+    times = frozen(np.linspace(0.0, duration, count))
     problem = Problem.of(body, [start])
     out = np.empty((count, 6))
     steps = _run(problem, problem.states[0], problem.times(times), level, out)
@@ -105,18 +105,18 @@ _BEFORE_HELD = 3.0
 _HELD_SAMPLES = 32
 
 
-def on_manifold(body: HeavyBody, start: tuple[float, ...], end: float, count: int, accuracy: Accuracy) -> FreeRun:
+def on_manifold(body: HeavyBody, start: tuple[float, ...], duration: float, count: int, accuracy: Accuracy) -> FreeRun:
     """Return `run_free` with M projected onto the Hess manifold so often that the leak cannot grow.
 
     This integrates the restriction to the manifold (`gess05`) in the variables and with the kernel of Euler–Poisson.
     Raises `InvalidParameter`, `WorkLimit`.
     """
     level = as_level(accuracy)
-    times = frozen(np.linspace(0.0, end, count))
+    times = frozen(np.linspace(0.0, duration, count))
     problem = Problem.of(body, [start])
     scaled = problem.times(times)
     axis = np.array(body.r) / math.hypot(*body.r)
-    growth = body.hess_a * _fastest(body, start) * end
+    growth = body.hess_a * _fastest(body, start) * duration
     pieces = math.ceil(max((count - 1) / _HELD_SAMPLES, growth / _BEFORE_HELD))
     if pieces > MAX_STEPS:
         raise WorkLimit("The manifold is too unstable to stay on it over this time span: choose a shorter one.")
@@ -156,19 +156,19 @@ class SuslovDistance:
     error: float
 
 
-def difference(bridge: Bridge, start: tuple[float, ...], end: float, count: int) -> SuslovDistance:
-    """Return the distance along the motion from a state (5,) of `eq01` with b = 1, over a time `end` of the bodies.
+def difference(bridge: Bridge, start: tuple[float, ...], duration: float, count: int) -> SuslovDistance:
+    """Return the distance along the motion from a state (5,) of `eq01` with b = 1, over a `duration` of the bodies.
 
     Raises `InvalidParameter`, `WorkLimit`.
     """
     hess = bridge.hess
     reduced = hess.from_units_of_b(np.array(start))
-    times = np.linspace(0.0, end, count)
+    times = np.linspace(0.0, duration, count)
     orbit = solve(hess.suslov, hess.from_reduced(reduced), times, REFERENCE)
     there = hess.in_units_of_b(hess.to_reduced(orbit.states))
     heavy = tuple(bridge.from_reduced(reduced).tolist())
     held, free = (
-        bridge.distance(run(bridge.heavy, heavy, end, count, REFERENCE).states, there)
+        bridge.distance(run(bridge.heavy, heavy, duration, count, REFERENCE).states, there)
         for run in (on_manifold, run_free)
     )
     return SuslovDistance(frozen(times), frozen(held), frozen(free), orbit.error_estimate)

@@ -333,7 +333,9 @@ class FreeRotation:
     cost: Cost
 
 
-def rotation(body: SuslovBody, omega: Sequence[float], times: Sequence[float] | Array, accuracy: Accuracy) -> FreeRotation:
+def rotation(
+    body: SuslovBody, omega: Sequence[float], times: Sequence[float] | Array, accuracy: Accuracy
+) -> FreeRotation:
     """Return the rotation along the motion that starts with ω(0), at times as in `orbit.solve`.
 
     Raises `InvalidParameter` (a field, I13 = I23 = 0, ω = 0 or on the line of equilibria, times out of order),
@@ -562,7 +564,7 @@ _PASSING = 20.0
 def sample_times(
     body: SuslovBody, omega: Sequence[float], duration: float, weights: tuple[float, float], sagitta: float, most: int
 ) -> Array:
-    """Return at most `most` times from 0 to `duration` ≠ 0 at which the polygon through the samples looks like the curves.
+    """Return at most `most` times from 0 to `duration` ≠ 0 whose polygon looks like the curves.
 
     weights : pixels per unit of ω and of γ; sagitta : largest distance between curve and chord, in pixels, as in
     `sampling.sample_times`, with the accelerations in closed form.  If `most` times are too few, the uniform rotation

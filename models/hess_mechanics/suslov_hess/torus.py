@@ -105,7 +105,9 @@ def pixels_per_unit(body: HessBody, half_width: float) -> Array:
     return np.array([w, w * math.hypot(1.0, body.a), radius, radius, radius])
 
 
-def track(body: HessBody, h: float, f: float, phi0: float, duration: float, accuracy: Accuracy, half_width: float) -> Track:
+def track(
+    body: HessBody, h: float, f: float, phi0: float, duration: float, accuracy: Accuracy, half_width: float
+) -> Track:
     """Return the orbit of `start_of_track` over `duration` (in the time of the body), sampled for `pixels_per_unit`.
 
     Raises `OutsideRegion`, `NoField`, `InvalidParameter`.

@@ -26,7 +26,7 @@ def test_each_cell_is_the_motion_from_its_middle(name):
     body, at = MAPS[name]
     # So exact that motions which part exponentially are the same in other steps.
     P = return_map(body, **at, accuracy="precise")
-    found = megno_map(P, cells=(5, 3), t=60.0)
+    found = megno_map(P, cells=(5, 3), duration=60.0)
     assert found.values.shape == found.kind.shape == (3, 5)
     i, j = np.argwhere(np.isfinite(found.values))[-1]
     start = P.state_at(np.array([found.x[j], found.y[i]]))
@@ -51,11 +51,11 @@ def test_integrable_bodies_are_regular_all_over_and_a_sea_is_chaotic():
         ),
     }
     for P in integrable.values():
-        found = megno_map(P, cells=(6, 4), t=time_of(P.section, 300.0))
+        found = megno_map(P, cells=(6, 4), duration=time_of(P.section, 300.0))
         assert (found.kind >= 0).any()
         assert set(found.kind.ravel().tolist()) <= {-1, 0}
     sea = return_map(QuarticBody(3.0, 1.0, 1.0, 1.2), accuracy="standard")
-    found = megno_map(sea, cells=(18, 12), t=time_of(sea.section, 300.0))
+    found = megno_map(sea, cells=(18, 12), duration=time_of(sea.section, 300.0))
     assert deviations(found.kind[found.kind >= 0] == 1, 0.5) > 5.0
 
 
@@ -64,10 +64,10 @@ def test_where_volume_shrinks_cells_are_attracted():
     body, E = SuslovBody(1.0, 3.0, 0.6, 0.6, 1.0, 0.7, 0.3), 1.743
     w1, w2 = min((state[:2] for state in permanent_rotations(body, E)), key=lambda w: 0.2 * w[0] - 0.6 * w[1])
     assert 0.2 * w1 - 0.6 * w2 < -0.1
-    assert (megno_map(return_map(body, E=E, accuracy="draft"), cells=(6, 4), t=400.0).kind == 2).all()
+    assert (megno_map(return_map(body, E=E, accuracy="draft"), cells=(6, 4), duration=400.0).kind == 2).all()
     # Volume that is kept never shrinks.
     kept = return_map(BallBody(1.0, 3.0, 0.0, 0.0, 5.0, 0.5, 0.2, 0.8), h=2.0, accuracy="draft")
-    assert (megno_map(kept, cells=(4, 3), t=100.0).kind < 2).all()
+    assert (megno_map(kept, cells=(4, 3), duration=100.0).kind < 2).all()
 
 
 @mark.parametrize(

@@ -45,7 +45,7 @@ def test_where_volume_is_kept_dynamics_are_conservative_and_curves_stay_curves()
     assert all(one.settled for one in sea.comparisons)
     assert deviations([one.shared for one in sea.comparisons], 0.8, of_each=True) > 5.0
     assert deviations([one.distance / (one.grain + one.error) for one in sea.comparisons], 1.0, of_each=True) < -5.0
-    curve = regime(return_map(SuslovBody(1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0), E=0.4), (0.3, 1.2), t=300.0)
+    curve = regime(return_map(SuslovBody(1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0), E=0.4), (0.3, 1.2), duration=300.0)
     # I11 = I22 with b along e: integrable (`QuarticBody.integrable`).
     assert (curve.kind, curve.volume) == (MotionKind.QUASI_PERIODIC, 0)
     assert curve.integrable == "the integrable case I₁₁ = I₂₂, b along e"
@@ -64,7 +64,7 @@ def test_a_sea_whose_volume_shrinks_is_not_conservative_as_the_number_says():
         # One motion may be too short to tell, but none may say that volume is kept or grows.
         assert (sea.verdict, sea.motion.volume) in (("mixed", -1), ("not told apart", 0))
     # Over a short time such motions are not told apart, and that is said with a bound.
-    short = [regime(P, place, t=50.0) for place in spread(P.section, 36)]
+    short = [regime(P, place, duration=50.0) for place in spread(P.section, 36)]
     assert deviations(np.array([one.volume == 0 for one in short]), 0.25) > 5.0
     untold = [one for one in short if one.volume == 0]
     assert deviations([one.bound for one in untold], 0.0069) > 5.0
@@ -193,7 +193,7 @@ def test_no_winding_torus_shrinks_or_grows_and_longer_runs_agree(monkeypatch):
     for exact, phi in (*issued, *random_tori(examples(10), "elliptic")):
         P = torus(exact.a, exact.h, exact.f)
         for t in (200.0, 800.0):
-            found = regime(P, (phi,), t=t)
+            found = regime(P, (phi,), duration=t)
             # There is a smooth invariant measure: the mean is exactly 0.
             assert found.volume == 0, (exact, phi, t, found.divergence, found.divergence_error)
             assert found.kind in (MotionKind.QUASI_PERIODIC, MotionKind.UNDECIDED, MotionKind.SETTLING)
@@ -212,7 +212,7 @@ def test_on_locked_tori_volume_shrinks_as_the_multiplier_of_the_cycle_says():
     for exact, phi in random_tori(examples(4), "hyperbolic"):
         P, rate = torus(exact.a, exact.h, exact.f), exact.fixed_points[0].log_multiplier / exact.period
         for t in (200.0, 800.0):
-            found = regime(P, (phi,), t=t)
+            found = regime(P, (phi,), duration=t)
             assert abs(found.divergence - rate) <= 3.0 * found.divergence_error
             if found.kind is MotionKind.FIXED_POINT and rate < -0.01:
                 assert found.volume == -1

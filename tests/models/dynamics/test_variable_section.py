@@ -287,7 +287,7 @@ def escape(start, until):
 
 def test_a_motion_that_escapes_keeps_what_comes_before_and_loses_no_other():
     here = variable_section(SYSTEM.at(), {"E": HIGH}, ("x", 0.0), ("y", "py"), ((-0.6, 1.2), (-0.7, 0.7)))
-    found = megno_map(ReturnMap(here, STANDARD), (6, 4), t=12.0)
+    found = megno_map(ReturnMap(here, STANDARD), (6, 4), duration=12.0)
     assert {NOWHERE, ENDED} < set(found.kind.ravel().tolist())
     seen = {}
     for i, j in np.argwhere(found.kind != NOWHERE):
