@@ -12,8 +12,7 @@ import numpy as np
 from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.specs import Value
 from hess_explorer.scenes.framework.charted import Charted, Charts, of_motion, parameters_of
-from hess_explorer.scenes.framework.orbit_batches import OrbitBatch, batch_of
-from hess_explorer.scenes.framework.part import Start, part
+from hess_explorer.scenes.framework.part import part
 from hess_explorer.scenes.framework.scene import Preset, Scene
 from hess_explorer.scenes.framework.sliders import (
     TURN,
@@ -56,7 +55,7 @@ from hess_explorer.views.plot import Plot
 from hess_explorer.views.space.poisson_sphere import along_the_orbit, centre_of_mass
 from hess_explorer.views.text import digits, with_error
 from hess_mechanics.dynamics.basins import MeanDivergence, mean_divergence
-from hess_mechanics.dynamics.plane_section import occupied_cells
+from hess_mechanics.dynamics.cells import occupied_cells
 from hess_mechanics.dynamics.sampling import HALF_A_PIXEL
 from hess_mechanics.errors import WorkLimit
 from hess_mechanics.numerics.accuracy import Kind, Level, cheapest
@@ -67,7 +66,6 @@ from hess_mechanics.suslov.equations import SYSTEM, SuslovBody
 from hess_mechanics.suslov.principal_axis import Conformal, conformal
 from hess_mechanics.suslov.suslov_section import SuslovSection
 
-_MOST_STEPS = 100_000
 _CELLS = 32
 _NAMES = ("ψ", "δ")
 _BOUNDS = ((-TURN, 0.0), (TURN, TURN))
@@ -213,7 +211,6 @@ class Suslov(SectionState):
         lambda s: filled(
             s,
             12,
-            _crossings,
             ways=(True, False) if s.colours == _BOTH else (True,),
             later=s.drop != "all",
             bounds=_BOUNDS,
@@ -298,9 +295,8 @@ class Suslov(SectionState):
         # The later halves of the forward orbits show the attractors.
         later = joined(orbit[len(orbit) // 2 :] for orbit in self.section.kind())
         counted = self.density.said or f"{len(first)} points forward{backward}; "
-        return Caption(
-            numbers=f"{counted}late forward points occupy {occupied_cells(later, _CELLS)} of {_CELLS**2} cells."
-        )
+        cells = occupied_cells(later, self.poincare.window, _CELLS)
+        return Caption(numbers=f"{counted}late forward points occupy {cells} of {_CELLS**2} cells.")
 
     def _about_rates(self) -> Caption:
         if self.exponent.growth is not None:
@@ -323,13 +319,6 @@ class Suslov(SectionState):
         yield self.clicks.sentence
         yield from super().derived()
         yield check_body(self.I11, self.I22, self.I13, self.I23).sentence
-
-
-def _crossings(
-    section: SuslovSection, starts: tuple[Start, ...], crossings: int, forward: bool, level: Level
-) -> OrbitBatch:
-    points = section.points(starts, crossings, forward, level, threads=1, most_steps=_MOST_STEPS)
-    return batch_of(section, points, forward)
 
 
 SCENE = Scene(
