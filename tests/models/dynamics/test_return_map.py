@@ -94,7 +94,7 @@ def test_what_a_body_does_not_have_is_refused():
     P = return_map(body, E=1.842)
     # h is the energy above the lowest one, −|b|.
     assert P.section == return_map(body, h=1.842 + math.hypot(body.b1, body.b2, body.b3)).section
-    assert P.moved("h", P.section.h + 0.25).section.E == approx(2.092, abs=1e-14)
+    assert approx(2.092, abs=1e-14) == P.moved("h", P.section.h + 0.25).section.E
     with raises(InvalidParameter, match="There is no mass"):
         continued_orbit(P, periodic_orbit(return_map(tori(0.5), h=1.5, f=0.6), (-2.0,)), "mass", 2.0)
     with raises(OutsideRegion, match=r"ψ = 0\.3, δ = 4"):
