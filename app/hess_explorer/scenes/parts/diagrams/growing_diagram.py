@@ -160,10 +160,10 @@ class OrbitDiagram(Part[_Host]):
         (chosen,) = points_of(self.host.chosen)[-1:]
         if self.host.poincare.states_at(*np.array(chosen)[:, None])[1][0]:
             return chosen
-        other = self.host.poincare.somewhere()
-        if other is None:
+        others = self.host.poincare.spread(1)
+        if not others:
             raise OutsideRegion("No motion of this energy crosses γ₃ = 0: choose a larger h.")
-        x, y = self.host.poincare.places_of(np.array([other]))[0]
+        x, y = self.host.poincare.places_of(np.array(others))[0]
         return float(x), float(y)
 
     @property
