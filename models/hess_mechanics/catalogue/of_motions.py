@@ -11,12 +11,11 @@ import numpy as np
 from hess_mechanics import parameters as known
 from hess_mechanics.catalogue.declared import Computation, Number, declare, largest_difference, moving
 from hess_mechanics.dynamics.ensemble import complete
-from hess_mechanics.dynamics.lyapunov import Exponent, lyapunov_exponent
 from hess_mechanics.dynamics.megno import Megno, megno
 from hess_mechanics.dynamics.motions import Motions, usual, whole
 from hess_mechanics.dynamics.orbit import MAX_SAMPLES, MAX_STEPS, solve
 from hess_mechanics.dynamics.plane_section import MAX_CROSSINGS, Plane, section
-from hess_mechanics.dynamics.spectrum import Spectrum, lyapunov_spectrum
+from hess_mechanics.dynamics.spectrum import Exponent, Spectrum, lyapunov_exponent, lyapunov_spectrum
 from hess_mechanics.dynamics.system import Body
 from hess_mechanics.dynamics.tube import WORK_PER_SECOND, ProvedOrbit, Tube, proved_orbit, tube
 from hess_mechanics.numerics.accuracy import Kind, Level

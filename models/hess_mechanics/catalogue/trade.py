@@ -49,4 +49,4 @@ def trade(of: Computation, values: Mapping[str, Any] | None = None, repeats: int
         is_named = plan is PLANS[of.kind][plan.level.name]
         return of.compute(values, plan.level.name if is_named else plan.level)
 
-    return measure(of.kind, run, of.error, repeats)
+    return tuple(measure(of.kind, run, of.error, repeats))

@@ -16,8 +16,8 @@ from hess_mechanics.chaplygin_ball.ball_section import (
 )
 from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody
 from hess_mechanics.dynamics.ensemble import ensemble
-from hess_mechanics.dynamics.lyapunov import lyapunov_exponent
 from hess_mechanics.dynamics.plane_section import occupied_cells
+from hess_mechanics.dynamics.spectrum import lyapunov_exponent
 from hess_mechanics.errors import InvalidParameter, OutsideRegion, WorkLimit
 from support.ball import divergence, first_returns, occupied
 from support.deviations import deviations
