@@ -56,13 +56,7 @@ from .suslov_hess.certificate import certificate
 from .suslov_hess.circle_map import CircleMap, FixedPoint, circle_map
 from .suslov_hess.edge import EdgeProof
 from .suslov_hess.equations import HessBody
-from .suslov_hess.mode_locking import (
-    critical_a,
-    lock_boundary,
-    lock_boundary_f,
-    rotation_number_grid,
-    trace_on_curve,
-)
+from .suslov_hess.mode_locking import critical_a, lock_boundary
 from .suslov_hess.proof import Proof, prove
 
 __all__ = [  # noqa: RUF022 (by subject)
@@ -164,9 +158,6 @@ __all__ = [  # noqa: RUF022 (by subject)
     "f_max",
     "critical_a",
     "lock_boundary",
-    "lock_boundary_f",
-    "rotation_number_grid",
-    "trace_on_curve",
     "prove",
     "Proof",
     "EdgeProof",

@@ -8,7 +8,7 @@ import numpy as np
 from hess_mechanics import HessBody, f_max, solve, systems, turning_points
 from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.euler_poisson.hess_isomorphism import Bridge
-from hess_mechanics.euler_poisson.hess_manifold import on_manifold
+from hess_mechanics.euler_poisson.hess_manifold import run_free
 from hess_mechanics.euler_poisson.loxodromic_pendulum import LoxodromicPendulum, loxodromic_motion
 from hess_mechanics.suslov import kharlamova, quartic
 from hess_mechanics.suslov.kharlamova import PlaneBody
@@ -33,12 +33,15 @@ def bridge_row(Row, name, bridge, h, share=0.3, periods=20, samples=801):
     @cache
     def truth():
         other = solve(
-            bridge.hess.suslov, bridge.to_suslov(np.array(start)), np.linspace(0.0, end, samples), "reference"
+            bridge.hess.suslov,
+            bridge.hess.from_reduced(bridge.to_reduced(start)),
+            np.linspace(0.0, end, samples),
+            "reference",
         )
         return bridge.hess.in_units_of_b(bridge.hess.to_reduced(other.states))
 
     def error(grade):
-        run = on_manifold(bridge.heavy, start, end, samples, grade)
+        run = run_free(bridge.heavy, start, end, samples, grade, held=True)
         # Off the manifold the two have no state in common.
         return (
             inf
