@@ -13,7 +13,7 @@ from hess_explorer.scenes.diagrams import DiagramState, diagram_scene, regime_in
 from hess_explorer.scenes.framework import ball_parameters as ball
 from hess_explorer.scenes.framework.scene import Preset
 from hess_explorer.scenes.framework.sliders import like, parameter
-from hess_explorer.scenes.parts.diagrams.growing_diagram import parameter_of_diagram
+from hess_explorer.scenes.parts.diagrams.controls import parameter_of_diagram
 from hess_mechanics.chaplygin_ball.ball_section import BallSection
 from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.parameters import H_BALL

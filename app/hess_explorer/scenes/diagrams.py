@@ -19,17 +19,16 @@ from hess_explorer.scenes.framework.periodic_search import NONE, Closed
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene
 from hess_explorer.scenes.framework.solid_body import Solid, constrained_solid, solid_body
 from hess_explorer.scenes.framework.windows import boxed
-from hess_explorer.scenes.parts.diagrams.diagram_density import DiagramDensity
-from hess_explorer.scenes.parts.diagrams.growing_diagram import (
+from hess_explorer.scenes.parts.diagrams.controls import (
     BACKWARD,
     BOUNDS,
     COORDINATES,
     FALLING,
     RISING,
-    DiagramBranch,
     DiagramControls,
-    OrbitDiagram,
 )
+from hess_explorer.scenes.parts.diagrams.diagram_density import DiagramDensity
+from hess_explorer.scenes.parts.diagrams.growing_diagram import DiagramBranch, OrbitDiagram
 from hess_explorer.scenes.parts.orbits.proof import Proof
 from hess_explorer.scenes.parts.orbits.regime import Regime, few
 from hess_explorer.scenes.parts.sections import Orbit

@@ -12,7 +12,7 @@ from hess_explorer.protocol.specs import Value
 from hess_explorer.scenes.diagrams import DiagramState, diagram_scene, regime_in
 from hess_explorer.scenes.framework.scene import Preset
 from hess_explorer.scenes.framework.sliders import like, parameter
-from hess_explorer.scenes.parts.diagrams.growing_diagram import parameter_of_diagram
+from hess_explorer.scenes.parts.diagrams.controls import parameter_of_diagram
 from hess_mechanics import parameters as known
 from hess_mechanics.suslov.equations import SuslovBody
 from hess_mechanics.suslov.suslov_section import SuslovSection

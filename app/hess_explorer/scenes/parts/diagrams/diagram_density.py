@@ -15,7 +15,8 @@ from hess_explorer.scenes.framework.part import Part
 from hess_explorer.scenes.framework.periodic_search import Place
 from hess_explorer.scenes.framework.points import stages_of
 from hess_explorer.scenes.framework.work import drift_status
-from hess_explorer.scenes.parts.diagrams.growing_diagram import BACKWARD, FALLING, RISING, OrbitDiagram
+from hess_explorer.scenes.parts.diagrams.controls import BACKWARD, FALLING, RISING
+from hess_explorer.scenes.parts.diagrams.growing_diagram import OrbitDiagram
 from hess_explorer.views.plane import density as view
 from hess_mechanics.dynamics.section_density import Visits, visits_over
 from hess_mechanics.numerics.accuracy import Accuracy, Kind, cheapest, plan

@@ -1,13 +1,11 @@
-"""An orbit diagram of a section over one parameter, computed piece by piece, and its controls."""
+"""An orbit diagram of a section over one parameter, computed piece by piece, and a branch over it."""
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import product
-from typing import ClassVar
 
 import numpy as np
 
@@ -18,19 +16,18 @@ from hess_explorer.scenes.framework.continuation import Continuation
 from hess_explorer.scenes.framework.families import Begin, Family
 from hess_explorer.scenes.framework.part import Part, Start
 from hess_explorer.scenes.framework.periodic_search import NONE, PERIODS
-from hess_explorer.scenes.framework.scene import State
-from hess_explorer.scenes.framework.sliders import (
-    TURN,
-    accuracy_level,
-    choice,
-    exponent_time,
-    number,
-    places,
-    proved_error_shown,
-    specs_of,
-    time_span,
-)
+from hess_explorer.scenes.framework.sliders import specs_of
 from hess_explorer.scenes.framework.windows import Window, tidy_window, window_of
+from hess_explorer.scenes.parts.diagrams.controls import (
+    BACKWARD,
+    COORDINATES,
+    FALLING,
+    FARTHEST,
+    FOLLOWED,
+    RISING,
+    WAYS,
+    DiagramControls,
+)
 from hess_explorer.scenes.parts.diagrams.courses import Course, cropped, doublings, piece
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import Range
@@ -43,131 +40,12 @@ from hess_mechanics.numerics.accuracy import Kind, plan
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov.suslov_section import SuslovSection
 
-__all__ = [
-    "BACKWARD",
-    "BOUNDS",
-    "COORDINATES",
-    "FALLING",
-    "RISING",
-    "DiagramBranch",
-    "DiagramControls",
-    "OrbitDiagram",
-    "parameter_of_diagram",
-]
+__all__ = ["DiagramBranch", "OrbitDiagram"]
 
-COORDINATES = ("ψ", "δ")
-RISING, FALLING, BACKWARD = "rising", "falling", "backward"
-_WAYS = {
-    "there and back, and backward in time": (RISING, FALLING, BACKWARD),
-    "there and back": (RISING, FALLING),
-    "there, and backward in time": (RISING, BACKWARD),
-}
-_FOLLOWED, _ANEW = "where it was at the value before", "at the chosen place"
-_FARTHEST = (-1e3, 1e3)
-BOUNDS = ((_FARTHEST[0], -TURN), (_FARTHEST[1], TURN))
 _FEW = 30
 """Largest number of values while a slider is held."""
 _GLANCES = 12
 """Values of the parameter from which the vertical range is taken."""
-
-
-def parameter_of_diagram(symbols: tuple[str, ...], default: str) -> str:
-    """Declare the control that selects the parameter of the diagram."""
-    declared: str = choice(
-        "Parameter of the diagram",
-        symbols,
-        default,
-        doc="Parameter on the horizontal axis; all others keep their values.",
-    )
-    return declared
-
-
-@dataclass(frozen=True)
-class DiagramControls(State, ABC):
-    """The parameters of a diagram; a scene declares those of its body and the parameter of the diagram.
-
-    symbols : symbol of each parameter of the section → its name.
-    """
-
-    I11: float
-    I22: float
-    I13: float
-    I23: float
-    b1: float
-    b2: float
-    b3: float
-    h: float
-    along: str
-    first: float = number(
-        "from", -0.15, (-3.0, 6.0), 0.01, bounds=_FARTHEST, label="Diagram from", doc="Value at the left edge."
-    )
-    last: float = number(
-        "to", 0.3, (-3.0, 6.0), 0.01, bounds=_FARTHEST, label="Diagram to", doc="Value at the right edge."
-    )
-    shown: str = choice("Coordinate of the section", COORDINATES, "ψ", doc="Quantity on the vertical axis.")
-    ways: str = choice(
-        "Followed",
-        tuple(_WAYS),
-        next(iter(_WAYS)),
-        doc="There: the parameter rises. Back: it falls. Backward in time, motions tend to repellers.",
-    )
-    begins: str = choice(
-        "Each value starts",
-        (_FOLLOWED, _ANEW),
-        _FOLLOWED,
-        doc="A followed orbit stays with its attractor, and may differ on the way back.",
-    )
-    steps: float = number(
-        "n",
-        150.0,
-        (30.0, 300.0),
-        10.0,
-        bounds=(2.0, 600.0),
-        label="Values of the parameter",
-        doc="Number of evenly spaced values.",
-        group="Computation",
-    )
-    transient: float = number(
-        "N₀",
-        300.0,
-        (0.0, 1000.0),
-        10.0,
-        bounds=(0.0, 5000.0),
-        label="Crossings left out",
-        doc="Crossings left out at each value, until the orbit has settled.",
-        group="Computation",
-    )
-    count: float = number(
-        "N",
-        60.0,
-        (10.0, 200.0),
-        5.0,
-        bounds=(2.0, 500.0),
-        label="Crossings shown",
-        doc="Crossings drawn at each value, after those left out.",
-        group="Computation",
-    )
-    window: str = places("The window of the diagram", 2, *BOUNDS)
-    branch: str = choice(
-        "Branch of a periodic orbit",
-        (NONE, *PERIODS),
-        NONE,
-        group="State",
-        doc="Over the diagram: the periodic orbit that Newton's method finds from the chosen place, "
-        "continued in the parameter, through folds. A click on it shows that orbit.",
-    )
-    span: float = time_span(60.0, 400.0, what="the chosen orbit")
-    long: float = exponent_time(4000.0, 5000.0, 2e4, "the mean divergence is")
-    certain: str = proved_error_shown()
-    accuracy: str = accuracy_level()
-    chosen: str = places("The place of the chosen orbit", 1, *BOUNDS)
-
-    symbols: ClassVar[Mapping[str, str]]
-
-    @property
-    @abstractmethod
-    def poincare(self) -> SuslovSection | BallSection:
-        """The section γ3 = 0.  Raises `ModelError`."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -178,7 +56,7 @@ class OrbitDiagram(Part[DiagramControls]):
         """Return a valid window within the diagram, a place, and the edges in order."""
         first, last = sorted((self.host.first, self.host.last))
         if first == last:
-            first = min(first, _FARTHEST[1] - 1.0)
+            first = min(first, FARTHEST[1] - 1.0)
             last = first + 1.0
         default = next(one.default for one in specs_of(type(self.host)) if one.name == "chosen")
         window = tidy_window(self.host.window)
@@ -271,13 +149,13 @@ class OrbitDiagram(Part[DiagramControls]):
         level = self.work.plan(Kind.SECTION).level
         left, shown = (40, 20) if self.work.dragging else (int(self.host.transient), int(self.host.count))
         values = tuple(self.along_values.tolist())
-        rising = Course(self.family, values, self.place, left, shown, self.host.begins == _FOLLOWED, level)
+        rising = Course(self.family, values, self.place, left, shown, self.host.begins == FOLLOWED, level)
         courses = {
             RISING: rising,
             FALLING: replace(rising, values=values[::-1], before=rising),
             BACKWARD: replace(rising, backward=True),
         }
-        return {way: courses[way] for way in _WAYS[self.host.ways]}
+        return {way: courses[way] for way in WAYS[self.host.ways]}
 
     @cached_property
     def pieces(self) -> dict[str, list[Diagram]]:
