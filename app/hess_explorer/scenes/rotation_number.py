@@ -35,7 +35,6 @@ from hess_mechanics.suslov_hess.rotation_number import (
     ParameterLine,
     PeriodicTorus,
     Torus,
-    TorusValues,
     possible_part,
 )
 
@@ -116,35 +115,20 @@ class RotationNumber(State):
         # The line's own parameter is set to 0, so the cache key is constant along the line.
         return possible_part(ParameterLine(self.line, self.torus.at(**{self.line: 0.0}), low, high))
 
-    @property
-    def x(self) -> Array:
-        """Values of the line's parameter (n,)."""
-        return self.on_line.places(_ON_LINE // 4 if self.dragging else self.plan(Kind.LINE).side(_ON_LINE))
-
     @cached_property
-    def along(self) -> TorusValues:
-        """ρ and trace at `x`."""
-        return self.work.need(Task(mechanics.along, self.on_line, self.x.size, self.plan(Kind.LINE).level))
+    def tori(self) -> rotation_line.Tori:
+        """ρ and trace of tori on the line."""
+        count = _ON_LINE // 4 if self.dragging else self.plan(Kind.LINE).side(_ON_LINE)
+        values = self.work.need(Task(mechanics.along, self.on_line, count, self.plan(Kind.LINE).level))
+        return rotation_line.Tori(self.on_line.places(count), values, self.on_line.place(self.torus))
 
     @cached_property
     def perturbed(self) -> Array | None:
-        """ρ of the other family at `x`, once known; NaN where there is no torus."""
-        plan = self.plan(Kind.LINE)
-        return (
-            None
-            if self.work.dragging
-            else self.work.need(
-                Task(
-                    mechanics.perturbed_along,
-                    self.on_line,
-                    self.x.size,
-                    self.epsilon,
-                    plan.level,
-                    plan.part(mechanics.TURNS),
-                ),
-                preview=None,
-            )
-        )
+        """ρ of the other family at the same tori, once known; NaN where there is no torus."""
+        plan, count = self.plan(Kind.LINE), self.tori.x.size
+        turns = plan.part(mechanics.TURNS)
+        task = Task(mechanics.perturbed_along, self.on_line, count, self.epsilon, plan.level, turns)
+        return None if self.dragging else self.work.need(task, preview=None)
 
     @property
     def sought(self) -> Fraction:
@@ -195,7 +179,7 @@ class RotationNumber(State):
                 yield "multipliers " + ", ".join(digits(point.multiplier) for point in self.map.fixed_points)
         perturbed = self.known("perturbed")
         if perturbed is not None:
-            steps = ", ".join(map(str, mechanics.plateaus(perturbed, self.along.possible)[:8]))
+            steps = ", ".join(map(str, mechanics.plateaus(perturbed, self.tori.values.possible)[:8]))
             yield f"plateaus of Θ(φ + ε sin 3φ): {steps.replace('-', '−') or 'none seen'}"
 
     def status(self) -> Iterator[str]:
@@ -273,11 +257,9 @@ SCENE = Scene(
             y=rotation_line.RHO,
             on_click=lambda s, x, y: {s.line: x},
             layers=rotation_line.rho_layers(
-                line=lambda s: s.on_line,
-                values=lambda s: s.along,
-                perturbed=lambda s: s.perturbed,
-                rational=lambda s: None if s.periodic is None else float(s.sought),
-                place=lambda s: s.on_line.place(s.torus),
+                lambda s: s.tori,
+                lambda s: s.perturbed,
+                lambda s: [] if s.periodic is None else [float(s.sought)],
             ),
         ),
         Plot(
@@ -288,9 +270,7 @@ SCENE = Scene(
             x=lambda s: s.on_line.ends,
             y=rotation_line.TRACE,
             on_click=lambda s, x, y: {s.line: x},
-            layers=rotation_line.trace_layers(
-                line=lambda s: s.on_line, values=lambda s: s.along, place=lambda s: s.on_line.place(s.torus)
-            ),
+            layers=rotation_line.trace_layers(lambda s: s.tori),
         ),
         circle.picture(
             map=lambda s: s.map,
