@@ -327,7 +327,7 @@ def equipotentials(body: PlaneBody, levels: Sequence[float]) -> list[Array]:
 def forbidden(body: PlaneBody, E: float) -> list[Array]:
     """Return the part of the ellipse where V exceeds the energy E, as closed curves q (m, 2), or []."""
     size = math.hypot(body.b1, body.b2)
-    return [_segment(body, E / size, 91)] if E < size else []
+    return [_segment(body, E / size, 91)] if size > E else []
 
 
 def sampled_orbit(body: PlaneBody, start: Sequence[float], duration: float, accuracy: Accuracy) -> tuple[Orbit, Array]:

@@ -94,7 +94,7 @@ class QuarticBody(PlaneProblem):
         super().__post_init__()
         if self.b3 == 0.0:
             raise NoField("b3 = 0: without a field the energy does not determine γ₃. Choose b3 other than 0.")
-        if not self.E > -abs(self.b3):
+        if not -abs(self.b3) < self.E:
             raise OutsideRegion(f"No motion has the energy E = {self.E:g}: choose E above −|b3| = {-abs(self.b3):.6g}.")
         smallest, largest = sorted(self.axes)
         if not 1.0 / _MOST_SIZE <= smallest <= largest <= _MOST_SIZE:
@@ -295,7 +295,7 @@ class QuarticBody(PlaneProblem):
             One closed curve of points (q, p), or two for E ≥ |b3|, the right one first.
         """
         size = abs(self.b3)
-        first = math.acos(self.E / size) if self.E < size else 0.0
+        first = math.acos(self.E / size) if size > self.E else 0.0
         angle = np.linspace(first, 2.0 * math.pi - first, 181)
         right = np.column_stack([self.longest * self._size(math.copysign(1.0, self.b3) * np.cos(angle)), np.sin(angle)])
         left = right * np.array([-1.0, 1.0])
