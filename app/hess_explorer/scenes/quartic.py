@@ -268,7 +268,7 @@ SCENE = Scene(
             caption=Quartic._about_sphere,
             looks={"orbit": "orbit"},
             axis=lambda s: centre_of_mass((0.0, 0.0, s.b3)),
-            circles=lambda s: [*parallels((0.0, 0.0, 1.0), [s.body.h / s.body.b3]), *s.proof.around],
+            circles=lambda s: [*parallels((0.0, 0.0, 1.0), [s.body.E / s.body.b3]), *s.proof.around],
         ),
         plane_domain.momentum_picture(
             lambda s: (s.orbit.path.times, s.momentum),
