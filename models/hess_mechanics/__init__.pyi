@@ -15,7 +15,7 @@ from .dynamics.megno_map import MegnoMap, megno_map
 from .dynamics.orbit import solve
 from .dynamics.orbit_diagram import Cascade, Diagram, Hysteresis
 from .dynamics.periodic import PeriodicOrbit
-from .dynamics.plane_section import Plane, SectionPoints, section, section_points, sections
+from .dynamics.plane_section import Plane, SectionPoints, section, section_points
 from .dynamics.regime import Dynamics, Regime, dynamics_of, regime
 from .dynamics.return_map import ReturnMap
 from .dynamics.spectrum import Exponent, Spectrum, lyapunov_exponent, lyapunov_spectrum
@@ -54,13 +54,7 @@ from .suslov_hess.certificate import certificate
 from .suslov_hess.circle_map import CircleMap, FixedPoint, circle_map
 from .suslov_hess.edge import EdgeProof
 from .suslov_hess.equations import HessBody
-from .suslov_hess.mode_locking import (
-    critical_a,
-    lock_boundary,
-    lock_boundary_f,
-    rotation_number_grid,
-    trace_on_curve,
-)
+from .suslov_hess.mode_locking import critical_a, lock_boundary
 from .suslov_hess.proof import Proof, prove
 
 __all__ = [  # noqa: RUF022 (by subject)
@@ -104,7 +98,6 @@ __all__ = [  # noqa: RUF022 (by subject)
     "ensemble",
     "Ensemble",
     "section",
-    "sections",
     "section_points",
     "Plane",
     "SectionCrossings",
@@ -156,9 +149,6 @@ __all__ = [  # noqa: RUF022 (by subject)
     "f_max",
     "critical_a",
     "lock_boundary",
-    "lock_boundary_f",
-    "rotation_number_grid",
-    "trace_on_curve",
     "prove",
     "Proof",
     "EdgeProof",

@@ -15,6 +15,7 @@ import { FAINT, squareGhost } from "./ghost.js"
 import { circlePath, drawMark, LOOKS } from "./looks.js"
 import { pointLayer } from "./point_layer.js"
 import { createSheet } from "./projection.js"
+import { curvesOf } from "./sources.js"
 import { turnable } from "./turnable.js"
 import { circle, graticule, scaled } from "./vectors.js"
 
@@ -74,11 +75,7 @@ export function sphere(el, options, source, isShown) {
   /** @type {Vector | null} */
   let point = null
 
-  /** Return [look, columns] of each track. @returns {[string, Columns][]} */
-  const tracks = () => Object.entries(options.tracks).map(([name, look]) => {
-    const { g1, g2, g3 } = source(name).data
-    return /** @type {[string, Columns]} */ ([look, [g1, g2, g3]])
-  }).filter(([, [g1]]) => g1?.length > 1)
+  const tracks = () => curvesOf(options.tracks, source, ["g1", "g2", "g3"])
 
   /** @param {Sheet} on @param {boolean} near */
   function drawHalf(on, near) {

@@ -12,6 +12,7 @@ import { LOOKS } from "./looks.js"
 import { between } from "./moment.js"
 import { createSheet } from "./projection.js"
 import { createRevolved, outline } from "./revolved.js"
+import { curvesOf } from "./sources.js"
 import { turnable } from "./turnable.js"
 import { circle, scaled } from "./vectors.js"
 
@@ -59,11 +60,7 @@ export function torus(el, options, source, isShown) {
   }, paint, paintMoving)
   const { request } = turned
 
-  /** Return [look, columns, times] of each curve. @returns {[string, Columns, ArrayLike<number> | undefined][]} */
-  const curves = () => Object.entries(options.curves).map(([name, look]) => {
-    const { x, y, z, t: times } = source(name).data
-    return /** @type {[string, Columns, ArrayLike<number> | undefined]} */ ([look, [x, y, z], times])
-  }).filter(([, [x]]) => x?.length > 1)
+  const curves = () => curvesOf(options.curves, source, ["x", "y", "z"])
 
   /** @param {CanvasRenderingContext2D} ctx @param {SquareLook} look @param {[number, number]} turn */
   function paint(ctx, look, turn) {

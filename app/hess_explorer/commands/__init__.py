@@ -23,6 +23,7 @@ COMMANDS: Mapping[str, tuple[str, str]] = {
     "code": ("files", "print the Python code that computes and draws a picture of the page"),
     "lesson": ("files", "check a lesson that you write, or begin one"),
     "sweep": ("files", "compute numbers over one to three parameters"),
+    "levels": ("help", "print what each level of accuracy promises and computes"),
     "docs": ("help", "build the documentation"),
     "bench": ("help", "compare the speed with other integrators at equal measured error (in a source checkout)"),
 }

@@ -14,6 +14,7 @@ from hess_explorer.scenes.framework.part import Start, part
 from hess_explorer.scenes.framework.periodic_search import Closed, NotPeriodic
 from hess_explorer.scenes.framework.scene import State
 from hess_explorer.scenes.framework.sliders import accuracy_level, exponent_time, parameter, time_span
+from hess_explorer.scenes.framework.windows import boxed
 from hess_explorer.scenes.parts.orbits.exponent import Exponent
 from hess_explorer.scenes.parts.sections import (
     MEGNO,
@@ -21,6 +22,7 @@ from hess_explorer.scenes.parts.sections import (
     Orbit,
     PeriodicOrbit,
     Section,
+    about_section,
     crossings_of_each,
     length_of_manifolds,
     start_on,
@@ -110,11 +112,12 @@ class OwnState(State):
     @property
     def about_section(self) -> Caption:
         """The caption of the section."""
-        return self.megno.caption or self.section.caption
+        return self.megno.caption or about_section(self.section)
 
     def look_closer(self, corners: Corners) -> Values:
         """Return the window of the section that a box selects."""
-        return self.section.look_closer(corners)
+        (x0, x1), (y0, y1) = self.poincare.window
+        return boxed(corners, ((x0, y0), (x1, y1)))
 
     def start_at(self, x: float, y: float) -> Values:
         """Return the initial values at a place of the section; none where no motion crosses it."""

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import groupby
 from operator import itemgetter
@@ -23,7 +23,7 @@ from hess_mechanics.dynamics.continuation import Bifurcation, continued
 from hess_mechanics.dynamics.periodic import MAX_PERIOD, Map, PeriodicOrbit, apart, find_periodic, place_units, shoot
 from hess_mechanics.dynamics.point_sets import set_distance
 from hess_mechanics.errors import InvalidParameter, ModelError, NotConverged, OutsideRegion, WorkLimit
-from hess_mechanics.numerics.labelled import Labels, Named, Result, components
+from hess_mechanics.numerics.labelled import Labels, Result, components
 from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array, Mask, frozen
 
@@ -346,17 +346,18 @@ class Hysteresis(Result):
         Labels
             The coordinates over the points.
         """
-        one, other = self.there.labels(), self.back.labels()
-
-        def joined(first: Named, second: Named) -> Named:
-            return {name: (dims, np.concatenate([values, second[name][1]])) for name, (dims, values) in first.items()}
-
-        counts = [sum(map(len, way.places)) for way in (self.there, self.back)]
-        return Labels(
-            {"way": (("point",), np.repeat(["there", "back"], counts)), **joined(one.coords, other.coords)},
-            joined(one.variables, other.variables),
-            one.units,
-            {"intervals": "; ".join(f"{low:.12g} to {high:.12g}" for low, high in self.intervals), **one.facts},
+        there, back = self.there, self.back
+        both = replace(
+            there, values=np.concatenate([there.values, back.values]), places=there.places + back.places
+        ).labels()
+        ways = np.repeat(["there", "back"], [sum(map(len, way.places)) for way in (there, back)])
+        return replace(
+            both,
+            coords={"way": (("point",), ways), **both.coords},
+            facts={
+                "intervals": "; ".join(f"{low:.12g} to {high:.12g}" for low, high in self.intervals),
+                **both.facts,
+            },
         )
 
 

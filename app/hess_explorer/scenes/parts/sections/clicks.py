@@ -10,21 +10,18 @@ from typing import Any, Protocol
 import numpy as np
 
 from hess_explorer.compute.cache import Task
-from hess_explorer.protocol.specs import Values, places, written
+from hess_explorer.protocol.specs import Places, Values, places, written
 from hess_explorer.scenes.framework.orbit_batches import OrbitBatch, in_batches
 from hess_explorer.scenes.framework.part import Host, Part, Start
 from hess_explorer.scenes.framework.sliders import number, specs_of
-from hess_explorer.scenes.framework.windows import Window
-from hess_explorer.scenes.parts.sections.section import Section
+from hess_explorer.scenes.framework.windows import Window, boxed
+from hess_explorer.scenes.parts.sections.section import Section, crossings_from
 from hess_explorer.views.text import digits
 from hess_mechanics.dynamics.return_map import PoincareSection
 from hess_mechanics.errors import InvalidParameter, OutsideRegion
 from hess_mechanics.numerics.results import Array
 
 __all__ = ["Clicks", "filled", "orbits_spread", "points_of_each"]
-
-_FEWEST, _HELD = 20, 40
-"""Least number of crossings of each orbit at any level, and largest while a slider is held."""
 
 Place = tuple[float, float]
 
@@ -58,9 +55,6 @@ def points_of_each(default: float) -> Any:
 
 
 class _Filled(PoincareSection, Protocol):
-    def spread(self, window: Window, count: int) -> tuple[Start, ...]:
-        """Return at most `count` states, spread over the possible part of the window."""
-
     def impossible(self, window: Window) -> Array:
         """Return cells (m, n) over the window: 1 if no motion is possible."""
 
@@ -78,10 +72,6 @@ class _Host(Host, Protocol):
     def starts(self) -> str:
         """The places of the chosen orbits."""
 
-    @property
-    def impossible_here(self) -> str:
-        """The message if no motion is possible in the window."""
-
 
 @dataclass(frozen=True)
 class _Chosen:
@@ -97,18 +87,18 @@ class _Chosen:
 
 @dataclass(frozen=True, eq=False)
 class Clicks(Part[_Host]):
-    """The places at which clicks in a section start orbits.
-
-    excuse : the reason why some places have no orbit; bounds : the whole section, as places in a link are written.
-    """
+    """The places at which clicks in a section start orbits; excuse : the reason why some places have no orbit."""
 
     excuse: str
-    bounds: Window
+
+    @property
+    def _spec(self) -> Places:
+        """The parameter of the places."""
+        return next(one for one in specs_of(type(self.host)) if isinstance(one, Places) and one.name == "starts")
 
     def admitted(self, notes: list[str]) -> Values:
         """Return at least one start."""
-        default = next(spec.default for spec in specs_of(type(self.host)) if spec.name == "starts")
-        return {"starts": self.host.starts or default}
+        return {"starts": self.host.starts or self._spec.default}
 
     @cached_property
     def picked(self) -> _Chosen:
@@ -124,7 +114,9 @@ class Clicks(Part[_Host]):
         others = [start for some in self.host.section.seeds(self.host.section) for start in some]
         others = others or [*_spread(self.host, 1)]
         if not others:
-            raise InvalidParameter(self.host.impossible_here)
+            raise InvalidParameter(
+                f"In this window {self.excuse}: choose a larger h, or press Clear for the whole section."
+            )
         return _Chosen([_place(self.host.poincare.places_of(np.array(others))[0])], [others[0]], chosen[-1])
 
     @property
@@ -155,8 +147,12 @@ class Clicks(Part[_Host]):
         """Return the starts with the orbit on show moved to (x, y)."""
         return {"starts": written([*places(self.host.starts)[:-1], self._inside(x, y)])}
 
+    def look_closer(self, corners: tuple[float, float, float, float]) -> Values:
+        """Return the window that a box selects."""
+        return boxed(corners, (self._spec.low, self._spec.high))
+
     def _inside(self, x: float, y: float) -> Place:
-        (x0, y0), (x1, y1) = self.bounds
+        (x0, y0), (x1, y1) = self._spec.low, self._spec.high
         return min(max(x, x0), x1), min(max(y, y0), y1)
 
     def _at(self, place: Place) -> str:
@@ -177,7 +173,7 @@ class Clicks(Part[_Host]):
             )
 
 
-def filled(state: Any, held: int, compute: Callable[..., OrbitBatch], **more: Any) -> Section:
+def filled(state: Any, held: int, compute: Callable[..., OrbitBatch] = crossings_from, **more: Any) -> Section:
     """Return the section of a state whose `orbits` fill its `window`, among those of its `clicks`.
 
     held : the largest number of orbits while a slider is held; compute, more : as of `Section`.
@@ -194,8 +190,6 @@ def filled(state: Any, held: int, compute: Callable[..., OrbitBatch], **more: An
         seeds,
         lambda: state.periodic_orbit,
         zoom=state.window,
-        fewest=_FEWEST,
-        held=_HELD,
         at_once=False,
         **more,
     )
@@ -206,7 +200,7 @@ def _spread(state: _Host, count: int) -> tuple[Start, ...]:
 
 
 def _seeds(section: _Filled, window: Window, count: int) -> tuple[Start, ...]:
-    return section.spread(window, count)
+    return section.spread(count, window)
 
 
 def _impossible(section: _Filled, window: Window) -> Array:

@@ -10,8 +10,6 @@ from typing import Any, Protocol, TypeVar
 import numpy as np
 
 from hess_explorer.compute.cache import Task
-from hess_explorer.protocol.specs import Value
-from hess_explorer.scenes.framework.cells import DENSITY
 from hess_explorer.scenes.framework.part import Part
 from hess_explorer.scenes.framework.periodic_search import (
     ANY,
@@ -28,8 +26,8 @@ from hess_explorer.scenes.framework.periodic_search import (
     crossings_between,
     sought,
 )
-from hess_explorer.scenes.framework.scene import Preset
 from hess_explorer.scenes.framework.sliders import choice, number
+from hess_explorer.scenes.framework.windows import pixels_in
 from hess_explorer.scenes.parts.sections.section import Section
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import Layers
@@ -40,7 +38,7 @@ from hess_mechanics.dynamics.manifolds import Intersection, Manifold
 from hess_mechanics.dynamics.return_map import ReturnMap
 from hess_mechanics.numerics.accuracy import PRECISE, Status
 
-__all__ = ["NONE", "PeriodicOrbit", "length_of_manifolds", "periodic_layers", "plain", "which"]
+__all__ = ["NONE", "PeriodicOrbit", "length_of_manifolds", "periodic_layers", "which"]
 
 T = TypeVar("T")
 
@@ -72,12 +70,6 @@ def length_of_manifolds() -> Any:
         group="Computation",
         doc=f"Of each branch, in units of the axes of the section; at most {MOST_POINTS} points.",
     )
-
-
-def plain(preset: Preset) -> Preset:
-    """Return the preset with the density and without a periodic orbit, whatever the state before."""
-    values: dict[str, Value] = {"periodic": NONE, "indicator": DENSITY, **preset.values}
-    return Preset(preset.name, **values)
 
 
 @dataclass(frozen=True, eq=False)
@@ -127,7 +119,7 @@ class PeriodicOrbit(Part[Section]):
     @property
     def start(self) -> tuple[float, ...]:
         """The initial state of the orbit on show.  Raises `ModelError`."""
-        return self.host.given if self.closed is None else self.closed.state
+        return self.host.starts()[-1] if self.closed is None else self.closed.state
 
     @property
     def lasts(self) -> float:
@@ -144,7 +136,7 @@ class PeriodicOrbit(Part[Section]):
         return (
             self._search,
             [(place, stable, side) for place in places for stable in (True, False) for side in (1, -1)],
-            1.0 / max(self.host.pixels),
+            1.0 / max(pixels_in(self.host.frame)),
         )
 
     @cached_property
