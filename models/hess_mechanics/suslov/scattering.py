@@ -48,10 +48,6 @@ class Scattering(Result):
 
     Attributes
     ----------
-    arc : int
-        The arc σ = ±1.
-    distance : float or None
-        Distance of the start from the unstable point, in units of |ω⁻|; None for asymptotic phases.
     level : str
         Name of the accuracy level.
     A : complex
@@ -76,8 +72,6 @@ class Scattering(Result):
     cos θ⁺ = cos χ cos θ⁻ + sin χ sin θ⁻ cos(φ − φ*).
     """
 
-    arc: int
-    distance: float | None
     level: str
     A: complex
     B: complex
@@ -212,8 +206,6 @@ def scattering(body: SuslovBody, accuracy: Accuracy, arc: int = 1, distance: flo
     phi_star = cmath.phase(-(alpha * beta).conjugate()) if sine > 0.0 else 0.0
     wall_ms = (time.perf_counter() - begun) * 1e3
     return Scattering(
-        arc,
-        distance,
         level.name,
         alpha,
         beta,
