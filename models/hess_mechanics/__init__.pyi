@@ -16,7 +16,7 @@ from .dynamics.megno_map import MegnoMap, megno_map
 from .dynamics.orbit import solve
 from .dynamics.orbit_diagram import Cascade, Diagram, Hysteresis
 from .dynamics.periodic import PeriodicOrbit
-from .dynamics.plane_section import Plane, SectionPoints, section, section_points, sections
+from .dynamics.plane_section import Plane, SectionPoints, section, section_points
 from .dynamics.regime import Dynamics, Regime, dynamics_of, regime
 from .dynamics.return_map import ReturnMap
 from .dynamics.spectrum import Spectrum, lyapunov_spectrum
@@ -100,7 +100,6 @@ __all__ = [  # noqa: RUF022 (by subject)
     "ensemble",
     "Ensemble",
     "section",
-    "sections",
     "section_points",
     "Plane",
     "SectionCrossings",

@@ -17,13 +17,13 @@ from hess_mechanics.chaplygin_ball.ball_section import BallSection
 from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.dynamics.attraction import arrivals
 from hess_mechanics.dynamics.basins import Contraction, SectionOrbits, attractors
-from hess_mechanics.dynamics.cells import Window, centres, evenly
+from hess_mechanics.dynamics.cells import Window, centres
 from hess_mechanics.dynamics.continuation import Branch, continued
 from hess_mechanics.dynamics.megno_map import corners, require_plane
 from hess_mechanics.dynamics.orbit_diagram import COMPARED, Cascade, Diagram, Hysteresis, cascade, diagram_over
 from hess_mechanics.dynamics.periodic import MAX_PERIOD, PeriodicOrbit, find_periodic, place_units
 from hess_mechanics.dynamics.return_map import PoincareSection, ReturnMap, section_crossings
-from hess_mechanics.dynamics.system import ParametrizedSystem, Problem
+from hess_mechanics.dynamics.system import ParametrizedSystem
 from hess_mechanics.dynamics.variable_section import variable_section
 from hess_mechanics.errors import InvalidParameter, OutsideRegion, WorkLimit
 from hess_mechanics.euler_poisson.andoyer import AndoyerSection
@@ -35,7 +35,7 @@ from hess_mechanics.numerics.parallel import share
 from hess_mechanics.numerics.results import Array, angle_facts, frozen
 from hess_mechanics.suslov.equations import SuslovBody
 from hess_mechanics.suslov.quartic import QuarticBody, QuarticSection
-from hess_mechanics.suslov.suslov_section import SuslovSection, require_reached
+from hess_mechanics.suslov.suslov_section import AngleSection, SuslovSection
 from hess_mechanics.suslov_hess.equations import HessBody
 from hess_mechanics.suslov_hess.torus_section import TorusSection
 
@@ -55,10 +55,6 @@ __all__ = [
 SectionedBody = SuslovBody | QuarticBody | BallBody | HeavyBody | HessBody | ParametrizedSystem
 _MOST_PLACES = 1_000_000
 _MOST_ORBITS, _MOST_CROSSINGS = 1000, 10_000
-_TURNS = 120.0
-"""Time limit per crossing, in units of 1/ν times the slowness of the section; few orbits need more."""
-_TRIED = (8, 200)
-"""Candidate starts per orbit; the second number is for sections that motions cross in a small part only."""
 
 
 @dataclass(frozen=True)
@@ -119,8 +115,8 @@ def return_map(
 
     Each kind of body has its own section:
 
-    - `SuslovBody`: the plane γ_k = 0 at energy `E`, coordinates (ψ, δ).
-    - `BallBody`: the plane γ₃ = 0 at energy `h` above its lowest, coordinates (ψ, δ).
+    - `SuslovBody`: the plane γ_k = 0 at the energy `E`, or `h` above the lowest, coordinates (ψ, δ).
+    - `BallBody`: the plane γ_k = 0 at the energy `E`, or `h` above the lowest of the plane, coordinates (ψ, δ).
     - `HeavyBody`: the Andoyer–Deprit section at `h` and `f`, coordinates (l, L/G).
     - `HessBody`: a circle on the torus (`h`, `f`) in units b = 1, coordinate φ.
     - `QuarticBody`: the section of the plane motion at the body's own energy, coordinates (q, p).
@@ -132,13 +128,13 @@ def return_map(
     body : SuslovBody, BallBody, HeavyBody, HessBody, QuarticBody or ParametrizedSystem
         The body.
     E : float, optional
-        Energy of a `SuslovBody`.
+        Energy of a `SuslovBody` or `BallBody`.
     h : float, optional
-        Energy integral of a `BallBody`, `HeavyBody` or `HessBody`.
+        Energy of a `SuslovBody` or `BallBody` above the lowest; energy integral of a `HeavyBody` or `HessBody`.
     f : float, optional
         Area integral of a `HeavyBody` or `HessBody`.
     plane : int, default 3
-        Index k of the plane γ_k = 0 of a `SuslovBody`: 1, 2 or 3.
+        Index k of the plane γ_k = 0 of a `SuslovBody` or `BallBody`: 1, 2 or 3.
     sheet : int, default 0
         Sheet of the section of a `HeavyBody`, 0 to 2; the largest momentum G is on sheet 0.
     integrals : mapping of str to float, optional
@@ -178,11 +174,11 @@ def return_map(
     """
     asked: dict[str, float | None] = {"E": E, "h": h, "f": f}
     found: PoincareSection
-    if isinstance(body, SuslovBody):
-        at = _given(asked, "E")
-        require_reached(found := SuslovSection(body, at[0], as_whole("plane", plane, 1, 3)))
-    elif isinstance(body, BallBody):
-        found = BallSection(body, *_given(asked, "h"))
+    if isinstance(body, SuslovBody | BallBody):
+        energy = "E" if h is None else "h"
+        kind: type[AngleSection] = SuslovSection if isinstance(body, SuslovBody) else BallSection
+        found = kind(body, 0.0, as_whole("plane", plane, 1, 3)).moved(energy, *_given(asked, energy))
+        found.require_reached()
     elif isinstance(body, HeavyBody):
         at = _given(asked, "h", "f")
         found = AndoyerSection(body, at[0], at[1], as_whole("sheet", sheet, 0, 2))
@@ -244,11 +240,12 @@ def section_orbits(
     states = (
         np.array([map_.state_at(np.array(one)) for one in as_pairs("starts", starts)])
         if len(starts)
-        else _spread(section, as_whole("orbits", orbits, 1, _MOST_ORBITS))
+        else np.array(section.spread(as_whole("orbits", orbits, 1, _MOST_ORBITS)))
     )
-    turns = _TURNS if map_.longest is None else map_.longest * Problem.of(section, states).nu / section.slowness
+    if not len(states):
+        raise OutsideRegion("No motion crosses the section here: choose a larger energy.")
     level = plan(Kind.SECTION, map_.accuracy).level
-    found = section_crossings(section, states, count, turns, level, map_.backward)
+    found = section_crossings(section, states, count, level, map_.backward, map_.longest)
     x, y = section.names
     return PlanePoints(
         (x, y),
@@ -264,18 +261,6 @@ def section_orbits(
             ),
         },
     )
-
-
-def _spread(section: PoincareSection, orbits: int) -> Array:
-    """Return up to `orbits` states, spread evenly over the window of a section.  Raises `OutsideRegion`."""
-    low, high = np.array(section.window).T[:, :, None]
-    for tried in _TRIED:
-        states, there = section.states_at(*(low + evenly(tried * orbits) * (high - low)))
-        if np.count_nonzero(there) >= orbits:
-            break
-    if not there.any():
-        raise OutsideRegion("No motion crosses the section here: choose a larger energy.")
-    return np.asarray(states[there][:orbits])
 
 
 def periodic_orbit(map_: ReturnMap, at: Sequence[float], period: int | None = None) -> PeriodicOrbit:

@@ -99,7 +99,7 @@ def test_a_log_gets_lines_of_progress(monkeypatch, capsys):
     assert re.fullmatch(r"6 of 6 cells after \d+ s, about 0 s left", lines[-1])
 
 
-LAMBDA = typed("sweep lyapunov suslov --over w1=0.2:1.4:40 --over I22=1:2:30 --set t=100 --accuracy draft")
+LAMBDA = typed("sweep lyapunov suslov --over w1=0.2:1.4:40 --over I22=1:2:30 --set duration=100 --accuracy draft")
 
 
 def test_a_sweep_that_is_killed_three_times_is_bit_for_bit_the_loop_by_hand(tmp_path):
@@ -127,7 +127,7 @@ def test_a_sweep_that_is_killed_three_times_is_bit_for_bit_the_loop_by_hand(tmp_
     found, of = read(store), find("lyapunov suslov")
     assert (found.status == 1).all()
     for i, j in [*np.ndindex(found.status.shape)][::7]:
-        by_hand = of.compute({"w1": float(found.w1[i]), "I22": float(found.I22[j]), "t": 100.0}, "draft")
+        by_hand = of.compute({"w1": float(found.w1[i]), "I22": float(found.I22[j]), "duration": 100.0}, "draft")
         assert found.exponent.values[i, j] == by_hand.value
 
 

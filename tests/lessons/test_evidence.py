@@ -52,7 +52,7 @@ def test_in_chaos_the_error_grows_to_the_size_of_the_picture_and_in_a_regular_mo
 def test_the_mean_divergence_of_the_chaotic_body_agrees_at_twice_the_time():
     state = scenes()["orbit-diagram"].of(STEPS["What is a picture of chaos worth?"].at.values)
     section, span = state.poincare, state.long
-    starts = section.spread(section.window, 32)
+    starts = section.spread(32)
     one, twice = ([lyapunov_spectrum(state.body, y, t).divergence for y in starts] for t in (span, 2.0 * span))
     # Twice the time begins with the whole of the other one: its error alone would not do.
     assert abs(deviations(np.subtract(one, twice), 0.0)) < 5.0

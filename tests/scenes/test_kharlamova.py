@@ -8,10 +8,10 @@ from pytest import approx
 
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.periodic_search import NONE
+from hess_mechanics.dynamics.cells import occupied_cells
+from hess_mechanics.dynamics.return_map import section_crossings
 from hess_mechanics.numerics.accuracy import STANDARD
 from hess_mechanics.suslov.plane_potential import POTENTIALS
-from hess_mechanics.suslov.quartic import quartic_section
-from hess_mechanics.suslov.quartic import visited as cells_visited
 from support.deviations import deviations
 from support.kharlamova import ARC, POINT
 from support.moved import from_moved_starts
@@ -90,8 +90,9 @@ def test_an_example_of_the_quartic_potential_is_what_its_name_says(preset):
         assert (visited > 0.4 * points) is is_sea
 
         def share():
-            found = quartic_section(body, [tuple(view.result.start)], 200, STANDARD, 1_000_000).states[0]
-            return cells_visited(body, view.result.poincare.places_of(found), 32) / len(found)
+            at = view.result.poincare
+            found = section_crossings(at, [tuple(view.result.start)], 200, STANDARD).states[0]
+            return occupied_cells(at.places_of(found), at.window) / len(found)
 
         # As for every other last bit, and by far.
         sure = deviations(from_moved_starts(share), 0.4)

@@ -69,7 +69,7 @@ def tenfold(_step):
     """Return the exponents of many orbits over the time of the picture, and their times of a tenfold growth."""
     values = next(step for step in shipped()[NAME].steps if step.title == "Measure the chaos").prediction.then.values
     section = return_map(heavy_body(values)[0], E=heavy_body(values)[1]).section
-    starts = section.spread(section.window, 16)
+    starts = section.spread(16)
     found = np.array([lyapunov_spectrum(section.body, start, 2.0 * values["long"]).values[0] for start in starts])
     return found, (math.log(10.0) / found, 5.0)
 

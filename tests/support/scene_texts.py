@@ -23,6 +23,7 @@ from hess_mechanics import (
 )
 from hess_mechanics.dynamics import attraction, edge, megno, point_sets, regime, spectrum, work_precision
 from hess_mechanics.dynamics.birkhoff import rotation_number
+from hess_mechanics.dynamics.return_map import section_crossings
 from hess_mechanics.euler_poisson import andoyer, equations, rotation
 from hess_mechanics.numerics import doubled_kernels
 from hess_mechanics.suslov.additional_integral import _FORMULAS, MAX_K
@@ -202,7 +203,7 @@ def meander(_step):
     section, middle = andoyer.AndoyerSection(found.body, found.h, found.f), (-1.85, 0.03)
 
     def turns(l):
-        points = section.points([section.state_at(l, middle[1])], 3000, level("standard")).states[0]
+        points = section_crossings(section, [section.state_at(l, middle[1])], 3000, level("standard")).states[0]
         return rotation_number(andoyer.coordinates(points), middle)[0]
 
     return min(map(turns, np.linspace(-1.6, -1.575, 6))), 1.0 / turns(-1.535), (turns(-1.535), 1e-6)

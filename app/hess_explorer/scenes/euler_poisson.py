@@ -61,6 +61,7 @@ from hess_explorer.views.plane import andoyer
 from hess_explorer.views.plane.section_plane import joined
 from hess_explorer.views.space.poisson_sphere import Direction, along_the_orbit, gamma_columns
 from hess_explorer.views.text import digits, vector
+from hess_mechanics.dynamics.return_map import section_crossings
 from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.euler_poisson.andoyer import AndoyerSection, hess_curve, relation
 from hess_mechanics.euler_poisson.equations import SYSTEM, HeavyBody
@@ -295,7 +296,7 @@ class EulerPoisson(FilledState):
 def _crossings(
     section: AndoyerSection, starts: tuple[Start, ...], crossings: int, forward: bool, level: Level
 ) -> OrbitBatch:
-    found = section.points(starts, crossings, level, threads=1, most_steps=_MOST_STEPS)
+    found = section_crossings(section, starts, crossings, level, threads=1, most_steps=_MOST_STEPS)
     signs = np.sign(relation(section.body, np.array(starts)))
     kept = (
         bool(np.all(sign * relation(section.body, states) >= 0.0))

@@ -11,8 +11,7 @@ import numpy as np
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.charted import Charted, Charts, of_motion, parameters_of
-from hess_explorer.scenes.framework.orbit_batches import OrbitBatch, batch_of
-from hess_explorer.scenes.framework.part import Start, part
+from hess_explorer.scenes.framework.part import part
 from hess_explorer.scenes.framework.scene import Preset, Scene
 from hess_explorer.scenes.framework.sliders import TURN, choice, parameter, places, time_span
 from hess_explorer.scenes.framework.solid_body import Solid, constrained_solid, solid_body
@@ -37,7 +36,7 @@ from hess_explorer.views.plane.section_plane import joined
 from hess_explorer.views.plane.velocity_plane import nice_above, orbit_alone, orbit_columns, pixels_per_unit
 from hess_explorer.views.space.poisson_sphere import along_the_orbit, centre_of_mass
 from hess_explorer.views.text import digits
-from hess_mechanics.dynamics.plane_section import occupied_cells
+from hess_mechanics.dynamics.cells import occupied_cells
 from hess_mechanics.dynamics.sampling import HALF_A_PIXEL
 from hess_mechanics.errors import WorkLimit
 from hess_mechanics.numerics.accuracy import Level, cheapest
@@ -47,7 +46,6 @@ from hess_mechanics.suslov.equations import SYSTEM, SuslovBody
 from hess_mechanics.suslov.principal_axis import Conformal, conformal
 from hess_mechanics.suslov.suslov_section import SuslovSection
 
-_MOST_STEPS = 100_000
 _CELLS = 32
 _NAMES = ("ψ", "δ")
 _BOUNDS = ((-TURN, 0.0), (TURN, TURN))
@@ -165,7 +163,7 @@ class Suslov(FilledState):
     def section(self) -> Section:
         """The section."""
         ways = (True, False) if self.colours == _BOTH else (True,)
-        return filled(self, 12, _crossings, ways=ways, later=self.drop == _LATE, alone=self.colours != "basins")
+        return filled(self, 12, ways=ways, later=self.drop == _LATE, alone=self.colours != "basins")
 
     clicks = part(lambda s: Clicks(s, "no motion has this energy"))
     orbit = part(lambda s: Orbit(s, s.orbit_level))
@@ -203,9 +201,8 @@ class Suslov(FilledState):
         # The later halves of the forward orbits show the attractors.
         later = joined(orbit[len(orbit) // 2 :] for orbit in self.section.kind())
         counted = self.density.said or f"{len(first)} points forward{backward}; "
-        return Caption(
-            numbers=f"{counted}late forward points occupy {occupied_cells(later, _CELLS)} of {_CELLS**2} cells."
-        )
+        cells = occupied_cells(later, self.poincare.window, _CELLS)
+        return Caption(numbers=f"{counted}late forward points occupy {cells} of {_CELLS**2} cells.")
 
     def derived(self) -> Iterator[str]:
         """Yield the energy, the start of the orbit on show and the check of the body."""
@@ -213,13 +210,6 @@ class Suslov(FilledState):
         yield self.clicks.sentence
         yield from super().derived()
         yield check_body(self.I11, self.I22, self.I13, self.I23).sentence
-
-
-def _crossings(
-    section: SuslovSection, starts: tuple[Start, ...], crossings: int, forward: bool, level: Level
-) -> OrbitBatch:
-    points = section.points(starts, crossings, forward, level, threads=1, most_steps=_MOST_STEPS)
-    return batch_of(section, points, forward)
 
 
 SCENE = Scene(

@@ -82,7 +82,7 @@ def plan_of(
         Parameter(each, each, each, float(value), (0.0, 1.0), 0.1, _BOUNDS)
         for each, value in {**defaults, **dict.fromkeys((*over, *fixed), 0.0)}.items()
     )
-    what = Computation(name, name, function, call, tuple(parameters), {}, Kind.MAP, lambda found, exact: math.nan)
+    what = Computation(name, name, function, tuple(parameters), {}, Kind.MAP, call=call)
     fields = _fields(call, Plan.of(what, (), level, over, fixed))
     title = (inspect.getdoc(inner) or name).partition("\n")[0]
     what = replace(what, numbers={each: _number(each, title) for each in fields})

@@ -33,8 +33,6 @@ __all__ = [
 
 _BATCHES = 12
 _SAMPLES = 4000
-_TURNS = 40.0
-"""Time limit per crossing, in units of 1/ν times the slowness of the section; few orbits take longer."""
 _MOST_STEPS = 1_000_000
 """Limit of the steps of an orbit."""
 
@@ -92,7 +90,7 @@ class SectionOrbits:
         if not len(starts):
             return []
         return complete(
-            section_crossings(self.section, starts, crossings, _TURNS, self.level, threads=1, most_steps=_MOST_STEPS)
+            section_crossings(self.section, starts, crossings, self.level, threads=1, most_steps=_MOST_STEPS)
         ).states
 
 

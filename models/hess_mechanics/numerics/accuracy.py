@@ -367,13 +367,13 @@ def levels_table() -> tuple[tuple[str, ...], ...]:
 
 def _cells(kind: Kind) -> Iterator[str]:
     """Yield what each level means for a kind."""
-    meaning, before = MEANINGS[kind], ("", ())
+    meaning = MEANINGS[kind]
+    shown: dict[tuple[float, float, float], str] = {}
     for each in PLANS[kind].values():
-        numbers = (each.promise, each.share, each.cells)
-        if numbers == before[1]:
-            yield f"as {before[0]}"
+        before = shown.setdefault((each.promise, each.share, each.cells), each.level.name)
+        if before != each.level.name:
+            yield f"as {before}"
             continue
-        before = each.level.name, numbers
         if kind is Kind.ORBIT and each.level.is_floor:
             yield "round-off, which may exceed the error of precise"
             continue

@@ -20,12 +20,11 @@ import numpy as np
 
 from hess_mechanics import parameters as known
 from hess_mechanics.dynamics.motions import on_section, usual
-from hess_mechanics.dynamics.plane_section import Plane, SectionPoints, occupied_cells, section_points
+from hess_mechanics.dynamics.plane_section import Plane
 from hess_mechanics.dynamics.return_map import PoincareSection
 from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.dynamics.system import System
-from hess_mechanics.errors import InvalidParameter, NoField, OutsideRegion, WorkLimit
-from hess_mechanics.numerics.accuracy import Accuracy
+from hess_mechanics.errors import InvalidParameter, NoField, OutsideRegion
 from hess_mechanics.numerics.results import Array, Mask
 from hess_mechanics.parameters import Parameter, plain
 from hess_mechanics.rigid_body.inertia import require_finite
@@ -38,16 +37,10 @@ __all__ = [
     "QuarticSection",
     "angular_momentum",
     "level_error",
-    "quartic_section",
-    "seeds",
     "start_on_section",
     "state_at",
-    "visited",
 ]
 
-_GOLDEN = (math.sqrt(5.0) - 1.0) / 2.0
-_TURNS = 120.0
-"""Time limit per crossing, in units in which ω is at most 1; few orbits take longer."""
 _EDGE = 1e-9
 _INSIDE = 1e-9
 _MIDDLE = 1e-100
@@ -304,12 +297,6 @@ class QuarticBody(PlaneProblem):
         return [np.vstack([right, left[::-1]])] if first else [right, left]
 
 
-def visited(body: QuarticBody, points: Array, cells: int) -> int:
-    """Return the number of cells, of cells² that divide the rectangle of the section, with points (n, 2)."""
-    x, y = points.T
-    return occupied_cells(np.column_stack([math.pi / body.longest * x, 0.5 * math.pi * (1.0 + y)]), cells)
-
-
 def level_error(body: QuarticBody, states: Array) -> float:
     """Return the largest |H − ½| of states (m, 5), where H = (p² + γ3²)/2 is ½ on all motions."""
     q, p = body.to_plane(states)
@@ -333,60 +320,16 @@ def state_at(body: QuarticBody, q: Sequence[float], direction: float) -> tuple[f
     return (*body.omega(q), -size * math.cos(direction), -size * math.sin(direction), g3)
 
 
-def _on_axis(body: QuarticBody, x: float) -> tuple[tuple[float, float], float]:
-    """Return the point q of the major axis at x, and 1 − γ3² there."""
-    q = (x, 0.0) if body.across else (0.0, x)
-    g3 = float(body.height(np.array(q)))
-    return q, (1.0 - g3) * (1.0 + g3)
-
-
 def start_on_section(body: QuarticBody, x: float, y: float) -> tuple[float, float, float]:
     """Return q1, q2 and the direction of q̇ for `state_at` at (x, y) of the section.  Raises `OutsideRegion`."""
-    q, room = _on_axis(body, x)
-    left = room - y * y
-    if left < -_EDGE:
-        raise OutsideRegion("p² + γ₃² would exceed 1 there: choose a place that is not grey.")
-    # The q that is 0 increases.
-    rate = math.sqrt(max(0.0, left))
-    return (*q, math.atan2(rate, -y) if body.across else math.atan2(-y, rate))
+    p = QuarticSection(body).state_at(x, y)[2:4]
+    return (*((x, 0.0) if body.across else (0.0, x)), math.atan2(-p[1], -p[0]))
 
 
 def angular_momentum(body: QuarticBody, states: Array) -> Array:
     """Return q1 p2 − q2 p1 (m,) of states (m, 5): an integral for I11 = I22."""
     q, p = body.to_plane(states)
     return np.asarray(q[:, 0] * p[:, 1] - q[:, 1] * p[:, 0])
-
-
-def seeds(body: QuarticBody, count: int) -> list[tuple[float, ...]]:
-    """Return states of the section, spread over the part that the energy allows."""
-    found, inner = [], body.hole**2
-    for i in range(count):
-        # Uniform in q² from the hole to the edge, and in p for this q.
-        x = body.longest * math.sqrt(inner + (1.0 - inner) * (0.002 + 0.996 * (i + 0.5) / count))
-        size = math.sqrt(max(0.0, _on_axis(body, x)[1]))
-        *q, beta = start_on_section(body, x if i % 2 else -x, 0.98 * size * (2.0 * (i * _GOLDEN % 1.0) - 1.0))
-        found.append(state_at(body, q, beta))
-    return found
-
-
-def quartic_section(
-    body: QuarticBody, starts: Sequence[Sequence[float]], crossings: int, accuracy: Accuracy, most_steps: int
-) -> SectionPoints:
-    """Return the first crossings of `body.plane` by each orbit, states as in `section_points`.
-
-    most_steps : limit of steps per orbit.  Raises `InvalidParameter`, `WorkLimit`.
-    """
-    speed = math.sqrt(2.0 * (body.h + abs(body.b3)) / max(body.I11, body.I22))
-    end = crossings * _TURNS / speed
-    if not math.isfinite(end):
-        raise InvalidParameter("The motion is too slow for double precision: choose less extreme parameters.")
-    try:
-        return section_points(body, starts, body.plane, end, accuracy, crossings, most_steps=most_steps)
-    except WorkLimit:
-        raise WorkLimit(
-            f"{crossings} crossings take an orbit more than {most_steps} steps here: choose fewer of them, "
-            "a smaller h, or I11 and I22 less different."
-        ) from None
 
 
 @dataclass(frozen=True)

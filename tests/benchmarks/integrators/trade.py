@@ -8,7 +8,6 @@ from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.trial import bare
 from hess_explorer.views.text import digits
 from hess_mechanics.catalogue import find
-from hess_mechanics.catalogue.trade import trade as of_catalogue
 from hess_mechanics.dynamics.trade import LevelCost, enough, measure
 from hess_mechanics.errors import InvalidParameter, ModelError
 from hess_mechanics.numerics.accuracy import DRAFT, LEVELS, MEANINGS, PLANS, REFERENCE, Kind
@@ -98,7 +97,7 @@ def trade_of_catalogue(keys, repeats, progress):
         progress(key)
         of = find(key)
         try:
-            yield Row(key, str(of.kind), of.unit, of_catalogue(of, repeats=repeats), "–")
+            yield Row(key, str(of.kind), of.unit, of.trade(repeats=repeats), "–")
         except ModelError as error:
             yield Failed(key, str(of.kind), str(error))
 

@@ -88,8 +88,8 @@ def test_what_keeps_volume_says_that_nothing_attracts_there():
     found = diagram_over(lambda value: P.moved("I13", value), "I13", [0.1, 0.0], (0.3, 1.2), 10, 16)
     assert found.conservative.tolist() == [False, True]
     assert return_map(HeavyBody.hess((1.0, 1.6, 4.0), 1.0), h=1.5, f=-0.7).volume_kept
-    assert return_map(BallBody(1.0, 3.0, 0.0, 0.0, 5.0, 0.5, 0.2, 0.8), h=2.0).volume_kept
-    assert not return_map(BallBody(1.0, 3.0, 0.2, -0.1, 5.0, 0.5, 0.2, 0.8), h=2.0).volume_kept
+    assert return_map(BallBody(1.0, 3.0, 0.0, 0.0, 5.0, 0.5, 0.2, 0.8), E=2.0).volume_kept
+    assert not return_map(BallBody(1.0, 3.0, 0.2, -0.1, 5.0, 0.5, 0.2, 0.8), E=2.0).volume_kept
 
 
 def test_what_is_too_much_is_refused():

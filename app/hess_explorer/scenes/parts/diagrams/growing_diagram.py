@@ -82,10 +82,10 @@ class OrbitDiagram(Part[DiagramControls]):
         (chosen,) = points_of(self.host.chosen)[-1:]
         if self.poincare.states_at(*np.array(chosen)[:, None])[1][0]:
             return chosen
-        other = self.poincare.somewhere()
-        if other is None:
+        others = self.poincare.spread(1)
+        if not others:
             raise OutsideRegion("No motion of this energy crosses γ₃ = 0: choose a larger h.")
-        x, y = self.poincare.places_of(np.array([other]))[0]
+        x, y = self.poincare.places_of(np.array(others))[0]
         return float(x), float(y)
 
     @property

@@ -15,7 +15,7 @@ from hess_explorer.scenes.framework.orbit_batches import OrbitBatch, in_batches
 from hess_explorer.scenes.framework.part import Host, Part, Start
 from hess_explorer.scenes.framework.sliders import number, specs_of
 from hess_explorer.scenes.framework.windows import Window, boxed
-from hess_explorer.scenes.parts.sections.section import Section
+from hess_explorer.scenes.parts.sections.section import Section, crossings_from
 from hess_explorer.views.text import digits
 from hess_mechanics.dynamics.return_map import PoincareSection
 from hess_mechanics.errors import InvalidParameter, OutsideRegion
@@ -55,9 +55,6 @@ def points_of_each(default: float) -> Any:
 
 
 class _Filled(PoincareSection, Protocol):
-    def spread(self, window: Window, count: int) -> tuple[Start, ...]:
-        """Return at most `count` states, spread over the possible part of the window."""
-
     def impossible(self, window: Window) -> Array:
         """Return cells (m, n) over the window: 1 if no motion is possible."""
 
@@ -176,7 +173,7 @@ class Clicks(Part[_Host]):
             )
 
 
-def filled(state: Any, held: int, compute: Callable[..., OrbitBatch], **more: Any) -> Section:
+def filled(state: Any, held: int, compute: Callable[..., OrbitBatch] = crossings_from, **more: Any) -> Section:
     """Return the section of a state whose `orbits` fill its `window`, among those of its `clicks`.
 
     held : the largest number of orbits while a slider is held; compute, more : as of `Section`.
@@ -203,7 +200,7 @@ def _spread(state: _Host, count: int) -> tuple[Start, ...]:
 
 
 def _seeds(section: _Filled, window: Window, count: int) -> tuple[Start, ...]:
-    return section.spread(window, count)
+    return section.spread(count, window)
 
 
 def _impossible(section: _Filled, window: Window) -> Array:

@@ -20,7 +20,6 @@ from hess_explorer.scenes.framework.windows import Window, pixels_in, tidy_windo
 from hess_explorer.scenes.framework.work import drift_status, kept_status
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.plane.section_plane import joined
-from hess_mechanics.dynamics.cells import evenly
 from hess_mechanics.dynamics.return_map import PoincareSection, section_crossings
 from hess_mechanics.dynamics.shadowing import right_crossings, typical
 from hess_mechanics.errors import OutsideRegion, WorkLimit
@@ -35,8 +34,6 @@ _ON = 1e-9
 """Largest relative distance of a start that counts as on the section."""
 _ORBITS, _MOST_STEPS = 20, 100_000
 """Default section: number of other orbits, and largest number of Taylor steps of each."""
-_TURNS = 60.0
-"""Time limit per crossing, in units of 1/ν times the slowness of the section."""
 _COMPARED = 3
 """Batches that are computed twice for an error estimate, in addition to the orbit on show."""
 
@@ -69,17 +66,14 @@ def crossings_from(
 ) -> OrbitBatch:
     """Return so many crossings of the orbits from some states."""
     return batch_of(
-        section,
-        section_crossings(section, np.array(starts), crossings, _TURNS, level, not forward, most_steps=_MOST_STEPS),
+        section, section_crossings(section, starts, crossings, level, not forward, most_steps=_MOST_STEPS), forward
     )
 
 
 def _all_over(section: Section) -> list[tuple[Start, ...]]:
     """Return starts spread over the visible window, where motions cross it: one batch."""
-    ways = evenly(8 * _ORBITS - 1).T
-    low, high = np.array(section.frame)
-    states, there = section.poincare.states_at(*(low + ways * (high - low)).T)
-    return [tuple(map(tuple, states[there][:_ORBITS].tolist()))]
+    starts = section.poincare.spread(_ORBITS, section.frame)
+    return [starts] if starts else []
 
 
 Seeds = Callable[["Section"], list[tuple[Start, ...]]]
