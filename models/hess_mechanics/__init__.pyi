@@ -9,7 +9,6 @@ from .computations import (
 )
 from .dynamics.continuation import Branch
 from .dynamics.ensemble import ensemble
-from .dynamics.lyapunov import Exponent, lyapunov_exponent
 from .dynamics.manifolds import Manifold, manifold
 from .dynamics.megno import Megno, megno
 from .dynamics.megno_map import MegnoMap, megno_map
@@ -19,10 +18,10 @@ from .dynamics.periodic import PeriodicOrbit
 from .dynamics.plane_section import Plane, SectionPoints, section, section_points
 from .dynamics.regime import Dynamics, Regime, dynamics_of, regime
 from .dynamics.return_map import ReturnMap
-from .dynamics.spectrum import Spectrum, lyapunov_spectrum
+from .dynamics.spectrum import Exponent, Spectrum, lyapunov_exponent, lyapunov_spectrum
 from .dynamics.system import Body, ParametrizedSystem, System, systems
-from .dynamics.tube import ProvedOrbit, Tube, proved_error, proved_orbit, right_until, tube
-from .dynamics.variation import Return, Transition, return_matrix, transition_matrix
+from .dynamics.tube import ProvedOrbit, Tube, proved_orbit, tube
+from .dynamics.variation import Transition, transition_matrix
 from .errors import ModelError
 from .euler_poisson.andoyer import AndoyerPlane
 from .euler_poisson.equations import HeavyBody
@@ -108,15 +107,11 @@ __all__ = [  # noqa: RUF022 (by subject)
     "Tube",
     "ProvedOrbit",
     "proved_orbit",
-    "proved_error",
-    "right_until",
     "Spectrum",
     "megno",
     "Megno",
     "transition_matrix",
     "Transition",
-    "return_matrix",
-    "Return",
     # Accuracy, cost, errors
     "LEVELS",
     "Level",

@@ -179,7 +179,7 @@ export function createRecorded({ families, picks, sources, steps, scenes, lesson
   /**
    * Return the sources that change, with all their columns: those that a state does not fill are empty.
    * @param {string} scene
-   * @param {import("./strip.js").StoredTree} tree
+   * @param {Tree} tree
    * @param {number} number of the strip
    */
   function changed(scene, tree, number) {
@@ -207,11 +207,9 @@ export function createRecorded({ families, picks, sources, steps, scenes, lesson
     const { scene, states, queries } = families[here]
     const [number, index] = states[at]
     const [place, said, errors] = [queries[at], note, refused]
-    const strip = await stripAt(number)
-    const tree = strip.trees[index]
-    const controls = controlsHere(tree.controls)
+    const { trees, block } = await stripAt(number)
+    const tree = trees[index]
     ranges = tree.ranges
-    const [filledSources, block] = strip.block(changed(scene, tree, number))
     // The strips of the neighbours, for the next move.
     for (const near of [at - 1, at + 1]) if (states[near] !== undefined && states[near][0] !== number) stripAt(states[near][0])
     count += 1
@@ -224,7 +222,7 @@ export function createRecorded({ families, picks, sources, steps, scenes, lesson
     const state = {
       number: count, answers: request?.requested ?? 0, query: place, scene, progress: null,
       tree: {
-        ...tree, sources: filledSources, controls, ranges: request?.held ? {} : tree.ranges,
+        ...tree, sources: changed(scene, tree, number), controls: controlsHere(tree.controls), ranges: request?.held ? {} : tree.ranges,
         texts: { ...tree.texts, ...errors, fixed, notes: [said, notes].filter(Boolean).join("\n") },
       },
     }

@@ -17,9 +17,9 @@ from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.chaplygin_ball.phase_cloud import carried, shell
 from hess_mechanics.dynamics.basin_boundary import resolved, unsure
 from hess_mechanics.dynamics.birkhoff import rotation_number
-from hess_mechanics.dynamics.lyapunov import lyapunov_exponent
 from hess_mechanics.dynamics.return_map import section_crossings
 from hess_mechanics.dynamics.shadowing import away_from, errors_in_pixels, right_crossings, typical
+from hess_mechanics.dynamics.spectrum import lyapunov_exponent
 from hess_mechanics.numerics.accuracy import PLANS, REFERENCE, STANDARD, Kind
 from hess_mechanics.suslov.equations import SYSTEM, SuslovBody
 from hess_mechanics.suslov.suslov_section import SuslovSection

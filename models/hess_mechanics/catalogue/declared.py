@@ -212,7 +212,7 @@ class Computation:
             is_named = plan is PLANS[self.kind][plan.level.name]
             return self.compute(given, plan.level.name if is_named else plan.level)
 
-        return measure(self.kind, run, self.error, repeats)
+        return tuple(measure(self.kind, run, self.error, repeats))
 
 
 def declare(of: Motions, one: Computation, on_section: bool = False) -> Computation:

@@ -11,12 +11,11 @@ import numpy as np
 from hess_mechanics import parameters as known
 from hess_mechanics.catalogue.declared import Computation, Number, real
 from hess_mechanics.dynamics.ensemble import complete
-from hess_mechanics.dynamics.lyapunov import lyapunov_exponent
 from hess_mechanics.dynamics.megno import megno
 from hess_mechanics.dynamics.motions import usual, whole
 from hess_mechanics.dynamics.orbit import MAX_SAMPLES, MAX_STEPS, solve
 from hess_mechanics.dynamics.plane_section import MAX_CROSSINGS, Plane, section
-from hess_mechanics.dynamics.spectrum import lyapunov_spectrum
+from hess_mechanics.dynamics.spectrum import lyapunov_exponent, lyapunov_spectrum
 from hess_mechanics.dynamics.system import Body, System
 from hess_mechanics.dynamics.tube import WORK_PER_SECOND, proved_orbit, tube
 from hess_mechanics.numerics.accuracy import Kind

@@ -13,10 +13,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from hess_mechanics.dynamics.attraction import RecurrentSets, recurrent_sets
+from hess_mechanics.dynamics.birkhoff import volume_sign
 from hess_mechanics.dynamics.ensemble import complete
 from hess_mechanics.dynamics.orbit import solve
 from hess_mechanics.dynamics.return_map import PoincareSection, section_crossings
-from hess_mechanics.dynamics.spectrum import volume_sign
 from hess_mechanics.dynamics.system import Body
 from hess_mechanics.numerics.accuracy import DRAFT, Accuracy
 from hess_mechanics.numerics.results import Array, frozen

@@ -25,7 +25,7 @@ from hess_mechanics.dynamics.cells import Window, evenly
 from hess_mechanics.dynamics.orbit import MAX_STEPS, end_of, require_finite_states, require_steps, unfinished
 from hess_mechanics.dynamics.periodic import apart
 from hess_mechanics.dynamics.plane_section import SectionPoints, Surface, section_points
-from hess_mechanics.dynamics.symmetry import Mirror, symmetries
+from hess_mechanics.dynamics.symmetry import Mirror, sign_symmetries
 from hess_mechanics.dynamics.system import Problem, System
 from hess_mechanics.dynamics.variation import onto_surface
 from hess_mechanics.errors import InvalidParameter, NoReturn, OutsideRegion, WorkLimit
@@ -671,8 +671,7 @@ class ReturnMap:
                 [low + share * (high - low) for share, (low, high) in zip(shares, self.section.window, strict=False)]
             )
             try:
-                state = self.state_at(place)
-                known = symmetries(self.section.system, self.section.parameters, state)
+                known = sign_symmetries(self.section.system, self.section.parameters)
                 return tuple(one for one in known if self.mirrored(one, place) is not None)
             except (OutsideRegion, InvalidParameter):
                 continue

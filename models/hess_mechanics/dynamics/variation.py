@@ -23,24 +23,21 @@ from hess_mechanics.dynamics.orbit import (
     require_finite_states,
     require_steps,
 )
-from hess_mechanics.dynamics.plane_section import Surface, section
 from hess_mechanics.dynamics.system import Body, Problem
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import Accuracy, Level, Status
 from hess_mechanics.numerics.arguments import as_level
-from hess_mechanics.numerics.labelled import Labels, Printed, Result
+from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.measured import measured
 from hess_mechanics.numerics.results import Array, Cost, facts_of, frozen
 
 __all__ = [
     "LONGEST",
-    "Return",
     "Tangent",
     "Transition",
     "frame_ahead",
     "one_direction",
     "onto_surface",
-    "return_matrix",
     "tangent",
     "transition_matrix",
 ]
@@ -302,76 +299,3 @@ def onto_surface(matrix: Array, rate: Array, gradient: Array) -> Array:
         raise InvalidParameter("The orbit touches the surface here and does not cross it: choose another start.")
     along = gradient[..., None, :] @ matrix / across[..., None, None]
     return np.asarray(matrix - rate[..., :, None] * along)
-
-
-@dataclass(frozen=True)
-class Return(Printed):
-    """A return of an orbit to a surface.
-
-    Attributes
-    ----------
-    time : float
-        Time of the return.
-    state : ndarray, shape (d,)
-        State at the return.
-    matrix : ndarray, shape (d, d)
-        ∂y(return)/∂y(start).  Its columns are tangent to the surface, and it maps the direction of motion to 0.
-    transition : Transition
-        Derivative of the flow at that time, with its error and cost.
-    """
-
-    time: float
-    state: Array
-    matrix: Array
-    transition: Transition
-
-
-def return_matrix(
-    body: Body, start: Sequence[float] | Array, surface: Surface, duration: float, accuracy: Accuracy, returns: int = 1
-) -> Return | None:
-    """Return the n-th return of an orbit to a surface, with its derivative.
-
-    Parameters
-    ----------
-    body : Body
-        The body.
-    start : array_like, shape (d,)
-        Initial state.
-    surface : Plane or Surface
-        The surface.
-    duration : float
-        End of the time span; may be negative.
-    accuracy : str or Level
-        Accuracy level.
-    returns : int, default 1
-        Number n of the return.
-
-    Returns
-    -------
-    Return or None
-        The return; None if the orbit does not return n times before `duration`.
-
-    Raises
-    ------
-    InvalidParameter
-        If a number is not finite, or the orbit is tangent to the surface.
-    WorkLimit
-        If the orbit needs too many steps.
-
-    Examples
-    --------
-    >>> from hess_mechanics import Plane, level, return_matrix, systems
-    >>> suslov = systems()["suslov"]
-    >>> found = return_matrix(*suslov.example_motion, Plane((0.0, 0.0, 0.0, 0.0, 1.0)), 50.0, level("precise"))
-    >>> bool(abs(found.matrix[4]).max() < 1e-9)  # γ3 = 0 at the return
-    True
-    """
-    crossings = section(body, start, surface, duration, accuracy, returns)
-    if len(crossings.times) < returns:
-        return None
-    moment = float(crossings.times[-1])
-    found = transition_matrix(body, start, moment, accuracy)
-    end_state = crossings.states[-1]
-    rate = np.array(body.system.field(end_state.tolist(), list(body.parameters)), float)
-    matrix = onto_surface(found.matrices[0], rate, surface.gradient(end_state))
-    return Return(moment, end_state, frozen(matrix), found)

@@ -69,12 +69,14 @@ def _example(scene, trial):
 def _row(name, scene, trial, repeats):
     try:
         state = _example(scene, trial)
-        samples = measure(
-            trial.kind,
-            lambda plan: trial.run(state, plan),
-            lambda *both: trial.error(state, *both),
-            repeats,
-            trial.alike,
+        samples = tuple(
+            measure(
+                trial.kind,
+                lambda plan: trial.run(state, plan),
+                lambda *both: trial.error(state, *both),
+                repeats,
+                trial.alike,
+            )
         )
     except ModelError as error:
         return Failed(name, str(trial.kind), str(error))

@@ -11,8 +11,8 @@ from hess_mechanics.chaplygin_ball.ball_section import BallSection
 from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody
 from hess_mechanics.dynamics.cells import occupied_cells
 from hess_mechanics.dynamics.ensemble import ensemble
-from hess_mechanics.dynamics.lyapunov import lyapunov_exponent
 from hess_mechanics.dynamics.return_map import section_crossings
+from hess_mechanics.dynamics.spectrum import lyapunov_exponent
 from hess_mechanics.errors import OutsideRegion, WorkLimit
 from support.ball import divergence, first_returns, occupied
 from support.deviations import deviations

@@ -1,4 +1,4 @@
-"""Derivatives of the flow and of return maps, against differences with more digits and a matrix exponential."""
+"""Derivatives of the flow, against differences with more digits and a matrix exponential."""
 
 import math
 
@@ -6,11 +6,9 @@ import numpy as np
 from pytest import approx, mark, raises
 from scipy.linalg import expm
 
-from hess_mechanics import Plane, SuslovBody, level, return_matrix, systems, transition_matrix
-from hess_mechanics.dynamics.plane_section import section
+from hess_mechanics import SuslovBody, level, systems, transition_matrix
 from hess_mechanics.dynamics.variation import onto_surface
 from hess_mechanics.errors import InvalidParameter, WorkLimit
-from hess_mechanics.rigid_body.reversal import Reversal
 from oracle.orbits import taylor
 from support.mechanics import differences
 from support.suslov import permanent_rotations
@@ -18,7 +16,6 @@ from support.thorough import sample
 
 PRECISE, REFERENCE = level("precise"), level("reference")
 SUSLOV = systems()["suslov"]
-GAMMA3 = Plane((0.0, 0.0, 0.0, 0.0, 1.0))
 
 
 def by_differences(system, state, p, span):
@@ -78,22 +75,6 @@ def test_what_cannot_be_is_refused_in_a_sentence():
         transition_matrix(SUSLOV.at((1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0)), (0.0, 0.0, 0.0, 0.0, 1.0), 800.0, PRECISE)
     with raises(InvalidParameter, match="touches the surface"):
         onto_surface(np.eye(2), np.array([1.0, 0.0]), np.array([0.0, 1.0]))
-
-
-# ---- return maps ------------------------------------------------------------------------------------------------
-
-
-@mark.parametrize("surface", [GAMMA3, Reversal()], ids=["a plane", "a curved surface"])
-def test_the_derivative_of_a_return_is_that_of_differences(surface):
-    state, p = SUSLOV.example
-    found = return_matrix(SUSLOV.at(p), state, surface, 60.0, REFERENCE, returns=2)
-    exact = differences(lambda y: section(SUSLOV.at(p), y, surface, 60.0, REFERENCE, 2).states[1], state, 1e-5)
-    assert found.matrix == approx(exact, abs=1e-7 * np.abs(found.matrix).max())
-    assert found.matrix @ SUSLOV.field(state, p) == approx(np.zeros(5), abs=1e-10)
-
-
-def test_without_a_return_there_is_none():
-    assert return_matrix(*SUSLOV.example_motion, GAMMA3, 0.1, PRECISE) is None
 
 
 def test_at_rest_the_matrix_is_an_exponential():

@@ -65,11 +65,11 @@ def pendulum_row(Row, name, span, moments=(1.0, 1.5, 2.0), h=1.5, l=0.4, mu=0.7,
         axes = found.attitude.axes
         if np.max(np.abs(axes @ axes.transpose(0, 2, 1) - np.eye(3))) >= 1e-14:
             return inf
-        centre, middle = closed_form(one, found.attitude.times)
+        centre, middle = closed_form(one, found.orbit.times)
         return float(max(np.max(np.abs(found.centre - centre)), np.max(np.abs(found.middle - middle)))) / scale
 
     def admitted(grade):
-        return error(grade) <= motion(grade).attitude.orbit.error_estimate
+        return error(grade) <= motion(grade).orbit.error_estimate
 
     return Row(f"loxodrome: {name}", "Jacobi's functions", error, because=because, admitted=admitted)
 

@@ -73,7 +73,9 @@ class Charts:
         """Compute every number once over a short time, which compiles or loads its kernels.  Raises `ModelError`."""
         for one in self.charted:
             values = one.values(state)
-            short = {name: np.array([min(value, _SHORT) if name == "duration" else value]) for name, value in values.items()}
+            short = {name: np.array([value]) for name, value in values.items()}
+            if "duration" in short:
+                short["duration"] = np.minimum(short["duration"], _SHORT)
             evaluate(one.computation, one.numbers, short, DRAFT)
 
 

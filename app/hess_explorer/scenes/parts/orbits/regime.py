@@ -78,7 +78,7 @@ class Regime(Part[_Host]):
             return Caption(
                 f"{kind}.", f"Attractor and repeller not distinguished; |mean div| < {digits(motion.bound, 1)}."
             )
-        if motion.volume_kept:
+        if motion.map_.volume_kept:
             return Caption(f"{kind}. Conservative: volume is preserved.")
         if motion.measure:
             return Caption(f"{kind}. Conservative: mean div = 0.", f"{motion.measure[0].upper()}{motion.measure[1:]}.")
