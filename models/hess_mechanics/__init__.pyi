@@ -13,7 +13,7 @@ from .dynamics.manifolds import Manifold, manifold
 from .dynamics.megno import Megno, megno
 from .dynamics.megno_map import MegnoMap, megno_map
 from .dynamics.orbit import solve
-from .dynamics.orbit_diagram import Cascade, Diagram, Hysteresis
+from .dynamics.orbit_diagram import Cascade, Diagram
 from .dynamics.periodic import PeriodicOrbit
 from .dynamics.plane_section import Plane, SectionPoints, section, section_points
 from .dynamics.regime import Dynamics, Regime, dynamics_of, regime
@@ -34,7 +34,6 @@ from .return_maps import (
     PlanePoints,
     basins,
     continued_orbit,
-    hysteresis,
     orbit_diagram,
     period_doublings,
     periodic_orbit,
@@ -80,8 +79,6 @@ __all__ = [  # noqa: RUF022 (by subject)
     "MegnoMap",
     "orbit_diagram",
     "Diagram",
-    "hysteresis",
-    "Hysteresis",
     "period_doublings",
     "Cascade",
     "regime",

@@ -20,7 +20,6 @@ from hess_mechanics.return_maps import (
     PlanePoints,
     basins,
     continued_orbit,
-    hysteresis,
     orbit_diagram,
     period_doublings,
     periodic_orbit,
@@ -179,18 +178,6 @@ def computations(example: PoincareSection, period: int) -> Iterator[Computation]
         ),
         choices=over,
         example={"values": 3.0, "transient": 30.0, "kept": 8.0},
-    )
-    yield Computation(
-        "hysteresis",
-        "Orbit diagram there and back",
-        hysteresis,
-        (*ends, values, transient, usual(_KEPT, 64.0, "Crossings shown at each value, 16 or more.")),
-        {"intervals": Number("n", "number of intervals over which the ways differ", lambda r: len(r.intervals))},
-        Kind.SECTION,
-        lambda r, exact: float(r.intervals != exact.intervals),
-        _along(hysteresis),
-        choices=over,
-        example={"values": 3.0, "transient": 30.0, "kept": 16.0},
     )
     yield Computation(
         "regime",
