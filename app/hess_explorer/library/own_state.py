@@ -106,7 +106,7 @@ class OwnState(State):
         """The section."""
         return variable_section(self.body, self.levels(), self.surface, self.coordinates, self.ranges)
 
-    section = part(lambda s: Section(s, lambda: (s.given,), periodic=lambda: s.periodic_orbit, zoom=s.window))
+    section = part(Section)
     megno = part(lambda s: Indicator(s.section, s.indicator == MEGNO))
 
     @property

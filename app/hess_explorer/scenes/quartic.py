@@ -15,7 +15,7 @@ from hess_explorer.scenes.framework.orbit_batches import OrbitBatch, batch_of
 from hess_explorer.scenes.framework.part import Start, part
 from hess_explorer.scenes.framework.scene import Preset, Scene
 from hess_explorer.scenes.framework.sliders import Slider, number, parameter, slider_within, time_span
-from hess_explorer.scenes.framework.solid_body import Solid, constrained_solid, solid_body
+from hess_explorer.scenes.framework.solid_body import solid_body
 from hess_explorer.scenes.framework.windows import Window
 from hess_explorer.scenes.parts.sections import (
     PLAIN,
@@ -44,7 +44,6 @@ from hess_mechanics.suslov import quartic as model
 from hess_mechanics.suslov.equations import SYSTEM
 
 _ORBITS = 20
-_MOST_STEPS = 40_000
 _CELLS = 32
 _NAMES = ("q", "p")
 _ALONG = {"h": "h", "I₁₁/I₂₂": "ratio", "b₃": "b3"}
@@ -151,10 +150,9 @@ class Quartic(SectionState):
     section = part(
         lambda s: Section(
             s,
-            lambda: (s.given,),
-            _crossings,
-            lambda section: [tuple(model.seeds(s.body, _ORBITS))],
-            lambda: s.periodic_orbit,
+            compute=_crossings,
+            seeds=lambda section: [tuple(model.seeds(s.body, _ORBITS))],
+            most_steps=40_000,
             whole=s.section_window,
         )
     )
@@ -166,11 +164,6 @@ class Quartic(SectionState):
         """Return the window with room for all q and p."""
         (q0, q1), (p0, p1) = centred(nice_above(1.05 * self.body.longest)), _P_AXIS
         return (q0, p0), (q1, p1)
-
-    @cached_property
-    def solid(self) -> Solid:
-        """The body along the orbit."""
-        return constrained_solid(self.work, self.body, self.orbit.path)
 
     @cached_property
     def momentum(self) -> Array:
@@ -232,9 +225,15 @@ class Quartic(SectionState):
 
 
 def _crossings(
-    section: model.QuarticSection, starts: tuple[Start, ...], crossings: int, forward: bool, level: Level
+    section: model.QuarticSection,
+    starts: tuple[Start, ...],
+    crossings: int,
+    _: bool,
+    level: Level,
+    most: int,
+    *more: float,
 ) -> OrbitBatch:
-    return batch_of(section, model.quartic_section(section.body, starts, crossings, level, _MOST_STEPS))
+    return batch_of(section, model.quartic_section(section.body, starts, crossings, level, most))
 
 
 SCENE = Scene(

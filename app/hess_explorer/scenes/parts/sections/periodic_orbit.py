@@ -119,7 +119,7 @@ class PeriodicOrbit(Part[Section]):
     @property
     def start(self) -> tuple[float, ...]:
         """The initial state of the orbit on show.  Raises `ModelError`."""
-        return self.host.starts()[-1] if self.closed is None else self.closed.state
+        return self.host.starts[-1] if self.closed is None else self.closed.state
 
     @property
     def lasts(self) -> float:
