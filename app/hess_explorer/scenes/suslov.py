@@ -33,7 +33,6 @@ from hess_explorer.scenes.parts.sections.divergence import Divergence, divergenc
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.graphs import conformal_time
 from hess_explorer.views.plane import layered_section
-from hess_explorer.views.plane.section_plane import joined
 from hess_explorer.views.plane.velocity_plane import nice_above, orbit_alone, orbit_columns, pixels_per_unit
 from hess_explorer.views.space.poisson_sphere import along_the_orbit, centre_of_mass
 from hess_explorer.views.text import digits
@@ -189,7 +188,7 @@ class Suslov(FilledState):
             return Caption(numbers=f"{len(self.section.own)} points of chosen orbits.")
         backward = f", {len(second)} backward" if len(second) else ""
         # The later halves of the forward orbits show the attractors.
-        later = joined(orbit[len(orbit) // 2 :] for orbit in self.section.kind())
+        later = self.section.points(later=True)
         counted = self.density.said or f"{len(first)} points forward{backward}; "
         return Caption(
             numbers=f"{counted}late forward points occupy {occupied_cells(later, _CELLS)} of {_CELLS**2} cells."

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from itertools import product
 from typing import Any, Protocol
 
 import numpy as np
@@ -229,26 +228,26 @@ class Section(Part[_Host]):
         """The drawn points (n, 2) of the chosen orbits."""
         return joined(self._shown(orbit) for batch in self.known.chosen for orbit in batch.orbits)
 
-    def kind(self, first: bool = True, ends: bool = False) -> list[Array]:
-        """Return the other orbits of one kind with all their points: those that end early or the others."""
-        return [
-            orbit
-            for batch in self.known.batches
-            for orbit, is_first, reason in zip(batch.orbits, batch.firsts, batch.reasons, strict=True)
-            if (is_first, reason != "") == (first, ends)
-        ]
+    def _shown(self, orbit: Array, later: bool = False) -> Array:
+        return orbit[len(orbit) // 2 :] if self.later or later else orbit
 
-    def points(self, first: bool = True, ends: bool = False) -> Array:
-        """Return the drawn points (n, 2) of the other orbits of one kind."""
-        return self._points[first, ends]
+    def points(self, first: bool = True, ends: bool = False, later: bool = False) -> Array:
+        """Return the drawn points (n, 2) of the other orbits of one kind, those that end early or the rest.
+
+        later : the later half of their crossings, whatever is drawn.
+        """
+        if (first, ends, later) not in self._points:
+            self._points[first, ends, later] = joined(
+                self._shown(orbit, later)
+                for batch in self.known.batches
+                for orbit, is_first, reason in zip(batch.orbits, batch.firsts, batch.reasons, strict=True)
+                if (is_first, reason != "") == (first, ends)
+            )
+        return self._points[first, ends, later]
 
     @cached_property
-    def _points(self) -> dict[tuple[bool, bool], Array]:
-        kinds = product((True, False), repeat=2)
-        return {(first, ends): joined(map(self._shown, self.kind(first, ends))) for first, ends in kinds}
-
-    def _shown(self, orbit: Array) -> Array:
-        return orbit[len(orbit) // 2 :] if self.later else orbit
+    def _points(self) -> dict[tuple[bool, bool, bool], Array]:
+        return {}
 
     def orbits_at(self, plan: Plan) -> list[Array]:
         """Return all orbits of the section (n, 2), the chosen ones first; computed at once."""

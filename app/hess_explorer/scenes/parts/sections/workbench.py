@@ -66,7 +66,7 @@ class SectionState(State):
     section = part(Section)
     density = part(lambda s: Density(s.section, s.dense))
     megno = part(lambda s: Indicator(s.section, s.indicator == MEGNO and s.section.alone))
-    periodic_orbit = part(lambda s: PeriodicOrbit(s.section, s.periodic, s.reach, s.span))
+    periodic_orbit = part(lambda s: PeriodicOrbit(s.section, s.periodic, s.reach))
     orbit = part(Orbit)
     proof = part(lambda s: Proof(s.orbit, s.certain))
 
@@ -83,12 +83,12 @@ class SectionState(State):
     @property
     def start(self) -> Start:
         """The initial state of the orbit on show."""
-        return self.periodic_orbit.start
+        return self.given if self.closed is None else self.closed.state
 
     @property
     def lasts(self) -> float:
         """The length of the orbit in time."""
-        return self.periodic_orbit.lasts
+        return self.span if self.closed is None else self.closed.time
 
     @cached_property
     def solid(self) -> Solid:
@@ -119,3 +119,8 @@ class FilledState(SectionState):
     starts: str = ""
 
     exponent = part(Exponent)
+
+    @property
+    def given(self) -> Start:
+        """The last chosen initial state.  Raises `ModelError`."""
+        return self.section.starts[-1]
