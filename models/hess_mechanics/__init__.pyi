@@ -13,7 +13,7 @@ from .dynamics.manifolds import Manifold, manifold
 from .dynamics.megno import Megno, megno
 from .dynamics.megno_map import MegnoMap, megno_map
 from .dynamics.orbit import solve
-from .dynamics.orbit_diagram import Cascade, Diagram, Hysteresis
+from .dynamics.orbit_diagram import Cascade, Diagram
 from .dynamics.periodic import PeriodicOrbit
 from .dynamics.plane_section import Plane, SectionPoints, section, section_points
 from .dynamics.regime import Dynamics, Regime, dynamics_of, regime
@@ -21,7 +21,6 @@ from .dynamics.return_map import ReturnMap
 from .dynamics.spectrum import Exponent, Spectrum, lyapunov_exponent, lyapunov_spectrum
 from .dynamics.system import Body, ParametrizedSystem, System, systems
 from .dynamics.tube import ProvedOrbit, Tube, proved_orbit, tube
-from .dynamics.variation import Transition, transition_matrix
 from .errors import ModelError
 from .euler_poisson.andoyer import AndoyerPlane
 from .euler_poisson.equations import HeavyBody
@@ -35,7 +34,6 @@ from .return_maps import (
     PlanePoints,
     basins,
     continued_orbit,
-    hysteresis,
     orbit_diagram,
     period_doublings,
     periodic_orbit,
@@ -81,8 +79,6 @@ __all__ = [  # noqa: RUF022 (by subject)
     "MegnoMap",
     "orbit_diagram",
     "Diagram",
-    "hysteresis",
-    "Hysteresis",
     "period_doublings",
     "Cascade",
     "regime",
@@ -113,8 +109,6 @@ __all__ = [  # noqa: RUF022 (by subject)
     "Spectrum",
     "megno",
     "Megno",
-    "transition_matrix",
-    "Transition",
     # Accuracy, cost, errors
     "LEVELS",
     "Level",

@@ -20,7 +20,7 @@ from hess_mechanics.dynamics.basins import Contraction, SectionOrbits, attractor
 from hess_mechanics.dynamics.cells import Window, centres
 from hess_mechanics.dynamics.continuation import Branch, continued
 from hess_mechanics.dynamics.megno_map import corners, labels_of_cells, require_plane
-from hess_mechanics.dynamics.orbit_diagram import COMPARED, Cascade, Diagram, Hysteresis, cascade, diagram_over
+from hess_mechanics.dynamics.orbit_diagram import Cascade, Diagram, cascade, diagram_over
 from hess_mechanics.dynamics.periodic import MAX_PERIOD, PeriodicOrbit, find_periodic, place_units
 from hess_mechanics.dynamics.plane_section import labels_of_orbits
 from hess_mechanics.dynamics.return_map import PoincareSection, ReturnMap, section_crossings
@@ -45,7 +45,6 @@ __all__ = [
     "PlanePoints",
     "basins",
     "continued_orbit",
-    "hysteresis",
     "orbit_diagram",
     "period_doublings",
     "periodic_orbit",
@@ -366,7 +365,7 @@ def orbit_diagram(
     parameter : str
         Name of the parameter, one of `map_.section.constants`.
     values : array_like, shape (n,)
-        Values of the parameter, in the order in which they are visited.
+        Values of the parameter, in the order in which they are visited; there and back they show hysteresis.
     at : sequence of float, shape (d,)
         Point of the section where the orbit starts.
     transient : int, default 200
@@ -407,60 +406,6 @@ def orbit_diagram(
         # Say why.
         map_.moved(parameter, float(found.values[0])).state_at(np.array(place))
     return found
-
-
-def hysteresis(
-    map_: ReturnMap,
-    parameter: str,
-    values: Sequence[float] | Array,
-    at: Sequence[float],
-    *,
-    transient: int = 200,
-    kept: int = 64,
-) -> Hysteresis:
-    """Return the orbit diagrams of a section over a parameter there and back, and where they differ.
-
-    Parameters
-    ----------
-    map_ : ReturnMap
-        Return map of the section.
-    parameter : str
-        Name of the parameter, one of `map_.section.constants`.
-    values : array_like, shape (n,)
-        Values of the parameter on the way there.
-    at : sequence of float, shape (d,)
-        Point of the section where the orbit starts.
-    transient : int, default 200
-        Crossings discarded at each value.
-    kept : int, default 64
-        Crossings kept at each value, at least 16: fewer are not compared.
-
-    Returns
-    -------
-    Hysteresis
-        Both diagrams, and the intervals over which they differ.
-
-    Raises
-    ------
-    InvalidParameter
-        If there is no such parameter, or a number is out of range.
-    OutsideRegion
-        If no motion crosses the section at the point, for all values.
-    WorkLimit
-        If the diagram has too many points.
-
-    Examples
-    --------
-    >>> from hess_mechanics import HessBody, hysteresis, return_map
-    >>> P = return_map(HessBody(I22=2.0, I23=1.0, b3=-1.0), h=1.5, f=0.6)
-    >>> hysteresis(P, "h", [1.4, 1.5], (1.0,), transient=50, kept=16).intervals
-    ()
-    """
-    kept = as_whole("kept", kept, COMPARED, 20_000)
-    there = orbit_diagram(map_, parameter, values, at, transient=transient, kept=kept)
-    ends = [end.tolist() for end, some in zip(there.ends, there.places, strict=True) if len(some)]
-    back = orbit_diagram(map_, parameter, there.values[::-1], ends[-1], transient=transient, kept=kept)
-    return Hysteresis(there, back, map_.turns)
 
 
 def period_doublings(map_: ReturnMap, orbit: PeriodicOrbit, parameter: str, to: float, most: int = 6) -> Cascade:

@@ -21,7 +21,7 @@ def heavy_body(values):
         scenes()["orbit-diagram"].defaults()
         | {name: values[name] for name in ("I11", "I22", "I13", "I23", "b1", "b2", "b3", "h")}
     )
-    return state.body, state.E
+    return state.body, state.poincare.E
 
 
 @cache
@@ -40,7 +40,7 @@ def cascade_of_the_ball():
     scene = scenes()["ball-diagram"]
     state = scene.of({**scene.defaults(), "D": 1.7})
     settled, _ = sets_of(ReturnMap(state.poincare, level("standard")), state.diagram.place, 500, 2)
-    map_ = return_map(state.body, h=state.E)
+    map_ = return_map(state.body, h=state.h)
     return period_doublings(map_, periodic_orbit(map_, settled[0], 2), "D", 1.34, 4)
 
 

@@ -158,7 +158,7 @@ def flip_of_the_ball(_step):
 def rest(h):
     """Return body, state, and rates and vectors of the linear motion of the uniform rotation of "A spiral"."""
     found = state("orbit-diagram", "A spiral", h=h)
-    rotations = permanent_rotations(found.body, found.E)
+    rotations = permanent_rotations(found.body, found.poincare.E)
     y = next(one for one in rotations if abs(np.hypot(*one[:2]) - 2.1) < 0.01 and one[0] > 0.0)
     # The field is quadratic: central differences are exact.
     columns = [(field(found.body, y + e) - field(found.body, y - e)) / 2.0 for e in np.eye(5)]

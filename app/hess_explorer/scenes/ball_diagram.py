@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -74,15 +73,10 @@ class BallDiagram(DiagramState):
 
     symbols: ClassVar[Mapping[str, str]] = ball.PARAMETERS
 
-    @property
-    def E(self) -> float:
-        """The energy."""
-        return self.h - math.hypot(self.b1, self.b2)
-
     @cached_property
     def poincare(self) -> BallSection:
         """The section γ3 = 0."""
-        return BallSection(BallBody(self.I11, self.I22, self.I13, self.I23, self.D, self.b1, self.b2, self.b3), self.E)
+        return BallSection(BallBody(**self.parameters), 0.0).moved("h", self.h)
 
 
 SCENE = diagram_scene(

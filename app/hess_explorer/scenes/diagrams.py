@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from abc import abstractmethod
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -63,11 +62,6 @@ class DiagramState(DiagramControls):
     """Attractors of a section over one parameter, and one orbit at the current value of that parameter."""
 
     @property
-    @abstractmethod
-    def E(self) -> float:
-        """The energy."""
-
-    @property
     def body(self) -> SuslovBody | BallBody:
         """The body.  Raises `ModelError`."""
         return self.poincare.body
@@ -75,7 +69,7 @@ class DiagramState(DiagramControls):
     @property
     def weights(self) -> tuple[float, ...]:
         """Scale of each variable in pixels per unit, with room for all motions of this energy."""
-        highest = self.E + math.hypot(self.b1, self.b2, self.b3)
+        highest = self.poincare.E + math.hypot(self.b1, self.b2, self.b3)
         return pixels_per_unit(room_for(math.sqrt(2.0 * highest / min(self.I11, self.I22))))
 
     @property
@@ -97,37 +91,12 @@ class DiagramState(DiagramControls):
         """Return the orbit on show."""
         return self.orbit.motion()
 
-    # ---- the parts ----------------------------------------------------------------------------------------------
-
-    @part
-    def diagram(self) -> OrbitDiagram:
-        """The attractors over the parameter."""
-        return OrbitDiagram(self)
-
-    @part
-    def density(self) -> DiagramDensity:
-        """The density of its points."""
-        return DiagramDensity(self.diagram)
-
-    @part
-    def continuation(self) -> DiagramBranch:
-        """The branch of a periodic orbit over the same parameter."""
-        return DiagramBranch(self.diagram, self.branch)
-
-    @part
-    def orbit(self) -> Orbit:
-        """The orbit on show."""
-        return Orbit(self)
-
-    @part
-    def proof(self) -> Proof:
-        """The proved error of the orbit."""
-        return Proof(self.orbit, self.certain)
-
-    @part
-    def regime(self) -> Regime:
-        """The regime of the motion."""
-        return Regime(self.diagram, self.long)
+    diagram = part(OrbitDiagram)
+    density = part(lambda s: DiagramDensity(s.diagram))
+    continuation = part(lambda s: DiagramBranch(s.diagram, s.branch))
+    orbit = part(Orbit)
+    proof = part(lambda s: Proof(s.orbit, s.certain))
+    regime = part(lambda s: Regime(s.diagram, s.long))
 
     # ---- the pictures -------------------------------------------------------------------------------------------
 
@@ -178,7 +147,7 @@ class DiagramState(DiagramControls):
         """Return the energy, the chosen place, the bifurcations of the branch and the check of the body."""
         psi, delta = map(digits, self.diagram.place)
         return [
-            f"E = {digits(self.E)}",
+            f"E = {digits(self.poincare.E)}",
             f"chosen: ψ = {psi}, δ = {delta}",
             *super().derived(),
             check_body(*self.body.parameters[:4]).sentence,

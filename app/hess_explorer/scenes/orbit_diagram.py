@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -101,15 +100,10 @@ class SuslovDiagram(DiagramState):
 
     symbols: ClassVar[Mapping[str, str]] = _PARAMETERS
 
-    @property
-    def E(self) -> float:
-        """The energy."""
-        return self.h - math.hypot(self.b1, self.b2, self.b3)
-
     @cached_property
     def poincare(self) -> SuslovSection:
         """The section γ3 = 0."""
-        return SuslovSection(SuslovBody(self.I11, self.I22, self.I13, self.I23, self.b1, self.b2, self.b3), self.E, 3)
+        return SuslovSection(SuslovBody(**self.parameters), 0.0).moved("h", self.h)
 
 
 SCENE = diagram_scene(

@@ -141,6 +141,11 @@ class DiagramControls(State, ABC):
     symbols: ClassVar[Mapping[str, str]]
 
     @property
+    def parameters(self) -> dict[str, float]:
+        """The parameters of the body, by name."""
+        return {name: getattr(self, name) for name in self.symbols.values() if name != "h"}
+
+    @property
     @abstractmethod
     def poincare(self) -> SuslovSection | BallSection:
         """The section γ3 = 0.  Raises `ModelError`."""

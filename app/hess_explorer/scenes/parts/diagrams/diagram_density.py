@@ -58,7 +58,7 @@ class DiagramDensity(Part[OrbitDiagram]):
         return {
             way: np.concatenate([one.ends for one in parts])[:: -1 if way == FALLING else 1]
             for way, parts in self.host.pieces.items()
-            if self.host.known[way] == self.host.along_values.size
+            if self.host.progress[way] == self.host.along_values.size
         }
 
     @property

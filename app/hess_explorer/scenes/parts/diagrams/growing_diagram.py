@@ -170,7 +170,7 @@ class OrbitDiagram(Part[DiagramControls]):
         return found
 
     @property
-    def known(self) -> dict[str, int]:
+    def progress(self) -> dict[str, int]:
         """The number of known values of each way."""
         return {way: sum(len(one.values) for one in some) for way, some in self.pieces.items()}
 
@@ -192,7 +192,7 @@ class OrbitDiagram(Part[DiagramControls]):
     @cached_property
     def doubling(self) -> tuple[float, Array, float] | None:
         """The first doubling seen, see `doubling_seen`; None if unknown or none is seen."""
-        whole = self._locates and self.known[RISING] == self.along_values.size
+        whole = self._locates and self.progress[RISING] == self.along_values.size
         return doubling_seen(self.pieces[RISING]) if whole else None
 
     @cached_property
@@ -222,7 +222,7 @@ class OrbitDiagram(Part[DiagramControls]):
 
     def caption(self, points: str = "") -> Caption:
         """Return the caption: progress, doublings, periods; points : their number in words."""
-        known, asked = sum(self.known.values()), self.along_values.size * len(self._courses)
+        known, asked = sum(self.progress.values()), self.along_values.size * len(self._courses)
         if known < asked:
             return Caption(self.work.awaited(), f"{known} of {asked} values are known.")
         if all(one.conservative.all() for one in self.pieces[RISING]):

@@ -64,13 +64,13 @@ def window_over(plane: str) -> Any:
 class RotationMap(Part[Host]):
     """The rotation number over a plane of `PLANES`, coarse first, and a line through the torus on show.
 
-    line : the parameter that changes along the line; shown : the window as a text.
+    line : the parameter that changes along the line; text : the window in a link.
     """
 
     plane: str
     torus: Torus
     line: str
-    shown: str
+    text: str
 
     @property
     def sides(self) -> tuple[str, str]:
@@ -81,7 +81,7 @@ class RotationMap(Part[Host]):
     @cached_property
     def window(self) -> tuple[Range, Range]:
         """The ranges of the horizontal and the vertical axis."""
-        (x0, y0), (x1, y1) = window_of(self.shown, _corners(self.plane, FULL))
+        (x0, y0), (x1, y1) = window_of(self.text, _corners(self.plane, FULL))
         return (x0, x1), (y0, y1)
 
     @property

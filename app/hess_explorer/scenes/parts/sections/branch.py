@@ -221,10 +221,7 @@ class Branch(Continuation[_Section]):
 
     def means(self) -> Mapping[str, str]:
         """Return the meanings of the choices of the branch: each scene has its own."""
-        own = type(self.host).__name__
-        return {
-            name: f"{name} of the branch of {own} over {self.host.over}" for name in ("over", "low", "high", "upwards")
-        }
+        return dict.fromkeys(("over", "low", "high", "upwards"), f"branch of {type(self.host).__name__}")
 
     def idle(self) -> Mapping[str, float]:
         """Return the ends of the range if there is no branch."""
