@@ -120,7 +120,7 @@ def test_on_a_small_sheet_another_start_is_found():
         seen={"section"},
         noted=True,
     )
-    assert re.search("no motion with this h and f crosses the section", " ".join(view.report.notes))
+    assert re.search("no motion with this h and f crosses a second sheet", " ".join(view.report.notes))
     assert len(view.points("own")) == 20
 
 
