@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Sequence
 from functools import lru_cache
 from typing import TypeVar
@@ -27,7 +26,7 @@ from hess_explorer.views.layers import (
 )
 from hess_explorer.views.maps.bifurcation_diagram import impossible
 from hess_mechanics.numerics.results import Array, Mask, frozen
-from hess_mechanics.suslov_hess.bifurcation import f_max, h_min
+from hess_mechanics.suslov_hess.bifurcation import f_max
 from hess_mechanics.suslov_hess.rotation_number import Torus, TorusValues
 
 __all__ = ["across", "edges", "grids", "layers", "outside"]
@@ -74,14 +73,6 @@ def _upper(x: Range) -> Array:
     return frozen(np.array([[h, f_max(h) if h > -1.0 else 0.0] for h in energies.tolist()]))
 
 
-def _ends(plane: str, torus: Torus) -> Range:
-    """Return the ends of the possible tori along the horizontal axis of a plane whose vertical axis is a."""
-    if plane == "h, a":
-        return h_min(torus.f), math.inf
-    top = f_max(torus.h) if torus.h > -1.0 else 0.0
-    return -top, top
-
-
 def edges(plane: str, torus: Torus, x: Range, y: Range) -> list[Array]:
     """Return the boundary curves (n, 2) of the possible tori of a plane of `PLANES` within a window."""
     if plane == "h, f":
@@ -89,7 +80,7 @@ def edges(plane: str, torus: Torus, x: Range, y: Range) -> list[Array]:
             return []
         upper = _upper(x)
         return [upper, upper * (1.0, -1.0)]
-    return [np.array([[end, y[0]], [end, y[1]]]) for end in _ends(plane, torus) if x[0] < end < x[1]]
+    return [np.array([[end, y[0]], [end, y[1]]]) for end in torus.range_of(plane[0]) if x[0] < end < x[1]]
 
 
 def outside(plane: str, torus: Torus, x: Range, y: Range) -> Regions:
@@ -97,7 +88,7 @@ def outside(plane: str, torus: Torus, x: Range, y: Range) -> Regions:
     (x0, x1), (y0, y1) = x, y
     if plane == "h, f":
         return impossible(_upper(x), Axes(x, (min(y0, -y1), max(y1, -y0)))) if x1 > -1.0 else [[rectangle(x, y)]]
-    first, last = _ends(plane, torus)
+    first, last = torus.range_of(plane[0])
     parts = [(x0, min(x1, first)), (max(x0, last), x1)]
     return [[rectangle(part, y)] for part in parts if part[0] < part[1]]
 
