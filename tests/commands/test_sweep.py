@@ -49,7 +49,6 @@ def test_a_store_is_kept_read_back_and_refused_to_others(answer, refusal, tmp_pa
         *replaced(SWEEP, "--set", "a=0.6"), "--store", store
     )
     assert "does not contain a sweep" in refusal("sweep", "--store", str(tmp_path))
-    assert "Name a computation" in refusal("sweep", "--store", store, "--set", "a=1")
 
 
 def test_a_function_of_a_file_is_swept_and_written_as_a_table(answer, refusal, tmp_path):
