@@ -96,7 +96,7 @@ def test_a_log_gets_bars(monkeypatch, capsys):
     assert "100%" in bars[-1]
 
 
-LAMBDA = typed("sweep lyapunov suslov --over w1=0.2:1.4:40 --over I22=1:2:30 --set duration=100 --accuracy draft")
+LAMBDA = typed("sweep lyapunov suslov --over w1=0.2:1.4:40 --over I22=1:2:30 --set duration=400 --accuracy draft")
 
 
 def test_a_sweep_that_is_killed_three_times_is_bit_for_bit_the_loop_by_hand(tmp_path):
@@ -124,7 +124,7 @@ def test_a_sweep_that_is_killed_three_times_is_bit_for_bit_the_loop_by_hand(tmp_
     found, of = read(store), find("lyapunov suslov")
     assert (found.status == 1).all()
     for i, j in [*np.ndindex(found.status.shape)][::7]:
-        by_hand = of.compute({"w1": float(found.w1[i]), "I22": float(found.I22[j]), "duration": 100.0}, "draft")
+        by_hand = of.compute({"w1": float(found.w1[i]), "I22": float(found.I22[j]), "duration": 400.0}, "draft")
         assert found.exponent.values[i, j] == by_hand.value
 
 
