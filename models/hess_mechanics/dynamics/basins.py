@@ -33,6 +33,8 @@ __all__ = [
 
 _BATCHES = 12
 _SAMPLES = 4000
+_TURNS = 40.0
+"""Time limit per crossing, as of `section_crossings`: shorter, as many orbits of a basin cross no more."""
 _MOST_STEPS = 1_000_000
 """Limit of the steps of an orbit."""
 
@@ -89,9 +91,10 @@ class SectionOrbits:
         """Return the next crossings (n, d) of each orbit from `starts` (k, d).  Raises `WorkLimit`."""
         if not len(starts):
             return []
-        return complete(
-            section_crossings(self.section, starts, crossings, self.level, threads=1, most_steps=_MOST_STEPS)
-        ).states
+        found = section_crossings(
+            self.section, starts, crossings, self.level, turns=_TURNS, threads=1, most_steps=_MOST_STEPS
+        )
+        return complete(found).states
 
 
 @dataclass(frozen=True)

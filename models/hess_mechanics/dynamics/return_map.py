@@ -157,14 +157,15 @@ def section_crossings(
     accuracy: Accuracy,
     backward: bool = False,
     longest: float | None = None,
+    turns: float = _TURNS,
     **limits: int,
 ) -> SectionPoints:
     """Return the crossings of several orbits, see `section_points`, that follow each other within a time limit.
 
-    longest : the time limit per crossing, by default 120/ν times the slowness of the section: few orbits take longer.
-    limits : `threads` and `most_steps`.
+    longest : the time limit per crossing, by default so many `turns` of 1/ν times the slowness of the section; few
+    orbits take longer.  limits : `threads` and `most_steps`.
     """
-    end = crossings * (_TURNS * section.slowness / Problem.of(section, starts).nu if longest is None else longest)
+    end = crossings * (turns * section.slowness / Problem.of(section, starts).nu if longest is None else longest)
     return section_points(section, starts, section.surface, -end if backward else end, accuracy, crossings, **limits)
 
 

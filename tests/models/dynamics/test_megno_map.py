@@ -77,7 +77,7 @@ def test_where_volume_shrinks_cells_are_attracted():
         ({"window": ((0.0, 0.0), (1.0, 4.0))}, "δ from 0 to 3.14159"),
         ({"window": ((0.0,), (1.0, 4.0))}, r"must have 2 parts. Write it like \(1.5, 1.5\)"),
         ({"cells": (1000, 1000)}, "at most 100000"),
-        ({"t": math.nan}, "t is not a finite number"),
+        ({"duration": math.nan}, "duration is not a finite number"),
     ],
 )
 def test_what_cannot_be_is_refused(asked, said):

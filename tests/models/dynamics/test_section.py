@@ -272,14 +272,14 @@ def test_all_runs_of_one_section_share_one_budget_of_steps(system):
 @some_systems
 def test_states_and_parameters_that_cannot_be_computed_raise_a_sentence(system):
     state, parameters = system.example
-    given = {"body": system.at(parameters), "state": state, "plane": Plane(axis(system, 0)), "end": 1.0}
+    given = {"body": system.at(parameters), "start": state, "plane": Plane(axis(system, 0)), "duration": 1.0}
     too_long = r"more than 10000 steps, which reach t = .*: choose a shorter time span"
     for wrong, error, words in (
         ({"plane": Plane((1.0,))}, InvalidParameter, f"has {len(state)} components"),
-        ({"end": np.nan}, InvalidParameter, "end is not a finite number"),
+        ({"duration": np.nan}, InvalidParameter, "duration is not a finite number"),
         ({"crossings": MAX_CROSSINGS + 1}, WorkLimit, f"between 1 and {MAX_CROSSINGS}"),
-        ({"end": 1e308}, WorkLimit, too_long),
-        ({"end": 1e5, "plane": Plane(axis(system, 0), 100.0)}, WorkLimit, too_long),
+        ({"duration": 1e308}, WorkLimit, too_long),
+        ({"duration": 1e5, "plane": Plane(axis(system, 0), 100.0)}, WorkLimit, too_long),
     ):
         with raises(error, match=words):
             section(**{**given, **wrong}, accuracy="draft", max_steps=10_000)
