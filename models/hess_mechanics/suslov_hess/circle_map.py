@@ -26,7 +26,7 @@ import numpy as np
 
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import Accuracy, Level, Status
-from hess_mechanics.numerics.arguments import as_level
+from hess_mechanics.numerics.arguments import as_level, as_number
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.measured import measured
 from hess_mechanics.numerics.results import Array, Cost, facts_of, frozen
@@ -351,11 +351,7 @@ def circle_map(a: float, h: float, f: float, accuracy: Accuracy) -> CircleMap:
     ('elliptic', 0)
     """
     level = as_level(accuracy)
-    try:
-        a, h, f = float(a), float(h), float(f) + 0.0  # f = −0.0 is f = 0
-    except (TypeError, ValueError):
-        require_finite(a=a, h=h, f=f)
-        raise
+    a, h, f = as_number("a", a), as_number("h", h), as_number("f", f) + 0.0  # f = −0.0 is f = 0
     check_a(a)
     turning = turning_points(h, f)
     here = np.array([h]), np.array([f])
