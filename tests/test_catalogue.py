@@ -132,7 +132,7 @@ def test_the_error_of_a_regular_motion_falls_from_level_to_level():
 
 
 def test_a_name_that_is_not_there_is_answered_with_those_that_are_close():
-    with pytest.raises(InvalidParameter, match="choose from orbit ball, "):
+    with pytest.raises(InvalidParameter, match="choose from orbit "):
         find("orbit nowhere")
     with pytest.raises(InvalidParameter, match="circle-map"):
         find("circel-map")

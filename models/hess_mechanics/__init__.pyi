@@ -21,7 +21,6 @@ from .dynamics.return_map import ReturnMap
 from .dynamics.spectrum import Exponent, Spectrum, lyapunov_exponent, lyapunov_spectrum
 from .dynamics.system import Body, ParametrizedSystem, System, systems
 from .dynamics.tube import ProvedOrbit, Tube, proved_orbit, tube
-from .dynamics.variation import Transition, transition_matrix
 from .errors import ModelError
 from .euler_poisson.andoyer import AndoyerPlane
 from .euler_poisson.equations import HeavyBody
@@ -110,8 +109,6 @@ __all__ = [  # noqa: RUF022 (by subject)
     "Spectrum",
     "megno",
     "Megno",
-    "transition_matrix",
-    "Transition",
     # Accuracy, cost, errors
     "LEVELS",
     "Level",

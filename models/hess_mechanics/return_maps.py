@@ -19,9 +19,10 @@ from hess_mechanics.dynamics.attraction import arrivals
 from hess_mechanics.dynamics.basins import Contraction, SectionOrbits, attractors
 from hess_mechanics.dynamics.cells import Window, centres
 from hess_mechanics.dynamics.continuation import Branch, continued
-from hess_mechanics.dynamics.megno_map import corners, require_plane
+from hess_mechanics.dynamics.megno_map import corners, labels_of_cells, require_plane
 from hess_mechanics.dynamics.orbit_diagram import Cascade, Diagram, cascade, diagram_over
 from hess_mechanics.dynamics.periodic import MAX_PERIOD, PeriodicOrbit, find_periodic, place_units
+from hess_mechanics.dynamics.plane_section import labels_of_orbits
 from hess_mechanics.dynamics.return_map import PoincareSection, ReturnMap, section_crossings
 from hess_mechanics.dynamics.system import ParametrizedSystem
 from hess_mechanics.dynamics.variable_section import variable_section
@@ -30,7 +31,7 @@ from hess_mechanics.euler_poisson.andoyer import AndoyerSection
 from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.numerics.accuracy import Accuracy, Kind, plan
 from hess_mechanics.numerics.arguments import as_cells, as_level, as_number, as_pairs, as_place, as_whole
-from hess_mechanics.numerics.labelled import Labels, Result, components
+from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.parallel import share
 from hess_mechanics.numerics.results import Array, angle_facts, frozen
 from hess_mechanics.suslov.equations import SuslovBody
@@ -83,14 +84,7 @@ class PlanePoints(Result):
         Labels
             Both coordinates over the points.
         """
-        number = np.repeat(np.arange(len(self.orbits)), [len(one) for one in self.orbits])
-        points = np.concatenate([np.empty((0, 2)), *self.orbits])
-        return Labels(
-            {"orbit": (("point",), number)},
-            components(self.names, points, "point"),
-            place_units(self.names),
-            self.facts,
-        )
+        return labels_of_orbits(self.names, self.orbits, "point", place_units(self.names), self.facts)
 
 
 def return_map(
@@ -251,8 +245,7 @@ def section_orbits(
         tuple(section.places_of(one) for one in found.states),
         {
             "level": map_.level,
-            **{f"drift of {name}": value for name, value in found.drift.items()},
-            "steps": found.cost.steps,
+            **found.facts,
             **{f"orbit {i}": reason for i, reason in enumerate(found.reasons) if reason},
             **angle_facts(
                 (name for name, turn in zip(section.names, section.turns, strict=True) if math.isfinite(turn)),
@@ -503,14 +496,10 @@ class Basins(Result):
         Labels
             Both arrays over the cells.
         """
-        across, up = self.names
         divergence = {f"divergence {i}": f"{one.mean:.6g} ± {one.error:.2g}" for i, one in enumerate(self.divergence)}
-        return Labels(
-            {up: ((up,), self.y), across: ((across,), self.x)},
-            {"attractor": ((up, across), self.attractor), "crossings": ((up, across), self.crossings)},
-            place_units(self.names),
-            {"attractors": self.attractors, **divergence, "level": self.level},
-        )
+        found = {"attractor": self.attractor, "crossings": self.crossings}
+        facts = {"attractors": self.attractors, **divergence, "level": self.level}
+        return labels_of_cells(self.names, self.x, self.y, found, facts)
 
 
 def basins(

@@ -55,8 +55,6 @@ export function render({ index, record, el }) {
 
   /** @type {Lesson | null} */
   let lesson = null
-  /** @type {string | null} */
-  let wanted = null
   let at = 0
   let turned = 0
   // These belong to the step on show and end with it.
@@ -217,10 +215,7 @@ export function render({ index, record, el }) {
   }
 
   menu.append(element("summary", "Lessons"), element("ul", ...index.map(({ name, title, minutes }) => (
-    element("li", button(`button.param-lesson-${name}`, () => {
-      wanted = name
-      tell("lesson", name)
-    }, `${title} (${minutes} min)`))))), ...(record ? [record.begin] : []))
+    element("li", button(`button.param-lesson-${name}`, () => tell("lesson", name), `${title} (${minutes} min)`))))), ...(record ? [record.begin] : []))
 
   /** Show the suggestions for a scene, one at a time. @param {SceneDescription} scene */
   function showTries(scene) {
@@ -280,11 +275,7 @@ export function render({ index, record, el }) {
       arriving = null
       then?.()
     },
-    "lesson-read"({ lesson: given, step }) {
-      if (step !== null) begin(given, step, true)
-      else if (given.name === wanted) begin(given, 0, false)
-      wanted = null
-    },
+    "lesson-read": ({ lesson: given, step }) => begin(given, step ?? 0, step !== null),
   })
   addEventListener("wheel", (event) => {
     if (!isAlone()) return

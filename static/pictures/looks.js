@@ -23,22 +23,14 @@ let dark = false
 export function setShades(given) {
   shades = given
   onDarkPage = new Map(Object.values(given))
-  showShades()
-}
-
-function showShades() {
-  for (const [name, pair] of Object.entries(shades)) document.documentElement.style.setProperty(`--${name}`, pair[Number(dark)])
+  for (const [name, pair] of Object.entries(given)) document.documentElement.style.setProperty(`--${name}`, `light-dark(${pair})`)
 }
 
 /**
  * Choose the colours of a dark or a light page for everything that is drawn from now on.
  * @param {boolean} value
  */
-export function setDark(value) {
-  if (value === dark) return
-  dark = value
-  showShades()
-}
+export const setDark = (value) => { dark = value }
 
 /**
  * Return a colour of "theme.py" as it is on this page.

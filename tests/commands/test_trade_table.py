@@ -5,9 +5,9 @@ from math import nan
 
 import pytest
 
+from benchmarks.bench import main
 from benchmarks.integrators import trade as rows
 from benchmarks.integrators.trade import Row, _draft_computes, _example, as_json, by_kind, line_of, names
-from hess_explorer.__main__ import main
 from hess_explorer.scenes import scenes
 from hess_mechanics import LEVELS
 from hess_mechanics import catalogue as declared
@@ -35,13 +35,13 @@ def test_a_computation_that_is_impossible_is_said_and_the_others_stay(monkeypatc
     every = {"circle-map": beyond, "cos-chi": find("cos-chi")}
     monkeypatch.setattr(declared, "catalogue", lambda: every)
     monkeypatch.setattr(rows, "find", every.get)
-    assert main(typed("bench --trade --quick")) == 2
+    assert main(typed("--trade --quick")) == 2
     said = capsys.readouterr()
     lines = said.out.splitlines()
     assert lines[2].startswith("| circle-map | map | – | – | – | – | – | – | No motion has h = -0.999")
     assert lines[3].startswith("| cos-chi | map | ")
     assert lines[-1].startswith("| map | ")
-    assert said.err.splitlines()[-1].startswith("hess-explorer: circle-map could not be measured (No motion has h")
+    assert said.err.splitlines()[-1].startswith("bench.py: circle-map could not be measured (No motion has h")
 
 
 def row(scene, kind, times=(1.0, 2.0, 3.0, 4.0), errors=(0.1, 0.01, 0.001, 0.0)):

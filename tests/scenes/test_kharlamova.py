@@ -100,7 +100,7 @@ def test_an_example_of_the_quartic_potential_is_what_its_name_says(preset):
     else:
         # An elliptic orbit of a map that keeps area: |μ| = 1.
         assert np.hypot(*view.numbers("section", "Period 1, elliptic. Multipliers μ = # ± #i")) == approx(1.0, abs=2e-4)
-    assert ("Motion in a ring." in view.text["domain"]) == (body.h > abs(body.b3)) >= ("ring" in preset.name)
+    assert ("Motion in a ring." in view.text["domain"]) == (abs(body.b3) < body.E) >= ("ring" in preset.name)
 
 
 @pytest.mark.chaotic

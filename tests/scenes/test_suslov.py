@@ -12,7 +12,6 @@ from pytest import approx
 
 from hess_explorer.protocol.specs import places
 from hess_explorer.scenes import scenes
-from hess_explorer.views.plane.section_plane import joined
 from hess_mechanics import SuslovBody, lyapunov_spectrum
 from hess_mechanics.dynamics.basins import contraction
 from hess_mechanics.dynamics.cells import occupied_cells
@@ -69,7 +68,7 @@ def test_an_example_is_complete_and_counts_its_points(name):
         said = view.numbers("section", "\n# points forward")
         assert said == [len(forward)]
         cells, of = view.numbers("section", "late forward points occupy # of # cells.")
-        later = joined(orbit[len(orbit) // 2 :] for orbit in view.result.section.kind())
+        later = view.result.section.points(later=True)
         assert len(later) == approx(len(forward) * (0.5 if view.values["drop"] == "all" else 1.0), rel=0.01)
         assert (cells, of) == (occupied_cells(later, ((-pi, pi), (0.0, pi))), 1024)
     assert np.all((forward[:, 1] >= 0.0) & (forward[:, 1] <= pi + 1e-6))

@@ -19,8 +19,9 @@ from support.processes import interruptible
 
 def motions(**options):
     """The exponents of some motions; the options are those of `sweep`."""
-    over = {"w1": (0.2, 1.4, 6), "I22": (1.0, 2.0, 5)}
-    return sweep("lyapunov suslov", over, accuracy="draft", duration=15.0, **options)
+    return sweep(
+        "lyapunov suslov", {"w1": (0.2, 1.4, 6), "I22": (1.0, 2.0, 5)}, accuracy="draft", duration=15.0, **options
+    )
 
 
 @pytest.fixture(scope="module")

@@ -10,7 +10,7 @@ from importlib.metadata import version as installed
 from sphinx.application import Sphinx
 
 from hess_explorer.__main__ import main
-from hess_explorer.commands.compute import command_of, title_of
+from hess_explorer.commands.compute import command_of
 from hess_mechanics.catalogue import Computation, catalogue, motions
 from hess_mechanics.numerics.accuracy import levels_table
 from hess_mechanics.parameters import Parameter, plain
@@ -79,7 +79,7 @@ def _computations() -> Iterator[str]:
         system = motions().get(one.system)
         own = [p for p in one.parameters if system is None or p not in (*system.parameters, *system.place)]
         words = f"{one.key} {command_of(one).example}".strip()
-        yield f"({name})=\n## {title_of(one)}\n\n{inspect.cleandoc(one.doc)}\n"
+        yield f"({name})=\n## {one.title}\n\n{inspect.cleandoc(one.doc)}\n"
         python = f"{{py:func}}`{one.function.__name__} <hess_mechanics.{one.function.__name__}>`"
         yield f"- Python: {python}; command: `hess-explorer {name}{' SYSTEM' if system else ''}`"
         if system is not None:

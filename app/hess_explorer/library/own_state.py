@@ -22,7 +22,6 @@ from hess_explorer.scenes.parts.sections import (
     Orbit,
     PeriodicOrbit,
     Section,
-    about_section,
     crossings_of_each,
     length_of_manifolds,
     start_on,
@@ -106,13 +105,13 @@ class OwnState(State):
         """The section."""
         return variable_section(self.body, self.levels(), self.surface, self.coordinates, self.ranges)
 
-    section = part(lambda s: Section(s, lambda: (s.given,), periodic=lambda: s.periodic_orbit, zoom=s.window))
+    section = part(Section)
     megno = part(lambda s: Indicator(s.section, s.indicator == MEGNO))
 
     @property
-    def about_section(self) -> Caption:
-        """The caption of the section."""
-        return self.megno.caption or about_section(self.section)
+    def special(self) -> Caption | None:
+        """The caption of a section with MEGNO; None without it."""
+        return self.megno.caption
 
     def look_closer(self, corners: Corners) -> Values:
         """Return the window of the section that a box selects."""
@@ -145,24 +144,24 @@ class LevelState(OwnState):
     @property
     def start(self) -> Start:
         """The initial state of the orbit on show."""
-        return self.periodic_orbit.start
+        return self.given if self.closed is None else self.closed.state
 
     @property
     def lasts(self) -> float:
         """The time span of the orbit on show."""
-        return self.periodic_orbit.lasts
+        return self.span if self.closed is None else self.closed.time
 
     @property
     def closed(self) -> Closed | None:
         """The periodic orbit, if known."""
         return self.periodic_orbit.closed
 
-    periodic_orbit = part(lambda s: PeriodicOrbit(s.section, s.periodic, s.reach, s.span))
+    periodic_orbit = part(lambda s: PeriodicOrbit(s.section, s.periodic, s.reach))
 
     @property
-    def about_section(self) -> Caption:
-        """The caption of the section, or of its periodic orbit."""
-        return self.periodic_orbit.caption or super().about_section
+    def special(self) -> Caption | None:
+        """The caption of a section with a periodic orbit or MEGNO; None without them."""
+        return self.periodic_orbit.caption or self.megno.caption
 
     def levels(self) -> dict[str, float]:
         """Return the chosen values of integrals."""

@@ -16,7 +16,7 @@ from hess_explorer.scenes.framework.charted import Charts, of_motion, parameters
 from hess_explorer.scenes.framework.part import part
 from hess_explorer.scenes.framework.scene import Preset, Scene
 from hess_explorer.scenes.framework.sliders import choice, number, parameter
-from hess_explorer.scenes.framework.solid_body import Solid, constrained_solid, solid_body
+from hess_explorer.scenes.framework.solid_body import solid_body
 from hess_explorer.scenes.parts.sections import (
     PLAIN,
     Branch,
@@ -160,8 +160,7 @@ class BallSection(SectionState):
     section = part(
         lambda s: Section(
             s,
-            lambda: (s.given,),
-            periodic=lambda: s.periodic_orbit,
+            most_steps=15_000,
             later=s.drop == _LATE,
         )
     )
@@ -173,11 +172,6 @@ class BallSection(SectionState):
     def r(self) -> Direction | None:
         """The direction of the centre of mass; None without a field."""
         return centre_of_mass((self.b1, self.b2, self.b3))
-
-    @cached_property
-    def solid(self) -> Solid:
-        """The ball along the orbit."""
-        return constrained_solid(self.work, self.body, self.orbit.path)
 
     def start_at(self, x: float, y: float) -> Values:
         """Return the parameters of an orbit that starts at (ψ, δ)."""

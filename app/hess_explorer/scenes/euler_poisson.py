@@ -52,6 +52,7 @@ from hess_explorer.scenes.parts.sections import (
     parameter_of_branch,
     points_of_each,
     section_trials,
+    start_on,
 )
 from hess_explorer.scenes.parts.sections.density import Density
 from hess_explorer.scenes.parts.sections.rotation_across import RotationAcross, rotation_picture, rotation_trial
@@ -70,12 +71,12 @@ from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.results import Array, frozen
 from hess_mechanics.parameters import F_HEAVY, H_HEAVY, I1, I2, I3, MU_R
 
-_MOST_STEPS = 200_000
 _NAMES = ("l", "L/G")
 _BOUNDS = ((-TURN, -1.0), (TURN, 1.0))
 _OVER = {"ε": "away", "h": "h", "f": "f", "μ|r|": "m", "I₁": "I1", "I₂": "I2", "I₃": "I3"}
 _ALONG, _ABOUT = "along l", "about the middle"
 _LARGEST, _SECOND = "largest G", "second G"
+_MORE = "a larger h, a smaller |f|"
 
 _RIS: dict[str, Value] = {"I1": 1.0, "I2": 1.5, "I3": 2.0, "m": -math.sqrt(0.5), "span": 60.0}
 _THERE, _LOW = "2.8,0.3", "-1.54,-0.86"
@@ -218,8 +219,14 @@ class EulerPoisson(FilledState):
         """The splitting of the separatrices."""
         return HessSplit(self, HessTorus(self.moments, self.m, self.h, self.f), self.away)
 
-    section = part(lambda s: filled(s, 16, _crossings))
-    clicks = part(lambda s: Clicks(s, "no motion with this h and f crosses the section"))
+    section = part(lambda s: filled(s, 16, compute=_crossings, most_steps=200_000))
+
+    @part
+    def clicks(self) -> Clicks:
+        """The starts of the chosen orbits."""
+        which, remedy = ("a second sheet", "the largest G") if self.poincare.sheet else ("the section", _MORE)
+        return Clicks(self, f"no motion with this h and f crosses {which}", remedy)
+
     density = part(
         lambda s: Density(s.section, s.dense, 2, lambda states: (relation(s.body, states) <= 0.0).astype(int))
     )
@@ -286,7 +293,6 @@ class EulerPoisson(FilledState):
     def derived(self) -> Iterator[str]:
         """Yield a and r, the start of the orbit on show and the check of the body."""
         yield f"a = {digits(self.body.hess_a)}, r = {vector(self.body.r)}"
-        yield self.clicks.sentence
         yield from super().derived()
         if self.section.asked("known") and len(self.elsewhere):
             yield f"on another sheet: {len(self.elsewhere)} points"
@@ -294,9 +300,9 @@ class EulerPoisson(FilledState):
 
 
 def _crossings(
-    section: AndoyerSection, starts: tuple[Start, ...], crossings: int, forward: bool, level: Level
+    section: AndoyerSection, starts: tuple[Start, ...], crossings: int, forward: bool, level: Level, most: int
 ) -> OrbitBatch:
-    found = section_crossings(section, starts, crossings, level, threads=1, most_steps=_MOST_STEPS)
+    found = section_crossings(section, starts, crossings, level, threads=1, most_steps=most)
     signs = np.sign(relation(section.body, np.array(starts)))
     kept = (
         bool(np.all(sign * relation(section.body, states) >= 0.0))
@@ -318,7 +324,7 @@ SCENE = Scene(
     presets=PRESETS,
     measures=(*section_trials(orbits=40.0), exponent_trial(), rotation_trial()),
     charts=Charts(
-        of_motion(SYSTEM, lambda s: s.clicks.asked_start, time=lambda s: s.long),
+        of_motion(SYSTEM, lambda s: start_on(s.poincare, s.starts), time=lambda s: s.long),
         over=_NAMES,
         placed=("starts", _NAMES),
     ),

@@ -14,7 +14,7 @@ from hess_explorer.scenes.framework.charted import Charts, of_motion
 from hess_explorer.scenes.framework.part import Start, part
 from hess_explorer.scenes.framework.scene import Preset, Scene
 from hess_explorer.scenes.framework.sliders import Slider, number, parameter, slider_within, time_span
-from hess_explorer.scenes.framework.solid_body import Solid, constrained_solid, solid_body
+from hess_explorer.scenes.framework.solid_body import solid_body
 from hess_explorer.scenes.framework.windows import Window
 from hess_explorer.scenes.parts.sections import (
     PLAIN,
@@ -148,8 +148,7 @@ class Quartic(SectionState):
     section = part(
         lambda s: Section(
             s,
-            lambda: (s.given,),
-            periodic=lambda: s.periodic_orbit,
+            most_steps=40_000,
             whole=s.section_window,
         )
     )
@@ -161,11 +160,6 @@ class Quartic(SectionState):
         """Return the window with room for all q and p."""
         (q0, q1), (p0, p1) = centred(nice_above(1.05 * self.body.longest)), _P_AXIS
         return (q0, p0), (q1, p1)
-
-    @cached_property
-    def solid(self) -> Solid:
-        """The body along the orbit."""
-        return constrained_solid(self.work, self.body, self.orbit.path)
 
     @cached_property
     def momentum(self) -> Array:
@@ -268,7 +262,7 @@ SCENE = Scene(
             caption=Quartic._about_sphere,
             looks={"orbit": "orbit"},
             axis=lambda s: centre_of_mass((0.0, 0.0, s.b3)),
-            circles=lambda s: [*parallels((0.0, 0.0, 1.0), [s.body.h / s.body.b3]), *s.proof.around],
+            circles=lambda s: [*parallels((0.0, 0.0, 1.0), [s.body.E / s.body.b3]), *s.proof.around],
         ),
         plane_domain.momentum_picture(
             lambda s: (s.orbit.path.times, s.momentum),

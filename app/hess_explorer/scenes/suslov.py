@@ -14,7 +14,7 @@ from hess_explorer.scenes.framework.charted import Charted, Charts, of_motion, p
 from hess_explorer.scenes.framework.part import part
 from hess_explorer.scenes.framework.scene import Preset, Scene
 from hess_explorer.scenes.framework.sliders import TURN, choice, parameter, places, time_span
-from hess_explorer.scenes.framework.solid_body import Solid, constrained_solid, solid_body
+from hess_explorer.scenes.framework.solid_body import solid_body
 from hess_explorer.scenes.parts.orbits.exponent import exponent_trial
 from hess_explorer.scenes.parts.sections import (
     PLAIN,
@@ -26,13 +26,13 @@ from hess_explorer.scenes.parts.sections import (
     filled_picture,
     periodic_layers,
     section_trials,
+    start_on,
 )
 from hess_explorer.scenes.parts.sections.basins import Basins, basins_trial
 from hess_explorer.scenes.parts.sections.divergence import Divergence, divergence_picture
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.graphs import conformal_time
 from hess_explorer.views.plane import layered_section
-from hess_explorer.views.plane.section_plane import joined
 from hess_explorer.views.plane.velocity_plane import nice_above, orbit_alone, orbit_columns, pixels_per_unit
 from hess_explorer.views.space.poisson_sphere import along_the_orbit, centre_of_mass
 from hess_explorer.views.text import digits
@@ -51,15 +51,13 @@ _NAMES = ("ψ", "δ")
 _BOUNDS = ((-TURN, 0.0), (TURN, TURN))
 _PLANES = {"γ₃ = 0": 3, "γ₁ = 0": 1, "γ₂ = 0": 2}
 _BOTH = "forward and backward in time"
-_LATE = "the later half"
-
+_LATE, _FORWARD = "the later half", "forward only"
 
 _REGULAR = parameters_of(SuslovBody(1.5, 4.0, 0.0, 0.8, 0.0, 1.0, 0.7))
 _STRANGE = parameters_of(SuslovBody(1.0, 2.5, 0.6, 0.6, -1.0, -0.5, 0.7))
 _TWO = parameters_of(SuslovBody(1.5, 1.0, 0.4, 0.0, 0.3, -0.5, 1.0))
 _REVERSED = parameters_of(SuslovBody(1.0, 3.0, 0.6, 0.6, 1.0, 0.7, 0.3))
 _PRINCIPAL = parameters_of(SuslovBody(1.5, 1.0, 0.0, 0.0, 0.4, -0.3, 0.8))
-_FORWARD = "forward only"
 PRESETS = (
     Preset("A chaotic sea", **PLAIN, plane="γ₃ = 0"),
     Preset("Regular orbits (not a rigid body)", **_REGULAR, h=0.699656, starts="-1.5,1"),
@@ -122,8 +120,6 @@ class Suslov(FilledState):
             notes.append(f"Motions reach {self.plane} only for h > {digits(bottom)}: h was set to {digits(state.h)}.")
         return state
 
-    # ---- the motion ---------------------------------------------------------------------------------------------
-
     @cached_property
     def body(self) -> SuslovBody:
         """The body.  Raises `InvalidParameter`, `NotPositiveDefinite`."""
@@ -167,13 +163,8 @@ class Suslov(FilledState):
 
     clicks = part(lambda s: Clicks(s, "no motion has this energy"))
     orbit = part(lambda s: Orbit(s, s.orbit_level))
-    divergence = part(lambda s: Divergence(s, s.exponent))
+    exponent = part(Divergence)
     basins = part(lambda s: Basins(s, s.section))
-
-    @cached_property
-    def solid(self) -> Solid:
-        """The body along the orbit."""
-        return constrained_solid(self.work, self.body, self.orbit.path)
 
     @cached_property
     def _conformal(self) -> tuple[Conformal | None, str]:
@@ -184,8 +175,6 @@ class Suslov(FilledState):
             return self.work.need(Task(conformal, self.body, self.start, self.lasts, self.orbit_level())), ""
         except WorkLimit as error:
             return None, str(error)
-
-    # ---- words --------------------------------------------------------------------------------------------------
 
     def _section_title(self) -> str:
         return f"Section {self.plane}{' (upward crossings)' if self.basins.found is None else ': basins'}"
@@ -199,7 +188,7 @@ class Suslov(FilledState):
             return Caption(numbers=f"{len(self.section.own)} points of chosen orbits.")
         backward = f", {len(second)} backward" if len(second) else ""
         # The later halves of the forward orbits show the attractors.
-        later = joined(orbit[len(orbit) // 2 :] for orbit in self.section.kind())
+        later = self.section.points(later=True)
         counted = self.density.said or f"{len(first)} points forward{backward}; "
         cells = occupied_cells(later, self.poincare.window, _CELLS)
         return Caption(numbers=f"{counted}late forward points occupy {cells} of {_CELLS**2} cells.")
@@ -207,7 +196,6 @@ class Suslov(FilledState):
     def derived(self) -> Iterator[str]:
         """Yield the energy, the start of the orbit on show and the check of the body."""
         yield f"E = {digits(self.E)}"
-        yield self.clicks.sentence
         yield from super().derived()
         yield check_body(self.I11, self.I22, self.I13, self.I23).sentence
 
@@ -220,7 +208,7 @@ SCENE = Scene(
     measures=(*section_trials(orbits=40.0), exponent_trial(), basins_trial()),
     charts=Charts(
         (
-            *of_motion(SYSTEM, lambda s: s.clicks.asked_start, time=lambda s: s.long),
+            *of_motion(SYSTEM, lambda s: start_on(s.poincare, s.starts), time=lambda s: s.long),
             Charted(
                 "basins suslov-section",
                 ("attractors",),

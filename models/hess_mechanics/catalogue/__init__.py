@@ -73,6 +73,5 @@ def find(key: str) -> Computation:
     every = catalogue()
     if isinstance(key, str) and key in every:
         return every[key]
-    named = [one for one in every if one.split(" ")[0] == str(key).split(" ")[0]]
-    close = named or get_close_matches(str(key), every, 3, 0.4) or [*dict.fromkeys(one.split(" ")[0] for one in every)]
+    close = get_close_matches(str(key), every, 3, 0.4) or [*dict.fromkeys(one.name for one in every.values())]
     raise InvalidParameter(f"There is no computation {str(key)[:60]!r}: choose from {', '.join(close)}.")

@@ -20,7 +20,7 @@ from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.results import Array, Mask
 from hess_mechanics.parameters import Parameter
 
-__all__ = ["Choice", "Computation", "NoValue", "Number", "Scalar", "declare", "largest_difference", "real"]
+__all__ = ["Choice", "Computation", "Many", "NoValue", "Number", "Scalar", "declare", "largest_difference", "real"]
 
 Value = float | str
 
@@ -100,6 +100,10 @@ class Scalar(Result):
         return Labels({}, {}, facts={"value": self.value}) if self.of is None else self.of.labels()
 
 
+Many = tuple[Mapping[str, Array], Mapping[type[ModelError], Mask]]
+"""Numbers of many cells by name, NaN where there is none, and the cells without one by the type of their error."""
+
+
 @dataclass(frozen=True)
 class Computation:
     """One thing that can be computed.
@@ -107,7 +111,7 @@ class Computation:
     Attributes
     ----------
     name : its name, such as "circle-map".
-    title : its name in words.
+    title : its name in words, without that of the system.
     function : the public function, whose docstring describes it.
     parameters : its numbers, whose defaults are the example.
     numbers : the numbers of a result by name; the first is what a sweep takes by default.
@@ -121,8 +125,7 @@ class Computation:
     system : name of the system; empty for a computation of its own.
     source : label of the equation in the paper, or a citation.
     group : heading of its command.
-    many : many(accuracy, **columns) computes some of the numbers for many cells at once: the numbers by name, NaN where
-        there is none, and the cells without one by the type of their error.
+    many : computes some of the numbers for many cells at once, many(accuracy, **columns).
     """
 
     name: str
@@ -139,7 +142,7 @@ class Computation:
     system: str = ""
     source: str = ""
     group: Literal["compute", "prove"] = "compute"
-    many: Callable[..., tuple[Mapping[str, Array], Mapping[type[ModelError], Mask]]] | None = None
+    many: Callable[..., Many] | None = None
 
     @property
     def key(self) -> str:
@@ -234,7 +237,6 @@ def declare(of: Motions, one: Computation, on_section: bool = False) -> Computat
 
     return replace(
         one,
-        title=f"{one.title}: {of.title}",
         parameters=(*of.parameters, *of.place, *one.parameters),
         call=call,
         system=of.name,

@@ -3,27 +3,28 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable
 from functools import lru_cache
 
 import numpy as np
 
 from hess_mechanics import parameters as known
-from hess_mechanics.catalogue.declared import Computation, NoValue, Number, Scalar, largest_difference, real
-from hess_mechanics.chaplygin_ball.ball_scattering import BallScattering, ball_scattering
+from hess_mechanics.catalogue.declared import Computation, Many, NoValue, Number, Scalar, largest_difference, real
+from hess_mechanics.chaplygin_ball.ball_scattering import ball_scattering
 from hess_mechanics.chaplygin_ball.equations import BallBody
-from hess_mechanics.chaplygin_ball.integrable_cases import Period, period
+from hess_mechanics.chaplygin_ball.integrable_cases import period
 from hess_mechanics.chaplygin_ball.phase_cloud import Cloud
 from hess_mechanics.chaplygin_ball.phase_cloud_density import course, density
 from hess_mechanics.computations import cloud
 from hess_mechanics.dynamics.motions import usual, whole
-from hess_mechanics.errors import ModelError, OutsideRegion, Separatrix
+from hess_mechanics.errors import OutsideRegion, Separatrix
 from hess_mechanics.numerics.accuracy import Kind, Level
 from hess_mechanics.numerics.arguments import unit_vector
-from hess_mechanics.numerics.results import Array, Mask
+from hess_mechanics.numerics.results import Array
+from hess_mechanics.parameters import Parameter
 from hess_mechanics.suslov.equations import SuslovBody
 from hess_mechanics.suslov.kharlamova import PlaneBody, arc
-from hess_mechanics.suslov.scattering import Scattering, cos_chi, scattering
+from hess_mechanics.suslov.scattering import cos_chi, scattering
 from hess_mechanics.suslov_hess.circle_map import CircleMap, FixedPoint, circle_map
 from hess_mechanics.suslov_hess.mode_locking import critical_a
 from hess_mechanics.suslov_hess.rotation_number import values_at
@@ -41,9 +42,7 @@ def _circle_map(accuracy: Level, a: float, h: float, f: float, phi: float) -> Sc
     return Scalar(float(found.theta([phi])[0]), found.error_estimate, found)
 
 
-def _tori(
-    accuracy: Level, a: Array, h: Array, f: Array, phi: Array
-) -> tuple[Mapping[str, Array], Mapping[type[ModelError], Mask]]:
+def _tori(accuracy: Level, a: Array, h: Array, f: Array, phi: Array) -> Many:
     found = values_at(a, h, f, accuracy)
     # (h, f) = (1, 0) is the separatrix; all other impossible tori lie outside of the region.
     separatrix = ~found.possible & (np.hypot(h - 1.0, f) < 1e-6)
@@ -62,24 +61,23 @@ def _cycle(found: CircleMap, number: int) -> FixedPoint:
 
 # ---- free Suslov problem, free Chaplygin ball -----------------------------------------------------------------------
 
-_TENSOR = tuple(usual(one, value) for one, value in zip(known.TENSOR, (2.0, 1.0, 0.3, 0.5), strict=True))
+
+def _usual(of: Iterable[Parameter], *defaults: float) -> tuple[Parameter, ...]:
+    return tuple(map(usual, of, defaults))
+
+
+_TENSOR = _usual(known.TENSOR, 2.0, 1.0, 0.3, 0.5)
 _CIRCLE = (usual(known.THETA, 1.0), usual(known.CIRCLE_PHASE, 0.0))
 _INNER = usual(known.D, 1.0)
 
 
 # Many cells of a sweep over angles share a body.
-@lru_cache(maxsize=256)
-def _scattered(body: SuslovBody, accuracy: Level, arc: int, distance: float) -> Scattering:
-    return scattering(body, accuracy, arc, distance or None)
+_scattered = lru_cache(maxsize=256)(scattering)
 
 
 def _scattering(accuracy: Level, theta: float, phi: float, arc: int, distance: float, **tensor: float) -> Scalar:
-    found = _scattered(SuslovBody(**tensor), accuracy, arc, distance)
+    found = _scattered(SuslovBody(**tensor), accuracy, arc, distance or None)
     return Scalar(float(found.theta_plus(theta, phi)), found.error_estimate, found)
-
-
-def _ball_scattering(accuracy: Level, theta: float, phi: float, distance: float, **body: float) -> BallScattering:
-    return ball_scattering(BallBody(**body), theta, [phi], 1.0, distance, accuracy)
 
 
 # ---- clouds of phase points -----------------------------------------------------------------------------------------
@@ -108,12 +106,8 @@ def _cloud(
 
 # ---- periods --------------------------------------------------------------------------------------------------------
 
-_PLANE_BODY = tuple(
-    usual(one, value) for one, value in zip((*known.TENSOR[:2], *known.FIELD[:2]), (1.3, 0.8, 0.5, -0.2), strict=True)
-)
-_PLANE_START = tuple(
-    usual(one, value) for one, value in zip((*known.OMEGA, *known.GAMMA), (1.0, -0.5, 0.0, 0.6, 0.8), strict=True)
-)
+_PLANE_BODY = _usual((*known.TENSOR[:2], *known.FIELD[:2]), 1.3, 0.8, 0.5, -0.2)
+_PLANE_START = _usual((*known.OMEGA, *known.GAMMA), 1.0, -0.5, 0.0, 0.6, 0.8)
 
 
 def _state(w1: float, w2: float, g1: float, g2: float, g3: float) -> tuple[float, ...]:
@@ -129,10 +123,6 @@ def _plane_period(accuracy: Level, I11: float, I22: float, b1: float, b2: float,
             "start."
         )
     return found.period
-
-
-def _ball_period(accuracy: Level, I11: float, I22: float, b1: float, b2: float, D: float, **start: float) -> Period:
-    return period(BallBody(I11, I22, 0.0, 0.0, D, b1, b2, 0.0), _state(**start), accuracy)
 
 
 COMPUTATIONS: tuple[Computation, ...] = (
@@ -225,7 +215,9 @@ COMPUTATIONS: tuple[Computation, ...] = (
             )
         },
         Kind.MAP,
-        call=_ball_scattering,
+        call=lambda accuracy, theta, phi, distance, **body: ball_scattering(
+            BallBody(**body), theta, [phi], 1.0, distance, accuracy
+        ),
         unit="rad",
     ),
     Computation(
@@ -252,7 +244,9 @@ COMPUTATIONS: tuple[Computation, ...] = (
             )
         },
         Kind.ORBIT,
-        call=_ball_period,
+        call=lambda accuracy, I11, I22, b1, b2, D, **start: period(
+            BallBody(I11, I22, 0.0, 0.0, D, b1, b2, 0.0), _state(**start), accuracy
+        ),
         unit="time",
     ),
     Computation(

@@ -58,14 +58,14 @@ def _along(function: Callable[..., Any]) -> Callable[..., Any]:
 # ---- numbers ----------------------------------------------------------------------------------------------------
 
 
-def _decided(read: Callable[[Regime], float]) -> Callable[[Regime], float]:
+def _decided(name: str) -> Callable[[Regime], float]:
     def number(found: Regime) -> float:
         if found.kind in _UNDECIDED:
             raise NoValue(
                 f"The motion is {found.kind.words}: MEGNO is {found.megno:.3g} after t = {found.t:.4g}. Choose a "
                 "longer time, or skip more crossings."
             )
-        return read(found)
+        return float(getattr(found, name))
 
     return number
 
@@ -80,14 +80,14 @@ _OF_MOTION: Mapping[str, Number] = {
     "kind": Number(
         "regime",
         "kind of the motion",
-        _decided(lambda r: r.kind),
+        _decided("kind"),
         named={int(one): one.words for one in MotionKind if one not in _UNDECIDED},
     ),
-    "period": Number("N", "period, 0 where none is seen", _decided(lambda r: r.period)),
+    "period": Number("N", "period, 0 where none is seen", _decided("period")),
     "volume": Number(
         "±",
         "change of phase volume about the motion",
-        _decided(lambda r: r.volume),
+        _decided("volume"),
         named={0: "kept", -1: "shrinks", 1: "grows"},
     ),
     "megno": Number("Ȳ", "MEGNO", "megno"),

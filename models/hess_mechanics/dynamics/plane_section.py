@@ -6,7 +6,7 @@ import math
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -461,18 +461,22 @@ class SectionPoints(Result):
         Labels
             The variables over the crossings.
         """
-        orbit = np.repeat(np.arange(len(self.states)), [len(one) for one in self.states])
-        points = np.concatenate([np.empty((0, len(self.variables))), *self.states])
-        return Labels(
-            {"orbit": (("crossing",), orbit)},
-            components(self.variables, points, "crossing"),
-            {name: "rad" if name in self.angles else unit_of(name) for name in self.variables},
-            {
-                **{f"drift of {name}": value for name, value in self.drift.items()},
-                "steps": self.cost.steps,
-                **angle_facts(self.angles),
-            },
-        )
+        units = {name: "rad" if name in self.angles else unit_of(name) for name in self.variables}
+        return labels_of_orbits(self.variables, self.states, "crossing", units, self.facts | angle_facts(self.angles))
+
+    @property
+    def facts(self) -> dict[str, float | str]:
+        """The drift of each integral, and the number of steps."""
+        return {**{f"drift of {name}": value for name, value in self.drift.items()}, "steps": self.cost.steps}
+
+
+def labels_of_orbits(
+    names: Sequence[str], orbits: Sequence[Array], dim: str, units: Mapping[str, str], facts: Mapping[str, Any]
+) -> Labels:
+    """Return the named columns of all points (n, k) of some orbits, labelled with the number of the orbit."""
+    number = np.repeat(np.arange(len(orbits)), [len(one) for one in orbits])
+    points = np.concatenate([np.empty((0, len(names))), *orbits])
+    return Labels({"orbit": ((dim,), number)}, components(names, points, dim), units, facts)
 
 
 def section_points(

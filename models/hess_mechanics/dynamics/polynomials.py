@@ -127,7 +127,7 @@ class Along(_Number):
         return self * (other.inverse() if isinstance(other, Along) else 1 / (other + 0 * self.delta))
 
     def __rtruediv__(self, other: Any) -> Along:
-        return self.inverse() * other
+        return self.inverse().__mul__(other)
 
 
 def _size(coefficients: list[ArbBall], delta: ArbBall) -> ArbBall:

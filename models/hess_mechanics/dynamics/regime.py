@@ -36,7 +36,7 @@ from hess_mechanics.dynamics.system import Problem
 from hess_mechanics.dynamics.zero_one import LEAST, zero_one_of_bands
 from hess_mechanics.errors import ModelError, NoReturn, OutsideRegion, WorkLimit
 from hess_mechanics.numerics.accuracy import Status
-from hess_mechanics.numerics.arguments import as_number, as_place, as_whole
+from hess_mechanics.numerics.arguments import as_place, as_whole
 from hess_mechanics.numerics.labelled import Labels, Result, components
 from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array, frozen
@@ -281,7 +281,7 @@ def regime(
     'fixed point'
     """
     transient, kept = as_whole("transient", transient, 0, _MOST_CROSSINGS), as_whole("kept", kept, 1, _MOST_CROSSINGS)
-    start, duration = as_place(map_.names, start), as_number("duration", duration)
+    start = as_place(map_.names, start)
     places = map_.orbit(np.array(start), transient + kept)
     if len(places) < transient + kept:
         return _not_seen(map_, places, start)

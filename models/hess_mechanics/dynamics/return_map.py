@@ -56,8 +56,6 @@ _AGREE = 1e-14
 """Round-off of the differences times the step: differences with a step and with a quarter of it agree to this."""
 _TRIED = (4, 200, 4000)
 """Points tried for each state of a section: motions may cross it in a small part only."""
-_MIRRORED = 99
-"""Points of a section at which its symmetries are looked for."""
 _TURNS = 120.0
 _TOO_LONG = f"This return needs more than {MAX_STEPS} steps: choose another place, or a cheaper level."
 _AT_ONCE = 1e-8
@@ -666,15 +664,10 @@ class ReturnMap:
     @cached_property
     def mirrors(self) -> tuple[Mirror, ...]:
         """Symmetries that map motions through this section to such motions, and reversors that map it to itself."""
-        for shares in evenly(_MIRRORED).T:
-            place = np.array(
-                [low + share * (high - low) for share, (low, high) in zip(shares, self.section.window, strict=False)]
-            )
-            try:
-                known = sign_symmetries(self.section.system, self.section.parameters)
-                return tuple(one for one in known if self.mirrored(one, place) is not None)
-            except (OutsideRegion, InvalidParameter):
-                continue
+        for state in self.section.spread(1):
+            place = self.section.places_of(np.array([state]))[0]
+            known = sign_symmetries(self.section.system, self.section.parameters)
+            return tuple(one for one in known if self.mirrored(one, place) is not None)
         return ()
 
     def mirrored(self, mirror: Mirror, place: Array) -> Array | None:

@@ -15,14 +15,14 @@ import math
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 
 from hess_mechanics.dynamics.birkhoff import ERRORS, STRETCHES, batch_error
 from hess_mechanics.dynamics.orbit import MAX_SAMPLES, MAX_STEPS, checked_span, end_of, require_finite_rates
 from hess_mechanics.dynamics.system import Body, Problem
-from hess_mechanics.dynamics.variation import LONGEST, Tangent, frame_ahead, one_direction, tangent
+from hess_mechanics.dynamics.variation import LONGEST, frame_ahead, one_direction, tangent
 from hess_mechanics.errors import WorkLimit
 from hess_mechanics.numerics.accuracy import PLANS, STANDARD, Accuracy, Kind, Level, Status, plan
 from hess_mechanics.numerics.arguments import as_level
@@ -383,32 +383,26 @@ def lyapunov_spectrum(
     part = end / stretches * np.arange(1, _SAMPLES + 1) / _SAMPLES
     count = stretches * _SAMPLES
     growth, volume = np.zeros((count + 1, d)), np.zeros(count + 1)
-    steps = 0
-
-    def stretch() -> Tangent:
-        nonlocal steps
-        found = tangent(
-            problem, y, frame, part, level, LIMIT, ahead, steps, lambda: end_of(problem, problem.states[0], end)
-        )
-        steps += found.steps
-        return found
-
-    for i in range(0, count, _SAMPLES):
+    steps, i = 0, 0
+    where = partial(end_of, problem, y, end)
+    while i < count:
         go_on()
-        found = stretch()
+        found = tangent(problem, y, frame, part, level, LIMIT, ahead, steps, where)
+        steps += found.steps
         if ahead:
             speeds = speed * np.linalg.norm(found.vectors[:, :, 0], axis=1)
             speed = float(speeds[-1])
             if not speeds.min() > _SLOW:
                 # From here on f is integrated like all other vectors.
                 ahead = False
-                found = stretch()
+                continue
         columns, lengths = np.linalg.qr(found.vectors)
         diagonal = np.abs(np.diagonal(lengths, axis1=1, axis2=2))
         now = slice(i + 1, i + _SAMPLES + 1)
         growth[now] = growth[i] + found.removed + np.log(np.maximum(diagonal, 1e-300))
         volume[now] = volume[i] + found.volume
         y, frame = found.states[-1].copy(), columns[-1]
+        i += _SAMPLES
     times = abs(duration) * np.arange(count + 1) / count
     first = _SETTLES * _SAMPLES
     together = np.column_stack([growth, volume])

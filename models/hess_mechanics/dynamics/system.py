@@ -278,7 +278,7 @@ class System:
     def _check_scaling(self) -> None:
         """Compare states and rates at random points before and after `rescale`.  Raises `WrongScaling`."""
         d = len(self.variables)
-        if isinstance(self.angular_velocities, bool) or self.angular_velocities not in range(d + 1):
+        if self.angular_velocities not in range(d + 1):
             raise WrongScaling(
                 f"{self.title}: angular_velocities counts the leading variables that scale with 1/time, "
                 f"so it is from 0 to {d}."
@@ -485,7 +485,7 @@ class System:
         )
 
     @cached_property
-    def orbit(self) -> Kernel:
+    def orbit(self) -> Callable[..., tuple[int, float]]:
         """Kernel that integrates one orbit, see `taylor_kernels.orbit_integrator`."""
         return self._kernel("orbit", "y, p, times, order, tolerance, longest, max_steps, out", orbit_integrator)
 
@@ -755,13 +755,7 @@ class Problem:
                 "a BallBody or a HeavyBody, or a System with its parameters, system.at(…)."
             )
         system = body.system
-        try:
-            given, p = np.array(states, float, ndmin=2), np.asarray(body.parameters, float)
-        except (TypeError, ValueError, OverflowError):
-            raise InvalidParameter(
-                f"{system.title}: a state consists of {len(system.variables)} numbers, "
-                f"{', '.join(system.variables)}; write them like 1.5 or -2e-3."
-            ) from None
+        given, p = np.array(states, float, ndmin=2), np.asarray(body.parameters, float)
         for shape, names in ((given.shape[1:], system.variables), (p.shape, system.parameters)):
             if shape != (len(names),):
                 raise InvalidParameter(f"{system.title} takes {len(names)} numbers here: {', '.join(names)}.")

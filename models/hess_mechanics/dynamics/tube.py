@@ -36,7 +36,7 @@ from hess_mechanics.dynamics.polynomials import Along, Slope
 from hess_mechanics.dynamics.system import Body, Problem, System
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import Accuracy
-from hess_mechanics.numerics.arguments import as_number, as_whole
+from hess_mechanics.numerics.arguments import as_whole
 from hess_mechanics.numerics.balls import BALL_FUNCTIONS, ArbBall, Enclosure, enclosure, rational, working
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.patience import go_on
@@ -597,4 +597,4 @@ def proved_orbit(
         raise WorkLimit(
             "No time is enclosed: reduce the digits or the time, or allow more work; or choose less extreme parameters."
         )
-    return ProvedOrbit(solve(body, start, found.times, accuracy), found, as_number("right_to", right_to))
+    return ProvedOrbit(solve(body, start, found.times, accuracy), found, right_to)

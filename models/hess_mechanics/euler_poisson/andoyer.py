@@ -19,7 +19,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
@@ -201,12 +201,7 @@ class AndoyerSection(PoincareSection):
 
     def moved(self, name: str, value: float) -> AndoyerSection:
         """Return the section with another value of one constant."""
-        if name in ("h", "f"):
-            return replace(self, h=value) if name == "h" else replace(self, f=value)
-        p = tuple(
-            value if one == name else other for one, other in zip(SYSTEM.parameters, self.parameters, strict=True)
-        )
-        return replace(self, body=HeavyBody((p[0], p[1], p[2]), (p[3], p[4], p[5]), p[6]))
+        return _section({**self.constants, "sheet": self.sheet, name: value})
 
     def _factors(self, l: Array, x: Array) -> tuple[Array, Array, Array]:
         """Return K, P, Q of the energy, see the module."""

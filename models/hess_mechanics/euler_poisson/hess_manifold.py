@@ -34,7 +34,6 @@ __all__ = [
     "difference",
     "exact_growth",
     "exact_motion",
-    "growth_of",
     "run_free",
 ]
 
@@ -191,8 +190,24 @@ class Leak:
 
     @cached_property
     def growth(self) -> LeakGrowth | None:
-        """The growth of (r, M); None if it is not exponential for long enough."""
-        return growth_of(self.run, self.samples)
+        """The growth of (r, M) while it is exponential; None if that lasts less than two periods.
+
+        It is the slope of ln |(r, M)| against the number of the period, in a least-squares fit of a straight line plus
+        a function of that period.
+        """
+        off, samples = self.run.off, self.samples
+        rows = (off.size - 1) // samples
+        table = np.abs(off[: rows * samples].reshape(rows, samples))
+        low, high = _STRAIGHT
+        over = np.flatnonzero(table.max(axis=1) > high)
+        last = int(over[0]) if over.size else rows
+        begun = np.flatnonzero(table[:last].min(axis=1) < low)
+        first = int(begun[-1]) + 1 if begun.size else 0
+        if last - first < 2:
+            return None
+        count = np.arange(last - first) - 0.5 * (last - first - 1)
+        slope = float(count @ np.log(table[first:last]).mean(axis=1) / (count @ count))
+        return LeakGrowth(slope, first, last - first)
 
     @property
     def side(self) -> tuple[int, bool]:
@@ -217,22 +232,3 @@ class Leak:
 def exact_growth(theta: CircleMap) -> float:
     """Return the growth of ln |(r, M)| in one period of n3 on the stable cycle; 0 without cycles."""
     return abs(theta.fixed_points[0].log_multiplier) if theta.fixed_points else 0.0
-
-
-def growth_of(run: FreeRun, samples: int) -> LeakGrowth | None:
-    """Return the growth of the leak while it is exponential; None if that lasts less than two periods.
-
-    samples : number per period of n3.  The growth is the slope of ln |(r, M)| against the number of the period, in a
-    least-squares fit of a straight line plus a function of that period.
-    """
-    rows = (run.off.size - 1) // samples
-    table = np.abs(run.off[: rows * samples].reshape(rows, samples))
-    low, high = _STRAIGHT
-    over = np.flatnonzero(table.max(axis=1) > high)
-    last = int(over[0]) if over.size else rows
-    begun = np.flatnonzero(table[:last].min(axis=1) < low)
-    first = int(begun[-1]) + 1 if begun.size else 0
-    if last - first < 2:
-        return None
-    count = np.arange(last - first) - 0.5 * (last - first - 1)
-    return LeakGrowth(float(count @ np.log(table[first:last]).mean(axis=1) / (count @ count)), first, last - first)

@@ -18,7 +18,6 @@ from hess_mechanics import (
     return_map,
     section,
     section_points,
-    transition_matrix,
 )  # fmt: skip
 from hess_mechanics.dynamics.ensemble import complete
 from hess_mechanics.dynamics.megno_map import ENDED, NOWHERE
@@ -273,7 +272,6 @@ def test_a_motion_that_escapes_keeps_what_comes_before_and_loses_no_other():
     for ends in (
         lambda: lyapunov_exponent(SYSTEM.at(), start, 100.0),
         lambda: lyapunov_spectrum(SYSTEM.at(), start, 100.0),
-        lambda: transition_matrix(SYSTEM.at(), start, 100.0, STANDARD),
         lambda: complete(megno(SYSTEM.at(), [start], 100.0)),
         lambda: ReturnMap(here, STANDARD).orbit(place, 100),
     ):

@@ -11,7 +11,7 @@ from hess_mechanics import level, systems, turning_points
 from hess_mechanics.errors import NoField, WorkLimit
 from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.euler_poisson.hess_isomorphism import Bridge, share_of
-from hess_mechanics.euler_poisson.hess_manifold import FreeRun, Leak, exact_motion, growth_of, run_free
+from hess_mechanics.euler_poisson.hess_manifold import FreeRun, Leak, exact_motion, run_free
 from hess_mechanics.suslov_hess.equations import HessBody
 from support.mechanics import scipy_states
 from support.refusals import refused
@@ -222,7 +222,7 @@ def test_off_the_manifold_r_M_grows_with_minus_the_integral_of_b_M2(body):
 def test_the_leak_of_the_loxodromic_pendulum_grows_by_2_pi_a():
     bridge = Bridge.of_heavy(HeavyBody.hess((1.0, 1.5, 2.0), sqrt(0.5)))
     start, period = on_torus(bridge, 2.0, 0.0)
-    growth = growth_of(run_free(bridge.heavy, start, 30.0 * period, 30 * 96 + 1, FLOOR), 96)
+    growth = Leak(bridge, run_free(bridge.heavy, start, 30.0 * period, 30 * 96 + 1, FLOOR), None, 96).growth
     assert growth.per_period == approx(2.0 * pi * abs(bridge.hess.a), rel=1e-4)
 
 
@@ -230,7 +230,7 @@ def test_without_cycles_nothing_grows():
     start, period = on_torus(GESS1, 5.0, 0.8)
     run = run_free(GESS1.heavy, start, 100.0 * period, 100 * 96 + 1, FLOOR)
     assert np.max(np.abs(run.off)) < 3e-14
-    assert growth_of(run, 96) is None
+    assert Leak(GESS1, run, None, 96).growth is None
 
 
 def leak_of(off, samples=8):

@@ -71,7 +71,7 @@ def test_the_hamiltonian_gives_the_equations_of_the_body():
 def test_a_start_has_its_energy_its_place_and_the_level_a_half(body):
     rng = np.random.default_rng(3)
     for y in starts(body):
-        assert energy(body, y) == approx(body.h, abs=1e-12)
+        assert energy(body, y) == approx(body.E, abs=1e-12)
         assert y[2:] @ y[2:] == approx(1.0, abs=1e-14)
         (q,), (p,) = body.to_plane(y[None])
         assert body.height(q) == approx(y[4], abs=1e-13)
@@ -129,7 +129,7 @@ def test_points_of_the_section_are_what_they_say(body):
 
 test_what_is_no_motion_is_refused = refused(
     (lambda: QuarticBody(1.0, 1.0, 0.0, 1.0), "Choose b3 other than 0", NoField),
-    (lambda: QuarticBody(1.0, 1.0, -1.0, -2.0), "energy h = -2: choose h above −\\|b3\\| = -1", OutsideRegion),
+    (lambda: QuarticBody(1.0, 1.0, -1.0, -2.0), "energy E = -2: choose E above −\\|b3\\| = -1", OutsideRegion),
     (lambda: QuarticBody(1.0, -1.0, 1.0, 1.0), "choose I22 > 0", NotPositiveDefinite),
     (lambda: QuarticBody(1.0, 1.0, 1e-155, 1.0), "no picture can show"),
     (lambda: QuarticBody(1.0, 1.0, 1e-320, 1000.0), "half axes beyond 1e308 and beyond 1e308, which"),

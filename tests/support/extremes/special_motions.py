@@ -93,7 +93,7 @@ def quartic_row(Row, name, body, q):
     """γ² = 1, with γ1 and γ2 from the momenta, and γ3 against the height of the place, relative to h/b3."""
     start = quartic.state_at(body, q, 0.5)
     times = np.linspace(0.0, 5.0 * sqrt(body.I11 / abs(body.b3)), 60)
-    ratio = abs(body.h / body.b3)
+    ratio = abs(body.E / body.b3)
 
     def error(grade):
         states = solve(body, start, times, grade).states

@@ -17,7 +17,6 @@ from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.graphs.graph import over_time, thinned, with_room
 from hess_explorer.views.layers import Axes, Range
-from hess_explorer.views.picture import Picture
 from hess_explorer.views.plane.velocity_plane import nice_above
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits, with_error
@@ -129,7 +128,7 @@ def _exponent(body: Body, start: Start, duration: float, level: Level) -> spectr
         return NotFound(str(error))
 
 
-def exponent_picture(folded: str = "") -> Picture[Any]:
+def exponent_picture(folded: str = "") -> Plot[Any]:
     """Return the picture of the mean growth rate over time."""
     return Plot(
         name="exponent",

@@ -19,7 +19,6 @@ from hess_explorer.scenes.parts.sections.periodic_orbit import (
 from hess_explorer.scenes.parts.sections.pictures import filled_picture, section_layers, section_picture, section_trials
 from hess_explorer.scenes.parts.sections.section import (
     Section,
-    about_section,
     crossings_of_each,
     first_place,
     start_on,
@@ -37,7 +36,6 @@ __all__ = [
     "PeriodicOrbit",
     "Section",
     "SectionState",
-    "about_section",
     "branch_picture",
     "colouring",
     "coordinate_of_branch",

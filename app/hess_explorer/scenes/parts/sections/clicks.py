@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Protocol
@@ -11,14 +11,15 @@ import numpy as np
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.specs import Places, Values, places, written
-from hess_explorer.scenes.framework.orbit_batches import OrbitBatch, in_batches
+from hess_explorer.scenes.framework.orbit_batches import in_batches
 from hess_explorer.scenes.framework.part import Host, Part, Start
+from hess_explorer.scenes.framework.periodic_search import Closed
 from hess_explorer.scenes.framework.sliders import number, specs_of
 from hess_explorer.scenes.framework.windows import Window, boxed
-from hess_explorer.scenes.parts.sections.section import Section, crossings_from
+from hess_explorer.scenes.parts.sections.section import Section
 from hess_explorer.views.text import digits
 from hess_mechanics.dynamics.return_map import PoincareSection
-from hess_mechanics.errors import InvalidParameter, OutsideRegion
+from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.results import Array
 
 __all__ = ["Clicks", "filled", "orbits_spread", "points_of_each"]
@@ -72,6 +73,10 @@ class _Host(Host, Protocol):
     def starts(self) -> str:
         """The places of the chosen orbits."""
 
+    @property
+    def closed(self) -> Closed | None:
+        """The periodic orbit, if known."""
+
 
 @dataclass(frozen=True)
 class _Chosen:
@@ -87,9 +92,13 @@ class _Chosen:
 
 @dataclass(frozen=True, eq=False)
 class Clicks(Part[_Host]):
-    """The places at which clicks in a section start orbits; excuse : the reason why some places have no orbit."""
+    """The places at which clicks in a section start orbits.
+
+    excuse : the reason why some places have no orbit; remedy : the choices that give all of them one.
+    """
 
     excuse: str
+    remedy: str = "a larger h"
 
     @property
     def _spec(self) -> Places:
@@ -115,29 +124,20 @@ class Clicks(Part[_Host]):
         others = others or [*_spread(self.host, 1)]
         if not others:
             raise InvalidParameter(
-                f"In this window {self.excuse}: choose a larger h, or press Clear for the whole section."
+                f"In this window {self.excuse}: choose {self.remedy}, or press Clear for the whole section."
             )
         return _Chosen([_place(self.host.poincare.places_of(np.array(others))[0])], [others[0]], chosen[-1])
 
     @property
-    def asked_start(self) -> Start:
-        """The state at the last chosen place.  Raises `OutsideRegion` if no motion is possible there."""
-        place = places(self.host.starts)[-1]
-        states, possible = self.host.poincare.states_at(*np.array([place]).T)
-        if not possible[0]:
-            raise OutsideRegion(f"At {self._at(place)} {self.excuse}: choose another point.")
-        return tuple(map(float, states[0]))
-
-    @property
     def rings(self) -> list[Place]:
         """The places where the orbits on show start."""
-        closed = self.host.section.periodic().closed
+        closed = self.host.closed
         return [*self.picked.places] if closed is None else [*self.picked.places[:-1], _place(closed.orbit.places[0])]
 
     @cached_property
     def impossible(self) -> Array:
         """Cells (m, n) over the window: 1 if no motion is possible."""
-        return self.work.need(Task(_impossible, self.host.poincare, self.host.section.frame))
+        return self.work.need(Task(type(self.host.poincare).impossible, self.host.poincare, self.host.section.frame))
 
     def add(self, x: float, y: float) -> Values:
         """Return the starts with another orbit added at (x, y)."""
@@ -159,10 +159,9 @@ class Clicks(Part[_Host]):
         names = self.host.poincare.names
         return ", ".join(f"{name} = {digits(value)}" for name, value in zip(names, place, strict=True))
 
-    @property
-    def sentence(self) -> str:
-        """The place where the orbit on show starts, in words."""
-        return f"chosen: {self._at(self.rings[-1])}"
+    def derived(self) -> Iterator[str]:
+        """Yield the place where the orbit on show starts."""
+        yield f"chosen: {self._at(self.rings[-1])}"
 
     def notes(self) -> Iterator[str]:
         """Yield a note if no motion is possible at the chosen start."""
@@ -173,10 +172,10 @@ class Clicks(Part[_Host]):
             )
 
 
-def filled(state: Any, held: int, compute: Callable[..., OrbitBatch] = crossings_from, **more: Any) -> Section:
+def filled(state: Any, held: int, **more: Any) -> Section:
     """Return the section of a state whose `orbits` fill its `window`, among those of its `clicks`.
 
-    held : the largest number of orbits while a slider is held; compute, more : as of `Section`.
+    held : the largest number of orbits while a slider is held; more : as of `Section`.
     """
 
     def seeds(section: Section) -> list[tuple[Start, ...]]:
@@ -186,25 +185,14 @@ def filled(state: Any, held: int, compute: Callable[..., OrbitBatch] = crossings
     return Section(
         state,
         lambda: state.clicks.picked.states,
-        compute,
-        seeds,
-        lambda: state.periodic_orbit,
-        zoom=state.window,
+        seeds=seeds,
         at_once=False,
         **more,
     )
 
 
 def _spread(state: _Host, count: int) -> tuple[Start, ...]:
-    return state.work.need(Task(_seeds, state.poincare, state.section.frame, count))
-
-
-def _seeds(section: _Filled, window: Window, count: int) -> tuple[Start, ...]:
-    return section.spread(count, window)
-
-
-def _impossible(section: _Filled, window: Window) -> Array:
-    return section.impossible(window)
+    return state.work.need(Task(type(state.poincare).spread, state.poincare, count, state.section.frame))
 
 
 def _place(found: Array) -> Place:

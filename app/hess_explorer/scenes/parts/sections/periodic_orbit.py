@@ -76,13 +76,11 @@ def length_of_manifolds() -> Any:
 class PeriodicOrbit(Part[Section]):
     """A periodic orbit shown in place of the chosen orbit of a section.
 
-    period : one of `PERIODS`, or `NONE`; reach : the length of the manifolds of a saddle; span : the time span of the
-    chosen orbit.
+    period : one of `PERIODS`, or `NONE`; reach : the length of the manifolds of a saddle.
     """
 
     period: str
     reach: float
-    span: float
 
     @property
     def closing(self) -> bool:
@@ -115,16 +113,6 @@ class PeriodicOrbit(Part[Section]):
     def closed(self) -> Closed | None:
         """The periodic orbit; None if none is requested or known."""
         return self._result if isinstance(self._result, Closed) else None
-
-    @property
-    def start(self) -> tuple[float, ...]:
-        """The initial state of the orbit on show.  Raises `ModelError`."""
-        return self.host.starts()[-1] if self.closed is None else self.closed.state
-
-    @property
-    def lasts(self) -> float:
-        """The time span of the orbit on show: one period of a periodic orbit."""
-        return self.span if self.closed is None else self.closed.time
 
     @property
     def _drawn(self) -> tuple[Search, list[BranchChoice], float] | None:

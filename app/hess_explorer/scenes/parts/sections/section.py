@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from itertools import product
 from typing import Any, Protocol
 
 import numpy as np
@@ -14,7 +13,7 @@ from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.specs import Values, places
 from hess_explorer.scenes.framework.orbit_batches import OrbitBatch, batch_of
 from hess_explorer.scenes.framework.part import Part, Sectioned, Start
-from hess_explorer.scenes.framework.periodic_search import NotPeriodic, Periodic, Place
+from hess_explorer.scenes.framework.periodic_search import Periodic, Place
 from hess_explorer.scenes.framework.sliders import number
 from hess_explorer.scenes.framework.windows import Window, pixels_in, tidy_window, window_of
 from hess_explorer.scenes.framework.work import drift_status, kept_status
@@ -33,7 +32,7 @@ _FEW, _LEAST = 30, 20
 _ON = 1e-9
 """Largest relative distance of a start that counts as on the section."""
 _ORBITS, _MOST_STEPS = 20, 100_000
-"""Default section: number of other orbits, and largest number of Taylor steps of each."""
+"""Defaults: number of other orbits, and largest number of Taylor steps of each."""
 _COMPARED = 3
 """Batches that are computed twice for an error estimate, in addition to the orbit on show."""
 
@@ -62,12 +61,16 @@ def start_on(section: PoincareSection, text: str) -> Start:
 
 
 def crossings_from(
-    section: PoincareSection, starts: tuple[Start, ...], crossings: int, forward: bool, level: Level
+    section: PoincareSection,
+    starts: tuple[Start, ...],
+    crossings: int,
+    forward: bool,
+    level: Level,
+    most_steps: int = _MOST_STEPS,
 ) -> OrbitBatch:
-    """Return so many crossings of the orbits from some states."""
-    return batch_of(
-        section, section_crossings(section, starts, crossings, level, not forward, most_steps=_MOST_STEPS), forward
-    )
+    """Return so many crossings of the orbits from some states; their kinds are their directions of time."""
+    found = section_crossings(section, starts, crossings, level, not forward, most_steps=most_steps)
+    return batch_of(section, found, forward)
 
 
 def _all_over(section: Section) -> list[tuple[Start, ...]]:
@@ -84,6 +87,18 @@ class _Host(Sectioned, Protocol):
     @property
     def count(self) -> float:
         """The number of crossings of each orbit."""
+
+    @property
+    def window(self) -> str:
+        """The visible window, as in a link; empty for the whole."""
+
+    @property
+    def given(self) -> Start:
+        """The chosen initial state.  Raises `ModelError`."""
+
+    @property
+    def periodic_orbit(self) -> Periodic:
+        """The periodic orbit in place of the chosen one."""
 
 
 @dataclass(frozen=True)
@@ -114,24 +129,23 @@ class Known:
 class Section(Part[_Host]):
     """A section with chosen orbits among others, computed in batches.
 
-    starts() : the states from which the chosen orbits start; the last one is on show.  Raises `ModelError`.
-    compute(section, starts, crossings, forward, level) : the `OrbitBatch` of these starts; seeds : the starts of the
-    others; ways : their directions of time, True is forward.
-    periodic() : the periodic orbit in place of the last chosen one; later : draw only the later half of the crossings.
-    whole() : the window of the whole picture, by default that of the section; zoom : the visible one, as in a link;
-    empty for the whole.
+    chosen() : the states from which the chosen orbits start, by default the given one; the last one is on show.
+    compute(section, starts, crossings, forward, level, most_steps) : the `OrbitBatch` of these starts.
+    most_steps : largest number of Taylor steps of each orbit.
+    seeds : the starts of the others; ways : their directions of time, True is forward.
+    later : draw only the later half of the crossings.
+    whole() : the window of the whole picture, by default that of the section.
     at_once : compute the chosen orbits, and a few crossings of the others, before anything is shown.
     alone : whether nothing else is shown in the window, such as basins.
     """
 
-    starts: Callable[[], Sequence[Start]]
+    chosen: Callable[[], Sequence[Start]] | None = None
     compute: Callable[..., OrbitBatch] = crossings_from
     seeds: Seeds = _all_over
-    periodic: Callable[[], Periodic] = NotPeriodic
+    most_steps: int = _MOST_STEPS
     ways: tuple[bool, ...] = (True,)
     later: bool = False
     whole: Callable[[], Window] | None = None
-    zoom: str = ""
     at_once: bool = True
     alone: bool = True
 
@@ -144,16 +158,21 @@ class Section(Part[_Host]):
     def frame(self) -> Window:
         """The visible window."""
         (x0, x1), (y0, y1) = self.poincare.window
-        return window_of(self.zoom, ((x0, y0), (x1, y1)) if self.whole is None else self.whole())
+        return window_of(self.host.window, ((x0, y0), (x1, y1)) if self.whole is None else self.whole())
 
     def admitted(self, notes: list[str]) -> Values:
         """Return a valid window."""
-        return {"window": tidy_window(self.zoom)} if self.zoom else {}
+        return {"window": tidy_window(self.host.window)} if self.host.window else {}
+
+    @property
+    def starts(self) -> Sequence[Start]:
+        """The states from which the chosen orbits start; the last one is on show.  Raises `ModelError`."""
+        return (self.host.given,) if self.chosen is None else self.chosen()
 
     @cached_property
     def aim(self) -> Place | None:
         """The place where the last chosen orbit starts, or else first crosses the section; None without one."""
-        start = self.starts()[-1]
+        start = self.starts[-1]
         try:
             return _first_place(self.poincare, start, lambda: self.work.need(self.batch((start,))))
         except WorkLimit:
@@ -166,7 +185,8 @@ class Section(Part[_Host]):
     ) -> Task[OrbitBatch]:
         """Return the computation of the orbits from some states, by default as they are shown."""
         plan = self.work.plan(Kind.SECTION)
-        return Task(self.compute, self.poincare, starts, crossings or self._count, forward, level or plan.level)
+        how = crossings or self._count, forward, level or plan.level, self.most_steps
+        return Task(self.compute, self.poincare, starts, *how)
 
     def _filling(self, crossings: int = 0, level: Level | None = None) -> list[Task[OrbitBatch]]:
         return [self.batch(starts, way, crossings, level) for starts in self.seeds(self) for way in self.ways]
@@ -180,7 +200,7 @@ class Section(Part[_Host]):
     @cached_property
     def known(self) -> Known:
         """The orbits as far as they are known."""
-        states = self.starts() if self.periodic().closed is None else self.starts()[:-1]
+        states = self.starts if self.host.periodic_orbit.closed is None else self.starts[:-1]
         held = self.work.dragging
         try:
             own = [self.batch((state,)) for state in states]
@@ -201,31 +221,31 @@ class Section(Part[_Host]):
         """The drawn points (n, 2) of the chosen orbits."""
         return joined(self._shown(orbit) for batch in self.known.chosen for orbit in batch.orbits)
 
-    def kind(self, first: bool = True, ends: bool = False) -> list[Array]:
-        """Return the other orbits of one kind with all their points: those that end early or the others."""
-        return [
-            orbit
-            for batch in self.known.batches
-            for orbit, is_first, reason in zip(batch.orbits, batch.firsts, batch.reasons, strict=True)
-            if (is_first, reason != "") == (first, ends)
-        ]
+    def _shown(self, orbit: Array, later: bool = False) -> Array:
+        return orbit[len(orbit) // 2 :] if self.later or later else orbit
 
-    def points(self, first: bool = True, ends: bool = False) -> Array:
-        """Return the drawn points (n, 2) of the other orbits of one kind."""
-        return self._points[first, ends]
+    def points(self, first: bool = True, ends: bool = False, later: bool = False) -> Array:
+        """Return the drawn points (n, 2) of the other orbits of one kind, those that end early or the rest.
+
+        later : the later half of their crossings, whatever is drawn.
+        """
+        if (first, ends, later) not in self._points:
+            self._points[first, ends, later] = joined(
+                self._shown(orbit, later)
+                for batch in self.known.batches
+                for orbit, is_first, reason in zip(batch.orbits, batch.firsts, batch.reasons, strict=True)
+                if (is_first, reason != "") == (first, ends)
+            )
+        return self._points[first, ends, later]
 
     @cached_property
-    def _points(self) -> dict[tuple[bool, bool], Array]:
-        kinds = product((True, False), repeat=2)
-        return {(first, ends): joined(map(self._shown, self.kind(first, ends))) for first, ends in kinds}
-
-    def _shown(self, orbit: Array) -> Array:
-        return orbit[len(orbit) // 2 :] if self.later else orbit
+    def _points(self) -> dict[tuple[bool, bool, bool], Array]:
+        return {}
 
     def orbits_at(self, plan: Plan) -> list[Array]:
         """Return all orbits of the section (n, 2), the chosen ones first; computed at once."""
         how = plan.part(self.host.count, _LEAST), plan.level
-        tasks = [*(self.batch((state,), True, *how) for state in self.starts()), *self._filling(*how)]
+        tasks = [*(self.batch((state,), True, *how) for state in self.starts), *self._filling(*how)]
         return [orbit for task in tasks for orbit in task.now().orbits]
 
     @cached_property
@@ -234,11 +254,11 @@ class Section(Part[_Host]):
 
         Compares with a second run at a hundredth of the tolerance; None until it is known, and while a slider is held.
         """
-        periodic, own = self.periodic(), self.known.own
+        periodic, own = self.host.periodic_orbit, self.known.own
         if self.work.dragging or periodic.looking or periodic.closed is not None or not own:
             return None
         level, step = self.work.plan(Kind.SECTION).level.tightened(), len(self.ways)
-        tasks = [self.batch((self.starts()[-1],), level=level), *self._filling(level=level)[::step][:_COMPARED]]
+        tasks = [self.batch((self.starts[-1],), level=level), *self._filling(level=level)[::step][:_COMPARED]]
         fine: list[OrbitBatch | None] = [self.work.need(task, preview=None) for task in tasks]
         counts = [
             right_crossings(one.orbits, other.orbits, pixels_in(self.frame), self.poincare.turns)
@@ -292,4 +312,6 @@ def _first_place(section: PoincareSection, state: Start, crossed: Callable[[], O
 
 def first_place(section: PoincareSection, state: Start) -> Place | None:
     """Return the place where the motion of a state starts, or else first crosses the section; None if it does not."""
-    return _first_place(section, state, lambda: crossings_from(section, (state,), 1, True, STANDARD))
+    return _first_place(
+        section, state, lambda: crossings_from(section, (state,), 1, True, STANDARD, Section.most_steps)
+    )

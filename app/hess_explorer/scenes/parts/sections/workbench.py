@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 from hess_explorer.protocol.specs import Value, Values, written
 from hess_explorer.scenes.framework.cells import DENSITY
@@ -10,6 +11,7 @@ from hess_explorer.scenes.framework.part import Start, part
 from hess_explorer.scenes.framework.periodic_search import Closed
 from hess_explorer.scenes.framework.scene import Motion, State
 from hess_explorer.scenes.framework.sliders import accuracy_level, exponent_time, proved_error_shown, time_span
+from hess_explorer.scenes.framework.solid_body import Solid, constrained_solid
 from hess_explorer.scenes.parts.orbits.exponent import Exponent
 from hess_explorer.scenes.parts.orbits.proof import Proof
 from hess_explorer.scenes.parts.sections.clicks import orbits_spread, points_of_each
@@ -44,6 +46,7 @@ class SectionState(State):
     certain: str = proved_error_shown()
     accuracy: str = accuracy_level()
     place: str = ""
+    window: str = ""
 
     @property
     def poincare(self) -> PoincareSection:
@@ -60,10 +63,10 @@ class SectionState(State):
         """The chosen initial state.  Raises `ModelError`."""
         return start_on(self.poincare, self.place)
 
-    section = part(lambda s: Section(s, lambda: (s.given,), periodic=lambda: s.periodic_orbit))
+    section = part(Section)
     density = part(lambda s: Density(s.section, s.dense))
     megno = part(lambda s: Indicator(s.section, s.indicator == MEGNO and s.section.alone))
-    periodic_orbit = part(lambda s: PeriodicOrbit(s.section, s.periodic, s.reach, s.span))
+    periodic_orbit = part(lambda s: PeriodicOrbit(s.section, s.periodic, s.reach))
     orbit = part(Orbit)
     proof = part(lambda s: Proof(s.orbit, s.certain))
 
@@ -80,12 +83,17 @@ class SectionState(State):
     @property
     def start(self) -> Start:
         """The initial state of the orbit on show."""
-        return self.periodic_orbit.start
+        return self.given if self.closed is None else self.closed.state
 
     @property
     def lasts(self) -> float:
         """The length of the orbit in time."""
-        return self.periodic_orbit.lasts
+        return self.span if self.closed is None else self.closed.time
+
+    @cached_property
+    def solid(self) -> Solid:
+        """The body along the orbit, of the Suslov problem unless a scene has another one."""
+        return constrained_solid(self.work, self.body, self.orbit.path)
 
     def motion(self) -> Motion | None:
         """Return the orbit on show."""
@@ -109,6 +117,10 @@ class FilledState(SectionState):
     count: float = points_of_each(200.0)
     long: float = exponent_time(1000.0, 5000.0, 2e4, "the Lyapunov exponent and the divergence are")
     starts: str = ""
-    window: str = ""
 
     exponent = part(Exponent)
+
+    @property
+    def given(self) -> Start:
+        """The last chosen initial state.  Raises `ModelError`."""
+        return self.section.starts[-1]
