@@ -13,7 +13,8 @@ from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.specs import Values
 from hess_explorer.scenes.framework import ball_parameters as ball
 from hess_explorer.scenes.framework.charted import Charts, of_motion, parameters_of
-from hess_explorer.scenes.framework.part import part
+from hess_explorer.scenes.framework.orbit_batches import OrbitBatch, batch_of
+from hess_explorer.scenes.framework.part import Start, part
 from hess_explorer.scenes.framework.scene import Preset, Scene
 from hess_explorer.scenes.framework.sliders import choice, number, parameter
 from hess_explorer.scenes.framework.solid_body import solid_body
@@ -41,6 +42,7 @@ from hess_explorer.views.space.poisson_sphere import Direction, along_the_orbit,
 from hess_explorer.views.text import digits, vector
 from hess_mechanics.chaplygin_ball import ball_section as mechanics
 from hess_mechanics.chaplygin_ball.ball_section import (
+    ball_section,
     fastest,
     forbidden_band,
     outside_band,
@@ -51,11 +53,13 @@ from hess_mechanics.chaplygin_ball.energy_surface import lowest_energy
 from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody
 from hess_mechanics.chaplygin_ball.integrable_cases import area_integral, has_area_integral, is_reversible
 from hess_mechanics.dynamics.plane_section import occupied_cells
+from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.parameters import H_BALL
 
 _ORBITS = 20
 _CELLS = 32
+_MOST_STEPS = 15_000
 _NAMES = ("ψ", "δ")
 
 _DOUBLES = parameters_of(BallBody(1.5, 3.0, -0.3, 0.0, 1.0, 1.0, -0.7, 0.7))
@@ -167,8 +171,8 @@ class BallSection(SectionState):
     section = part(
         lambda s: Section(
             s,
+            compute=_crossings,
             seeds=lambda section: [tuple(seeds(s.body, s.E, _ORBITS))],
-            most_steps=15_000,
             later=s.drop == _LATE,
         )
     )
@@ -236,6 +240,12 @@ class BallSection(SectionState):
         yield f"γ(0) = {vector(self.start[2:])}"
         if has_area_integral(self.body):
             yield f"ω₁γ₁ + ω₂γ₂ = {digits(float(area_integral(np.array(self.start))))}, an integral"
+
+
+def _crossings(
+    section: mechanics.BallSection, starts: tuple[Start, ...], crossings: int, forward: bool, level: Level
+) -> OrbitBatch:
+    return batch_of(section, ball_section(section.body, section.h, starts, crossings, level, _MOST_STEPS))
 
 
 SCENE = Scene(

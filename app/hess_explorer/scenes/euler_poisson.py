@@ -70,6 +70,7 @@ from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.results import Array, frozen
 from hess_mechanics.parameters import F_HEAVY, H_HEAVY, I1, I2, I3, MU_R
 
+_MOST_STEPS = 200_000
 _NAMES = ("l", "L/G")
 _BOUNDS = ((-TURN, -1.0), (TURN, 1.0))
 _OVER = {"ε": "away", "h": "h", "f": "f", "μ|r|": "m", "I₁": "I1", "I₂": "I2", "I₃": "I3"}
@@ -218,12 +219,12 @@ class EulerPoisson(FilledState):
         """The splitting of the separatrices."""
         return HessSplit(self, HessTorus(self.moments, self.m, self.h, self.f), self.away)
 
-    section = part(lambda s: filled(s, 16, compute=_crossings, most_steps=200_000))
+    section = part(lambda s: filled(s, 16, compute=_crossings))
 
     @part
     def clicks(self) -> Clicks:
         """The starts of the chosen orbits."""
-        which, remedy = ("a second sheet", "the largest G") if self.poincare.sheet else ("the section", _MORE)
+        which, remedy = ("the second sheet", "the largest G") if self.poincare.sheet else ("the section", _MORE)
         return Clicks(self, f"no motion with this h and f crosses {which}", remedy)
 
     density = part(
@@ -299,9 +300,9 @@ class EulerPoisson(FilledState):
 
 
 def _crossings(
-    section: AndoyerSection, starts: tuple[Start, ...], crossings: int, forward: bool, level: Level, most: int, _: float
+    section: AndoyerSection, starts: tuple[Start, ...], crossings: int, forward: bool, level: Level
 ) -> OrbitBatch:
-    found = section.points(starts, crossings, level, threads=1, most_steps=most)
+    found = section.points(starts, crossings, level, threads=1, most_steps=_MOST_STEPS)
     signs = np.sign(relation(section.body, np.array(starts)))
     kept = (
         bool(np.all(sign * relation(section.body, states) >= 0.0))

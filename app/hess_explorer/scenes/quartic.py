@@ -44,6 +44,7 @@ from hess_mechanics.suslov import quartic as model
 from hess_mechanics.suslov.equations import SYSTEM
 
 _ORBITS = 20
+_MOST_STEPS = 40_000
 _CELLS = 32
 _NAMES = ("q", "p")
 _ALONG = {"h": "h", "I₁₁/I₂₂": "ratio", "b₃": "b3"}
@@ -152,7 +153,6 @@ class Quartic(SectionState):
             s,
             compute=_crossings,
             seeds=lambda section: [tuple(model.seeds(s.body, _ORBITS))],
-            most_steps=40_000,
             whole=s.section_window,
         )
     )
@@ -225,15 +225,9 @@ class Quartic(SectionState):
 
 
 def _crossings(
-    section: model.QuarticSection,
-    starts: tuple[Start, ...],
-    crossings: int,
-    _: bool,
-    level: Level,
-    most: int,
-    *more: float,
+    section: model.QuarticSection, starts: tuple[Start, ...], crossings: int, forward: bool, level: Level
 ) -> OrbitBatch:
-    return batch_of(section, model.quartic_section(section.body, starts, crossings, level, most))
+    return batch_of(section, model.quartic_section(section.body, starts, crossings, level, _MOST_STEPS))
 
 
 SCENE = Scene(

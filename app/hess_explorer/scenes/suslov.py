@@ -159,7 +159,7 @@ class Suslov(FilledState):
     def section(self) -> Section:
         """The section."""
         ways = (True, False) if self.colours == _BOTH else (True,)
-        return filled(self, 12, turns=40.0, ways=ways, later=self.drop == _LATE, alone=self.colours != "basins")
+        return filled(self, 12, ways=ways, later=self.drop == _LATE, alone=self.colours != "basins")
 
     clicks = part(lambda s: Clicks(s, "no motion has this energy"))
     orbit = part(lambda s: Orbit(s, s.orbit_level))

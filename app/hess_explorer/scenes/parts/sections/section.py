@@ -33,9 +33,9 @@ _FEW, _LEAST = 30, 20
 _ON = 1e-9
 """Largest relative distance of a start that counts as on the section."""
 _ORBITS, _MOST_STEPS = 20, 100_000
-"""Defaults: number of other orbits, and largest number of Taylor steps of each."""
+"""By default: number of other orbits, and largest number of Taylor steps of each."""
 _TURNS = 60.0
-"""Default time limit per crossing, in units of 1/ν times the slowness of the section."""
+"""Time limit per crossing, in units of 1/ν times the slowness of the section."""
 _COMPARED = 3
 """Batches that are computed twice for an error estimate, in addition to the orbit on show."""
 
@@ -64,16 +64,10 @@ def start_on(section: PoincareSection, text: str) -> Start:
 
 
 def crossings_from(
-    section: PoincareSection,
-    starts: tuple[Start, ...],
-    crossings: int,
-    forward: bool,
-    level: Level,
-    most_steps: int = _MOST_STEPS,
-    turns: float = _TURNS,
+    section: PoincareSection, starts: tuple[Start, ...], crossings: int, forward: bool, level: Level
 ) -> OrbitBatch:
     """Return so many crossings of the orbits from some states; their kinds are their directions of time."""
-    found = section_crossings(section, np.array(starts), crossings, turns, level, not forward, most_steps=most_steps)
+    found = section_crossings(section, np.array(starts), crossings, _TURNS, level, not forward, most_steps=_MOST_STEPS)
     return batch_of(section, found, forward)
 
 
@@ -136,8 +130,7 @@ class Section(Part[_Host]):
     """A section with chosen orbits among others, computed in batches.
 
     chosen() : the states from which the chosen orbits start, by default the given one; the last one is on show.
-    compute(section, starts, crossings, forward, level, most_steps, turns) : the `OrbitBatch` of these starts.
-    most_steps, turns : largest number of Taylor steps of each orbit; time limit per crossing, see `section_crossings`.
+    compute(section, starts, crossings, forward, level) : the `OrbitBatch` of these starts.
     seeds : the starts of the others; ways : their directions of time, True is forward.
     later : draw only the later half of the crossings.
     whole() : the window of the whole picture, by default that of the section.
@@ -148,8 +141,6 @@ class Section(Part[_Host]):
     chosen: Callable[[], Sequence[Start]] | None = None
     compute: Callable[..., OrbitBatch] = crossings_from
     seeds: Seeds = _all_over
-    most_steps: int = _MOST_STEPS
-    turns: float = _TURNS
     ways: tuple[bool, ...] = (True,)
     later: bool = False
     whole: Callable[[], Window] | None = None
@@ -192,8 +183,7 @@ class Section(Part[_Host]):
     ) -> Task[OrbitBatch]:
         """Return the computation of the orbits from some states, by default as they are shown."""
         plan = self.work.plan(Kind.SECTION)
-        how = crossings or self._count, forward, level or plan.level, self.most_steps, self.turns
-        return Task(self.compute, self.poincare, starts, *how)
+        return Task(self.compute, self.poincare, starts, crossings or self._count, forward, level or plan.level)
 
     def _filling(self, crossings: int = 0, level: Level | None = None) -> list[Task[OrbitBatch]]:
         return [self.batch(starts, way, crossings, level) for starts in self.seeds(self) for way in self.ways]
@@ -319,6 +309,4 @@ def _first_place(section: PoincareSection, state: Start, crossed: Callable[[], O
 
 def first_place(section: PoincareSection, state: Start) -> Place | None:
     """Return the place where the motion of a state starts, or else first crosses the section; None if it does not."""
-    return _first_place(
-        section, state, lambda: crossings_from(section, (state,), 1, True, STANDARD, Section.most_steps)
-    )
+    return _first_place(section, state, lambda: crossings_from(section, (state,), 1, True, STANDARD))
