@@ -14,6 +14,7 @@ from hess_explorer.protocol.specs import places
 from hess_explorer.scenes.framework.periodic_search import NONE
 from hess_mechanics import circle_map, f_max, level, lyapunov_spectrum
 from hess_mechanics.dynamics.birkhoff import rotation_number
+from hess_mechanics.dynamics.return_map import section_crossings
 from hess_mechanics.errors import ModelError
 from hess_mechanics.euler_poisson.andoyer import AndoyerSection, coordinates
 from hess_mechanics.euler_poisson.hess_split import HessTorus, split_at
@@ -36,7 +37,7 @@ def relation(view, points):
 def places_from(view, start, count=3000):
     """The crossings of the orbit through (l, L/G)."""
     section = AndoyerSection(view.body, view.h, view.f)
-    return coordinates(section.points([section.state_at(*start)], count, STANDARD).states[0])
+    return coordinates(section_crossings(section, [section.state_at(*start)], count, STANDARD).states[0])
 
 
 # ---- Examples ---------------------------------------------------------------------------------------------------

@@ -13,8 +13,7 @@ from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.specs import Values
 from hess_explorer.scenes.framework import ball_parameters as ball
 from hess_explorer.scenes.framework.charted import Charts, of_motion, parameters_of
-from hess_explorer.scenes.framework.orbit_batches import OrbitBatch, batch_of
-from hess_explorer.scenes.framework.part import Start, part
+from hess_explorer.scenes.framework.part import part
 from hess_explorer.scenes.framework.scene import Preset, Scene
 from hess_explorer.scenes.framework.sliders import choice, number, parameter
 from hess_explorer.scenes.framework.solid_body import solid_body
@@ -41,23 +40,14 @@ from hess_explorer.views.plot import Plot
 from hess_explorer.views.space.poisson_sphere import Direction, along_the_orbit, centre_of_mass
 from hess_explorer.views.text import digits, vector
 from hess_mechanics.chaplygin_ball import ball_section as mechanics
-from hess_mechanics.chaplygin_ball.ball_section import (
-    ball_section,
-    fastest,
-    forbidden_band,
-    outside_band,
-    seeds,
-    state_at,
-)
+from hess_mechanics.chaplygin_ball.ball_section import fastest, outside_band
 from hess_mechanics.chaplygin_ball.energy_surface import lowest_energy
 from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody
 from hess_mechanics.chaplygin_ball.integrable_cases import area_integral, has_area_integral, is_reversible
-from hess_mechanics.dynamics.plane_section import occupied_cells
-from hess_mechanics.numerics.accuracy import Level
+from hess_mechanics.dynamics.cells import occupied_cells
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.parameters import H_BALL
 
-_ORBITS = 20
 _CELLS = 32
 _MOST_STEPS = 15_000
 _NAMES = ("ψ", "δ")
@@ -149,7 +139,7 @@ class BallSection(SectionState):
     @cached_property
     def band(self) -> tuple[float, float] | None:
         """The centre and half width of the forbidden band of ψ; None if every ψ is possible."""
-        return forbidden_band(self.body, self.E)
+        return self.poincare.forbidden
 
     @cached_property
     def poincare(self) -> mechanics.BallSection:
@@ -159,7 +149,7 @@ class BallSection(SectionState):
     @cached_property
     def given(self) -> tuple[float, ...]:
         """The state at (ψ, δ) of the section."""
-        return state_at(self.body, self.E, self.psi, self.delta)
+        return self.poincare.state_at(self.psi, self.delta)
 
     @cached_property
     def weights(self) -> tuple[float, ...]:
@@ -171,8 +161,7 @@ class BallSection(SectionState):
     section = part(
         lambda s: Section(
             s,
-            compute=_crossings,
-            seeds=lambda section: [tuple(seeds(s.body, s.E, _ORBITS))],
+            most_steps=_MOST_STEPS,
             later=s.drop == _LATE,
         )
     )
@@ -216,7 +205,7 @@ class BallSection(SectionState):
         if self.section.known.reason:
             return Caption("Left out: too many steps.")
         volume = "The flow preserves volume." if self.I13 == self.I23 == 0.0 else "The flow does not preserve volume."
-        visited = occupied_cells(self.section.own, _CELLS)
+        visited = occupied_cells(self.section.own, self.poincare.window, _CELLS)
         counted = self.density.said or f"{len(self.section.own)} points of the "
         return Caption(volume, f"{counted}orbit in {visited} of {_CELLS**2} cells.")
 
@@ -240,12 +229,6 @@ class BallSection(SectionState):
         yield f"γ(0) = {vector(self.start[2:])}"
         if has_area_integral(self.body):
             yield f"ω₁γ₁ + ω₂γ₂ = {digits(float(area_integral(np.array(self.start))))}, an integral"
-
-
-def _crossings(
-    section: mechanics.BallSection, starts: tuple[Start, ...], crossings: int, forward: bool, level: Level
-) -> OrbitBatch:
-    return batch_of(section, ball_section(section.body, section.h, starts, crossings, level, _MOST_STEPS))
 
 
 SCENE = Scene(

@@ -62,6 +62,7 @@ from hess_explorer.views.plane import andoyer
 from hess_explorer.views.plane.section_plane import joined
 from hess_explorer.views.space.poisson_sphere import Direction, along_the_orbit, gamma_columns
 from hess_explorer.views.text import digits, vector
+from hess_mechanics.dynamics.return_map import section_crossings
 from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.euler_poisson.andoyer import AndoyerSection, hess_curve, relation
 from hess_mechanics.euler_poisson.equations import SYSTEM, HeavyBody
@@ -70,7 +71,6 @@ from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.results import Array, frozen
 from hess_mechanics.parameters import F_HEAVY, H_HEAVY, I1, I2, I3, MU_R
 
-_MOST_STEPS = 200_000
 _NAMES = ("l", "L/G")
 _BOUNDS = ((-TURN, -1.0), (TURN, 1.0))
 _OVER = {"ε": "away", "h": "h", "f": "f", "μ|r|": "m", "I₁": "I1", "I₂": "I2", "I₃": "I3"}
@@ -219,7 +219,7 @@ class EulerPoisson(FilledState):
         """The splitting of the separatrices."""
         return HessSplit(self, HessTorus(self.moments, self.m, self.h, self.f), self.away)
 
-    section = part(lambda s: filled(s, 16, compute=_crossings))
+    section = part(lambda s: filled(s, 16, compute=_crossings, most_steps=200_000))
 
     @part
     def clicks(self) -> Clicks:
@@ -300,9 +300,9 @@ class EulerPoisson(FilledState):
 
 
 def _crossings(
-    section: AndoyerSection, starts: tuple[Start, ...], crossings: int, forward: bool, level: Level
+    section: AndoyerSection, starts: tuple[Start, ...], crossings: int, forward: bool, level: Level, most: int
 ) -> OrbitBatch:
-    found = section.points(starts, crossings, level, threads=1, most_steps=_MOST_STEPS)
+    found = section_crossings(section, starts, crossings, level, threads=1, most_steps=most)
     signs = np.sign(relation(section.body, np.array(starts)))
     kept = (
         bool(np.all(sign * relation(section.body, states) >= 0.0))

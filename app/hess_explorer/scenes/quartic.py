@@ -11,7 +11,6 @@ import numpy as np
 
 from hess_explorer.protocol.specs import Values
 from hess_explorer.scenes.framework.charted import Charts, of_motion
-from hess_explorer.scenes.framework.orbit_batches import OrbitBatch, batch_of
 from hess_explorer.scenes.framework.part import Start, part
 from hess_explorer.scenes.framework.scene import Preset, Scene
 from hess_explorer.scenes.framework.sliders import Slider, number, parameter, slider_within, time_span
@@ -36,15 +35,13 @@ from hess_explorer.views.plane import plane_domain, section_plane
 from hess_explorer.views.plane.velocity_plane import centred, nice_above
 from hess_explorer.views.space.poisson_sphere import Sphere, centre_of_mass, parallels
 from hess_explorer.views.text import digits, staying, vector
+from hess_mechanics.dynamics.cells import occupied_cells
 from hess_mechanics.errors import ModelError
-from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.parameters import B3, H_QUARTIC, I22, RATIO
 from hess_mechanics.suslov import quartic as model
 from hess_mechanics.suslov.equations import SYSTEM
 
-_ORBITS = 20
-_MOST_STEPS = 40_000
 _CELLS = 32
 _NAMES = ("q", "p")
 _ALONG = {"h": "h", "I₁₁/I₂₂": "ratio", "b₃": "b3"}
@@ -151,8 +148,7 @@ class Quartic(SectionState):
     section = part(
         lambda s: Section(
             s,
-            compute=_crossings,
-            seeds=lambda section: [tuple(model.seeds(s.body, _ORBITS))],
+            most_steps=40_000,
             whole=s.section_window,
         )
     )
@@ -204,7 +200,7 @@ class Quartic(SectionState):
             return self.special
         if self.section.known.reason:
             return Caption(numbers=self.section.known.reason)
-        visited = model.visited(self.body, self.section.own, _CELLS)
+        visited = occupied_cells(self.section.own, self.poincare.window, _CELLS)
         counted = self.density.said or f"{len(self.section.own)} points of the "
         return Caption(numbers=f"{counted}orbit in {visited} of {_CELLS * _CELLS} cells.")
 
@@ -222,12 +218,6 @@ class Quartic(SectionState):
             yield f"H = ½ to {digits(model.level_error(self.body, self.orbit.path.states), 1)}"
         yield "Integrable" if self.body.integrable else "Not integrable"
         yield "div v = 0: the standard measure"
-
-
-def _crossings(
-    section: model.QuarticSection, starts: tuple[Start, ...], crossings: int, forward: bool, level: Level
-) -> OrbitBatch:
-    return batch_of(section, model.quartic_section(section.body, starts, crossings, level, _MOST_STEPS))
 
 
 SCENE = Scene(
@@ -272,7 +262,7 @@ SCENE = Scene(
             caption=Quartic._about_sphere,
             looks={"orbit": "orbit"},
             axis=lambda s: centre_of_mass((0.0, 0.0, s.b3)),
-            circles=lambda s: [*parallels((0.0, 0.0, 1.0), [s.body.h / s.body.b3]), *s.proof.around],
+            circles=lambda s: [*parallels((0.0, 0.0, 1.0), [s.body.E / s.body.b3]), *s.proof.around],
         ),
         plane_domain.momentum_picture(
             lambda s: (s.orbit.path.times, s.momentum),

@@ -36,7 +36,7 @@ from hess_explorer.views.plane import layered_section
 from hess_explorer.views.plane.velocity_plane import nice_above, orbit_alone, orbit_columns, pixels_per_unit
 from hess_explorer.views.space.poisson_sphere import along_the_orbit, centre_of_mass
 from hess_explorer.views.text import digits
-from hess_mechanics.dynamics.plane_section import occupied_cells
+from hess_mechanics.dynamics.cells import occupied_cells
 from hess_mechanics.dynamics.sampling import HALF_A_PIXEL
 from hess_mechanics.errors import WorkLimit
 from hess_mechanics.numerics.accuracy import Level, cheapest
@@ -190,9 +190,8 @@ class Suslov(FilledState):
         # The later halves of the forward orbits show the attractors.
         later = self.section.points(later=True)
         counted = self.density.said or f"{len(first)} points forward{backward}; "
-        return Caption(
-            numbers=f"{counted}late forward points occupy {occupied_cells(later, _CELLS)} of {_CELLS**2} cells."
-        )
+        cells = occupied_cells(later, self.poincare.window, _CELLS)
+        return Caption(numbers=f"{counted}late forward points occupy {cells} of {_CELLS**2} cells.")
 
     def derived(self) -> Iterator[str]:
         """Yield the energy, the start of the orbit on show and the check of the body."""

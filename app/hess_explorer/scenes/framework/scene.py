@@ -325,10 +325,7 @@ class Scene(Generic[S]):
         within: dict[str, Value] = {}
         notes: list[str] = []
         for spec in self.specs:
-            value, note = (
-                spec.admit(float(values[spec.name])) if isinstance(spec, Number) else spec.read(str(values[spec.name]))
-            )
-            within[spec.name] = value
+            within[spec.name], note = spec.read(values[spec.name])
             notes += [note] if note else []
         try:
             state = self.of(within).admitted(notes)
@@ -371,7 +368,7 @@ class Scene(Generic[S]):
             if spec.name in mine
             and mine[spec.name] == its.get(spec.name)
             and left[spec.name] != defaults[spec.name]
-            and spec.read(str(left[spec.name]))[1] is None
+            and spec.read(left[spec.name])[1] is None
         }
         return {**there, **taken}
 

@@ -56,9 +56,6 @@ def points_of_each(default: float) -> Any:
 
 
 class _Filled(PoincareSection, Protocol):
-    def spread(self, window: Window, count: int) -> tuple[Start, ...]:
-        """Return at most `count` states, spread over the possible part of the window."""
-
     def impossible(self, window: Window) -> Array:
         """Return cells (m, n) over the window: 1 if no motion is possible."""
 
@@ -195,7 +192,7 @@ def filled(state: Any, held: int, **more: Any) -> Section:
 
 
 def _spread(state: _Host, count: int) -> tuple[Start, ...]:
-    return state.work.need(Task(type(state.poincare).spread, state.poincare, state.section.frame, count))
+    return state.work.need(Task(type(state.poincare).spread, state.poincare, count, state.section.frame))
 
 
 def _place(found: Array) -> Place:

@@ -19,7 +19,6 @@ from hess_explorer.scenes.framework.windows import Window, pixels_in, tidy_windo
 from hess_explorer.scenes.framework.work import drift_status, kept_status
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.plane.section_plane import joined
-from hess_mechanics.dynamics.cells import evenly
 from hess_mechanics.dynamics.return_map import PoincareSection, section_crossings
 from hess_mechanics.dynamics.shadowing import right_crossings, typical
 from hess_mechanics.errors import OutsideRegion, WorkLimit
@@ -33,9 +32,7 @@ _FEW, _LEAST = 30, 20
 _ON = 1e-9
 """Largest relative distance of a start that counts as on the section."""
 _ORBITS, _MOST_STEPS = 20, 100_000
-"""By default: number of other orbits, and largest number of Taylor steps of each."""
-_TURNS = 60.0
-"""Time limit per crossing, in units of 1/ν times the slowness of the section."""
+"""Defaults: number of other orbits, and largest number of Taylor steps of each."""
 _COMPARED = 3
 """Batches that are computed twice for an error estimate, in addition to the orbit on show."""
 
@@ -64,19 +61,22 @@ def start_on(section: PoincareSection, text: str) -> Start:
 
 
 def crossings_from(
-    section: PoincareSection, starts: tuple[Start, ...], crossings: int, forward: bool, level: Level
+    section: PoincareSection,
+    starts: tuple[Start, ...],
+    crossings: int,
+    forward: bool,
+    level: Level,
+    most_steps: int = _MOST_STEPS,
 ) -> OrbitBatch:
     """Return so many crossings of the orbits from some states; their kinds are their directions of time."""
-    found = section_crossings(section, np.array(starts), crossings, _TURNS, level, not forward, most_steps=_MOST_STEPS)
+    found = section_crossings(section, starts, crossings, level, not forward, most_steps=most_steps)
     return batch_of(section, found, forward)
 
 
 def _all_over(section: Section) -> list[tuple[Start, ...]]:
     """Return starts spread over the visible window, where motions cross it: one batch."""
-    ways = evenly(8 * _ORBITS - 1).T
-    low, high = np.array(section.frame)
-    states, there = section.poincare.states_at(*(low + ways * (high - low)).T)
-    return [tuple(map(tuple, states[there][:_ORBITS].tolist()))]
+    starts = section.poincare.spread(_ORBITS, section.frame)
+    return [starts] if starts else []
 
 
 Seeds = Callable[["Section"], list[tuple[Start, ...]]]
@@ -130,7 +130,8 @@ class Section(Part[_Host]):
     """A section with chosen orbits among others, computed in batches.
 
     chosen() : the states from which the chosen orbits start, by default the given one; the last one is on show.
-    compute(section, starts, crossings, forward, level) : the `OrbitBatch` of these starts.
+    compute(section, starts, crossings, forward, level, most_steps) : the `OrbitBatch` of these starts.
+    most_steps : largest number of Taylor steps of each orbit.
     seeds : the starts of the others; ways : their directions of time, True is forward.
     later : draw only the later half of the crossings.
     whole() : the window of the whole picture, by default that of the section.
@@ -141,6 +142,7 @@ class Section(Part[_Host]):
     chosen: Callable[[], Sequence[Start]] | None = None
     compute: Callable[..., OrbitBatch] = crossings_from
     seeds: Seeds = _all_over
+    most_steps: int = _MOST_STEPS
     ways: tuple[bool, ...] = (True,)
     later: bool = False
     whole: Callable[[], Window] | None = None
@@ -183,7 +185,8 @@ class Section(Part[_Host]):
     ) -> Task[OrbitBatch]:
         """Return the computation of the orbits from some states, by default as they are shown."""
         plan = self.work.plan(Kind.SECTION)
-        return Task(self.compute, self.poincare, starts, crossings or self._count, forward, level or plan.level)
+        how = crossings or self._count, forward, level or plan.level, self.most_steps
+        return Task(self.compute, self.poincare, starts, *how)
 
     def _filling(self, crossings: int = 0, level: Level | None = None) -> list[Task[OrbitBatch]]:
         return [self.batch(starts, way, crossings, level) for starts in self.seeds(self) for way in self.ways]
