@@ -14,7 +14,7 @@ from pathlib import Path
 if __name__ == "__main__":
     sys.path[:0] = [str(Path(__file__).parent)]
 
-from hess_explorer.page.descriptions import describe
+from hess_explorer.page.description import describe
 from hess_explorer.scenes import scenes
 from hess_explorer.server.warm import compute
 from support.fuzzing import Findings, fuzz_commands, fuzz_links, fuzz_messages
@@ -31,9 +31,9 @@ def main():
     parser.add_argument("--seconds", type=float, default=math.inf, help="of the processor, after which it ends")
     options = parser.parse_args()
     # As a server does while it is idle.
-    for scene in scenes().values():
-        compute(scene)
-        describe(scene.name)
+    for name in scenes():
+        compute(name)
+        describe(name)
     Findings.ends = options.seconds + time.process_time()
     Findings.tell = staticmethod(lambda found: print(found, flush=True))
     findings = WORKS[options.work](random.Random(options.seed), options.count)

@@ -56,7 +56,7 @@ def test_a_notebook_shows_a_state_by_its_parameters_and_link():
             "chart, chart_x, chart_y, chart_window, t, az, el.",
         ),
         ({"h": "high"}, "'high' is not a number: h (Energy h) must be a number between -1 and 1e6."),
-        ({"h": math.nan}, "h (Energy h) must be a finite number."),
+        ({"h": math.nan}, "h must be a finite number between -1 and 1e6."),
     ],
 )
 def test_what_cannot_be_is_refused_with_a_sentence(given, sentence):

@@ -6,7 +6,7 @@ import re
 import pytest
 from playwright.sync_api import expect
 
-from hess_explorer.page.descriptions import describe
+from hess_explorer.page.description import describe
 from hess_explorer.page.glossary import explained, glossary
 from hess_explorer.scenes import scenes
 from support.thorough import sample

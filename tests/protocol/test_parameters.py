@@ -109,11 +109,11 @@ def test_no_text_whatever_raises_or_gives_an_inadmissible_value(query):
 @every_number
 @given(value=st.floats(allow_nan=False, allow_infinity=False))
 def test_a_number_out_of_range_becomes_the_nearest_one_in_range(spec, value):
-    admitted, note = spec.admit(value)
+    admitted, note = spec.read(value)
     nearest = sorted((spec.bounds[0], value, spec.bounds[1]))[1]
     assert admitted == nearest
     assert (note is None) == (spec.bounds[0] <= value <= spec.bounds[1])
-    assert spec.admit(admitted) == (admitted, None)
+    assert spec.read(admitted) == (admitted, None)
     assert decode(f"{spec.name}={quote(repr(value))}", SPECS)[0][spec.name] == nearest
 
 

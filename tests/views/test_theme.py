@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from hess_explorer.page.descriptions import describe
+from hess_explorer.page.description import describe
 from hess_explorer.scenes import scenes
 from hess_explorer.views import theme
 from support.accessible import contrast, luminance, rgb

@@ -67,9 +67,6 @@ class Table(Result):
             raise InvalidParameter(f"There is no column {name!r}: choose one of {', '.join(self.columns)}.")
         return self.columns[name]
 
-    def __contains__(self, name: object) -> bool:
-        return name in self.columns
-
     def __iter__(self) -> Iterator[str]:
         return iter(self.columns)
 

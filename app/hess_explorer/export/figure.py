@@ -13,8 +13,9 @@ from typing import TYPE_CHECKING, Any
 import holoviews as hv
 import numpy as np
 
-from hess_explorer.export.formats import WIDTHS, holding
+from hess_explorer.export.formats import WIDTHS, FileRequest
 from hess_explorer.export.picture_data import PictureData
+from hess_explorer.export.table import as_csv, as_json
 from hess_explorer.views import theme
 from hess_explorer.views.elements import as_it_is, on_paper, overlay
 from hess_explorer.views.layers import Layer
@@ -61,19 +62,15 @@ class Drawing:
     edge: float
 
 
-def as_file(data: PictureData, kind: str, width: float = 85.0, black: bool = False) -> bytes:
-    """Return a plot as a square figure in a file, in which text stays text.
+def as_file(data: PictureData, request: FileRequest) -> bytes:
+    """Return the data of a picture as a table, or a plot as a figure, in a file.
 
     Parameters
     ----------
     data : PictureData
-        The plot and its data.
-    kind : str
-        "png" (300 dots per inch), "svg" or "pdf".
-    width : float
-        Width in millimetres.
-    black : bool
-        True for black on white, with lines distinguished by dashes, instead of the colours of the page.
+        The picture, a plot for a figure.
+    request : FileRequest
+        "csv" or "json" for a table; "png" (300 dots per inch), "svg" or "pdf" for a figure, in which text stays text.
 
     Returns
     -------
@@ -83,11 +80,11 @@ def as_file(data: PictureData, kind: str, width: float = 85.0, black: bool = Fal
     Raises
     ------
     InvalidParameter
-        If the format or width is not supported, or Matplotlib is not installed.
+        If the width is not supported, or Matplotlib is not installed.
     """
-    if kind not in holding("figure"):
-        raise InvalidParameter(f"{kind!r} is not a figure format: choose one of {', '.join(holding('figure'))}.")
-    return saved(as_figure(data, width, black), data, kind)
+    if request.kind in ("csv", "json"):
+        return (as_csv if request.kind == "csv" else as_json)(data).encode()
+    return saved(as_figure(data, request.width, request.black), data, request.kind)
 
 
 def as_figure(data: PictureData, width: float = 85.0, black: bool = False) -> Figure:
@@ -95,8 +92,12 @@ def as_figure(data: PictureData, width: float = 85.0, black: bool = False) -> Fi
 
     Parameters
     ----------
-    data, width, black
-        As in `as_file`.
+    data : PictureData
+        The plot and its data.
+    width : float
+        Width in millimetres.
+    black : bool
+        True for black on white, with lines distinguished by dashes, instead of the colours of the page.
 
     Returns
     -------

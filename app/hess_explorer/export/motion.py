@@ -9,10 +9,7 @@ import numpy as np
 from hess_explorer.export.figure import densities
 from hess_explorer.export.picture_data import PictureData
 from hess_explorer.views.plot import Plot
-from hess_explorer.views.space.body import BodyInSpace
-from hess_explorer.views.space.cloud import CloudPlane
 from hess_explorer.views.space.poisson_sphere import Sphere
-from hess_explorer.views.space.torus_in_space import TorusInSpace
 from hess_mechanics.numerics.results import Array
 
 __all__ = ["film_times", "loop_lines", "loop_times", "moves", "period"]
@@ -33,13 +30,9 @@ def _end(data: PictureData) -> float:
 def moves(data: PictureData) -> bool:
     """Return True if the picture changes with time."""
     picture = data.picture
-    follows = (
-        bool(picture.followers)
-        or bool(densities(data))
-        or isinstance(picture, (BodyInSpace, CloudPlane, TorusInSpace))
-        or (isinstance(picture, Sphere) and ("orbit" in picture.looks or bool(picture.clouds)))
-    )
-    return follows and _end(data) > 0.0
+    # A plot may show the track of a motion without a point that moves.
+    follows = picture.followers or densities(data) if isinstance(picture, Plot) else "orbit" in picture.tracks
+    return bool(follows) and _end(data) > 0.0
 
 
 def film_times(data: PictureData, count: int) -> Array:

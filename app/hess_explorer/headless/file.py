@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from hess_explorer.export import file
-from hess_explorer.export.figure import as_figure, image_figure, saved
+from hess_explorer.export.figure import as_figure, as_file, image_figure, saved
 from hess_explorer.export.formats import FORMATS, FileRequest
 from hess_explorer.export.picture_data import PictureData
 from hess_explorer.headless.drawing import drawing_of, png_of
@@ -30,7 +29,7 @@ def content(
     if FORMATS[kind].holds == "film":
         return as_film(data, request, report)
     if FORMATS[kind].holds == "data" or isinstance(data.picture, Plot):
-        return file.content(data, request)
+        return as_file(data, request)
     return png_of(data, width, black) if kind == "png" else saved(figure(data, width, black), data, kind)
 
 

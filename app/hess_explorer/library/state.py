@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -444,13 +443,7 @@ def _checked(spec: Spec, value: Any) -> Value:
             raise InvalidParameter(
                 f"{value!r} is not a number: {spec.name} ({spec.label}) must be a number {spec.range}."
             )
-        try:
-            found, note = float(value), None
-        except OverflowError:
-            found, note = math.inf, None
-        if not math.isfinite(found):
-            raise InvalidParameter(f"{spec.name} ({spec.label}) must be a finite number.")
-        found, note = spec.admit(found)
+        found, note = spec.read(value)
     elif isinstance(spec, Places) and not isinstance(value, str):
         try:
             pairs = [(float(x), float(y)) for x, y in value]

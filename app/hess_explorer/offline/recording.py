@@ -14,7 +14,7 @@ from hess_explorer.export.picture_data import complete
 from hess_explorer.offline.plan import Family
 from hess_explorer.offline.strips import Strip, steps_of_plots
 from hess_explorer.page.controls import show_controls
-from hess_explorer.page.descriptions import describe, without_gestures
+from hess_explorer.page.description import describe, without_gestures
 from hess_explorer.protocol.specs import Number, Values, encode
 from hess_explorer.protocol.wire import Wire
 from hess_explorer.scenes.framework.scene import Scene

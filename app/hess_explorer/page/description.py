@@ -1,10 +1,11 @@
-"""The description of a scene for the browser: empty pictures, controls and texts.  See `descriptions`."""
+"""Descriptions of scenes for the browser, sent once each: empty pictures, controls and texts."""
 
 from __future__ import annotations
 
 import json
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from functools import cache
 from typing import Any
 
 from markdown_it import MarkdownIt
@@ -22,11 +23,12 @@ from hess_explorer.views.text import with_formulas
 from hess_explorer.views.theme import SHADES
 from hess_mechanics.parameters import GROUPS
 
-__all__ = ["description"]
+__all__ = ["describe", "without_gestures"]
 
 
-def description(name: str) -> str:
-    """Return the description of a scene as JSON."""
+@cache
+def describe(name: str) -> str:
+    """Return the description of a scene as JSON, which all sessions share."""
     scene = scenes()[name]
     text = json.dumps(
         {
@@ -86,3 +88,20 @@ def _control(spec: Controlled) -> dict[str, Any]:
     if isinstance(spec, Choice):
         return {"kind": "choice", "options": list(spec.options), **common}
     return {"kind": "formula", **common}
+
+
+def without_gestures(picture: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the description of an open picture without the gestures that change the state.
+
+    Parameters
+    ----------
+    picture : mapping
+        An element of "pictures" in the description of a scene.
+
+    Returns
+    -------
+    dict
+        The changed description.
+    """
+    picks: dict[str, Any] = {"picks": [], "handle": None} if "picks" in picture else {}
+    return {**picture, "folded": None, "hands": "", **picks}

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
 from hess_explorer.lessons.lesson import StateLink
-from hess_explorer.protocol.specs import Choice, Formula, Link, Number, Value, Values
+from hess_explorer.protocol.specs import Choice, Formula, Link, Value, Values
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Scene
 
@@ -85,17 +84,13 @@ class RequestedState:
         self._enter(self.scene, {}, ["The previous values are not possible here: this is the scene's default state."])
 
     def _set(self, values: Values) -> None:
-        """Set values, clamped to the bounds of their parameters, and note each corrected number."""
-        for name, value in values.items():
-            match self.specs.get(name):
-                case Number() as spec:
-                    self.values[name], note = spec.admit(float(value) if isinstance(value, int | float) else math.nan)
-                    if note:
-                        self.notes.append(note)
-                case Formula() as spec:
-                    # A formula that cannot be read leaves the one before.
-                    formula, note = spec.read(str(value))
-                    self.values[name] = self.values[name] if note else formula
-                    self.notes += [note] if note else []
-                case spec if spec is not None:
-                    self.values[name], _ = spec.read(str(value))
+        """Set values, clamped to the bounds of their parameters, and note each correction."""
+        for name, given in values.items():
+            spec = self.specs.get(name)
+            if spec is None:
+                continue
+            value, note = spec.read(given)
+            self.notes += [note] if note else []
+            # A formula that cannot be read leaves the one before.
+            if note is None or not isinstance(spec, Formula):
+                self.values[name] = value

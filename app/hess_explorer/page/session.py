@@ -14,7 +14,7 @@ from hess_explorer.lessons import tries
 from hess_explorer.lessons.lesson import Lesson
 from hess_explorer.page.background_tasks import BackgroundTasks
 from hess_explorer.page.controls import show_controls
-from hess_explorer.page.descriptions import describe
+from hess_explorer.page.description import describe
 from hess_explorer.page.lesson_description import describe_lesson
 from hess_explorer.page.requested import RequestedState
 from hess_explorer.protocol.expressions import NotANumber, evaluate
@@ -49,7 +49,7 @@ class Session:
         Corrections of the link.
     lessons : mapping
         Available lessons by name.
-    pictures : collection of str, optional
+    pictures : collection of str
         Visible pictures, until the browser reports which are in the viewport.
     """
 
@@ -59,7 +59,7 @@ class Session:
         values: Values,
         notes: list[str],
         lessons: Mapping[str, Lesson],
-        pictures: Collection[str] | None = None,
+        pictures: Collection[str],
     ) -> None:
         self.requested = RequestedState(scene, values, notes)
         self.wire = Wire()
@@ -68,7 +68,7 @@ class Session:
         # The browser keeps the pictures of all visited scenes; a stage records what it has drawn on them.
         self._stages: dict[str, Stage[Any]] = {}
         self._described: set[str] = set()
-        self._in_sight = scene.open_pictures if pictures is None else pictures
+        self._in_sight = pictures
         self._held = False
         self._number = 0
         # True if the last request asked for another state, False if it asked again for the one on show.
@@ -182,7 +182,7 @@ class Session:
     def _change(self, values: Values) -> None:
         self.requested.change(values)
         for name, spec in self.requested.specs.items():
-            if isinstance(spec, Formula) and name in values and (note := spec.read(str(values[name]))[1]):
+            if isinstance(spec, Formula) and name in values and (note := spec.read(values[name])[1]):
                 self.wire.say(f"error-{name}", note)
         # The control must be corrected even if the state does not change.
         self._mistaken |= any(self.values.get(name) != value for name, value in values.items())

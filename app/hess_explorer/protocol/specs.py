@@ -55,16 +55,12 @@ Values = Mapping[str, Value]
 class Number(Parameter):
     """A numeric parameter; its slider covers `softbounds`, typed values may lie anywhere within `bounds`."""
 
-    def read(self, text: str) -> tuple[float, str | None]:
-        """Return the value of an untrusted text, and a note if it had to be changed."""
+    def read(self, given: Value) -> tuple[float, str | None]:
+        """Return the number or untrusted text clamped to `bounds`, and a note if it had to be changed."""
         try:
-            value = float(text)
-        except ValueError:
+            value = float(given)
+        except (ValueError, OverflowError):
             value = math.nan
-        return self.admit(value)
-
-    def admit(self, value: float) -> tuple[float, str | None]:
-        """Return the value clamped to `bounds`, and a note if it had to be changed."""
         if not math.isfinite(value):
             return self.default, f"{self.symbol} must be a finite number {self.range}: set to {plain(self.default)}."
         low, high = self.bounds
@@ -85,10 +81,10 @@ class Choice:
     doc: str = ""
     group: Group | Literal["Chart"] = "Computation"
 
-    def read(self, text: str) -> tuple[str, str | None]:
+    def read(self, given: Value) -> tuple[str, str | None]:
         """Return the option of that name; otherwise the default and a note, which does not quote the text."""
-        if text in self.options:
-            return text, None
+        if given in self.options:
+            return str(given), None
         return self.default, f"{self.label} must be one of {', '.join(self.options)}: set to {self.default}."
 
 
@@ -103,13 +99,14 @@ class Formula:
     group: Group = "Body"
     reads: Callable[[str], object] = polynomial
 
-    def read(self, text: str) -> tuple[str, str | None]:
+    def read(self, given: Value) -> tuple[str, str | None]:
         """Return the formula without surrounding spaces; otherwise the default and a note."""
+        text = str(given).strip()
         try:
             self.reads(text)
         except InvalidParameter as error:
             return self.default, f"{self.label}: {str(error).removesuffix('.')}: it was ignored."
-        return text.strip(), None
+        return text, None
 
 
 @dataclass(frozen=True)
@@ -126,8 +123,9 @@ class Places:
     high: tuple[float, float]
     default: str = ""
 
-    def read(self, text: str) -> tuple[str, str | None]:
+    def read(self, given: Value) -> tuple[str, str | None]:
         """Return the last `most` points as a text, and a note if the text had to be changed."""
+        text = str(given)
         try:
             pairs = [tuple(map(float, pair.split(","))) for pair in text.split(";") if pair]
             inside = bool(pairs) == bool(text) and all(
@@ -154,12 +152,12 @@ class Names:
     most: int
     default: str = ""
 
-    def read(self, text: str) -> tuple[str, str | None]:
+    def read(self, given: Value) -> tuple[str, str | None]:
         """Return the first `most` known names, without duplicates, and a note if a name had to be dropped.
 
         The default is returned if none of the names is known.
         """
-        names = list(dict.fromkeys(name for name in text.split(",") if name))
+        names = list(dict.fromkeys(name for name in str(given).split(",") if name))
         known = [name for name in names if name in self.options]
         note = (
             f"{self.label} may be {', '.join(self.options)}, at most {self.most}: other names in the link are ignored."

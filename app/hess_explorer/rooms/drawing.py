@@ -12,7 +12,7 @@ from typing import Any
 
 from hess_explorer.compute.pool import RequestQueue
 from hess_explorer.lessons.lesson import Lesson, LessonStep
-from hess_explorer.page.descriptions import describe, without_gestures
+from hess_explorer.page.description import describe, without_gestures
 from hess_explorer.page.lesson_description import describe_lesson
 from hess_explorer.page.opening import opening
 from hess_explorer.page.session import Session

@@ -12,7 +12,7 @@ from hess_explorer.scenes.framework.scene import Scene
 from hess_explorer.scenes.speed_accuracy import speed_and_accuracy
 from hess_mechanics.errors import InvalidParameter
 
-__all__ = ["PLUGINS", "add", "is_shipped", "scene_named", "scenes"]
+__all__ = ["PLUGINS", "add", "scene_named", "scenes"]
 
 PLUGINS = "hess_explorer.scenes"
 """Group of the entry points by which other packages bring their scenes."""
@@ -34,11 +34,6 @@ def scenes() -> dict[str, Scene[Any]]:
 def _shipped() -> list[Scene[Any]]:
     modules = (importlib.import_module(f"{__name__}.{module.name}") for module in pkgutil.iter_modules(__path__))
     return [module.SCENE for module in modules if isinstance(getattr(module, "SCENE", None), Scene)]
-
-
-def is_shipped(name: str) -> bool:
-    """Return True if a scene, or the one from which it is derived, is in this package."""
-    return any(one.name in (name, scenes()[name].origin) for one in _shipped())
 
 
 def scene_named(name: str) -> Scene[Any] | None:

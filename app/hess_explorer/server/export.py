@@ -22,7 +22,7 @@ from hess_explorer.protocol.specs import MAX_QUERY, Choice, Number, decode
 from hess_explorer.scenes import scenes
 from hess_explorer.server.home import home_of
 from hess_explorer.server.refusal import refuse
-from hess_explorer.server.slow_file import SlowFile
+from hess_explorer.server.slow_file import slow_file
 from hess_explorer.views.plot import Plot
 from hess_mechanics.errors import InvalidParameter, ModelError
 
@@ -35,12 +35,11 @@ _SPECS = (
     Number("seconds", "seconds", "Seconds", FileRequest.seconds, SERVED_SECONDS, 1.0, SERVED_SECONDS),
     Choice("loop", "Loop", ("", "light", "dark"), ""),
     Choice("grid", "Grid", ("0", "1"), "0"),
-    Choice("progress", "Progress", ("0", "1"), "0"),
 )
 
 # One file and one slow file at a time, so that open pages have priority.
 _files = ThreadPoolExecutor(max_workers=1, thread_name_prefix="export")
-_slow = ThreadPoolExecutor(max_workers=1, thread_name_prefix="slow-file")
+_one_slow = asyncio.Lock()
 _MOST, _MOST_SLOW = 20, 5
 """Maximum number of waiting requests, for files and for slow files."""
 _MOST_STATES = 400
@@ -61,25 +60,27 @@ class Export(RequestHandler):
 
     The formats py and ipynb are Python code that computes the picture, as a script and as a notebook.  For HTML,
     `picture` and `vary`, the sliders that move in the page, may be lists with commas, and grid=1 asks for all
-    combinations.  With progress=1 a slow file, which is a page with sliders or drawn by a browser, is preceded by lines
-    that report its progress: "queued", "3/250" after the third of 250 frames or states, and finally "file 12345" with
-    the number of bytes that follow, or "why" and an error message.
+    combinations.  A slow file, which is a page with sliders or drawn by a browser, is preceded by lines that report its
+    progress: "queued", "3/250" after the third of 250 frames or states, and finally "file 12345" with the number of
+    bytes that follow, or "why" and an error message.
     """
 
     waiting = slow_waiting = 0
+    _task: asyncio.Task[Any] | None = None
 
     def initialize(self) -> None:
-        """Create the events that cancel the export."""
+        """Create the event that cancels a computation."""
         self._left = threading.Event()
-        self._slow_file = SlowFile()
 
     def on_connection_close(self) -> None:
         """Cancel the export, because the client has gone."""
         self._left.set()
-        self._slow_file.stop()
+        if self._task is not None:
+            self._task.cancel()
 
     async def get(self) -> None:
         """Respond with the file; with 400 and a message if it cannot be made, with 503 if too many requests wait."""
+        self._task = asyncio.current_task()
         self.set_header("X-Content-Type-Options", "nosniff")
         if len(self.request.query) > MAX_QUERY:
             refuse(self, 400, f"The link is longer than {MAX_QUERY} characters: export a state with fewer points.")
@@ -103,8 +104,10 @@ class Export(RequestHandler):
                 name, data = await asyncio.get_running_loop().run_in_executor(
                     _files, self._file, state, picture, request
                 )
-                self._send(name, request.kind, data)
-        except (Abandoned, StreamClosedError):
+                self.set_header("Content-Type", FORMATS[request.kind].media)
+                self.set_header("Content-Disposition", f'attachment; filename="{name}.{request.kind}"')
+                self.finish(data)
+        except (Abandoned, StreamClosedError, asyncio.CancelledError):
             return
         except ModelError as error:
             refuse(self, 400, str(error))
@@ -124,76 +127,59 @@ class Export(RequestHandler):
         if request.kind in PROGRAMS:
             return name, PROGRAMS[request.kind](where).encode()
         # Not at the start, because no page needs HoloViews.
-        from hess_explorer.export.file import content
+        from hess_explorer.export.figure import as_file
 
         with limited(self._left, _SECONDS), np.errstate(all="ignore"):
-            return name, content(compute(where), request)
+            return name, as_file(compute(where), request)
 
     async def _answer_slowly(
         self, state: dict[str, str], picture: str, read: dict[str, Any], sliders: Sequence[str]
     ) -> None:
-        """Send a slow file, after progress lines if they are requested.  Raises `ModelError`, `Abandoned`."""
-        loop, kind, lines = asyncio.get_running_loop(), str(read["format"]), read["progress"] == "1"
+        """Send a slow file after lines that report its progress.  Raises `ModelError` if it cannot be made."""
+        grid = bool(sliders) and read["grid"] == "1"
         # A file that cannot be made is refused at once, and not after those that wait.
-        name = await loop.run_in_executor(
-            _files, self._name_of_slow, urlencode(state), picture, sliders, read["grid"] == "1"
+        await asyncio.get_running_loop().run_in_executor(
+            _files, self._check_slow, urlencode(state), picture, sliders, grid
         )
+        options = {
+            "state": urlencode(state),
+            "picture": picture,
+            "format": read["format"],
+            "width": f"{read['width']:g}",
+            "seconds": f"{read['seconds']:g}",
+            "loop": read["loop"],
+            "page": home_of(self.request),
+        }
         words = [
-            f"--state={urlencode(state)}",
-            "--lenient",
-            f"--picture={picture}",
-            "--format",
-            kind,
-            "--width",
-            f"{read['width']:g}",
-            "--seconds",
-            f"{read['seconds']:g}",
-            *(["--black"] if read["black"] == "1" else []),
-            *(["--loop", str(read["loop"])] if read["loop"] else []),
+            *(f"--{name}={value}" for name, value in options.items() if value),
             *(f"--vary={slider}" for slider in sliders),
-            *(["--grid"] if sliders and read["grid"] == "1" else []),
-            f"--page={home_of(self.request)}",
+            *(["--black"] if read["black"] == "1" else []),
+            *(["--grid"] if grid else []),
+            "--lenient",
         ]
+        self.set_header("Content-Type", "application/octet-stream")
+        self._say("queued")
+        async with _one_slow:
+            try:
+                data = await slow_file(words, self._say)
+            except ModelError as error:
+                self._say(f"why {error}")
+            else:
+                self._say(f"file {len(data)}")
+                self.finish(data)
 
-        def say(line: str) -> None:
-            if not self._left.is_set():
-                self.write(f"{line}\n")
-                self.flush()
+    def _say(self, line: str) -> None:
+        self.write(f"{line}\n")
+        self.flush()
 
-        def tell(line: str) -> None:
-            if lines:
-                loop.call_soon_threadsafe(say, line)
-
-        if lines:
-            self.set_header("Content-Type", "application/octet-stream")
-            say("queued")
-        try:
-            data = await loop.run_in_executor(_slow, self._slow_file.made, words, tell)
-        except ModelError as error:
-            if not lines:
-                raise
-            say(f"why {error}")
-            return
-        if lines:
-            say(f"file {len(data)}")
-            self.finish(data)
-        else:
-            self._send(name, kind, data)
-
-    def _name_of_slow(self, query: str, picture: str, sliders: Sequence[str], grid: bool) -> str:
-        """Return the name of a slow file, if it can be made.  Raises `InvalidParameter`."""
+    def _check_slow(self, query: str, picture: str, sliders: Sequence[str], grid: bool) -> None:
+        """Raise `InvalidParameter` if a slow file cannot be made."""
         if not sliders:
-            where = address(query, picture, lenient=True)
-            return f"{where.scene.name}-{where.picture.name}"
-        states = planned(query, sliders, grid=grid, lenient=True)
-        if len(states.points) > _MOST_STATES:
+            address(query, picture, lenient=True)
+            return
+        count = len(planned(query, sliders, grid=grid, lenient=True).points)
+        if count > _MOST_STATES:
             raise InvalidParameter(
-                f"These are {len(states.points)} states; the server computes at most {_MOST_STATES}: choose fewer "
-                "values, or use the command."
+                f"These are {count} states; the server computes at most {_MOST_STATES}: choose fewer values, or use "
+                "the command."
             )
-        return states.scene.name
-
-    def _send(self, name: str, kind: str, data: bytes) -> None:
-        self.set_header("Content-Type", FORMATS[kind].media)
-        self.set_header("Content-Disposition", f'attachment; filename="{name}.{kind}"')
-        self.finish(data)

@@ -8,13 +8,11 @@ import time
 from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor
 from multiprocessing import get_context
-from typing import Any
 
 from hess_explorer.compute.cache import CACHE
-from hess_explorer.page.descriptions import describe
+from hess_explorer.page.description import describe
 from hess_explorer.protocol.wire import Wire
 from hess_explorer.scenes import scenes
-from hess_explorer.scenes.framework.scene import Scene
 from hess_explorer.scenes.framework.stage import Stage
 from hess_explorer.server.compiled import KEEPS_KERNELS, all_compiled, compiler, mark_all_compiled
 from hess_explorer.views.tag_kernels import compile_labels
@@ -28,16 +26,17 @@ logger = logging.getLogger("hess_explorer")
 QUIET_SECONDS, PAGE_SECONDS = 0.3, 8.0
 
 
-def compute(scene: Scene[Any], folded: bool = True) -> None:
+def compute(name: str, folded: bool = True) -> None:
     """Compile or load the kernels of a scene by computing its default state and one background task of each kind.
 
     Parameters
     ----------
-    scene : Scene
-        The scene.
+    name : str
+        Name of the scene.
     folded : bool
         True to include the pictures that are folded at first, and charts.
     """
+    scene = scenes()[name]
     try:
         state = scene.compute(scene.defaults(), scene.pictures if folded else scene.open_pictures, False)
         todo = Stage(scene, Wire()).show(state, hold_axes=False).todo
@@ -47,11 +46,11 @@ def compute(scene: Scene[Any], folded: bool = True) -> None:
             scene.charted.load(state)
     except ModelError as error:
         # A scene that fails must not stop the others.
-        logger.warning("%s: %s", scene.name, error)
+        logger.warning("%s: %s", name, error)
 
 
 def compile_all(processes: int = 1) -> None:
-    """Compile the kernels of all scenes into the cache on disk, and draw their descriptions.
+    """Compile the kernels of all scenes into the cache on disk.
 
     Parameters
     ----------
@@ -62,17 +61,12 @@ def compile_all(processes: int = 1) -> None:
         return
     if processes == 1:
         for name in scenes():
-            _compute_named(name)
+            compute(name)
     else:
         with ProcessPoolExecutor(processes, get_context("spawn")) as pool:
-            for _ in pool.map(_compute_named, scenes()):
+            for _ in pool.map(compute, scenes()):
                 pass
     mark_all_compiled()
-
-
-def _compute_named(name: str) -> None:
-    compute(scenes()[name])
-    describe(name)
 
 
 def warm(first_is_ready: Callable[[], None] = lambda: None) -> None:
@@ -87,9 +81,9 @@ def warm(first_is_ready: Callable[[], None] = lambda: None) -> None:
     first_is_ready : callable
         Called as soon as the page can be shown without compiling.
     """
-    first, *others = scenes().values()
+    first, *others = scenes()
     try:
-        describe(first.name)
+        describe(first)
         # At a first start another process compiles the circle map meanwhile, so that comes last.
         compile_labels()
         compute(first, folded=False)
@@ -103,11 +97,11 @@ def warm(first_is_ready: Callable[[], None] = lambda: None) -> None:
     _wait_for_a_page()
     _wait_until_quiet()
     compute(first)
-    for scene in others:
+    for name in others:
         _wait_until_quiet()
-        compute(scene)
+        compute(name)
         _wait_until_quiet()
-        describe(scene.name)
+        describe(name)
     _wait_until_quiet()
     # For formulas typed on the page.
     compile_shared()

@@ -1,8 +1,7 @@
-"""A plot as a Bokeh figure: axes by HoloViews, lines and markers as Bokeh's glyphs with empty sources.
+"""A plot as a Bokeh figure: axes, lines and markers, with empty sources.
 
-Each figure is built once per process; the browser gets it as JSON and fills its sources with data.  The page itself
-draws cells, thousands of dots and the points that move in time, which are not Bokeh glyphs.  HoloViews makes the axes
-only: glyphs would take four times as long, and as many again would serve selections that nobody makes.
+The browser gets it as JSON and fills its sources with data.  The page itself draws cells, thousands of dots and the
+points that move in time, which are not Bokeh glyphs.
 """
 
 from __future__ import annotations
@@ -10,25 +9,20 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-import holoviews as hv
-import numpy as np
 from bokeh import __version__
 from bokeh.core.serialization import Serializer
 from bokeh.document import Document
-from bokeh.models import ColumnDataSource, ContinuousTicker, NoOverlap, glyphs
+from bokeh.models import ColumnDataSource, ContinuousTicker, FixedTicker, NoOverlap, Range1d, glyphs
 from bokeh.models.glyph import Glyph
 from bokeh.plotting import figure
 
-from hess_explorer.views import elements, theme
+from hess_explorer.views import theme
 from hess_explorer.views.layers import Layer
 
 if TYPE_CHECKING:
     from hess_explorer.views.plot import Plot
 
 __all__ = ["build", "describe"]
-
-_renderer = hv.renderer("bokeh")
-_renderer.webgl = False  # costs several times the canvas at these sizes
 
 _LETTERS = 26
 """Number of letters that fit side by side under the smallest picture; beside it any number fits."""
@@ -54,33 +48,34 @@ _BOX: Layer[Any] = Layer(
 def build(plot: Plot[Any]) -> figure:
     """Return the plot as a Bokeh model, with empty sources."""
     axes, names = plot.first_axes, plot.axes if isinstance(plot.axes, tuple) else (" ", " ")
-    # Plain arrays, as any other form of data makes HoloViews import pandas (0.25 s).
-    point = {"x": np.array([axes.x[0]]), "y": np.array([axes.y[0]])}
-    background = hv.Curve(point, "x", "y", datatype=["dictionary"]).opts(
-        hv.opts.Curve(
-            **elements.frame(plot, axes, names),
-            backend="bokeh",
-            toolbar=None,
-            default_tools=[],
-            responsive=True,
-            title="",
-            fontsize={"labels": theme.FONT_SIZE, "ticks": "12px"},
-        )
-    )
-    root: figure = _renderer.get_plot(background).state
     # Transparent, so that the theme of the page shows.  An invisible background that is still painted makes Bokeh
     # begin a new path for the outline; without it Bokeh strokes the ticks of the previous painting again.
-    root.update(
+    root = figure(
         name=plot.name,
-        min_border=4,
+        x_range=Range1d(*axes.x),
+        y_range=Range1d(*axes.y),
+        x_axis_type="log" if "x" in plot.log else "linear",
+        y_axis_type="log" if "y" in plot.log else "linear",
+        x_axis_label=names[0],
+        y_axis_label=names[1],
+        tools="",
+        toolbar_location=None,
+        min_border=10,
         sizing_mode="stretch_both",
-        aspect_ratio=None,
         background_fill_color="#00000000",
         background_fill_alpha=1,
         border_fill_alpha=0,
     )
-    for axis in root.axis:
-        axis.major_label_policy = NoOverlap(min_distance=4)
+    root.grid.grid_line_color = None
+    for axis, ticks in zip(root.axis, plot.axis_ticks, strict=True):
+        axis.update(
+            axis_label_text_font_size=theme.FONT_SIZE,
+            major_label_text_font_size="12px",
+            major_label_policy=NoOverlap(min_distance=4),
+        )
+        if ticks is not None:
+            labels: dict[float, str] = dict(one for one in ticks if isinstance(one, tuple))
+            axis.update(ticker=FixedTicker(ticks=[*labels] or [*ticks]), major_label_overrides=labels)
     if plot.y_tick_count is not None:
         ticker = root.yaxis[0].ticker
         assert isinstance(ticker, ContinuousTicker)

@@ -17,7 +17,7 @@ from hess_explorer.views.layers import Axes, Columns, Layer
 if TYPE_CHECKING:
     from hess_explorer.views.plot import Plot
 
-__all__ = ["SIDE", "Colour", "as_it_is", "frame", "on_paper", "overlay", "with_options"]
+__all__ = ["SIDE", "Colour", "as_it_is", "on_paper", "overlay", "with_options"]
 
 Colour = Callable[[str], str]
 """Maps a colour of the light page to the colour to use."""
@@ -67,7 +67,7 @@ def overlay(
         if len(columns.get(plot.source_of(layer), {}).get(layer.columns[0], ()))
     ]
     found = hv.Overlay(drawn or [hv.Curve([])])
-    shared = {**frame(plot, axes, names), "title": title, "show_legend": False}
+    shared = {**_frame(plot, axes, names), "title": title, "show_legend": False}
     return with_options(
         found,
         {
@@ -77,9 +77,9 @@ def overlay(
     )
 
 
-def frame(plot: Plot[Any], axes: Axes, names: tuple[str, str]) -> Options:
-    """Return the options of both backends for ranges, names, scales and ticks of the axes."""
-    ticks = [(plot.ticks or plot.x_ticks, "xticks"), (plot.y_ticks or plot.ticks, "yticks")]
+def _frame(plot: Plot[Any], axes: Axes, names: tuple[str, str]) -> Options:
+    """Return the options for ranges, names, scales and ticks of the axes."""
+    places = zip(("xticks", "yticks"), plot.axis_ticks, strict=True)
     return {
         "xlim": axes.x,
         "ylim": axes.y,
@@ -87,7 +87,7 @@ def frame(plot: Plot[Any], axes: Axes, names: tuple[str, str]) -> Options:
         "ylabel": names[1],
         "logx": "x" in plot.log,
         "logy": "y" in plot.log,
-        **{name: list(places) for places, name in ticks if places is not None},
+        **{name: [*ticks] for name, ticks in places if ticks is not None},
     }
 
 

@@ -62,6 +62,11 @@ class Plot(Picture[S]):
         return (*self.layers, *(label(layer) for layer in self.layers if layer.tag), self.point, MESSAGE)
 
     @property
+    def axis_ticks(self) -> tuple[Sequence[Any] | None, Sequence[Any] | None]:
+        """Positions on both axes, with or without labels; None for the default."""
+        return self.ticks or self.x_ticks, self.y_ticks or self.ticks
+
+    @property
     def events(self) -> tuple[str, ...]:
         """Mouse events that the browser reports: Bokeh's events, "box" and "hover"."""
         return (
