@@ -290,8 +290,6 @@ interface Scene {
   /** Whether its plots are built, and whether a state was painted in all its pictures. */
   isComplete: boolean
   painted: boolean
-  /** The colours that the plots have. */
-  coloured?: string
   /** The sizes that each plot has. */
   sizes: Map<PlotView, string>
 }
@@ -409,9 +407,8 @@ interface PageEvents {
   redo: void
   clear: void
   stop: void
-  link: void
+  /** Write the address bar, which may lag behind the screen. */
   address: void
-  copy: string
   theme: void
   fullscreen: void
   present: void
@@ -422,8 +419,6 @@ interface PageEvents {
   export: void
   pick: { pick: Picked, drag: boolean }
   hover: Picked
-  /** Whether an animation moves a slider. */
-  animated: boolean
   pin: void
   flip: void
   url: ClientKeys
@@ -440,7 +435,8 @@ interface PageEvents {
   /** Canvases paint now, together with the plots. */
   paint: void
   painted: void
-  copied: { text: string | null, said: string }
+  /** The colours of the page have changed. */
+  themed: void
   /** How many steps can be undone and redone. */
   steps: { undo: number, redo: number }
   presenting: boolean

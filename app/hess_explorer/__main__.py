@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from importlib import import_module, metadata
 
 from hess_explorer.commands import COMMANDS, HEADINGS, CommandError
-from hess_explorer.commands.command import Command, Options, Parser
+from hess_explorer.commands.command import Command, Options
 
 __all__ = ["main", "parsed"]
 
@@ -47,15 +47,12 @@ def parsed(words: Sequence[str]) -> Options:
     name, *rest = _with_negative_values(_with_command(list(words)))
     if name in COMMANDS:
         command: Command = import_module(f"hess_explorer.commands.{name}").COMMAND
-        return command.parser(f"hess-explorer {name}").parse_args(rest)
+        return command.parsed(f"hess-explorer {name}", rest)
     from hess_explorer.commands import compute
 
     if not name.startswith("-"):
-        parser, rest = compute.parser(name, rest)
-        return parser.parse_args(rest)
-    parser = Parser(
-        "hess-explorer",
-        "[COMMAND] [OPTIONS]",
+        return compute.parsed(name, rest)
+    parser = Command(
         "An interactive explorer of the Suslov problem, its Hess case and their relatives.  Without a command: serve.  "
         "COMMAND --help shows the options of a command.",
     )
@@ -63,7 +60,7 @@ def parsed(words: Sequence[str]) -> Options:
     for heading in HEADINGS:
         by_hand = {name: purpose for name, (of, purpose) in COMMANDS.items() if of == heading}
         parser.list_words(heading, {**by_hand, **compute.titles(heading)})
-    return parser.parse_args([name])
+    return parser.parsed("hess-explorer [COMMAND]", [name])
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -90,6 +87,13 @@ def main(argv: Sequence[str] | None = None) -> int:
     except CommandError as error:
         print(f"hess-explorer: {error}", file=sys.stderr)
         return error.status
+    except ValueError as error:
+        from hess_mechanics.errors import ModelError
+
+        if not isinstance(error, ModelError):
+            raise
+        print(f"hess-explorer: {error}", file=sys.stderr)
+        return 2
     except OSError as error:
         # Commands say what they read or write; here a name that is too long, or a disk that fails.
         named = "" if error.filename is None else f"{error.filename!r} cannot be used: "

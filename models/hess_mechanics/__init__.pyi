@@ -9,20 +9,18 @@ from .computations import (
 )
 from .dynamics.continuation import Branch
 from .dynamics.ensemble import ensemble
-from .dynamics.lyapunov import Exponent, lyapunov_exponent
 from .dynamics.manifolds import Manifold, manifold
 from .dynamics.megno import Megno, megno
 from .dynamics.megno_map import MegnoMap, megno_map
 from .dynamics.orbit import solve
-from .dynamics.orbit_diagram import Cascade, Diagram, Hysteresis
+from .dynamics.orbit_diagram import Cascade, Diagram
 from .dynamics.periodic import PeriodicOrbit
-from .dynamics.plane_section import Plane, SectionPoints, section, section_points, sections
+from .dynamics.plane_section import Plane, SectionPoints, section, section_points
 from .dynamics.regime import Dynamics, Regime, dynamics_of, regime
 from .dynamics.return_map import ReturnMap
-from .dynamics.spectrum import Spectrum, lyapunov_spectrum
+from .dynamics.spectrum import Exponent, Spectrum, lyapunov_exponent, lyapunov_spectrum
 from .dynamics.system import Body, ParametrizedSystem, System, systems
-from .dynamics.tube import ProvedOrbit, Tube, proved_error, proved_orbit, right_until, tube
-from .dynamics.variation import Return, Transition, return_matrix, transition_matrix
+from .dynamics.tube import ProvedOrbit, Tube, proved_orbit, tube
 from .errors import ModelError
 from .euler_poisson.andoyer import AndoyerPlane
 from .euler_poisson.equations import HeavyBody
@@ -36,7 +34,6 @@ from .return_maps import (
     PlanePoints,
     basins,
     continued_orbit,
-    hysteresis,
     orbit_diagram,
     period_doublings,
     periodic_orbit,
@@ -56,13 +53,7 @@ from .suslov_hess.certificate import certificate
 from .suslov_hess.circle_map import CircleMap, FixedPoint, circle_map
 from .suslov_hess.edge import EdgeProof
 from .suslov_hess.equations import HessBody
-from .suslov_hess.mode_locking import (
-    critical_a,
-    lock_boundary,
-    lock_boundary_f,
-    rotation_number_grid,
-    trace_on_curve,
-)
+from .suslov_hess.mode_locking import critical_a, lock_boundary
 from .suslov_hess.proof import Proof, prove
 
 __all__ = [  # noqa: RUF022 (by subject)
@@ -88,8 +79,6 @@ __all__ = [  # noqa: RUF022 (by subject)
     "MegnoMap",
     "orbit_diagram",
     "Diagram",
-    "hysteresis",
-    "Hysteresis",
     "period_doublings",
     "Cascade",
     "regime",
@@ -106,7 +95,6 @@ __all__ = [  # noqa: RUF022 (by subject)
     "ensemble",
     "Ensemble",
     "section",
-    "sections",
     "section_points",
     "Plane",
     "SectionCrossings",
@@ -118,15 +106,9 @@ __all__ = [  # noqa: RUF022 (by subject)
     "Tube",
     "ProvedOrbit",
     "proved_orbit",
-    "proved_error",
-    "right_until",
     "Spectrum",
     "megno",
     "Megno",
-    "transition_matrix",
-    "Transition",
-    "return_matrix",
-    "Return",
     # Accuracy, cost, errors
     "LEVELS",
     "Level",
@@ -164,9 +146,6 @@ __all__ = [  # noqa: RUF022 (by subject)
     "f_max",
     "critical_a",
     "lock_boundary",
-    "lock_boundary_f",
-    "rotation_number_grid",
-    "trace_on_curve",
     "prove",
     "Proof",
     "EdgeProof",

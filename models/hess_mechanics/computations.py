@@ -9,6 +9,7 @@ from __future__ import annotations
 from hess_mechanics.chaplygin_ball import phase_cloud_density
 from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.chaplygin_ball.phase_cloud import Cloud
+from hess_mechanics.dynamics.return_map import section_crossings
 from hess_mechanics.errors import OutsideRegion
 from hess_mechanics.euler_poisson.andoyer import AndoyerSection
 from hess_mechanics.euler_poisson.equations import HeavyBody
@@ -183,7 +184,8 @@ def rotation_along_line(
     if not started:
         raise OutsideRegion("No motion crosses the section on this line: choose another line, or a larger h.")
     chosen = plan(Kind.ROTATION, accuracy)
-    found = section.points([state for _, state in started], as_whole("crossings", crossings, 20, 10_000), chosen.level)
+    crossings = as_whole("crossings", crossings, 20, 10_000)
+    found = section_crossings(section, [state for _, state in started], crossings, chosen.level)
     return rotation_along(
         (first, last),
         [one for one, _ in started],

@@ -305,7 +305,7 @@ I1, I2, I3 = MOMENTS = tuple(
         ("I3", "I₃", 0.375, "Third principal moment of inertia."),
     )
 )
-A1, A2, A3 = INVERSE_MOMENTS = _vector(
+INVERSE_MOMENTS = _vector(
     "a1 a2 a3",
     "a₁ a₂ a₃",
     (1.0, 1.25, 1.6),
@@ -316,7 +316,7 @@ A1, A2, A3 = INVERSE_MOMENTS = _vector(
     "Inverse of a principal moment of inertia.",
     "Body",
 )
-R1, R2, R3 = CENTRE = _vector(
+CENTRE = _vector(
     "r1 r2 r3",
     "r₁ r₂ r₃",
     (0.3, -0.5, 1.0),
@@ -339,7 +339,7 @@ MU_R = Parameter(
     "The potential is −μ(r, γ). Its sign is that of r.",
     "Body",
 )
-M1, M2, M3 = MOMENTUM = _vector(
+MOMENTUM = _vector(
     "M1 M2 M3",
     "M₁ M₂ M₃",
     (0.8, -0.4, 0.5),
@@ -438,7 +438,7 @@ W1, W2 = OMEGA = _vector(
     (-1e3, 1e3),
     "Component of the angular velocity at t = 0.",
 )
-G1, G2, G3 = GAMMA = _vector(
+GAMMA = _vector(
     "g1 g2 g3",
     "γ₁ γ₂ γ₃",
     (0.6, 0.0, 0.8),

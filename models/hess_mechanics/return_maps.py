@@ -17,25 +17,26 @@ from hess_mechanics.chaplygin_ball.ball_section import BallSection
 from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.dynamics.attraction import arrivals
 from hess_mechanics.dynamics.basins import Contraction, SectionOrbits, attractors
-from hess_mechanics.dynamics.cells import Window, centres, evenly
+from hess_mechanics.dynamics.cells import Window, centres
 from hess_mechanics.dynamics.continuation import Branch, continued
-from hess_mechanics.dynamics.megno_map import corners, require_plane
-from hess_mechanics.dynamics.orbit_diagram import COMPARED, Cascade, Diagram, Hysteresis, cascade, diagram_over
+from hess_mechanics.dynamics.megno_map import corners, labels_of_cells, require_plane
+from hess_mechanics.dynamics.orbit_diagram import Cascade, Diagram, cascade, diagram_over
 from hess_mechanics.dynamics.periodic import MAX_PERIOD, PeriodicOrbit, find_periodic, place_units
+from hess_mechanics.dynamics.plane_section import labels_of_orbits
 from hess_mechanics.dynamics.return_map import PoincareSection, ReturnMap, section_crossings
-from hess_mechanics.dynamics.system import ParametrizedSystem, Problem
+from hess_mechanics.dynamics.system import ParametrizedSystem
 from hess_mechanics.dynamics.variable_section import variable_section
 from hess_mechanics.errors import InvalidParameter, OutsideRegion, WorkLimit
 from hess_mechanics.euler_poisson.andoyer import AndoyerSection
 from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.numerics.accuracy import Accuracy, Kind, plan
 from hess_mechanics.numerics.arguments import as_cells, as_level, as_number, as_pairs, as_place, as_whole
-from hess_mechanics.numerics.labelled import Labels, Result, components
+from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.parallel import share
 from hess_mechanics.numerics.results import Array, angle_facts, frozen
 from hess_mechanics.suslov.equations import SuslovBody
 from hess_mechanics.suslov.quartic import QuarticBody, QuarticSection
-from hess_mechanics.suslov.suslov_section import SuslovSection, require_reached
+from hess_mechanics.suslov.suslov_section import AngleSection, SuslovSection
 from hess_mechanics.suslov_hess.equations import HessBody
 from hess_mechanics.suslov_hess.torus_section import TorusSection
 
@@ -44,7 +45,6 @@ __all__ = [
     "PlanePoints",
     "basins",
     "continued_orbit",
-    "hysteresis",
     "orbit_diagram",
     "period_doublings",
     "periodic_orbit",
@@ -55,10 +55,6 @@ __all__ = [
 SectionedBody = SuslovBody | QuarticBody | BallBody | HeavyBody | HessBody | ParametrizedSystem
 _MOST_PLACES = 1_000_000
 _MOST_ORBITS, _MOST_CROSSINGS = 1000, 10_000
-_TURNS = 120.0
-"""Time limit per crossing, in units of 1/ν times the slowness of the section; few orbits need more."""
-_TRIED = (8, 200)
-"""Candidate starts per orbit; the second number is for sections that motions cross in a small part only."""
 
 
 @dataclass(frozen=True)
@@ -88,14 +84,7 @@ class PlanePoints(Result):
         Labels
             Both coordinates over the points.
         """
-        number = np.repeat(np.arange(len(self.orbits)), [len(one) for one in self.orbits])
-        points = np.concatenate([np.empty((0, 2)), *self.orbits])
-        return Labels(
-            {"orbit": (("point",), number)},
-            components(self.names, points, "point"),
-            place_units(self.names),
-            self.facts,
-        )
+        return labels_of_orbits(self.names, self.orbits, "point", place_units(self.names), self.facts)
 
 
 def return_map(
@@ -119,8 +108,8 @@ def return_map(
 
     Each kind of body has its own section:
 
-    - `SuslovBody`: the plane γ_k = 0 at energy `E`, coordinates (ψ, δ).
-    - `BallBody`: the plane γ₃ = 0 at energy `h` above its lowest, coordinates (ψ, δ).
+    - `SuslovBody`: the plane γ_k = 0 at the energy `E`, or `h` above the lowest, coordinates (ψ, δ).
+    - `BallBody`: the plane γ_k = 0 at the energy `E`, or `h` above the lowest of the plane, coordinates (ψ, δ).
     - `HeavyBody`: the Andoyer–Deprit section at `h` and `f`, coordinates (l, L/G).
     - `HessBody`: a circle on the torus (`h`, `f`) in units b = 1, coordinate φ.
     - `QuarticBody`: the section of the plane motion at the body's own energy, coordinates (q, p).
@@ -132,13 +121,13 @@ def return_map(
     body : SuslovBody, BallBody, HeavyBody, HessBody, QuarticBody or ParametrizedSystem
         The body.
     E : float, optional
-        Energy of a `SuslovBody`.
+        Energy of a `SuslovBody` or `BallBody`.
     h : float, optional
-        Energy integral of a `BallBody`, `HeavyBody` or `HessBody`.
+        Energy of a `SuslovBody` or `BallBody` above the lowest; energy integral of a `HeavyBody` or `HessBody`.
     f : float, optional
         Area integral of a `HeavyBody` or `HessBody`.
     plane : int, default 3
-        Index k of the plane γ_k = 0 of a `SuslovBody`: 1, 2 or 3.
+        Index k of the plane γ_k = 0 of a `SuslovBody` or `BallBody`: 1, 2 or 3.
     sheet : int, default 0
         Sheet of the section of a `HeavyBody`, 0 to 2; the largest momentum G is on sheet 0.
     integrals : mapping of str to float, optional
@@ -178,11 +167,11 @@ def return_map(
     """
     asked: dict[str, float | None] = {"E": E, "h": h, "f": f}
     found: PoincareSection
-    if isinstance(body, SuslovBody):
-        at = _given(asked, "E")
-        require_reached(found := SuslovSection(body, at[0], as_whole("plane", plane, 1, 3)))
-    elif isinstance(body, BallBody):
-        found = BallSection(body, *_given(asked, "h"))
+    if isinstance(body, SuslovBody | BallBody):
+        energy = "E" if h is None else "h"
+        kind: type[AngleSection] = SuslovSection if isinstance(body, SuslovBody) else BallSection
+        found = kind(body, 0.0, as_whole("plane", plane, 1, 3)).moved(energy, *_given(asked, energy))
+        found.require_reached()
     elif isinstance(body, HeavyBody):
         at = _given(asked, "h", "f")
         found = AndoyerSection(body, at[0], at[1], as_whole("sheet", sheet, 0, 2))
@@ -244,19 +233,19 @@ def section_orbits(
     states = (
         np.array([map_.state_at(np.array(one)) for one in as_pairs("starts", starts)])
         if len(starts)
-        else _spread(section, as_whole("orbits", orbits, 1, _MOST_ORBITS))
+        else np.array(section.spread(as_whole("orbits", orbits, 1, _MOST_ORBITS)))
     )
-    turns = _TURNS if map_.longest is None else map_.longest * Problem.of(section, states).nu / section.slowness
+    if not len(states):
+        raise OutsideRegion("No motion crosses the section here: choose a larger energy.")
     level = plan(Kind.SECTION, map_.accuracy).level
-    found = section_crossings(section, states, count, turns, level, map_.backward)
+    found = section_crossings(section, states, count, level, map_.backward, map_.longest)
     x, y = section.names
     return PlanePoints(
         (x, y),
         tuple(section.places_of(one) for one in found.states),
         {
             "level": map_.level,
-            **{f"drift of {name}": value for name, value in found.drift.items()},
-            "steps": found.cost.steps,
+            **found.facts,
             **{f"orbit {i}": reason for i, reason in enumerate(found.reasons) if reason},
             **angle_facts(
                 (name for name, turn in zip(section.names, section.turns, strict=True) if math.isfinite(turn)),
@@ -264,18 +253,6 @@ def section_orbits(
             ),
         },
     )
-
-
-def _spread(section: PoincareSection, orbits: int) -> Array:
-    """Return up to `orbits` states, spread evenly over the window of a section.  Raises `OutsideRegion`."""
-    low, high = np.array(section.window).T[:, :, None]
-    for tried in _TRIED:
-        states, there = section.states_at(*(low + evenly(tried * orbits) * (high - low)))
-        if np.count_nonzero(there) >= orbits:
-            break
-    if not there.any():
-        raise OutsideRegion("No motion crosses the section here: choose a larger energy.")
-    return np.asarray(states[there][:orbits])
 
 
 def periodic_orbit(map_: ReturnMap, at: Sequence[float], period: int | None = None) -> PeriodicOrbit:
@@ -388,7 +365,7 @@ def orbit_diagram(
     parameter : str
         Name of the parameter, one of `map_.section.constants`.
     values : array_like, shape (n,)
-        Values of the parameter, in the order in which they are visited.
+        Values of the parameter, in the order in which they are visited; there and back they show hysteresis.
     at : sequence of float, shape (d,)
         Point of the section where the orbit starts.
     transient : int, default 200
@@ -429,60 +406,6 @@ def orbit_diagram(
         # Say why.
         map_.moved(parameter, float(found.values[0])).state_at(np.array(place))
     return found
-
-
-def hysteresis(
-    map_: ReturnMap,
-    parameter: str,
-    values: Sequence[float] | Array,
-    at: Sequence[float],
-    *,
-    transient: int = 200,
-    kept: int = 64,
-) -> Hysteresis:
-    """Return the orbit diagrams of a section over a parameter there and back, and where they differ.
-
-    Parameters
-    ----------
-    map_ : ReturnMap
-        Return map of the section.
-    parameter : str
-        Name of the parameter, one of `map_.section.constants`.
-    values : array_like, shape (n,)
-        Values of the parameter on the way there.
-    at : sequence of float, shape (d,)
-        Point of the section where the orbit starts.
-    transient : int, default 200
-        Crossings discarded at each value.
-    kept : int, default 64
-        Crossings kept at each value, at least 16: fewer are not compared.
-
-    Returns
-    -------
-    Hysteresis
-        Both diagrams, and the intervals over which they differ.
-
-    Raises
-    ------
-    InvalidParameter
-        If there is no such parameter, or a number is out of range.
-    OutsideRegion
-        If no motion crosses the section at the point, for all values.
-    WorkLimit
-        If the diagram has too many points.
-
-    Examples
-    --------
-    >>> from hess_mechanics import HessBody, hysteresis, return_map
-    >>> P = return_map(HessBody(I22=2.0, I23=1.0, b3=-1.0), h=1.5, f=0.6)
-    >>> hysteresis(P, "h", [1.4, 1.5], (1.0,), transient=50, kept=16).intervals
-    ()
-    """
-    kept = as_whole("kept", kept, COMPARED, 20_000)
-    there = orbit_diagram(map_, parameter, values, at, transient=transient, kept=kept)
-    ends = [end.tolist() for end, some in zip(there.ends, there.places, strict=True) if len(some)]
-    back = orbit_diagram(map_, parameter, there.values[::-1], ends[-1], transient=transient, kept=kept)
-    return Hysteresis(there, back, map_.turns)
 
 
 def period_doublings(map_: ReturnMap, orbit: PeriodicOrbit, parameter: str, to: float, most: int = 6) -> Cascade:
@@ -573,14 +496,10 @@ class Basins(Result):
         Labels
             Both arrays over the cells.
         """
-        across, up = self.names
         divergence = {f"divergence {i}": f"{one.mean:.6g} ± {one.error:.2g}" for i, one in enumerate(self.divergence)}
-        return Labels(
-            {up: ((up,), self.y), across: ((across,), self.x)},
-            {"attractor": ((up, across), self.attractor), "crossings": ((up, across), self.crossings)},
-            place_units(self.names),
-            {"attractors": self.attractors, **divergence, "level": self.level},
-        )
+        found = {"attractor": self.attractor, "crossings": self.crossings}
+        facts = {"attractors": self.attractors, **divergence, "level": self.level}
+        return labels_of_cells(self.names, self.x, self.y, found, facts)
 
 
 def basins(

@@ -44,9 +44,9 @@ export function update(item, properties) {
   }
 }
 
-/** Return the HTML of an icon; the path is drawn in a box of 24 × 24 units. */
+/** Return the HTML of an icon; the lines of the path are drawn in a box of 24 × 24 units. */
 export function icon(path = "", size = "1.4em") {
-  return `<svg viewBox="0 0 24 24" width="${size}" height="${size}" aria-hidden="true"><path fill="currentColor" d="${path}"/></svg>`
+  return `<svg class="icon" viewBox="0 0 24 24" width="${size}" height="${size}" aria-hidden="true"><path d="${path}"/></svg>`
 }
 
 /**

@@ -9,16 +9,15 @@ import { PHONE } from "../base/windows.js"
 /**
  * Return the menu and its button, for the end of the bar.
  * @param {HTMLElement[]} tools buttons in the bar
- * @param {string} icon
  */
-function moreMenu(tools, icon) {
+function moreMenu(tools) {
   const places = tools.map((tool) => ({ tool, mark: document.createComment("") }))
   const menu = element("div.more", {
     popover: "auto", role: "group", ariaLabel: "More tools", onclick: () => menu.hidePopover(),
     ontoggle: (/** @type {ToggleEvent} */ { newState }) => { more.ariaExpanded = String(newState === "open") },
   })
   const more = button("tool.param-more", null, {
-    title: "More", ariaLabel: "More", innerHTML: icon, popoverTargetElement: menu, ariaExpanded: false,
+    title: "More", ariaLabel: "More", innerHTML: icon(MORE), popoverTargetElement: menu, ariaExpanded: false,
   })
   const place = () => {
     for (const { tool, mark } of places) {
@@ -35,7 +34,7 @@ function moreMenu(tools, icon) {
   return [more, menu]
 }
 
-const MORE = "M5 10a2 2 0 1 0 0 4 2 2 0 0 0 0-4zm7 0a2 2 0 1 0 0 4 2 2 0 0 0 0-4zm7 0a2 2 0 1 0 0 4 2 2 0 0 0 0-4z"
+const MORE = "M4 11h2v2H4zM11 11h2v2h-2zM18 11h2v2h-2z"
 
 /**
  * A tool, which tells its name.  isDrawn: only for scenes where clicks and boxes draw something; without: why it is disabled
@@ -50,30 +49,30 @@ const TOOLS = [
   [
     { name: "undo", title: "Undo (Ctrl+Z)", isNear: true,
       without: "nothing has changed yet",
-      icon: "M9 5 3 10l6 5v-4h5a3.5 3.5 0 0 1 0 7H8v2h6a5.5 5.5 0 0 0 0-11H9z" },
+      icon: "M9 5 4 10l5 5M4 10h10a4 4 0 0 1 0 9h-4" },
     { name: "redo", title: "Redo (Ctrl+Shift+Z)",
       without: "nothing has been undone",
-      icon: "M15 5l6 5-6 5v-4h-5a3.5 3.5 0 0 0 0 7h6v2h-6a5.5 5.5 0 0 1 0-11h5z" },
+      icon: "M15 5l5 5-5 5M20 10H10a4 4 0 0 0 0 9h4" },
     { name: "clear", title: "Remove all clicks and boxes", isDrawn: true,
-      icon: "M6 4.6 12 10.6 18 4.6 19.4 6 13.4 12 19.4 18 18 19.4 12 13.4 6 19.4 4.6 18 10.6 12 4.6 6z" },
+      icon: "M6 6l12 12M18 6 6 18" },
     { name: "reset", title: "Back to the first state", isNear: true,
-      icon: "M12 5a7 7 0 1 1-6.7 9h2.1A5 5 0 1 0 12 7v3.5L6.5 6 12 1.5z" },
+      icon: "M5 4v6h6M5 10a8 8 0 1 1 0 5" },
   ],
   [
     { name: "pin", title: "Compare other states with this one",
-      icon: "M9 3h6v2l-1 1v5l3 3v2h-4v5h-2v-5H7v-2l3-3V6L9 5z" },
+      icon: "M9 4h6l-1 7 3 3H7l3-3zM12 14v7" },
     { name: "share", asks: true, title: "Link, QR code, HTML to embed", isNear: true,
-      icon: "M4 12a4 4 0 0 1 4-4h3v2H8a2 2 0 0 0 0 4h3v2H8a4 4 0 0 1-4-4zm5-1h6v2H9zm4-3h3a4 4 0 0 1 0 8h-3v-2h3a2 2 0 0 0 0-4h-3z" },
+      icon: "M10 8H8a4 4 0 0 0 0 8h2M14 8h2a4 4 0 0 1 0 8h-2M9 12h6" },
     { name: "invite", asks: true, title: "Let an audience follow on its phones: QR code, guesses",
-      icon: "M8 4a3.5 3.5 0 1 0 0 7 3.5 3.5 0 0 0 0-7zm8.5 2a3 3 0 1 0 0 6 3 3 0 0 0 0-6zM8 13c-3.6 0-6 1.8-6 4.4V20h12v-2.6c0-2.6-2.4-4.4-6-4.4zm8.5 1c-.7 0-1.3.1-1.8.2.8.9 1.3 2 1.3 3.2V20h6v-1.9c0-2.4-2.2-4.1-5.5-4.1z" },
+      icon: "M9 11a3 3 0 1 0 0-6 3 3 0 0 0 0 6zM3 20c0-8 12-8 12 0M16 5a3 3 0 0 1 0 6M17 14c2 0 4 2 4 6" },
     { name: "export", asks: true, title: "Data and figures of a picture",
-      icon: "M11 3h2v8l3-3 1.4 1.4L12 14.8 6.6 9.4 8 8l3 3zM4 15h2v4h12v-4h2v6H4z" },
+      icon: "M12 4v11M7 10l5 5 5-5M5 16v4h14v-4" },
     { name: "present", title: "Present mode: large type, few controls (P)",
-      icon: "M3 4h18v2h-1v10h-7v1.6l3.4 3-1.3 1.4L12 19.6 8.9 22l-1.3-1.4 3.4-3V16H4V6H3zm3 2v8h12V6z" },
+      icon: "M3 4h18M5 4v12h14V4M8 21l4-5 4 5" },
     { name: "fullscreen", label: "Full screen", title: "Full screen (F)",
-      icon: "M5 5h5v2H7v3H5zm9 0h5v5h-2V7h-3zM5 14h2v3h3v2H5zm12 0h2v5h-5v-2h3z" },
+      icon: "M5 9V5h4M15 5h4v4M19 15v4h-4M9 19H5v-4" },
     { name: "theme", title: "Light or dark",
-      icon: "M12 3a9 9 0 1 0 0 18 9 9 0 0 0 0-18zm0 2v14a7 7 0 0 1 0-14z" },
+      icon: "M20 14A8 8 0 1 1 10 4a7 7 0 0 0 10 10z" },
   ],
 ]
 
@@ -97,7 +96,7 @@ export function render({ first, dialogs, el }) {
   /** @param {"without" | "isDrawn"} property */
   const those = (property) => [...tools.values()].filter(([, one]) => one[property])
   const groups = groupsOfTools.map((group) => element("div.group", ...group.map(({ name }) => tools.get(name)[0])))
-  const more = moreMenu([...tools.values()].filter(([, { isNear }]) => !isNear).map(([item]) => item), icon(MORE))
+  const more = moreMenu([...tools.values()].filter(([, { isNear }]) => !isNear).map(([item]) => item))
   el.append(
     element("div.tools", ...first, heading, element("span.room"), ...groups, ...more),
     ...Object.values(dialogs).map(({ box }) => box))

@@ -5,7 +5,6 @@
 import { button, element } from "../base/elements.js"
 import { listen, tell } from "../base/bus.js"
 import { sayDragMe } from "../base/handle.js"
-import { PHONE } from "../base/windows.js"
 import { gallery } from "../pictures/gallery.js"
 import { nameOf } from "../pictures/picture.js"
 import { comparison } from "./comparison.js"
@@ -37,15 +36,13 @@ export function render({ el }) {
 
   /** @param {string} name @param {HTMLElement[]} members */
   function groupOf(name, members) {
-    const group = element(`details.group.group-${name.toLowerCase()}`,
-      element("summary", name), element("div.column", ...members))
-    group.open = PHONE.matches || unfolded.has(name)
-    group.hidden = name === "Chart"
-    group.addEventListener("toggle", () => {
-      if (PHONE.matches) return
-      if (group.open) unfolded.add(name)
-      else unfolded.delete(name)
-    })
+    const group = element(`details.group.group-${name.toLowerCase()}`, {
+      open: unfolded.has(name), hidden: name === "Chart",
+      ontoggle: () => {
+        if (group.open) unfolded.add(name)
+        else unfolded.delete(name)
+      },
+    }, element("summary", name), element("div.column", ...members))
     return group
   }
 
@@ -83,11 +80,6 @@ export function render({ el }) {
       item.hidden = hidden
     }
   }
-  PHONE.addEventListener("change", () => {
-    for (const group of /** @type {NodeListOf<HTMLDetailsElement>} */ (column.querySelectorAll(".group"))) {
-      group.open = PHONE.matches || unfolded.has(group.firstChild.textContent)
-    }
-  })
   // The sign is beside the thumb of the slider, on the side with more room.
   sayDragMe((/** @type {{control: string}} */ { control }) => {
     const item = items.get(control)

@@ -40,6 +40,39 @@ export const snippet = (ariaLabel, rows) => (
     readOnly: true, rows, ariaLabel, onfocus: (/** @type {{target: HTMLTextAreaElement}} */ { target }) => target.select(),
   }))
 
+const SAID_FOR = 2000
+
+/**
+ * Return a button that copies a text and confirms it, also to screen readers.
+ * @param {string} name
+ * @param {string} label
+ * @param {() => string} text
+ */
+export function copyButton(name, label, text) {
+  const said = element("span.unseen", { role: "status" })
+  /** @type {ReturnType<typeof setTimeout>} */
+  let timer = null
+  /** @param {string} words @param {string} announced */
+  const say = (words, announced) => {
+    clearTimeout(timer)
+    item.textContent = words
+    said.textContent = announced
+  }
+  const item = button(`button.param-${name}`, async () => {
+    const copied = text()
+    let words = "Copied"
+    try {
+      await navigator.clipboard.writeText(copied)
+    } catch {
+      // Only HTTPS pages and localhost may copy.
+      words = "Copy it by hand"
+    }
+    say(words, words)
+    timer = setTimeout(() => say(label, ""), SAID_FOR)
+  }, label)
+  return element("span", item, said)
+}
+
 /**
  * Return the options of a menu.
  * @param {(readonly [value: string, text: string, ...unused: unknown[]])[]} pairs

@@ -8,7 +8,7 @@ import { linkTo } from "../base/embedding.js"
 import { pictureFile } from "../pictures/files.js"
 import { gallery } from "../pictures/gallery.js"
 import { captionOf, nameOf, titleOf } from "../pictures/picture.js"
-import { choices, dialogOf, optionsOf, saveFile, section, snippet } from "./dialog.js"
+import { choices, copyButton, dialogOf, optionsOf, saveFile, section, snippet } from "./dialog.js"
 import { slowFileOf } from "./slow_file.js"
 
 // [least, most, first] number of values of a slider.
@@ -25,102 +25,102 @@ const FLAGS = new Set(["black", "grid"])
  */
 export function exportDialog(files) {
   const holds = Object.fromEntries(files.formats.map(([kind, , what]) => [kind, what]))
-  /** @param {string} kind */
-  const isFilm = (kind) => holds[kind] === "film"
-  /** @param {string} kind */
-  const isDrawn = (kind) => isFilm(kind) || holds[kind] === "figure"
+  const isFilm = () => holds[format.value] === "film"
+  const isFigure = () => holds[format.value] === "figure"
+  const isAll = () => format.value === "html"
   /** Whether a browser draws the file: this one a PNG, that of the server everything else. @param {Wanted} what */
-  const isOfBrowser = ({ picture: name, format: kind }) => (
-    isFilm(kind) || (isDrawn(kind) && scene.pictures.some((one) => one.name === name && one.kind !== "plot")))
+  const isOfBrowser = ({ picture: name, format: kind }) => (holds[kind] === "film"
+    || (holds[kind] === "figure" && scene.pictures.some((one) => one.name === name && one.kind !== "plot")))
   /** @type {SceneDescription | null} */
   let scene = null
   /** @type {AbortController | null} */
   let running = null
-  const picture = element("select.param-picture", { onchange: writePython })
-  const format = element("select.param-format", ...optionsOf(files.formats))
-  /** @param {string} name @param {number} step @param {[number, number, number]} limits */
-  const number = (name, step, [min, max, value]) => (
-    element(`input.param-${name}`, { type: "number", min, max, step, value }))
-  const width = number("width", 5, files.width)
-  const seconds = number("seconds", 1, files.seconds)
-  const loop = element("select.param-loop", ...optionsOf([["", "the whole motion, once"],
-    ["light", "a loop of 1080 pixels, light"], ["dark", "a loop of 1080 pixels, dark"]]))
+  /** @param {string} name @param {(readonly [string, string, ...unknown[]])[]} options */
+  const menu = (name, options) => element(`select.param-${name}`, { name }, ...optionsOf(options))
+  /** @param {string} name @param {[number, number, number]} limits */
+  const number = (name, [min, max, value]) => element(`input.param-${name}`, { name, type: "number", required: true, min, max, value })
+  /** @param {string} name */
+  const box = (name) => element(`input.param-${name}`, { name, type: "checkbox", value: "1" })
+  const picture = menu("picture", [])
+  const format = menu("format", files.formats)
+  const loop = menu("loop", [["", "the whole motion, once"],
+    ["light", "a loop of 1080 pixels, light"], ["dark", "a loop of 1080 pixels, dark"]])
+  const grid = box("grid")
+  const values = number("values", VALUES)
+  const moving = choices("moving", "Sliders that move in the file")
+  const states = element("p.states")
+  const one = element("label", "Picture ", picture)
+  // A loop has its own width and colours.
+  const figure = element("fieldset.figure", element("label", "Width, mm ", number("width", files.width)),
+    element("label", box("black"), " Black on white"))
+  const film = element("fieldset.figure", element("label", "Film ", loop),
+    element("label", "Seconds ", number("seconds", files.seconds)))
+  const page = element("fieldset.figure", moving.frame, element("label", "Values each ", values),
+    element("label", grid, " All combinations"), states)
   const made = element("progress", { ariaLabel: "Frames or states", hidden: true })
-  const black = element("input.param-black", { type: "checkbox" })
-  const command = snippet("Command", 4)
-  const python = element("textarea.snippet", { readOnly: true, rows: 6, ariaLabel: "Python" })
-  const copy = button("button.param-copy-python", copyPython, "Copy Python")
-  const book = button("button.param-notebook", () => make({ picture: picture.value, format: "ipynb" }), "Open as notebook")
-  const save = button("button.param-save", () => make(wanted()), "Save file")
+  const save = element("button.button", "Save file")
   const stop = button("button.param-cancel", () => running.abort(), { hidden: true }, "Stop")
   const message = element("p.why", { role: "status" })
-  const figure = element("div.figure",
-    element("label", "Width, mm ", width), element("label", black, " Black on white"))
-  const one = element("label", "Picture ", picture)
-  const film = element("div.figure", element("label", "Film ", loop), element("label", "Seconds ", seconds))
+  const command = snippet("Command", 4)
+  const python = snippet("Python", 6)
+  const form = element("form", {
+    onsubmit: (/** @type {Event} */ event) => {
+      event.preventDefault()
+      make(wanted())
+    },
+  }, section("File", "A picture as a file", one, element("label", "Format ", format), figure, film, page,
+    element("span", save, stop), made, message))
+  const dialog = dialogOf("Export", "menu-of-scenes.share.export", [], element("div.parts", form,
+    section("Command", "The same on the command line", command),
+    section("Python", "The same numbers in Python", python, element("span",
+      copyButton("copy-python", "Copy Python", () => python.value),
+      button("button.param-notebook", () => make({ picture: picture.value, format: "ipynb" }), "Open as notebook")))))
   // Sliders that move in a page.
   /** @type {Record<string, ControlValue>} */
   let controls = {}
   // The status line, for the metadata of a PNG.
   let status = ""
-  const moving = choices("moving", "Sliders that move in the file")
-  const values = number("values", 1, VALUES)
-  const grid = element("input.param-grid", { type: "checkbox" })
-  const states = element("p.states")
-  const page = element("div.page", moving.frame,
-    element("div.figure", element("label", "Values each ", values), element("label", grid, " All combinations")), states)
-  const dialog = dialogOf("Export", "menu-of-scenes.share.export", [], element("div.parts",
-    section("File", "A picture as a file", one, element("label", "Format ", format), figure, film, page,
-      element("span", save, stop), made, message),
-    section("Command", "The same on the command line", command),
-    section("Python", "The same numbers in Python", python, element("span", copy, book))))
   listen({
     controls(changed) { Object.assign(controls, changed) },
     texts(changed) { status = changed.status ?? status },
   })
   dialog.addEventListener("close", () => running?.abort())
-  dialog.addEventListener("input", write)
+  form.addEventListener("input", write)
+  picture.addEventListener("input", writePython)
 
-  const isAll = () => format.value === "html"
   /** Return the sliders that are chosen to move, each over its whole range. */
   const sliders = () => moving.chosen().map((name) => `${name}=${controls[name][1]}:${controls[name][2]}:${values.value}`)
   /** @param {Wanted} what */
   const fileName = ({ picture: name, format: kind }) => `${scene.name}${kind === "html" ? "" : `-${name}`}.${kind}`
 
-  /** Return the parameters besides the state; only figures and films have a width and a look. @returns {Wanted} */
+  /** Return the parameters besides the state: the fields that are there. @returns {Wanted} */
   function wanted() {
-    const isLoop = isFilm(format.value) && loop.value !== ""
-    // A loop has its own width and colours.
-    const drawn = isDrawn(format.value) && !isLoop
-    return {
-      picture: isAll() ? gallery.openCells().map(nameOf).join(",") : picture.value, format: format.value,
-      ...(drawn && { width: width.value }), ...(drawn && black.checked && { black: "1" }),
-      ...(isFilm(format.value) && { seconds: seconds.value }), ...(isLoop && { loop: loop.value }),
-      ...(isAll() && sliders().length > 0 && { vary: sliders().join(","), ...(grid.checked && { grid: "1" }) }),
-    }
+    const given = new FormData(form)
+    given.delete("values")
+    if (isAll()) given.set("picture", gallery.openCells().map(nameOf).join(","))
+    if (isAll()) given.set("vary", sliders().join(","))
+    return /** @type {Wanted} */ (Object.fromEntries([...given].filter(([, value]) => value !== "")))
   }
 
   /** Return the query of the state. */
   const state = () => new URL(linkTo()).search.slice(1)
 
   function write() {
-    figure.hidden = !isDrawn(format.value) || (isFilm(format.value) && loop.value !== "")
     one.hidden = isAll()
-    film.hidden = !isFilm(format.value)
-    page.hidden = !isAll()
+    for (const [part, isThere] of /** @type {[HTMLFieldSetElement, boolean][]} */ ([[film, isFilm()], [page, isAll()],
+      [figure, isFigure() || (isFilm() && loop.value === "")]])) {
+      part.hidden = part.disabled = !isThere
+    }
+    const count = sliders().length
+    grid.disabled = count === 0
     const what = wanted()
-    states.textContent = countOfStates() === 1 ? "One state." : `About ${countOfStates()} states.`
-    const options = Object.entries(what).filter(([, value]) => value !== "").flatMap(([name, value]) => {
+    const most = count === 0 ? 1 : grid.checked ? values.valueAsNumber ** count : count * values.valueAsNumber
+    states.textContent = most === 1 ? "One state." : `About ${most} states.`
+    const options = Object.entries(what).flatMap(([name, value]) => {
       if (FLAGS.has(name)) return ` --${name}`
-      return (name === "vary" ? value.split(",") : [value]).map((one) => ` --${name} ${one}`)
+      return (name === "vary" ? value.split(",") : [value]).map((each) => ` --${name} ${each}`)
     }).join("")
     command.value = `hess-explorer export --state '${state().replaceAll("'", "%27")}'${options} --out ${fileName(what)}`
-  }
-
-  /** Return how many states a page will have. */
-  function countOfStates() {
-    const count = sliders().length
-    return count === 0 ? 1 : grid.checked ? values.valueAsNumber ** count : count * values.valueAsNumber
   }
 
   // Answers may come in any order: keep the one for the picture that is chosen.
@@ -129,16 +129,6 @@ export function exportDialog(files) {
     const { file, why } = await fetched({ picture: name, format: "py" })
     const text = why ?? await file.text()
     if (name === picture.value) python.value = text
-  }
-
-  async function copyPython() {
-    python.select()
-    try {
-      await navigator.clipboard.writeText(python.value)
-      message.textContent = "Python code copied."
-    } catch {
-      message.textContent = "The browser does not allow copying: copy the selected lines."
-    }
   }
 
   /** @param {Wanted} what @param {AbortSignal} [signal] @returns {Promise<Fetched>} */
@@ -156,14 +146,11 @@ export function exportDialog(files) {
   }
 
   /** @param {Wanted} what @returns {Promise<Fetched>} */
-  async function drawn({ picture: name, black: isBlack }) {
-    const [least, most] = files.width
-    const millimetres = width.valueAsNumber
-    if (!(millimetres >= least && millimetres <= most)) return { why: `A figure must be ${least} to ${most} mm wide.` }
+  async function drawn({ picture: name, width, black }) {
     const [title, ...words] = captionOf(gallery.cell(name))
     const parameters = Object.entries(controls).map(([key, [value]]) => `${key} = ${value}`).join(", ")
     try {
-      return { file: await pictureFile(name, millimetres, isBlack !== undefined, {
+      return { file: await pictureFile(name, Number(width), black !== undefined, {
         Title: title, Description: `${files.program}, ?${state()} | ${parameters} | ${status}`, Comment: words.join(" "),
         Software: files.program,
       }) }

@@ -1,13 +1,11 @@
 // @ts-check
-// The control of a number: a slider, a box for exact values ("box.js"), a label that can be dragged, and a button that moves
-// the slider to and fro ("animation.js").
+// The control of a number: a slider, a box for exact values ("box.js"), and a label that can be dragged.
 
 import { tell } from "../base/bus.js"
 import { onDrag } from "../base/drag.js"
 import { arrowOf } from "../base/keys.js"
 import { within } from "../base/numbers.js"
 import { element, update } from "../base/elements.js"
-import { animation } from "./animation.js"
 import { exactBox } from "./box.js"
 
 const IDLE = "Disabled: no effect with the current choices."
@@ -97,20 +95,16 @@ export function number({ name, label, symbol, help, range }) {
       const steps = Math.max(1, Math.round((high - low) / FULL_DRAG / step)) * (shiftKey ? 10 : 1)
       controlled.move(from + Math.round(clientX - x) * steps * step)
     })
-  const frame = element(`div.number.param-${name}`)
-  const [sway, pace] = animation(frame, controlled)
-  const moves = sway.title
-  frame.append(title, pace, sway, exact.box, slider)
+  const frame = element(`div.number.param-${name}`, title, exact.box, slider)
 
   /** @param {boolean} idle */
   const rest = (idle) => {
     if (idle === slider.disabled) return
     const why = idle ? `${IDLE} ${help}` : ""
-    slider.disabled = sway.disabled = idle
+    slider.disabled = idle
     exact.rest(why)
     title.classList.toggle("scrub", !idle)
     title.title = slider.title = slider.ariaDescription = why || help
-    sway.title = why || moves
   }
   /** @type {(value: [number, number, number, number, boolean?]) => void} */
   const show = ([value, from, to, step, idle = false]) => {

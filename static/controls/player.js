@@ -17,10 +17,10 @@ const SPEEDS = [0.25, 0.5, 1, 2, 4, 8]
 const GENTLE = 20
 // Elements that use arrow keys themselves.
 const OWN_ARROWS = "input, button, a, summary, [role=slider]"
-const PLAY = "M8 5v14l11-7z"
-const PAUSE = "M6 5h4v14H6zm8 0h4v14h-4z"
-const BACK = "M6 6h2v12H6zm3.5 6 8.5 6V6z"
-const FORWARD = "M16 6h2v12h-2zM6 18l8.5-6L6 6z"
+const PLAY = "M8 6v12l10-6z"
+const PAUSE = "M8 6v12M16 6v12"
+const BACK = "M6 7v10M18 7v10l-8-5z"
+const FORWARD = "M18 7v10M6 7v10l8-5z"
 
 /** @param {string} name @param {string} path @param {string} title @param {() => void} onclick */
 const transport = (name, path, title, onclick) => (

@@ -33,13 +33,9 @@ function neighbour(tiles, tile, key) {
   const i = tiles.indexOf(tile)
   if (key === "ArrowRight") return tiles[i + 1]
   if (key === "ArrowLeft") return tiles[i - 1]
-  const from = tile.getBoundingClientRect()
-  const sense = key === "ArrowDown" ? 1 : -1
-  const rows = tiles.map((other) => {
-    const { top, left } = other.getBoundingClientRect()
-    return { other, down: sense * (top - from.top), aside: Math.abs(left - from.left) }
-  }).filter(({ down }) => down > 1).sort((one, two) => one.down - two.down || one.aside - two.aside)
-  return rows[0]?.other
+  const { left, width } = tile.getBoundingClientRect()
+  const others = key === "ArrowDown" ? tiles.slice(i + 1) : tiles.slice(0, i).reverse()
+  return others.find((other) => Math.abs(other.getBoundingClientRect().left - left) < width / 2)
 }
 
 /** Return the dialog and the functions that open it and set the scene on show. @param {SceneTile[]} scenes */

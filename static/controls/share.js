@@ -1,15 +1,14 @@
 // @ts-check
 // The dialog Share: the link, its QR code, and HTML that embeds parts of the page in another page.
 
-import { button, element } from "../base/elements.js"
-import { listen, tell } from "../base/bus.js"
+import { element } from "../base/elements.js"
+import { tell } from "../base/bus.js"
 import { linkTo } from "../base/embedding.js"
 import { qrCode } from "./qr.js"
 import { gallery } from "../pictures/gallery.js"
 import { isFolded, labelOf, nameOf } from "../pictures/picture.js"
-import { choices, dialogOf, section, snippet } from "./dialog.js"
+import { choices, copyButton, dialogOf, section, snippet } from "./dialog.js"
 
-const SAID_FOR = 2000
 // The frame of what is embedded: its width, the pictures and sliders side by side in it, and the heights of a row of each and of
 // the player with the link.
 const WIDTH = 960
@@ -22,30 +21,6 @@ const heightOf = ({ pictures, controls }) => (
 
 /** @param {string} text */
 const escaped = (text) => text.replaceAll("&", "&amp;").replaceAll('"', "&quot;").replaceAll("<", "&lt;")
-
-/**
- * Return a button that confirms what it has copied, also to screen readers, and the function that shows the confirmation.
- * @param {string} name
- * @param {string} label
- * @param {() => void} copy
- * @returns {[HTMLElement, (text: string) => void]}
- */
-function copyButton(name, label, copy) {
-  const said = element("span.unseen", { role: "status" })
-  const item = button(`button.param-${name}`, copy, label)
-  /** @type {ReturnType<typeof setTimeout>} */
-  let timer = null
-  /** @param {string} text */
-  const say = (text) => {
-    clearTimeout(timer)
-    item.textContent = said.textContent = text
-    timer = setTimeout(() => {
-      item.textContent = label
-      said.textContent = ""
-    }, SAID_FOR)
-  }
-  return [element("span", item, said), say]
-}
 
 /** Return the dialog and the functions that open it and set its scene. */
 export function shareDialog() {
@@ -65,9 +40,11 @@ export function shareDialog() {
   }
   const pictures = choices("embed-pictures", "Pictures", write)
   const controls = choices("embed-controls", "Controls", write)
-  const [copyLink, sayLink] = copyButton("link", "Copy link", () => tell("link"))
-  const [copyHtml, sayHtml] = copyButton("snippet", "Copy HTML", () => tell("copy", html.value))
-  listen({ copied: ({ text, said }) => (text === null ? sayLink : sayHtml)(said) })
+  const copyLink = copyButton("link", "Copy link", () => {
+    tell("address")
+    return linkTo()
+  })
+  const copyHtml = copyButton("snippet", "Copy HTML", () => html.value)
   const dialog = dialogOf("Share", "menu-of-scenes.share", [], element("div.parts",
     section("Link", "The page on the screen", link, copyLink, code, why),
     section("Embed", "Parts of this page in your own", pictures.frame, controls.frame, html, copyHtml)))
@@ -77,7 +54,6 @@ export function shareDialog() {
     /** @param {SceneDescription} description */
     show(description) { scene = description },
     async open() {
-      // The address bar may lag behind the screen.
       tell("address")
       link.value = linkTo()
       pictures.put(gallery.shown.cells.map((cell) => [nameOf(cell), labelOf(cell), !isFolded(cell)]))

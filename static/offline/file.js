@@ -10,9 +10,6 @@ import { frameUrl, imageAndTexts, pictureUrl } from "../pictures/files.js"
 import { createRecorded } from "./recorded.js"
 import { createShelf } from "./strip.js"
 
-// Numbers of decoded strips that are kept, 4 bytes each.
-const MOST = 12_000_000
-
 /** @typedef {{client: ClientKeys, lesson: string, sheets: Record<string, string>,
  *   recording: import("./recorded.js").Recording}} FileModel
  */
@@ -43,7 +40,7 @@ function start() {
   // The lesson of the file is open from the start.
   const { lesson, step } = client
   const query = lesson === "" ? location.hash.slice(1) : recording.families[recording.steps[`${lesson}/${Number(step) - 1}/false`] ?? 0].queries[0]
-  const stripAt = createShelf(async (number) => (await fetch(`data:;base64,${read(`strip-${number}`)}`)).body, MOST)
+  const stripAt = createShelf(async (number) => (await fetch(`data:;base64,${read(`strip-${number}`)}`)).body)
   const root = document.getElementById("page").attachShadow({ mode: "open" })
   const el = element("div")
   root.append(el)

@@ -49,22 +49,11 @@ export function nearestPoint({ names, points }, at, changes, scales = {}) {
     })
     return [asked, moved, away]
   }
-  /** @param {number[]} one @param {number[]} other */
-  const isLess = (one, other) => {
-    const i = one.findIndex((value, k) => value !== other[k])
-    return i >= 0 && one[i] < other[i]
-  }
-  let best = at
-  let least = distance(here)
-  points.forEach((point, k) => {
-    const found = distance(point)
-    if (isLess(found, least)) [best, least] = [k, found]
-  })
-  return best
+  // Of equals the one on show.
+  const [[nearest]] = [at, ...points.keys()].map((k) => [k, ...distance(points[k])])
+    .toSorted(([, a, b, c], [, x, y, z]) => a - x || b - y || c - z)
+  return nearest
 }
-
-/** @param {number[]} values their distinct values */
-const distinct = (values) => [...new Set(values)].sort((one, other) => one - other)
 
 /**
  * Return the function that answers requests.
@@ -161,10 +150,10 @@ export function createRecorded({ families, picks, sources, steps, scenes, lesson
     const { names, points } = families[here]
     /** @type {[string, ControlValue][]} */
     const sliders = names.map((name, i) => {
-      const values = distinct(points.map((point) => point[i]))
-      const [low, high] = [values[0], values.at(-1)]
+      const values = points.map((point) => point[i])
+      const [low, high] = [Math.min(...values), Math.max(...values)]
       const [value = points[at][i], , , , idle = false] = /** @type {number[] & [any, any, any, any, boolean?]} */ (own[name] ?? [])
-      return [name, [value, low, high, BELOW * (high - low) / Math.max(1, values.length - 1), idle]]
+      return [name, [value, low, high, BELOW * (high - low) / Math.max(1, new Set(values).size - 1), idle]]
     })
     return Object.fromEntries(sliders)
   }
@@ -179,7 +168,7 @@ export function createRecorded({ families, picks, sources, steps, scenes, lesson
   /**
    * Return the sources that change, with all their columns: those that a state does not fill are empty.
    * @param {string} scene
-   * @param {import("./strip.js").StoredTree} tree
+   * @param {Tree} tree
    * @param {number} number of the strip
    */
   function changed(scene, tree, number) {
@@ -207,11 +196,9 @@ export function createRecorded({ families, picks, sources, steps, scenes, lesson
     const { scene, states, queries } = families[here]
     const [number, index] = states[at]
     const [place, said, errors] = [queries[at], note, refused]
-    const strip = await stripAt(number)
-    const tree = strip.trees[index]
-    const controls = controlsHere(tree.controls)
+    const { trees, block } = await stripAt(number)
+    const tree = trees[index]
     ranges = tree.ranges
-    const [filledSources, block] = strip.block(changed(scene, tree, number))
     // The strips of the neighbours, for the next move.
     for (const near of [at - 1, at + 1]) if (states[near] !== undefined && states[near][0] !== number) stripAt(states[near][0])
     count += 1
@@ -224,7 +211,7 @@ export function createRecorded({ families, picks, sources, steps, scenes, lesson
     const state = {
       number: count, answers: request?.requested ?? 0, query: place, scene, progress: null,
       tree: {
-        ...tree, sources: filledSources, controls, ranges: request?.held ? {} : tree.ranges,
+        ...tree, sources: changed(scene, tree, number), controls: controlsHere(tree.controls), ranges: request?.held ? {} : tree.ranges,
         texts: { ...tree.texts, ...errors, fixed, notes: [said, notes].filter(Boolean).join("\n") },
       },
     }

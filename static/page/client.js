@@ -17,7 +17,7 @@ import { present } from "../base/presenting.js"
 import { handlePrinting } from "./printing.js"
 import { createRequests } from "./requests.js"
 import { tabStore } from "../base/stores.js"
-import { createTheme } from "./theme.js"
+import { setTheme } from "./theme.js"
 import { createVisibility } from "./visibility.js"
 import { handleCommands } from "./commands.js"
 import { isFirstVisit } from "./lessons.js"
@@ -74,7 +74,6 @@ export function startClient(model, host) {
 
   /** @type {ReturnType<Host["connect"]>} */
   let send = null
-  const theme = createTheme()
   const address = createAddress({ query: () => state.query, own, mark: host.mark })
   const visibility = createVisibility(() => requests.request())
   const requests = createRequests({
@@ -92,9 +91,9 @@ export function startClient(model, host) {
     query: state.query, scene: latest.scene, derived: latest.texts.derived ?? "",
   }))
 
-  handleCommands({ address, theme })
+  handleCommands(address)
   joinOther()
-  handlePrinting(theme)
+  handlePrinting()
   shareAxes(() => scene)
 
   listen({
@@ -242,7 +241,7 @@ export function startClient(model, host) {
     const preference = matchMedia("(prefers-color-scheme: dark)")
     let isAlone = false
     const followPreference = () => {
-      theme.setDark(own.theme === "" ? isAlone || preference.matches : own.theme === "dark")
+      setTheme(own.theme === "" ? isAlone || preference.matches : own.theme === "dark")
     }
     followPreference()
     preference.addEventListener("change", followPreference)

@@ -102,10 +102,6 @@ export function createCompare(now) {
   listen({
     change: begin,
     pick({ drag }) { if (drag) begin() },
-    animated(on) {
-      if (on) isHeld = true
-      else end()
-    },
     pin() {
       pinned = pinned === null ? keep() : null
       other = null

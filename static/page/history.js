@@ -36,7 +36,6 @@ export function createHistory({ query, isSettled, address }, steps) {
   /** @type {string | null} */
   let entered = null
   let isHeld = false
-  let isAnimated = false
   let isExample = false
   let isPopped = false
 
@@ -69,7 +68,7 @@ export function createHistory({ query, isSettled, address }, steps) {
 
   // Called when a state was painted or a pointer or key released: the state may be a new step.
   function settle() {
-    if (isHeld || isAnimated || !isSettled()) return
+    if (isHeld || !isSettled()) return
     const here = query()
     if (goal === null && current !== null && here !== current) {
       past = [...past, current].slice(-MOST)
@@ -94,11 +93,7 @@ export function createHistory({ query, isSettled, address }, steps) {
       isPopped = false
     } })
   }
-  listen({
-    animated(on) { isAnimated = on },
-    undo,
-    redo,
-  })
+  listen({ undo, redo })
   for (const name of ["pointerdown", "keydown"]) {
     document.addEventListener(name, () => { isHeld = true }, { capture: true })
   }

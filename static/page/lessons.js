@@ -17,7 +17,6 @@ import { browserStore } from "../base/stores.js"
 import { within } from "../base/numbers.js"
 import { CALM } from "../base/windows.js"
 
-const SECOND = 1000
 // One turn of a wheel is one step.
 const PAUSE = 700
 
@@ -31,8 +30,6 @@ export function isFirstVisit() {
 
 /** @param {string} name @param {string} innerHTML */
 const html = (name, innerHTML) => element(name, { innerHTML })
-/** @param {number} ms */
-const clock = (ms) => `${Math.floor(ms / 60000)}:${String(Math.floor(ms / SECOND) % 60).padStart(2, "0")}`
 
 /** Return the question of a step and its answer. @param {LessonStep} step @returns {HTMLElement[]} */
 const questionOf = ({ question, answer }) => (question === "" ? [] : [
@@ -58,10 +55,7 @@ export function render({ index, record, el }) {
 
   /** @type {Lesson | null} */
   let lesson = null
-  /** @type {string | null} */
-  let wanted = null
   let at = 0
-  let begun = 0
   let turned = 0
   // These belong to the step on show and end with it.
   /** @type {ReturnType<typeof createGuess> | null} */
@@ -74,11 +68,6 @@ export function render({ index, record, el }) {
   let arriving = null
   /** @type {LessonStep | null} */
   let expected = null
-  /** @type {ReturnType<typeof setInterval>} */
-  let ticking = null
-
-  const time = element("span.timer", { role: "timer", ariaLabel: "Time since the lesson began" })
-  const tick = () => { time.textContent = `${clock(performance.now() - begun)} of ${lesson.minutes} min` }
 
   /** @param {string} name @param {number} number @param {boolean} revealed @param {() => void} then */
   const go = (name, number, revealed, then) => {
@@ -142,7 +131,7 @@ export function render({ index, record, el }) {
         ...(isEmbedded() ? [] : [isAlone
           ? button("button.param-leave-lesson", leave, { title: "Show the whole page (Esc)" }, "Skip")
           : button("button.param-leave-lesson", leave, { title: "Leave the lesson" }, "Leave")]),
-        element("div.where", progress, element("span.count", `${at + 1} / ${lesson.steps.length}`), time))))
+        element("div.where", progress, element("span.count", `${at + 1} / ${lesson.steps.length}`)))))
     said.hidden = guess === null
     buttons.hidden = guess === null && animation === null
     tell("url", { lesson: lesson.name, step: String(at + 1) })
@@ -200,10 +189,6 @@ export function render({ index, record, el }) {
   function begin(given, number, isHere) {
     lesson = given
     at = within(number, 0, lesson.steps.length - 1)
-    begun = performance.now()
-    tick()
-    clearInterval(ticking)
-    ticking = setInterval(tick, SECOND)
     panel.hidden = false
     menu.hidden = tries.hidden = true
     tell("reading", true)
@@ -220,7 +205,6 @@ export function render({ index, record, el }) {
     veil(null)
     tell("alone", [])
     controls.fill([])
-    clearInterval(ticking)
     lesson = null
     panel.hidden = true
     panel.replaceChildren()
@@ -231,10 +215,7 @@ export function render({ index, record, el }) {
   }
 
   menu.append(element("summary", "Lessons"), element("ul", ...index.map(({ name, title, minutes }) => (
-    element("li", button(`button.param-lesson-${name}`, () => {
-      wanted = name
-      tell("lesson", name)
-    }, `${title} (${minutes} min)`))))), ...(record ? [record.begin] : []))
+    element("li", button(`button.param-lesson-${name}`, () => tell("lesson", name), `${title} (${minutes} min)`))))), ...(record ? [record.begin] : []))
 
   /** Show the suggestions for a scene, one at a time. @param {SceneDescription} scene */
   function showTries(scene) {
@@ -294,11 +275,7 @@ export function render({ index, record, el }) {
       arriving = null
       then?.()
     },
-    "lesson-read"({ lesson: given, step }) {
-      if (step !== null) begin(given, step, true)
-      else if (given.name === wanted) begin(given, 0, false)
-      wanted = null
-    },
+    "lesson-read": ({ lesson: given, step }) => begin(given, step ?? 0, step !== null),
   })
   addEventListener("wheel", (event) => {
     if (!isAlone()) return

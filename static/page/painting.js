@@ -4,20 +4,8 @@
 import { listen, tell } from "../base/bus.js"
 import { unpack } from "../base/unpack.js"
 
+// One broken picture must not block the page.
 const MOST = 2000
-
-/**
- * Wait for a promise, but not longer than `most` milliseconds: one broken picture must not block the page.
- * @template Result
- * @param {Promise<Result>} promise
- * @param {number} most
- */
-function within(promise, most) {
-  return new Promise((resolve, reject) => {
-    const timer = setTimeout(resolve, most)
-    promise.then(resolve, reject).finally(() => clearTimeout(timer))
-  })
-}
 
 /**
  * Set the axes of plots: those of the state, widened to those of the other page if two states stand side by side.
@@ -74,7 +62,7 @@ export async function paint(touched, fillAll) {
   try {
     fillAll()
     const ready = Promise.all(touched.flatMap((plot) => plot.computed_renderer_views.map((part) => part.ready)))
-    await within(ready, MOST)
+    await Promise.race([ready, new Promise((done) => setTimeout(done, MOST))])
     for (const plot of touched) plot.unpause(true)
     for (const plot of touched) plot.paint()
   } finally {

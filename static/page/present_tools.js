@@ -7,7 +7,7 @@ import { onKeys } from "../base/keys.js"
 import { isPresenting } from "../base/presenting.js"
 
 const REST = 3000
-const SLIDERS = "M4 7h9v2H4zm13 0h3v2h-3zM14 5h2v6h-2zM4 15h3v2H4zm7 0h9v2h-9zM8 13h2v6H8z"
+const SLIDERS = "M4 8h16M4 16h16M15 5v6M9 13v6"
 
 /** Return the button that opens and closes the drawer of present mode. @param {HTMLElement} el the frame of the page */
 export function drawer(el) {

@@ -40,9 +40,8 @@ export function createRequests({ send, changed, hidden, known }) {
   let asking = false
   let lost = false
   let silent = false
-  // Whether a pointer holds a slider, an animation moves one, and the last pointer was a finger.
+  // Whether a pointer holds a slider, and the last pointer was a finger.
   let grasped = false
-  let animated = false
   let touched = false
   // Fields of the next request, and of the last one until its answer is painted.
   /** @type {Partial<StateRequest>} */
@@ -82,7 +81,7 @@ export function createRequests({ send, changed, hidden, known }) {
       const { scene = null } = pending
       const entering = scene !== null && scene !== shown
       send({
-        requested, held: grasped || animated, values: {}, ...pending, scene: entering ? scene : null,
+        requested, held: grasped, values: {}, ...pending, scene: entering ? scene : null,
         hidden: entering ? null : hidden(),
       })
       // Changes of the page before are sent once: should they end the server, they would end it again and again.
@@ -130,10 +129,6 @@ export function createRequests({ send, changed, hidden, known }) {
     }, { capture: true })
   }
   listen({
-    animated(on) {
-      animated = on
-      request()
-    },
     change(values) {
       for (const name of Object.keys(values)) moved.set(name, requested + 1)
       want({ values })

@@ -87,10 +87,6 @@ export function openRoom(code, { first, receive, connected = () => {}, ended }) 
   return {
     /** Send a message; it is lost while there is no connection. @param {object} message */
     send(message) { if (socket?.readyState === WebSocket.OPEN) socket.send(JSON.stringify(message)) },
-    close() {
-      isOver = true
-      socket?.close()
-    },
   }
 }
 

@@ -14,7 +14,7 @@ import { followed } from "./room_socket.js"
 import { buildPage } from "./shell.js"
 import { answering, openWebsocket } from "./websocket.js"
 
-const MENU = "M4 6h16v2H4zm0 5h16v2H4zm0 5h16v2H4z"
+const MENU = "M4 7h16M4 12h16M4 17h16"
 
 /** Return the link back to the lecture that this tab has left to play on its own. @param {ClientKeys} own */
 function rejoin({ embed }) {

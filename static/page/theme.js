@@ -1,20 +1,12 @@
 // @ts-check
-// The theme of the page: `color-scheme`, and the colours of text.
+// The theme of the page: `color-scheme` for its styles, and the colours of its pictures.
 
-const TEXT = { light: "rgba(0, 0, 0, 0.87)", dark: "rgb(255, 255, 255)" }
-const SECONDARY_TEXT = { light: "rgba(0, 0, 0, 0.6)", dark: "rgba(255, 255, 255, 0.7)" }
+import { tell } from "../base/bus.js"
+import { setDark } from "../pictures/looks.js"
 
-/** Return the functions that read and change the theme of this document. */
-export function createTheme() {
-  const root = document.documentElement
-  return {
-    isDark: () => root.style.colorScheme === "dark",
-    /** @param {boolean} isDark */
-    setDark(isDark) {
-      const name = isDark ? "dark" : "light"
-      root.style.colorScheme = name
-      root.style.setProperty("--text", TEXT[name])
-      root.style.setProperty("--secondary-text", SECONDARY_TEXT[name])
-    },
-  }
+/** Make the page dark or light. @param {boolean} isDark */
+export function setTheme(isDark) {
+  document.documentElement.style.colorScheme = isDark ? "dark" : "light"
+  setDark(isDark)
+  tell("themed")
 }

@@ -5,7 +5,7 @@
 import { listen } from "../base/bus.js"
 import { element } from "../base/elements.js"
 import { zoom } from "../base/presenting.js"
-import { isDark, onDark, setDark, watchTheme } from "./looks.js"
+import { inks, onDark } from "./looks.js"
 import { largerOf } from "./plot_looks.js"
 
 const pixelRatio = () => devicePixelRatio || 1
@@ -43,10 +43,7 @@ export function liveCanvas(className, properties, paint) {
     requested = false
     const { width, height } = own
     if (width === 0 || height === 0) return
-    const text = getComputedStyle(canvas).color
-    const dark = isDark(text)
-    setDark(dark)
-    paint(fit(canvas, width, height), { width, height, text, dark })
+    paint(fit(canvas, width, height), { width, height, text: inks()[0], dark: onDark() })
   }
 
   function request() {
@@ -59,8 +56,8 @@ export function liveCanvas(className, properties, paint) {
   listen({
     paint: draw,
     presenting: request,
+    themed: request,
   })
-  watchTheme(request)
   new ResizeObserver(() => {
     Object.assign(own, { width: canvas.clientWidth, height: canvas.clientHeight })
     request()

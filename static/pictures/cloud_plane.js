@@ -12,10 +12,11 @@ import { squareCanvas } from "./canvas.js"
 import { cloudsOf } from "./cloud.js"
 import { drawMark, LOOKS, useLook } from "./looks.js"
 import { pointLayer } from "./point_layer.js"
-import { drawTicks } from "./ticks.js"
 
 const MARGIN = { left: 46, right: 8, top: 8, bottom: 42 }
 const SHARES = [-1, -0.5, 0, 0.5, 1]
+// Length of a tick, and distance of its label.
+const [TICK, GAP] = [5, 7]
 
 /**
  * Return the frame and scales of the plane in a picture, for axes from −half to half.
@@ -36,15 +37,26 @@ function placing(edge, half) {
 
 /** @param {CanvasRenderingContext2D} ctx @param {ReturnType<typeof placing>} plane @param {string} text */
 function drawAxes(ctx, { frame, w, h, half, x, y }, text) {
+  const { left, bottom } = frame
   useLook(ctx, { weight: 1 }, text)
   ctx.fillStyle = text
   ctx.globalAlpha = 0.4
-  ctx.strokeRect(frame.left, frame.top, w, h)
+  ctx.strokeRect(left, frame.top, w, h)
   ctx.font = "12px system-ui, sans-serif"
-  /** @param {number} share */
-  const label = (share) => written(share * half, 3)
-  drawTicks(ctx, frame, SHARES.map((share) => [x(share * half), label(share)]), SHARES.map((share) => [y(share * half), label(share)]),
-    { length: 5, gap: 7, alpha: 0.75, isInside: true })
+  for (const share of SHARES) {
+    const [across, down, label] = [x(share * half), y(share * half), written(share * half, 3)]
+    ctx.globalAlpha = 0.4
+    ctx.strokeRect(across, bottom, 0, TICK)
+    ctx.strokeRect(left - TICK, down, TICK, 0)
+    ctx.globalAlpha = 0.75
+    // The last labels end at the corner of the frame.
+    ctx.textAlign = share === 1 ? "right" : "center"
+    ctx.textBaseline = "top"
+    ctx.fillText(label, across, bottom + GAP)
+    ctx.textAlign = "right"
+    ctx.textBaseline = share === 1 ? "top" : "middle"
+    ctx.fillText(label, left - GAP, down)
+  }
   ctx.globalAlpha = 1
   ctx.font = "14px system-ui, sans-serif"
   ctx.textAlign = "center"

@@ -4,7 +4,7 @@
 import { tell } from "../base/bus.js"
 import { element } from "../base/elements.js"
 import { gallery } from "./gallery.js"
-import { bytesOf, onDark, setDark, shade } from "./looks.js"
+import { INK, onDark, setDark, shade } from "./looks.js"
 import { sizePlot } from "./plot_looks.js"
 import { pngOf } from "./png.js"
 
@@ -12,7 +12,7 @@ import { pngOf } from "./png.js"
 const INCH = 120
 const MILLIMETRES = 25.4
 const DOTS = 300
-const [INK, PAPER] = ["#101010", "#FFFFFF"]
+const PAPER = "#FFFFFF"
 
 // Heights of the lines above and below the picture in a film, and sizes of their letters.
 const HEAD = 26
@@ -22,9 +22,6 @@ const BESIDE = 8
 const FONT = "system-ui, sans-serif"
 
 /** @typedef {{picture: string, side: number, ratio: number, isDark?: boolean, isBlack?: boolean, texts?: LiftedText[]}} Wanted */
-
-/** Return the colour of text. */
-const ink = () => `rgb(${bytesOf(shade(INK)).slice(0, 3)})`
 
 /** Return a square sheet of paper and its context. @param {number} side */
 function sheetOf(side) {
@@ -55,7 +52,7 @@ function inTheme(isDark, act) {
 function draw({ picture, side, ratio, isDark = false, isBlack = false, texts }) {
   return inTheme(isDark, () => {
     const { sheet, ctx } = sheetOf(side)
-    const look = { edge: side / ratio, ratio, text: ink(), dark: isDark, isFine: true, texts }
+    const look = { edge: side / ratio, ratio, text: shade(INK), dark: isDark, isFine: true, texts }
     ctx.drawImage(gallery.shown.shots.get(picture)(look), 0, 0)
     if (isBlack) {
       // Takes the colours away.
@@ -131,7 +128,7 @@ export async function frameUrl({ t, title, lines, ...wanted }) {
     const { sheet, ctx } = sheetOf(side)
     ctx.drawImage(drawn, Math.round((side - drawn.width) / 2), Math.round(ratio * HEAD))
     ctx.scale(ratio, ratio)
-    ctx.fillStyle = ink()
+    ctx.fillStyle = shade(INK)
     ctx.font = `${LARGE}px ${FONT}`
     const time = `t = ${t.toFixed(2)}`
     const clock = ctx.measureText("t = 000.00").width

@@ -7,7 +7,7 @@ import { element } from "../base/elements.js"
 import { zoom } from "../base/presenting.js"
 import { cloudPlane } from "./cloud_plane.js"
 import { planeGhost } from "./ghost.js"
-import { INK, setDark, setShades, watchTheme } from "./looks.js"
+import { INK, inks, setShades } from "./looks.js"
 import { createCell, fillCaption, fillHover, isFolded, isInSight, nameOf } from "./picture.js"
 import { buildPlot } from "./plot.js"
 import { colourPlot } from "./plot_looks.js"
@@ -17,8 +17,6 @@ import { sphere } from "./sphere.js"
 import { createStage } from "./stage.js"
 import { torus } from "./torus.js"
 
-// Milliseconds until a theme has changed its last colour.
-const LATE = 2000
 // Functions that draw a picture on a canvas of its own, by its kind.
 /** @type {Record<string, (host: HTMLElement, picture: PictureDescription, source: FindSource, isShown: () => boolean) => Drawn>} */
 const CANVASES = { sphere, torus, cloud: cloudPlane }
@@ -54,35 +52,9 @@ export const gallery = {
   build, enter, takeGhost, showGhost, shoot,
 }
 
-/** Return the theme's colours of text and of secondary text. */
-function inks() {
-  const style = getComputedStyle(shelf)
-  return [style.color, style.getPropertyValue("--secondary-text") || style.color]
-}
-
 /** @param {Scene} scene */
-function colour(scene) {
-  const [text, muted] = inks()
-  for (const plot of scene.plots) colourPlot(plot, text, muted)
-  scene.coloured = [text, muted].join()
-}
-
-// The theme changes these colours one by one, some time after its name.
-function followTheme() {
-  const now = inks().join()
-  for (const scene of built.values()) if (scene.coloured !== now) colour(scene)
-}
-
-let followed = 0
-
-function followThemeForAWhile() {
-  const isFollowing = performance.now() < followed
-  followed = performance.now() + LATE
-  const step = () => {
-    followTheme()
-    if (performance.now() < followed) requestAnimationFrame(step)
-  }
-  if (!isFollowing) step()
+function colour({ plots }) {
+  for (const plot of plots) colourPlot(plot, ...inks())
 }
 
 /** @param {HTMLElement} host @param {PictureDescription} picture @param {FindSource} source @returns {Promise<Drawn>} */
@@ -151,7 +123,6 @@ function showGhost(taken) {
  * @param {number} side width in pixels
  */
 function shoot(side) {
-  setDark(false)
   const shots = gallery.cellsInSight().map((cell) => {
     const host = cell.querySelector(".host")
     const edge = host.clientWidth / zoom()
@@ -197,9 +168,7 @@ export function render({ el }) {
   listen({
     captions(captions) { for (const cell of shown?.cells ?? []) fillCaption(cell, captions) },
     texts(texts) { for (const cell of shown?.cells ?? []) fillHover(cell, texts) },
-    // In the frame after a state, when the browser computes styles anyway.
-    painted: () => requestAnimationFrame(followTheme),
+    themed() { for (const scene of built.values()) colour(scene) },
   })
-  watchTheme(followThemeForAWhile)
   stand()
 }

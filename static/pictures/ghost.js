@@ -2,8 +2,7 @@
 // Ghosts: faint copies of an earlier state, redrawn only when axes or sizes change.
 
 import { element } from "../base/elements.js"
-import { frameCanvas, squareCanvas } from "./canvas.js"
-import { createSheet } from "./projection.js"
+import { frameCanvas } from "./canvas.js"
 
 export const FAINT = 0.4
 
@@ -66,34 +65,6 @@ export function planeGhost(plot) {
       }
       canvas.request()
       canvas.draw()
-    },
-  }
-}
-
-/**
- * Return the ghost of a square picture that turns.
- * @template Image
- * @param {HTMLElement} el
- * @param {Pick<ReturnType<typeof import("./turnable.js").turnable>, "turn" | "onTurn">} turned
- * @param {() => Image} take
- * @param {(on: Sheet, image: Image) => void} paint
- * @returns {Ghost}
- */
-export function squareGhost(el, { turn, onTurn }, take, paint) {
-  /** @type {Image | null} */
-  let kept = null
-  /** @type {ReturnType<typeof squareCanvas> | null} */
-  let canvas = null
-  onTurn(() => canvas?.request())
-  return {
-    take,
-    show(image) {
-      if (image === kept) return
-      kept = image
-      canvas ??= squareCanvas(el, "ghost", { ariaHidden: true }, (ctx, look) => {
-        if (kept !== null) paint(createSheet(ctx, look, turn()), kept)
-      })
-      canvas.request()
     },
   }
 }

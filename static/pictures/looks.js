@@ -1,8 +1,11 @@
 // @ts-check
 // Colours, dashes and line widths on our own canvases.  The colours come from "theme.py" with the description of a scene.
 
-// Text colour in print.
-export const INK = "rgb(16, 16, 16)"
+// Text colour on paper.
+export const INK = "#101010"
+// Text and secondary text on a light page and on a dark one.
+/** @type {[string, string][]} */
+const INKS = [["rgba(0, 0, 0, 0.87)", "rgba(0, 0, 0, 0.6)"], ["rgb(255, 255, 255)", "rgba(255, 255, 255, 0.7)"]]
 export const POINT = "#F0E442"
 
 // CSS name → [colour on a light page, colour on a dark page].
@@ -11,8 +14,7 @@ let shades = {}
 // Colour on a light page → colour on a dark page.
 /** @type {Map<string, string>} */
 let onDarkPage = new Map()
-/** @type {boolean | null} */
-let dark = null
+let dark = false
 
 /**
  * Set the shades of "theme.py".
@@ -21,31 +23,14 @@ let dark = null
 export function setShades(given) {
   shades = given
   onDarkPage = new Map(Object.values(given))
-  showShades()
-}
-
-function showShades() {
-  for (const [name, pair] of Object.entries(shades)) document.documentElement.style.setProperty(`--${name}`, pair[dark ? 1 : 0])
-}
-
-/**
- * Return whether the page is dark, by its text colour.
- * @param {string} text a CSS colour
- */
-export function isDark(text) {
-  const [red, green, blue] = text.match(/[\d.]+/g).map(Number)
-  return red + green + blue > 382
+  for (const [name, pair] of Object.entries(given)) document.documentElement.style.setProperty(`--${name}`, `light-dark(${pair})`)
 }
 
 /**
  * Choose the colours of a dark or a light page for everything that is drawn from now on.
  * @param {boolean} value
  */
-export function setDark(value) {
-  if (value === dark) return
-  dark = value
-  showShades()
-}
+export const setDark = (value) => { dark = value }
 
 /**
  * Return a colour of "theme.py" as it is on this page.
@@ -57,18 +42,9 @@ export function shade(colour) {
 }
 
 /** Return whether the page is dark. */
-export const onDark = () => dark === true
-
-/**
- * Call `act` whenever the theme of the page may have changed.
- * @param {() => void} act
- */
-export function watchTheme(act) {
-  const observer = new MutationObserver(act)
-  for (const item of [document.documentElement, document.body]) {
-    observer.observe(item, { attributes: true, attributeFilter: ["data-theme", "class", "style"] })
-  }
-}
+export const onDark = () => dark
+/** Return the colours of text and of secondary text. */
+export const inks = () => INKS[Number(dark)]
 
 /** @param {string} name @param {number} weight @param {number[]} dash @returns {Look} */
 const look = (name, weight, dash = []) => ({ get colour() { return shade(shades[name][0]) }, dash, weight })

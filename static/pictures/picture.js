@@ -11,22 +11,15 @@ const EXPRESSION = /(\|[^|]{1,24}\||\([^()]{1,16}\)|[^\s|()]{1,12} [=≤≥<>±]
  */
 export const unbroken = (text) => text.split(EXPRESSION)
 
-// Tooltips of pictures by what the mouse does there.
-/** @type {Record<string, string>} */
-const HINTS = {
-  drag: "Drag or click to choose values",
-  "drag box": "Drag the ring or click to choose values, drag a box to zoom in",
-  box: "Click to choose values, drag a box to zoom in",
-  click: "Click to choose values",
-}
-
-// Actions of the keyboard by kind of gesture, see "plot_keys.js".
-/** @type {Record<string, string>} */
-const KEYS = {
-  drag: "arrow keys move the ring",
-  "drag box": "arrow keys move the ring",
-  box: "arrow keys move a cross, Enter chooses",
-  click: "arrow keys move a cross, Enter chooses",
+const CROSS = "arrow keys move a cross, Enter chooses"
+const RING = "arrow keys move the ring"
+// Tooltip of a picture and actions of the keyboard, see "plot_keys.js", by what the mouse does there.
+/** @type {Record<string, [string, string]>} */
+const HANDS = {
+  drag: ["Drag or click to choose values", RING],
+  "drag box": ["Drag the ring or click to choose values, drag a box to zoom in", RING],
+  box: ["Click to choose values, drag a box to zoom in", CROSS],
+  click: ["Click to choose values", CROSS],
 }
 
 /**
@@ -37,7 +30,7 @@ const KEYS = {
  * @returns {[HTMLElement, HTMLElement]}
  */
 export function createCell({ name, folded, hands }, corner, pointed) {
-  const host = element(`div.host.hands-${hands.split(" ").at(-1)}`, { title: HINTS[hands] ?? "", dataset: { hands } })
+  const host = element(`div.host.hands-${hands.split(" ").at(-1)}`, { title: HANDS[hands]?.[0] ?? "", dataset: { hands } })
   const under = element("output.text.hover", { hidden: true })
   const cell = element(`section.picture.picture-${name}`, {
     dataset: { name }, onpointerenter: pointed, onmouseleave: () => { under.hidden = true },
@@ -87,7 +80,7 @@ export function fillCaption(cell, { [nameOf(cell)]: caption }) {
   }
   /** @type {HTMLElement} */
   const host = cell.querySelector(".host")
-  if (host.role !== null) host.ariaLabel = `${caption.title}: ${KEYS[host.dataset.hands]}`
+  if (host.role !== null) host.ariaLabel = `${caption.title}: ${HANDS[host.dataset.hands][1]}`
 }
 
 /**

@@ -4,7 +4,7 @@
 import { listen } from "../base/bus.js"
 import { element } from "../base/elements.js"
 import { isPresenting } from "../base/presenting.js"
-import { checkBokeh, spareStyles, spareUnseen, waitLongForPress } from "./bokeh_private.js"
+import { spareStyles, spareUnseen, waitLongForPress } from "./bokeh_private.js"
 import { frameCanvas } from "./canvas.js"
 import { cellsPainter } from "./cells.js"
 import { dotsPainter, movingPointsPainter } from "./dots.js"
@@ -117,7 +117,6 @@ export async function buildPlot(host, picture, source) {
   const views = await Bokeh.embed.embed_item(picture.item, host)
   /** @type {PlotView} */
   const plot = views.roots[0]
-  checkBokeh(plot)
   const { model } = plot
   for (const one of model.document.all_models) {
     if (one.data !== undefined && one.name !== null) source(one.name).add(one, plot)

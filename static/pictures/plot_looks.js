@@ -2,7 +2,7 @@
 // Sizes and colours of Bokeh plots, for the font size beside the pictures, present mode and the theme.
 
 import { zoom } from "../base/presenting.js"
-import { isDark, setDark, shade } from "./looks.js"
+import { shade } from "./looks.js"
 
 // Font size of ticks relative to that of axis labels.
 const TICKS = 0.86
@@ -87,7 +87,6 @@ function shadeGlyph(glyph) {
  * @param {string} muted colour of secondary text
  */
 export function colourPlot(plot, text, muted) {
-  setDark(isDark(text))
   for (const part of plot.model.references()) {
     if (part.axis_label_text_color !== undefined) {
       part.setv({

@@ -12,9 +12,10 @@ const ASIDE = [[0, 0], [0, 1], [0, -1], [1, 0], [-1, 0], [1, 1], [-1, 1]]
  * Return the projection of a sphere and the functions that draw lines and labels in it.
  * @param {CanvasRenderingContext2D} ctx
  * @param {SquareLook} look
- * @param {number[]} turn azimuth and elevation of the eye
+ * @param {[number, number]} turn azimuth and elevation of the eye
  */
-export function createSheet(ctx, { edge, ratio, text, dark, isFine = false }, [azimuth, elevation]) {
+export function createSheet(ctx, { edge, ratio, text, dark, isFine = false }, turn) {
+  const [azimuth, elevation] = turn
   const [ca, sa, ce, se] = [Math.cos(azimuth), Math.sin(azimuth), Math.cos(elevation), Math.sin(elevation)]
   const half = edge / 2
   const scale = half * RADIUS
@@ -46,7 +47,7 @@ export function createSheet(ctx, { edge, ratio, text, dark, isFine = false }, [a
     }
   }
   return {
-    addParts, ctx, edge, ratio, text, dark, isFine, half, scale, px, py, depth, at,
+    addParts, ctx, edge, ratio, text, dark, isFine, turn, half, scale, px, py, depth, at,
     /**
      * Return a point in the view: to the right, upwards, towards the eye.
      * @param {Vector} point

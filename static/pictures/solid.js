@@ -5,6 +5,7 @@
 // Vectors are in the view: to the right, upwards, towards the eye.  The unit of length is the radius of the sphere around.
 
 import { element } from "../base/elements.js"
+import { within } from "../base/numbers.js"
 import { dot, unit } from "./vectors.js"
 
 // Largest number of shading pixels on a side, on the screen and in a file, and picture pixels per shading pixel: shades change
@@ -21,9 +22,6 @@ const TONES = {
   dark: { even: [150, 164, 182], odd: [107, 123, 144], ambient: 0.34 },
 }
 const GLASS = 0.22
-
-const [LIGHT_X, LIGHT_Y, LIGHT_Z] = LIGHT
-const [HALF_X, HALF_Y, HALF_Z] = HALFWAY
 
 /**
  * Return the outline of an ellipsoid: the half axes of the ellipse, the angle of the longer one from the right, and half the
@@ -76,7 +74,7 @@ export function leaves(axes, semi, v) {
 }
 
 /** @param {number} x */
-const clipped = (x) => Math.max(-1, Math.min(1, x))
+const clipped = (x) => within(x, -1, 1)
 
 /** Return a painter of ellipsoids. */
 export function createSolid() {
@@ -131,19 +129,13 @@ export function createSolid() {
         const [nx, ny, nz] = [p * n0[0] + q * n1[0] + r * n2[0], p * n0[1] + q * n1[1] + r * n2[1],
           p * n0[2] + q * n1[2] + r * n2[2]]
         const long = 1 / Math.sqrt(nx * nx + ny * ny + nz * nz)
-        const lit = Math.max(0, (nx * LIGHT_X + ny * LIGHT_Y + nz * LIGHT_Z) * long)
-        let shine = Math.max(0, (nx * HALF_X + ny * HALF_Y + nz * HALF_Z) * long)
-        shine *= shine
-        shine *= shine
-        shine *= shine
-        shine *= shine
+        const lit = Math.max(0, (nx * LIGHT[0] + ny * LIGHT[1] + nz * LIGHT[2]) * long)
+        const shine = Math.max(0, (nx * HALFWAY[0] + ny * HALFWAY[1] + nz * HALFWAY[2]) * long) ** 16
         const octant = clipped(p * s0) * clipped(q * s1) * clipped(r * s2)
         const share = 0.5 + 0.5 * octant
         const bright = ambient + (1.08 - ambient) * lit
         const i = 4 * (row * side + column)
-        data[i] = bright * (odd[0] + share * (even[0] - odd[0])) + 70 * shine
-        data[i + 1] = bright * (odd[1] + share * (even[1] - odd[1])) + 70 * shine
-        data[i + 2] = bright * (odd[2] + share * (even[2] - odd[2])) + 70 * shine
+        for (let k = 0; k < 3; k++) data[i + k] = bright * (odd[k] + share * (even[k] - odd[k])) + 70 * shine
         const rim = 1 - Math.max(0, nz * long)
         data[i + 3] = glass ? 255 * Math.min(1, GLASS + 0.12 * share + 0.5 * rim * rim + 0.6 * shine) : 255
       }

@@ -35,3 +35,15 @@ export class Source {
   /** @param {() => void} watcher */
   watch(watcher) { this.#watchers.add(watcher) }
 }
+
+/**
+ * Return [look, columns, times] of the curves that have points.
+ * @param {Record<string, string>} looks name of a source → look
+ * @param {FindSource} source
+ * @param {string[]} names of the three columns
+ * @returns {[string, Columns, ArrayLike<number> | undefined][]}
+ */
+export const curvesOf = (looks, source, names) => Object.entries(looks).map(([name, look]) => {
+  const { data } = source(name)
+  return /** @type {[string, Columns, ArrayLike<number>]} */ ([look, names.map((column) => data[column]), data.t])
+}).filter(([, [x]]) => x?.length > 1)

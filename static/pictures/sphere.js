@@ -7,14 +7,13 @@
 // ("body.js"); `title` describes it, and `bare` keeps only the equator of the graticule.
 // On the far side the moving point has a dashed ring.
 
-import { listen } from "../base/bus.js"
 import { bodyIn } from "./body.js"
 import { drawPoint } from "./body_parts.js"
 import { cloudsOf } from "./cloud.js"
-import { FAINT, squareGhost } from "./ghost.js"
+import { FAINT } from "./ghost.js"
 import { circlePath, drawMark, LOOKS } from "./looks.js"
 import { pointLayer } from "./point_layer.js"
-import { createSheet } from "./projection.js"
+import { curvesOf } from "./sources.js"
 import { turnable } from "./turnable.js"
 import { circle, graticule, scaled } from "./vectors.js"
 
@@ -66,19 +65,11 @@ export function sphere(el, options, source, isShown) {
   /** @type {SphereGuest | null} */
   const guest = options.clouds !== undefined ? sphereClouds(source(options.clouds))
     : inSpace ? bodyIn(own, source(options.attitude)) : null
-  const turned = turnable(el, inSpace ? "solid" : "sphere", {
-    name: options.name, title: options.title ?? "Poisson sphere", what: "sphere", isShown,
-  }, paint, guest === null ? paintPoint : null)
-  const { request } = turned
   const lines = options.bare ? [circle([0, 0, 1], 0)] : graticule()
   /** @type {Vector | null} */
   let point = null
 
-  /** Return [look, columns] of each track. @returns {[string, Columns][]} */
-  const tracks = () => Object.entries(options.tracks).map(([name, look]) => {
-    const { g1, g2, g3 } = source(name).data
-    return /** @type {[string, Columns]} */ ([look, [g1, g2, g3]])
-  }).filter(([, [g1]]) => g1?.length > 1)
+  const tracks = () => curvesOf(options.tracks, source, ["g1", "g2", "g3"])
 
   /** @param {Sheet} on @param {boolean} near */
   function drawHalf(on, near) {
@@ -114,45 +105,42 @@ export function sphere(el, options, source, isShown) {
     }
   }
 
-  /** @param {CanvasRenderingContext2D} ctx @param {SquareLook} look @param {[number, number]} view */
-  function paint(ctx, look, view) {
-    const on = createSheet(ctx, look, view)
+  /** @param {Sheet} on */
+  function paint(on) {
+    const { ctx, half, scale } = on
     guest?.begin?.(on)
     drawHalf(on, false)
     ctx.globalAlpha = 0.5
     on.use({ weight: 1.5 })
-    circlePath(ctx, on.half, on.half, on.scale)
+    circlePath(ctx, half, half, scale)
     ctx.stroke()
     guest?.middle?.(on)
     drawHalf(on, true)
     ctx.globalAlpha = 1
-    if (guest !== null) paintPoint(ctx, look, view)
+    if (guest !== null) paintPoint(on)
   }
 
-  /** @type {PaintTurned} */
-  function paintPoint(ctx, look, view) {
-    const on = createSheet(ctx, look, view)
+  /** @param {Sheet} on */
+  function paintPoint(on) {
     if (point !== null) drawPoint(on, point, on.isNear(point))
   }
 
-  listen({
-    time({ t, state }) {
-      if (!isShown()) return
+  return turnable(el, inSpace ? "solid" : "sphere", {
+    name: options.name, title: options.title ?? "Poisson sphere", what: "sphere", isShown,
+    sources: [options.name, ...Object.keys(options.tracks), options.clouds, options.attitude].filter(Boolean).map(source),
+    hear({ t, state }) {
       point = inSpace || state?.g1 === undefined ? null : [state.g1, state.g2, state.g3]
       if (guest !== null) guest.t = t
-      turned.requestMoving()
+    },
+    paint, paintMoving: guest === null ? paintPoint : null, take: tracks,
+    paintGhost(on, kept) {
+      for (const [name, track] of kept) {
+        on.use(LOOKS[name])
+        for (const near of [false, true]) {
+          on.ctx.globalAlpha = near ? FAINT : 0.3 * FAINT
+          on.stroke(track, near)
+        }
+      }
     },
   })
-  const watched = [options.name, ...Object.keys(options.tracks), options.clouds, options.attitude]
-  for (const name of watched) if (name !== undefined) source(name).watch(request)
-  const ghost = squareGhost(el, turned, tracks, (on, kept) => {
-    for (const [name, track] of kept) {
-      on.use(LOOKS[name])
-      for (const near of [false, true]) {
-        on.ctx.globalAlpha = near ? FAINT : 0.3 * FAINT
-        on.stroke(track, near)
-      }
-    }
-  })
-  return { shoot: turned.shoot, ...ghost }
 }

@@ -18,8 +18,8 @@ const MOST_LARGE = 3
 // Share of the height that an enlarged picture takes if the width allows, at a desk and in present mode.
 const DESK = 0.82
 const HALL = 0.9
-const ENLARGE = "M4 4h6v2H6v4H4zm10 0h6v6h-2V6h-4zM4 14h2v4h4v2H4zm14 0h2v6h-6v-2h4z"
-const REDUCE = "M8 4h2v6H4V8h4zm6 0h2v4h4v2h-6zM4 14h6v6H8v-4H4zm10 0h6v2h-4v4h-2z"
+const ENLARGE = "M5 9V5h4M15 5h4v4M19 15v4h-4M9 19H5v-4"
+const REDUCE = "M9 5v4H5M19 9h-4V5M15 19v-4h4M5 15h4v4"
 
 // Largest width of a cell that is wider than its picture, in units of the font size.
 const WIDEST = 34

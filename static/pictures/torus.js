@@ -5,13 +5,12 @@
 // n₃; where there is a density, also re and im of the points ζ at which its Poisson kernel is.  The option `curves` names the
 // sources of curves (columns x, y, z, and t for the orbit) and their looks.
 
-import { listen } from "../base/bus.js"
 import { drawPoint, drawTrail, TRAIL } from "./body_parts.js"
-import { FAINT, squareGhost } from "./ghost.js"
+import { FAINT } from "./ghost.js"
 import { LOOKS } from "./looks.js"
 import { between } from "./moment.js"
-import { createSheet } from "./projection.js"
 import { createRevolved, outline } from "./revolved.js"
+import { curvesOf } from "./sources.js"
 import { turnable } from "./turnable.js"
 import { circle, scaled } from "./vectors.js"
 
@@ -54,22 +53,14 @@ export function torus(el, options, source, isShown) {
   /** @param {Pick<Sheet, "isFine">} sheet */
   const surfaceOf = ({ isFine }) => (isFine ? inFiles : onScreen)
   let t = 0
-  const turned = turnable(el, "torus", {
-    name: options.name, title: "The torus in space", what: "torus", isShown,
-  }, paint, paintMoving)
-  const { request } = turned
 
-  /** Return [look, columns, times] of each curve. @returns {[string, Columns, ArrayLike<number> | undefined][]} */
-  const curves = () => Object.entries(options.curves).map(([name, look]) => {
-    const { x, y, z, t: times } = source(name).data
-    return /** @type {[string, Columns, ArrayLike<number> | undefined]} */ ([look, [x, y, z], times])
-  }).filter(([, [x]]) => x?.length > 1)
+  const curves = () => curvesOf(options.curves, source, ["x", "y", "z"])
 
-  /** @param {CanvasRenderingContext2D} ctx @param {SquareLook} look @param {[number, number]} turn */
-  function paint(ctx, look, turn) {
+  /** @param {Sheet} sheet */
+  function paint(sheet) {
     const { radius, height } = own.data
     if (!(radius?.length > 2)) return
-    const sheet = createSheet(ctx, look, turn)
+    const { ctx, turn } = sheet
     const image = surfaceOf(sheet).shade(sheet, radius, height, turn, densityOf(own.data))
     const on = onSurface(sheet)
     const edge = outline(radius, height, ...turn)
@@ -80,16 +71,15 @@ export function torus(el, options, source, isShown) {
     drawLines(on, edge, ring, true)
   }
 
-  /** @param {CanvasRenderingContext2D} ctx @param {SquareLook} look @param {[number, number]} turn */
-  function paintMoving(ctx, look, turn) {
+  /** @param {Sheet} sheet */
+  function paintMoving(sheet) {
     if (!(own.data.radius?.length > 2)) return
-    const sheet = createSheet(ctx, look, turn)
     const on = onSurface(sheet)
     for (const [name, curve, times] of curves()) {
       if (times === undefined) continue
       const path = until(curve, times)
       for (const near of [false, true]) drawTrail(on, path, LOOKS[name], near)
-      ctx.globalAlpha = 1
+      sheet.ctx.globalAlpha = 1
       /** @type {Vector} */
       const place = path.map((column) => column[column.length - 1])
       drawPoint(sheet, place, surfaceOf(sheet).shows(...sheet.at(place), sheet.depth(...place), ON_IT))
@@ -145,27 +135,21 @@ export function torus(el, options, source, isShown) {
     })
   }
 
-  listen({
-    time({ t: now }) {
-      if (!isShown()) return
-      t = now
-      turned.requestMoving()
+  return turnable(el, "torus", {
+    name: options.name, title: "The torus in space", what: "torus", isShown,
+    sources: [options.name, ...Object.keys(options.curves)].map(source), hear(now) { t = now.t }, paint, paintMoving,
+    take: () => ({ radius: own.data.radius, height: own.data.height, list: curves() }),
+    paintGhost(on, { radius, height, list }) {
+      if (!(radius?.length > 2)) return
+      on.ctx.globalAlpha = FAINT
+      for (const near of [false, true]) {
+        on.use({ weight: 1.5 })
+        for (const segment of outline(radius, height, ...on.turn)) on.stroke(segment, near)
+        for (const [look, curve] of list) {
+          on.use(LOOKS[look])
+          on.stroke(curve, near)
+        }
+      }
     },
   })
-  for (const name of [options.name, ...Object.keys(options.curves)]) source(name).watch(request)
-  /** Return the surface and its curves. */
-  const take = () => ({ radius: own.data.radius, height: own.data.height, list: curves() })
-  const ghost = squareGhost(el, turned, take, (on, { radius, height, list }) => {
-    if (!(radius?.length > 2)) return
-    on.ctx.globalAlpha = FAINT
-    for (const near of [false, true]) {
-      on.use({ weight: 1.5 })
-      for (const segment of outline(radius, height, ...turned.turn())) on.stroke(segment, near)
-      for (const [look, curve] of list) {
-        on.use(LOOKS[look])
-        on.stroke(curve, near)
-      }
-    }
-  })
-  return { shoot: turned.shoot, ...ghost }
 }

@@ -6,25 +6,33 @@ import { onDrag } from "../base/drag.js"
 import { within } from "../base/numbers.js"
 import { arrowOf } from "../base/keys.js"
 import { squareCanvas } from "./canvas.js"
-import { RADIUS } from "./projection.js"
+import { createSheet, RADIUS } from "./projection.js"
 
 const STEP = Math.PI / 36
 /** @type {[number, number]} */
 const HOME = [0.6, 0.35]
 
 /**
- * Add a turnable canvas to an element, see `squareCanvas`.
+ * Draw a turnable picture in an element, see `squareCanvas`.
+ * @template Image
  * @param {HTMLElement} el
  * @param {string} className
- * @param {{name: string, title: string, what: string, isShown: () => boolean}} picture its name and title, what turns ("sphere"),
- *   and whether its scene is on show
- * @param {PaintTurned} paint
- * @param {PaintTurned | null} paintMoving what moves in time, on a canvas above: the rest is not painted again for it
+ * @param {{name: string, title: string, what: string, isShown: () => boolean, sources: Source[],
+ *   hear: (now: PageEvents["time"]) => void, paint: (on: Sheet) => void, paintMoving?: ((on: Sheet) => void) | null,
+ *   take: () => Image, paintGhost: (on: Sheet, image: Image) => void}} picture its name and title, what turns ("sphere"), and
+ *   whether its scene is on show; `sources` are those at whose change it is painted, hear(now) gets the time of the player, and
+ *   paintMoving draws what moves in time, on a canvas above: the rest is not painted again for it.  take() returns what
+ *   paintGhost draws of an earlier state
+ * @returns {Drawn}
  */
-export function turnable(el, className, { name, title, what, isShown }, paint, paintMoving = null) {
+export function turnable(el, className, {
+  name, title, what, isShown, sources, hear, paint, paintMoving = null, take, paintGhost,
+}) {
   let turn = HOME
-  /** @type {Set<() => void>} */
-  const watchers = new Set()
+  /** @type {Image | null} */
+  let kept = null
+  /** @type {ReturnType<typeof squareCanvas> | null} */
+  let ghost = null
   const own = squareCanvas(el, className, {
     tabIndex: 0, role: "application", ariaRoleDescription: `rotatable ${what}`,
     ariaLabel: `${title}: arrow keys turn it, Home turns it back`,
@@ -39,15 +47,13 @@ export function turnable(el, className, { name, title, what, isShown }, paint, p
       event.stopPropagation()
     },
   }, (ctx, look) => {
-    paint(ctx, look, turn)
+    paint(createSheet(ctx, look, turn))
     own.canvas.dataset.turn = turn.map((x) => x.toFixed(4)).join(" ")
   })
-  const above = paintMoving && squareCanvas(el, "moving", { ariaHidden: true }, (ctx, look) => paintMoving(ctx, look, turn))
-  const requestMoving = (above ?? own).request
-  const request = () => {
-    own.request()
-    above?.request()
-  }
+  /** @param {string} layer @param {(on: Sheet) => void} act */
+  const canvasAbove = (layer, act) => squareCanvas(el, layer, { ariaHidden: true }, (ctx, look) => act(createSheet(ctx, look, turn)))
+  const above = paintMoving && canvasAbove("moving", paintMoving)
+  const request = () => { for (const layer of [own, above, ghost]) layer?.request() }
 
   const askForTurn = () => tell("ask-client", (keys) => { turn = [Number(keys.az), Number(keys.el)] })
   askForTurn()
@@ -60,7 +66,6 @@ export function turnable(el, className, { name, title, what, isShown }, paint, p
     tell("url", { az: turn[0].toFixed(4), el: turn[1].toFixed(4) })
     tell("turned", [name, ...turn])
     request()
-    for (const watcher of watchers) watcher()
   }
 
   onDrag(own.canvas, ({ clientX, clientY }) => [clientX, clientY, ...turn], ([x, y, azimuth, elevation], { clientX, clientY }) => {
@@ -72,9 +77,15 @@ export function turnable(el, className, { name, title, what, isShown }, paint, p
     // The picture of another scene may have been rotated since.
     enter() { if (isShown()) askForTurn() },
     turn([turned, ...angles]) { if (isShown() && turned === name && angles.every(Number.isFinite)) rotate(...angles) },
+    time(now) {
+      if (!isShown()) return
+      hear(now)
+      const moving = above ?? own
+      moving.request()
+    },
   })
+  for (const source of sources) source.watch(request)
   return {
-    request, requestMoving, turn: () => turn,
     /** Return the picture on a canvas of its own. @param {ShotLook} look */
     shoot(look) {
       const sheet = own.shoot(look)
@@ -85,7 +96,12 @@ export function turnable(el, className, { name, title, what, isShown }, paint, p
       }
       return sheet
     },
-    /** @param {() => void} watcher is called when the picture turns */
-    onTurn(watcher) { watchers.add(watcher) },
+    take,
+    show(image) {
+      if (image === kept) return
+      kept = image
+      ghost ??= canvasAbove("ghost", (on) => { if (kept !== null) paintGhost(on, kept) })
+      ghost.request()
+    },
   }
 }

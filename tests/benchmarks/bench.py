@@ -1,4 +1,4 @@
-"""Measure what `hess-explorer bench` reports: its options and its runs."""
+"""`python tests/benchmarks/bench.py`: compare the speed with other integrators, or measure the levels of accuracy."""
 
 import argparse
 import json
@@ -6,8 +6,11 @@ import sys
 from importlib.util import find_spec
 from pathlib import Path
 
+if __name__ == "__main__":
+    sys.path[:0] = [str(Path(__file__).parents[1])]
+
 from hess_explorer.commands import CommandError
-from hess_explorer.commands.arguments import number, shown
+from hess_explorer.commands.arguments import shown
 from hess_explorer.commands.command import Command, flag, option
 from hess_explorer.commands.output import show, write_file
 
@@ -41,7 +44,7 @@ def _computations(text):
 
 
 def _targets(text):
-    targets = {number(part) for part in text.split(",")}
+    targets = {float(part) for part in text.split(",")}
     if min(targets) <= 0.0:
         raise argparse.ArgumentTypeError(f"{shown(text)} has an error that is not positive; write it like 1e-6,1e-9")
     return tuple(sorted(targets, reverse=True))
@@ -141,3 +144,18 @@ COMMAND = Command(
     _run,
     "--works A,C --targets 1e-6,1e-9 --picture bench.svg",
 )
+
+
+def main(words=None):
+    """Run the benchmark and return its exit status."""
+    try:
+        options = COMMAND.parsed("bench.py", words)
+        options.run(options)
+    except CommandError as error:
+        print(f"bench.py: {error}", file=sys.stderr)
+        return error.status
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -43,7 +43,7 @@ def tori():
 def motions():
     """λ of motions, and the loop by hand: one by one."""
     over = {"w1": (0.2, 1.4, 8 if QUICK else 40), "I22": (1.0, 2.0, 6 if QUICK else 30)}
-    what, fixed = find("lyapunov suslov"), {"t": 500.0}
+    what, fixed = find("lyapunov suslov"), {"duration": 500.0}
 
     def by_hand():
         w1, moments = (np.linspace(*places).tolist() for places in over.values())

@@ -4,7 +4,6 @@ import pytest
 
 from hess_explorer.__main__ import main
 from hess_explorer.commands import output
-from hess_explorer.sweep import progress
 from support.command_line import strict_json, table
 
 
@@ -12,13 +11,14 @@ from support.command_line import strict_json, table
 def no_patience(monkeypatch):
     """Suppress progress messages: the first run compiles kernels and takes longer."""
     monkeypatch.setattr(output, "LONG", 1e6)
-    monkeypatch.setattr(progress, "_EVERY", 1e6)
 
 
 @pytest.fixture
 def answer(capsys):
+    """Return the answer as JSON."""
+
     def call(*words):
-        assert main(words) == 0
+        assert main([*words, "--format", "json"]) == 0
         out, err = capsys.readouterr()
         assert err == ""
         return strict_json(out)

@@ -16,8 +16,6 @@ from benchmarks.integrators.explorer import METHOD as EXPLORER
 from benchmarks.integrators.method import OURS
 from benchmarks.integrators.peers import PEERS
 from benchmarks.integrators.works import works
-from hess_explorer.__main__ import main
-from hess_explorer.commands import bench as bench_of_the_wheel
 from hess_mechanics import level, solve, systems
 from support import thorough
 from support.command_line import typed
@@ -83,7 +81,7 @@ def test_every_method_does_every_work_it_says_it_does(method, name):
 @pytest.mark.thorough
 def test_the_command_from_end_to_end(tmp_path, capsys):
     file = tmp_path / "bench.json"
-    assert main(typed(f"bench --quick --works C --targets 1e-3 --json {file}")) == 0
+    assert bench_command.main(typed(f"--quick --works C --targets 1e-3 --json {file}")) == 0
     text, err = capsys.readouterr()
     rows = [line for line in text.splitlines() if line.startswith("| C | 1e-3 |")]
     assert len(rows) == 1
@@ -108,19 +106,10 @@ def test_the_command_from_end_to_end(tmp_path, capsys):
     ],
 )
 def test_a_bad_option_gives_one_sentence(words, sentence, capsys):
-    assert main(["bench", *words]) == 2
+    assert bench_command.main(words) == 2
     said = capsys.readouterr().err
     assert sentence in said
     assert said.count("\n") == 1
-
-
-def test_without_the_sources_the_command_says_what_to_do(monkeypatch, tmp_path, capsys):
-    monkeypatch.setattr(bench_of_the_wheel, "_TESTS", tmp_path)
-    assert main(["bench"]) == 2
-    assert capsys.readouterr().err == (
-        "hess-explorer: The benchmark measures with scripts of the source tree, which an installed package does not "
-        "contain: in a source checkout, run pip install -e '.[bench]', then hess-explorer bench.\n"
-    )
 
 
 @pytest.mark.parametrize("name", sorted(one.stem for one in Path(bench_command.__file__).parent.glob("*.py")))

@@ -11,6 +11,7 @@ import xarray as xr
 from pytest import approx
 
 from hess_explorer.__main__ import main
+from hess_explorer.commands import output
 from hess_explorer.commands.compute import command_of
 from hess_mechanics import SuslovBody, basins, return_map
 from hess_mechanics.catalogue import catalogue, find
@@ -46,11 +47,6 @@ def example(what):
     return [*what.key.split(), *typed(command_of(what).example), "--accuracy", "draft"]
 
 
-@pytest.fixture
-def answer(answer):
-    return lambda *words: answer(*words, "--format", "json")
-
-
 # Values
 
 
@@ -76,7 +72,7 @@ def test_what_double_precision_cannot_hold_is_null_with_a_note(answer, as_table)
     found = answer("circle-map", "--a", "500")
     assert found["numbers"]["trace"] is None
     assert found["numbers"]["log-multiplier"] < -2 * 709
-    assert [note.partition(":")[0] for note in found["notes"]] == ["numbers", "facts"]
+    assert found["notes"] == [output._LOST]
     facts, _, _ = as_table("circle-map", "--a", "500")
     assert facts["facts"]["trace"] is None
     # A torus without limit cycles.
@@ -152,7 +148,7 @@ def test_a_system_of_ones_own(answer, refusal, tmp_path):
     assert found["numbers"]["x"] == approx(-1.0, abs=1e-9)
     assert "defines no System 'other'" in refusal("orbit", f"{file}:other")
     file.write_text(OWN.replace("k", "out"))
-    assert "has two options --out: rename one" in refusal("orbit", f"{file}:SYSTEM")
+    assert "There are two options --out: rename one" in refusal("orbit", f"{file}:SYSTEM")
 
 
 @pytest.mark.parametrize(
@@ -183,9 +179,9 @@ def test_nothing_is_imported_that_is_not_used(script):
         (["orbti"], "There is no command 'orbti': did you mean orbit?"),
         (["xyzzy"], "There is no command 'xyzzy': choose from serve, shot, "),
         (["orbit", "sulsov"], "There is no system 'sulsov': did you mean suslov"),
-        (["orbit"], "name a system after orbit: ball, "),
-        (replaced(CIRCLE_MAP, "--h", "nan"), "--h: 'nan' is not a finite number"),
-        (replaced(CIRCLE_MAP, "--h", "x" * 5000), "x…' is not a number; write it like 1.5"),
+        (["orbit"], "Name a system after orbit: ball, "),
+        (replaced(CIRCLE_MAP, "--h", "nan"), "h is not a finite number"),
+        (replaced(CIRCLE_MAP, "--h", "x"), "--h: invalid float value: 'x'"),
         (replaced(CIRCLE_MAP, "--f", "9"), "choose |f| ≤ 1.81"),
         (replaced(SUSLOV, "--I11", "0"), "I11 = 0 is not between 0.001 and 1000"),
         (replaced(SUSLOV, "--duration", "1e9"), "shorter"),

@@ -1,7 +1,6 @@
 """The documentation: its tutorials run, every public name is in it, and it loads nothing from another host."""
 
 import re
-import sys
 import webbrowser
 from importlib.resources import files
 
@@ -74,8 +73,7 @@ def test_a_build_that_cannot_be_is_refused_with_a_sentence(tmp_path, capsys, mon
     monkeypatch.setattr(webbrowser, "open", opened.append)
     (tmp_path / "file").write_text("")
     assert main(["docs", "--out", str(tmp_path / "file")]) == 2
-    assert "could not be built" in capsys.readouterr().err
-    monkeypatch.setitem(sys.modules, "furo", None)
-    assert main(["docs"]) == 2
-    assert "pip install 'hess-explorer[docs" in capsys.readouterr().err
+    said = capsys.readouterr().err
+    assert "could not be built" in said
+    assert "pip install 'hess-explorer[docs" in said
     assert opened == []

@@ -5,16 +5,17 @@ from math import nan
 
 import pytest
 
+from benchmarks.bench import main
 from benchmarks.integrators import trade as rows
 from benchmarks.integrators.trade import Row, _draft_computes, _example, as_json, by_kind, line_of, names
-from hess_explorer.__main__ import main
 from hess_explorer.scenes import scenes
 from hess_mechanics import LEVELS
 from hess_mechanics import catalogue as declared
 from hess_mechanics.catalogue import find
 from hess_mechanics.dynamics.trade import LevelCost
-from hess_mechanics.numerics.accuracy import Kind
+from hess_mechanics.numerics.accuracy import PLANS, Kind, levels_table
 from support.command_line import typed
+from support.measured import line
 from support.mechanics import ROOT
 
 
@@ -34,13 +35,13 @@ def test_a_computation_that_is_impossible_is_said_and_the_others_stay(monkeypatc
     every = {"circle-map": beyond, "cos-chi": find("cos-chi")}
     monkeypatch.setattr(declared, "catalogue", lambda: every)
     monkeypatch.setattr(rows, "find", every.get)
-    assert main(typed("bench --trade --quick")) == 2
+    assert main(typed("--trade --quick")) == 2
     said = capsys.readouterr()
     lines = said.out.splitlines()
     assert lines[2].startswith("| circle-map | map | – | – | – | – | – | – | No motion has h = -0.999")
     assert lines[3].startswith("| cos-chi | map | ")
     assert lines[-1].startswith("| map | ")
-    assert said.err.splitlines()[-1].startswith("hess-explorer: circle-map could not be measured (No motion has h")
+    assert said.err.splitlines()[-1].startswith("bench.py: circle-map could not be measured (No motion has h")
 
 
 def row(scene, kind, times=(1.0, 2.0, 3.0, 4.0), errors=(0.1, 0.01, 0.001, 0.0)):
@@ -90,3 +91,21 @@ def test_the_tables_are_one_with_what_a_draft_computes():
         assert computed == _draft_computes(Kind(kind))
     for words in ("speed_accuracy.md", "speed_accuracy_of_maps.md"):
         assert measured_by_kind(f"app/hess_explorer/scenes/{words}") == found
+
+
+def test_the_page_and_the_command_print_the_table_of_the_levels(capsys):
+    head, *rows = levels_table()
+    for name in ("suslov-accuracy", "suslov-hess-accuracy"):
+        printed = scenes()[name].words.replace("\\|", "|")
+        assert all(line(row) in printed for row in (head, *rows))
+    assert main(["levels"]) == 0
+    said = capsys.readouterr().out
+    assert all(cell in said for row in rows for cell in row[:-1])
+
+
+def test_a_level_that_changes_nothing_says_so():
+    for kind, *cells, _ in levels_table()[1:]:
+        own = list(PLANS[kind].values())
+        for before, after, cell in zip(own, own[1:], cells[1:], strict=False):
+            same = replace(before, level=after.level) == after
+            assert same == cell.startswith("as "), (kind, cell)

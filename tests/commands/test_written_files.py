@@ -1,11 +1,10 @@
 """Files of the user on a full disk: an earlier one stays whole, a new one is not there, and a sentence says why."""
 
-import re
 import subprocess
 import sys
 from pathlib import Path
 
-from pytest import approx, mark, raises
+from pytest import mark, raises
 
 import hess_explorer as hess
 from hess_explorer.__main__ import main
@@ -78,13 +77,3 @@ def test_a_standard_output_without_room_is_a_sentence():
         b"hess-explorer: Cannot write to standard output (No space left on device): use --out FILE."
     )
     assert b"Traceback" not in ran.stderr and b"Exception" not in ran.stderr
-
-
-def test_the_size_of_a_page_is_said_before_its_states_are_computed(tmp_path, capsys):
-    file = tmp_path / "page.html"
-    assert (
-        main(typed(f"export --state accuracy=draft --vary h=0.5:1.5:9 --picture omega --format html --out {file}")) == 0
-    )
-    count, megabytes = re.search(r"(\d+) states, about ([\d.]+) MB\.", capsys.readouterr().err).groups()
-    assert int(count) == 9
-    assert file.stat().st_size / 1e6 == approx(float(megabytes), rel=0.25)

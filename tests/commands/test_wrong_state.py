@@ -38,8 +38,8 @@ COMMANDS = {
     "export": ("export", "--format", "json"),
     "figure": ("export", "--format", "svg"),
     "html": ("export", "--format", "html"),
-    "code": ("code",),
-    "notebook": ("code", "--format", "ipynb"),
+    "code": ("export", "--format", "py"),
+    "notebook": ("export", "--format", "ipynb"),
 }
 
 
@@ -94,7 +94,7 @@ def test_leniently_it_is_put_right_and_noted(capsys):
     ],
 )
 def test_a_whole_link_of_the_page_is_understood(state, capsys):
-    assert main(["code", "--state", state]) == 0
+    assert main(["export", "--format", "py", "--state", state]) == 0
     assert "h=1.2, f=0.3" in capsys.readouterr().out.replace("\n", " ").replace("    ", "")
 
 

@@ -192,7 +192,7 @@ def test_a_long_computation_ends_between_its_parts_when_nobody_waits():
         return 0.0
 
     with limited(left), pytest.raises(Abandoned):
-        measure(Kind.ORBIT, one, lambda found, truth: 0.0)
+        list(measure(Kind.ORBIT, one, lambda found, truth: 0.0))
     assert len(run) == 1
 
 

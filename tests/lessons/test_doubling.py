@@ -50,7 +50,7 @@ def test_the_first_exponent_of_a_periodic_attractor_tends_to_0_and_that_of_the_s
     # The picture's time, and twice as long.
     for span in (4000.0, 8000.0):
         assert abs(lyapunov_spectrum(periodic.body, start, span).values[0]) < 0.004
-        found = [lyapunov_spectrum(strange.body, y, span).values[0] for y in strange.spread(strange.window, 16)]
+        found = [lyapunov_spectrum(strange.body, y, span).values[0] for y in strange.spread(16)]
         assert deviations(found, 0.02) > 5.0
 
 

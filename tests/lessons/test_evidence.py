@@ -5,7 +5,7 @@ import pytest
 
 from hess_explorer.scenes import scenes
 from hess_mechanics import level, lyapunov_spectrum, prove, regime, return_map, solve
-from hess_mechanics.dynamics.tube import error_bounds, tube
+from hess_mechanics.dynamics.tube import ProvedOrbit, tube
 from hess_mechanics.suslov.free import free_motion
 from support.deviations import deviations
 from support.diagrams import settled
@@ -52,7 +52,7 @@ def test_in_chaos_the_error_grows_to_the_size_of_the_picture_and_in_a_regular_mo
 def test_the_mean_divergence_of_the_chaotic_body_agrees_at_twice_the_time():
     state = scenes()["orbit-diagram"].of(STEPS["What is a picture of chaos worth?"].at.values)
     section, span = state.poincare, state.long
-    starts = section.spread(section.window, 32)
+    starts = section.spread(32)
     one, twice = ([lyapunov_spectrum(state.body, y, t).divergence for y in starts] for t in (span, 2.0 * span))
     # Twice the time begins with the whole of the other one: its error alone would not do.
     assert abs(deviations(np.subtract(one, twice), 0.0)) < 5.0
@@ -83,7 +83,7 @@ def test_the_theorem_is_proved_and_the_tube_of_the_chaotic_motion_ends_before_it
     assert found.statement == "two cycles"
     state = scenes()["orbit-diagram"].of(STEPS["Where a proof gives up"].at.values)
     motion, orbit = state.motion(), state.orbit.path
-    bounds = error_bounds(orbit, tube(motion, motion.state, orbit.times, 16, 1e6))
+    bounds = ProvedOrbit(orbit, tube(motion, motion.state, orbit.times, 16, 1e6)).bounds
     assert 10.0 < orbit.times[len(bounds) - 1] < 0.9 * orbit.times[-1]
     # The curve goes on to be right: the truth to 31 digits.
     found = moved_growth({**STEPS["Chaos eats digits"].prediction.then.values, "span": state.span}, "pixels")

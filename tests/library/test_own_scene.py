@@ -100,7 +100,7 @@ def test_a_box_shows_its_part_of_the_section_and_cells_of_megno_there():
     kinds = shown.result.megno.kinds
     assert set(kinds.ravel().tolist()) <= {-1.0, 0.0}
     assert "100 % of the cells regular" in shown.text["section"]
-    assert len(shown.result.section.kind()) > 5
+    assert sum(len(batch.orbits) for batch in shown.result.section.known.batches) > 5
     whole = View(scene, {**few, "p_lam": 0.0}).result.section.points()
     within = [np.mean((p[:, 0] < 0.3) & (abs(p[:, 1] - 0.05) < 0.15)) for p in (shown.result.section.points(), whole)]
     assert within[0] > 1.5 * within[1]

@@ -65,7 +65,7 @@ def test_basins_clouds_and_maps_have_coordinates():
 @mark.parametrize(
     ("call", "sentence"),
     [
-        (lambda: hm.solve(SUSLOV, STATE, "long"), "t = 'long' is not a number; write it like 1.5 or -2e-3."),
+        (lambda: hm.solve(SUSLOV, STATE, "long"), "times = 'long' is not a number; write it like 1.5 or -2e-3."),
         (lambda: hm.SuslovBody("2", 1.0, 0.3, 0.5), "I11 = '2' is not a number"),
         (lambda: hm.rotation_numbers("a", 1.0, 0.2), "a = 'a' is not a number"),
         (

@@ -17,8 +17,9 @@ from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.chaplygin_ball.phase_cloud import carried, shell
 from hess_mechanics.dynamics.basin_boundary import resolved, unsure
 from hess_mechanics.dynamics.birkhoff import rotation_number
-from hess_mechanics.dynamics.lyapunov import lyapunov_exponent
+from hess_mechanics.dynamics.return_map import section_crossings
 from hess_mechanics.dynamics.shadowing import away_from, errors_in_pixels, right_crossings, typical
+from hess_mechanics.dynamics.spectrum import lyapunov_exponent
 from hess_mechanics.numerics.accuracy import PLANS, REFERENCE, STANDARD, Kind
 from hess_mechanics.suslov.equations import SYSTEM, SuslovBody
 from hess_mechanics.suslov.suslov_section import SuslovSection
@@ -39,11 +40,10 @@ def within_a_factor_of_ten(errors, estimates, share=0.99):
 # ---- sections ---------------------------------------------------------------------------------------------------
 
 PIXELS, PERIODS, CROSSINGS = (300.0 / pi, 600.0 / pi), (2.0 * pi, inf), 60
-WHOLE = ((-pi, 0.0), (pi, pi))
 
 
 def places(body, starts, level, crossings=CROSSINGS):
-    found = SuslovSection(body, 0.0, 3).points(starts, crossings, True, level, threads=1)
+    found = section_crossings(SuslovSection(body, 0.0, 3), starts, crossings, level, threads=1)
     return [SuslovSection(body, 0.0, 3).places_of(states) for states in found.states]
 
 
@@ -55,7 +55,7 @@ def followed():
     truth, growth = [], []
     for _ in range(300):
         body = SuslovBody(*random.uniform(0.5, 3.0, 2), *random.uniform(-0.5, 0.5, 2), *random.normal(size=3))
-        starts = SuslovSection(body, random.uniform(0.2, 2.0), 3).spread(WHOLE, 3)
+        starts = SuslovSection(body, random.uniform(0.2, 2.0), 3).spread(3)
         exact = places(body, starts, REFERENCE)
         truth += exact
         for name, runs in rows.items():

@@ -12,8 +12,7 @@ const list = (item) => {
   return typeof item === "object" && item !== null ? { ...item, numbers: list(item.numbers) } : item
 }
 console.log(JSON.stringify(strip.trees.map(({ sources, texts }) => {
-  const [found, block] = strip.block(sources)
-  const columns = unpack(found, block).map(([name, each]) => (
+  const columns = unpack(sources, strip.block).map(([name, each]) => (
     [name, Object.fromEntries(Object.entries(each).map(([key, item]) => [key, list(item)]))]))
   return { texts, sources: Object.fromEntries(columns) }
 })))

@@ -18,7 +18,7 @@ def returns_of(motion):
         case "quartic":
             return return_map(QuarticBody(*parameters["I"], parameters["b3"], parameters["h"]))
         case "ball":
-            return return_map(BallBody(*parameters["I"], parameters["D"], *parameters["b"]), h=parameters["h"])
+            return return_map(BallBody(*parameters["I"], parameters["D"], *parameters["b"]), E=parameters["h"])
         case "euler-poisson":
             body = HeavyBody(tuple(parameters["A"]), tuple(parameters["r"]), parameters["mu"])
             return return_map(body, h=parameters["h"], f=parameters["f"])

@@ -84,7 +84,7 @@ def test_the_python_of_the_readme_runs(capsys, tmp_path, monkeypatch):
 @pytest.mark.parametrize("words", COMMANDS, ids=lambda words: words[0])
 def test_the_commands_of_the_readme_work(words, capsys, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    if words[0] in ("shot", "bench", "serve", "site") or "--lesson" in words:
+    if words[0] in ("shot", "serve", "site") or "--lesson" in words:
         # They take long, and have tests of their own: here, that they are understood.
         parsed(words)
         return

@@ -69,7 +69,8 @@ def test_the_page_shows_it(environment, tmp_path):
         "--state",
         "scene=oscillator",
         "--size",
-        "900x700",
+        "900",
+        "700",
         str(picture),
     ]
     subprocess.run(shot, env=environment, check=True, timeout=300)

@@ -7,9 +7,8 @@ from math import dist, pi, sqrt
 import pytest
 from pytest import approx
 
-from hess_explorer.headless.browser import wait_ready
 from hess_mechanics.numerics.accuracy import LEVELS
-from support.page import DEFAULTS, FIND, MOMENT, POINTS, SLIDERS, wait_frames, wait_time
+from support.page import DEFAULTS, MOMENT, POINTS, SLIDERS, wait_frames, wait_time
 from support.painted import yellow
 from support.suslov_hess import assert_orbit, exact_states
 from support.thorough import sample
@@ -116,37 +115,6 @@ def test_arrows_nudge_a_box_shift_by_ten_steps_and_a_label_is_dragged(explorer):
     # All of the drag is one step.
     explorer.change(explorer.page.keyboard.press, "Control+z")
     assert explorer.shown("h") == (1.5, 1.5)
-
-
-def test_a_button_moves_a_slider_to_and_fro_until_it_is_touched(explorer):
-    page = explorer.page
-    sway, pace = page.locator(".param-f .sway"), page.locator(".param-f .pace")
-    assert pace.is_hidden()
-    sway.click()
-    pace.select_option("4")
-    # Beyond its start, to the upper end, and below it again.
-    for condition in ("value > 1.7", "value < 0.4"):
-        page.wait_for_function(f"() => {{ const value = Number(({FIND})('f', 'range').value); return {condition} }}")
-    # It goes on: between two of its values the page may be ready for a moment.
-    page.wait_for_function("document.documentElement.dataset.ready !== 'true'")
-    # Only one at a time.
-    page.locator(".param-phi0 .sway").click()
-    assert sway.get_attribute("aria-pressed") == "false"
-    assert page.locator(".param-phi0 .pace").input_value() == "4"
-    before = explorer.state
-    page.keyboard.press("Escape")
-    wait_ready(page, after=before)
-    assert page.locator(".sway[aria-pressed=true]").count() == 0
-    f, phi0 = explorer.shown("f")[0], explorer.shown("phi0")[0]
-    assert f == approx(round(f, 2), abs=1e-12)
-    assert_orbit(explorer, {**DEFAULTS, "f": f, "phi0": phi0})
-    # Let go, it is of the accuracy chosen, and each was one step.
-    assert explorer.text("status").startswith("standard:")
-    sway.click()
-    explorer.slider("f").press("ArrowRight")
-    assert sway.get_attribute("aria-pressed") == "false"
-    page.wait_for_function("document.documentElement.dataset.ready === 'true'")
-    page.locator(".param-reset").click()
 
 
 # --- Menus and buttons -------------------------------------------------------------------------------
@@ -322,7 +290,6 @@ def test_keys_that_mean_something_where_the_focus_is_leave_the_player_alone(expl
         ".lesson-menu > summary",
         ".unfold:visible",
         "canvas.solid:visible",
-        ".param-h .sway",
     )
     for item in (explorer.slider("h"), explorer.menu("preset"), *(page.locator(name).first for name in others)):
         for playing in (True, False):
@@ -332,7 +299,6 @@ def test_keys_that_mean_something_where_the_focus_is_leave_the_player_alone(expl
     # Neither was anything of them done.
     assert page.locator(".comparison").is_hidden()
     assert page.locator(".lesson-menu").get_attribute("open") is None
-    assert page.locator(".param-h .sway").get_attribute("aria-pressed") == "false"
 
 
 def test_the_motion_goes_on_along_the_new_orbit_when_a_slider_moves(explorer):

@@ -3,12 +3,10 @@
 `Explorer` is what all tests of the page drive it with; the expected numbers come from `models` or from closed forms.
 """
 
-import re
 import signal
 from math import pi
 from urllib.parse import quote, urlencode, urlsplit
 
-import pytest
 from pytest import approx
 
 from hess_explorer.headless.browser import wait_ready
@@ -212,20 +210,3 @@ def test_whatever_a_text_of_the_page_is_told_to_say_it_shows_as_text(explorer):
     explorer.change(lambda: explorer.slide(h=0.9))
     assert payload not in explorer.text("status")
     assert "onerror" not in explorer.caption("omega")
-
-
-# --- What the page needs of Bokeh beyond its documentation ---------------------------------------------
-
-
-@pytest.mark.thorough
-def test_a_page_that_lacks_one_says_so_when_it_opens(browser, server):
-    lacking = "Object.defineProperty(window, 'devicePixelRatio', { configurable: false, get: () => 1 })"
-    with own_tab(browser, server, script=lacking) as explorer:
-        errors = explorer.goto("/").errors.copy()
-        explorer.errors.clear()
-    assert len(errors) == 1
-    assert re.fullmatch(
-        r"BokehJS \S+ is none that this page knows: there is no window\.devicePixelRatio that can be "
-        r"replaced\.",
-        errors[0],
-    )

@@ -105,7 +105,7 @@ def field(name):
 every_field = pytest.mark.parametrize("name", [one.name for one in SECTION.presets])
 # A periodic orbit has another caption, and is held by "test_periodic.py" and "test_branched.py".
 every_chosen_orbit = pytest.mark.parametrize(
-    "name", [one.name for one in SECTION.presets if one.values["periodic"] == NONE]
+    "name", [one.name for one in SECTION.presets if one.values.get("periodic", NONE) == NONE]
 )
 
 

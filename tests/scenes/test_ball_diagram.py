@@ -32,7 +32,7 @@ def test_a_ball_that_turns_the_wrong_way_turns_round_to_a_permanent_rotation():
     assert state.turning[0] > 0.0 > state.turning[-1]
     body, E = state.body, state.h - hypot(state.body.b1, state.body.b2)
     # Limits forward and backward in time: γ3 = 0, ω = wγ, w²(I13γ1 + I23γ2) = b3, of this energy.
-    for places, sense in ((state.regime.sets.attractor, -1.0), (state.regime.sets.repeller, 1.0)):
+    for places, sense in zip(state.regime.sets, (-1.0, 1.0), strict=True):
         psi = float(places[-1, 0])
         g = np.array([cos(psi), sin(psi)])
         w = sense * sqrt(body.b3 / (body.I13 * g[0] + body.I23 * g[1]))

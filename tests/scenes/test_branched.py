@@ -39,7 +39,7 @@ def points_of(view):
     """Return all points of the branch: the parameter, the places (m, 2), the multipliers."""
     return [
         point
-        for part in view.result.branch.continuation.branches
+        for part in view.result.branch.branches
         for point in zip(part.values.tolist(), part.places, part.multipliers, strict=True)
     ]
 
@@ -47,7 +47,7 @@ def points_of(view):
 def test_the_branch_of_an_orbit_born_there_turns_at_the_pitchfork():
     view = shown("quartic")
     ((kind, value, error),) = marks(view)
-    (exact,) = (one.value for part in view.result.branch.continuation.branches for one in part.bifurcations)
+    (exact,) = (one.value for part in view.result.branch.branches for one in part.bifurcations)
     assert (kind, value) == ("pitchfork", approx(exact, abs=1e-8))
     assert error < 1e-7
     # It lies on one side of it, with an orbit and its mirror image at each h.
@@ -65,7 +65,7 @@ def test_an_orbit_of_the_ball_doubles_where_another_integrator_finds_the_multipl
     view = shown("ball-section")
     ((kind, value, error),) = marks(view)
     assert (kind, error < 1e-8) == ("flip", True)
-    (flip,) = (one for part in view.result.branch.continuation.branches for one in part.bifurcations)
+    (flip,) = (one for part in view.result.branch.branches for one in part.bifurcations)
     values = {**view.values, "I13": flip.value}
     assert returned(values, flip.places[0]) == approx(flip.places[0], abs=1e-8)
     assert np.linalg.eigvals(derivative(values, flip.places[0])).real.min() == approx(-1.0, abs=1e-5)
@@ -140,14 +140,14 @@ def test_while_a_slider_is_held_only_what_is_known_is_drawn():
         assert one == approx(other)
     moved = View(SCENES["ball-section"], {**values, "b3": 0.71}, seen=["branch"], dragging=True, whole=False)
     assert moved.text["branch"].split("\n")[1] == "A periodic orbit is computed when the slider is released."
-    assert moved.result.branch.continuation.branches == []
+    assert moved.result.branch.branches == []
     assert moved.report.todo == ()
 
 
 def test_where_a_branch_hardly_gets_on_no_more_of_it_is_computed():
     # At h = 1.4435 an orbit begins to touch the section: steps are of 1e-10, and sixteen parts were asked for.
     view = View(SCENES["ball-section"], {"periodic": "period 1", "reach": 0.0}, seen=["branch"])
-    downwards = [part for part in view.result.branch.continuation.branches if part.values[-1] < 2.0]
+    downwards = [part for part in view.result.branch.branches if part.values[-1] < 2.0]
     assert len(downwards) == 2
     assert downwards[-1].values[-1] == approx(1.44351, abs=1e-5)
     assert "The branch goes on: no more of it is computed." in view.report.notes

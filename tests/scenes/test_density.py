@@ -10,6 +10,7 @@ from hess_explorer.scenes.framework import points
 from hess_explorer.scenes.parts.sections import density
 from hess_explorer.views.plane.density import tones
 from hess_mechanics import section
+from hess_mechanics.dynamics.return_map import section_crossings
 from hess_mechanics.dynamics.section_density import visits
 from support.deviations import deviations, mean_of
 from support.view import View, values_of
@@ -67,7 +68,7 @@ def test_a_window_has_its_own_density_and_the_later_half_only_the_last_stage():
     assert view.result.section.frame == tuple(map(tuple, (low, high)))
     shares = []
     for starts in (starts for _, starts in found._kinds):
-        points = state.poincare.points(starts, 96, True, density._LEVEL)
+        points = section_crossings(state.poincare, starts, 96, density._LEVEL)
         for spots in map(state.poincare.places_of, points.states):
             shares.append(np.mean(np.all((spots >= low) & (spots < high), axis=1)))
     # Orbits in a sea visit the window as often, though not at the same places after a while: both shares scatter.

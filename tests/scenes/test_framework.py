@@ -7,6 +7,7 @@ from functools import cached_property
 import numpy as np
 import pytest
 
+from hess_explorer.protocol.specs import Controlled
 from hess_explorer.scenes.framework.scene import Motion, Scene, State
 from hess_explorer.scenes.framework.sliders import accuracy_level, like, number, specs_of
 from hess_explorer.scenes.speed_accuracy import speed_and_accuracy
@@ -33,8 +34,8 @@ class Mixed(Base):
     accuracy: str = accuracy_level()
 
 
-def test_a_parameter_that_is_declared_again_keeps_its_place_and_what_is_not_changed():
-    first, second, third, accuracy = specs_of(Mixed)
+def test_own_parameters_come_first_and_one_that_is_declared_again_keeps_its_place_and_what_is_not_changed():
+    third, accuracy, first, second = specs_of(Mixed)
     assert (first.name, second.name, third.name, accuracy.name) == ("first", "second", "third", "accuracy")
     assert (second.symbol, second.default, second.softbounds, second.label, second.doc) == (
         "y",
@@ -105,3 +106,12 @@ def test_the_ring_of_the_suslov_hess_case_fills_its_frame(I22, I23, h):
     state = scene.of(scene.admit({**scene.defaults(), "I22": I22, "I23": I23, "h": h, "f": 0.1})[0])
     # |w| = √2(h + n3), n3 < 1, and ω2 = w2 √(1 + a²); to a tenth below the least frame, and less than half beyond.
     assert 0.15 < np.max(np.abs(annulus(state.body, state.h, state.turning)[1])) / state.half_width <= 1.0
+
+
+@pytest.mark.parametrize("scene", SCENES.values(), ids=str)
+def test_a_cockpit_has_few_controls_outside_computation(scene):
+    """The choices of a chart show only with the chart."""
+    groups = [spec.group for spec in scene.specs if isinstance(spec, Controlled)]
+    assert sum(group in ("Body", "State") for group in groups) <= 12
+    assert {*groups} <= {"Body", "State", "Computation", "Chart"}
+    assert len(scene.essential) <= 5

@@ -8,10 +8,10 @@ from pytest import approx
 
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.periodic_search import NONE
+from hess_mechanics.dynamics.cells import occupied_cells
+from hess_mechanics.dynamics.return_map import section_crossings
 from hess_mechanics.numerics.accuracy import STANDARD
 from hess_mechanics.suslov.plane_potential import POTENTIALS
-from hess_mechanics.suslov.quartic import quartic_section
-from hess_mechanics.suslov.quartic import visited as cells_visited
 from support.deviations import deviations
 from support.kharlamova import ARC, POINT
 from support.moved import from_moved_starts
@@ -90,8 +90,9 @@ def test_an_example_of_the_quartic_potential_is_what_its_name_says(preset):
         assert (visited > 0.4 * points) is is_sea
 
         def share():
-            found = quartic_section(body, [tuple(view.result.start)], 200, STANDARD, 1_000_000).states[0]
-            return cells_visited(body, view.result.poincare.places_of(found), 32) / len(found)
+            at = view.result.poincare
+            found = section_crossings(at, [tuple(view.result.start)], 200, STANDARD).states[0]
+            return occupied_cells(at.places_of(found), at.window) / len(found)
 
         # As for every other last bit, and by far.
         sure = deviations(from_moved_starts(share), 0.4)
@@ -99,7 +100,7 @@ def test_an_example_of_the_quartic_potential_is_what_its_name_says(preset):
     else:
         # An elliptic orbit of a map that keeps area: |μ| = 1.
         assert np.hypot(*view.numbers("section", "Period 1, elliptic. Multipliers μ = # ± #i")) == approx(1.0, abs=2e-4)
-    assert ("Motion in a ring." in view.text["domain"]) == (body.h > abs(body.b3)) >= ("ring" in preset.name)
+    assert ("Motion in a ring." in view.text["domain"]) == (abs(body.b3) < body.E) >= ("ring" in preset.name)
 
 
 @pytest.mark.chaotic

@@ -37,7 +37,7 @@ def test_the_section_shows_a_curve_of_the_angular_momentum():
 
 
 def test_the_orbit_is_that_of_scipy():
-    view = View(SCENE, {"E": 0.7, "lasts": 12.0, "accuracy": "precise"})
+    view = View(SCENE, {"E": 0.7, "span": 12.0, "accuracy": "precise"})
     # By Newton's equations with the force along the rod, from θ = 0.8, u = 0.5.
     sine, cosine = sin(0.8), cos(0.8)
     velocity = [0.5 * cosine, sqrt(2.0 * (0.7 + cosine) - 0.25), 0.5 * sine]

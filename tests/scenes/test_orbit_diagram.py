@@ -117,7 +117,7 @@ def test_the_density_counts_all_points_and_a_window_counts_them_in_its_own_pixel
     )
     # The last column, of period 2: the next points of the map in the same pixels.
     body = replace(state, I22=x1 - 0.5 * (x1 - x0) / 120).body
-    exact = image(body, state.poincare.E, state.diagram.branches["rising"][-1].places[-1][-1], 8)[:, 0]
+    exact = image(body, state.poincare.E, state.diagram.pieces["rising"][-1].places[-1][-1], 8)[:, 0]
     rows = ((exact - y0) / (y1 - y0) * 512).astype(int)
     assert set(np.flatnonzero(found.counts("rising")[:, -1] > 5)) <= {row + off for row in rows for off in (-1, 0, 1)}
     half = View(SCENE, {**LIGHT, "window": f"{x0},{0.5 * (y0 + y1)};{x1},{y1}"}, seen=["diagram"]).result.density
@@ -168,7 +168,7 @@ def test_a_click_chooses_a_state_that_is_there_and_a_box_looks_closer():
     assert chosen["I23"] == approx(0.0501, abs=0.005)
     there = SCENE.compute({**SCENE.defaults(), **chosen}, ("section",), True)
     # The motion there is on its attractor from the beginning, at the upper of its two places; of a drag, to 1e-3.
-    orbit = there.regime.sets.attractor
+    orbit = there.regime.sets[0]
     assert np.abs(orbit - there.diagram.place).max(axis=1).min() < 1e-4
     assert len(np.unique(np.round(orbit[-20:, 0], 3))) == 2
     assert there.diagram.place[0] == approx(orbit[-20:, 0].max(), abs=1e-3)
@@ -187,7 +187,7 @@ def test_a_click_chooses_a_state_that_is_there_and_a_box_looks_closer():
 def test_the_way_back_begins_where_the_way_there_ended():
     """The orbits keep all points: the first point of the way back is next to the last one of the way there."""
     state = View(SCENE, {**LIGHT, "transient": 0.0}, seen=("diagram",)).result
-    there, back = (state.diagram.branches[way] for way in ("rising", "falling"))
+    there, back = (state.diagram.pieces[way] for way in ("rising", "falling"))
     assert (there[-1].values[-1], back[0].values[0]) == (2.4, 2.4)
     body, E = replace(state, I22=2.4).body, state.poincare.E
     last, first = there[-1].places[-1][-1], back[0].places[0][0]

@@ -10,6 +10,7 @@ from pytest import approx
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework import periodic_search
 from hess_explorer.scenes.framework.periodic_search import NONE
+from hess_explorer.scenes.framework.windows import pixels_in
 from hess_explorer.views.layers import Axes
 from hess_explorer.views.plane.periodic import within
 from hess_mechanics.dynamics.periodic import apart
@@ -87,9 +88,10 @@ def test_a_manifold_ends_where_the_map_jumps_and_no_line_is_drawn_across():
     ends = [one for one in view.result.periodic_orbit.manifolds if "the map jumps" in one.ended]
     assert len(ends) == 4
     assert any("the map jumps: an orbit touches the plane of the section" in note for note in view.report.notes)
+    pixel = 1.0 / max(pixels_in(view.result.section.frame))
     for curve in view.result.periodic_orbit.manifolds:
         # Chords of ten pixels at most: before, one of 1.7 led from the edge δ = π through the middle of the section.
-        assert np.hypot(*np.diff(curve.points, axis=0).T).max() <= 10.0 / max(view.result.section.pixels) * (1.0 + 1e-9)
+        assert np.hypot(*np.diff(curve.points, axis=0).T).max() <= 10.0 * pixel * (1.0 + 1e-9)
     for curve in ends:
         # Further on by a hundredth of the return it is somewhere else.
         before, after = curve.at(curve.parameters[-1]), curve.at(curve.parameters[-1] + 0.01)

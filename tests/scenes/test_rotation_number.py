@@ -140,9 +140,9 @@ def test_a_box_is_the_window_of_its_own_map_and_of_no_other():
     assert notes == []
     assert values["part_fa"] == "0.2,0.1;0.9,0.5"
     assert values["part_hf"] == values["part_ha"] == ""
-    assert View(SCENE, {**values, "over": "f, a"}, seen=("map",)).result.window == ((0.2, 0.9), (0.1, 0.5))
+    assert View(SCENE, {**values, "over": "f, a"}, seen=("map",)).result.rho.window == ((0.2, 0.9), (0.1, 0.5))
     for plane in ("h, f", "h, a"):
-        seen = (View(SCENE, {**given, "over": plane}, seen=("map",)).result.window for given in (values, {}))
+        seen = (View(SCENE, {**given, "over": plane}, seen=("map",)).result.rho.window for given in (values, {}))
         assert next(seen) == next(seen)
 
 

@@ -12,10 +12,9 @@ from pytest import approx
 
 from hess_explorer.protocol.specs import places
 from hess_explorer.scenes import scenes
-from hess_explorer.views.plane.section_plane import joined
 from hess_mechanics import SuslovBody, lyapunov_spectrum
 from hess_mechanics.dynamics.basins import contraction
-from hess_mechanics.dynamics.plane_section import occupied_cells
+from hess_mechanics.dynamics.cells import occupied_cells
 from support.deviations import deviations
 from support.free_suslov import shown
 from support.moved import from_moved_starts
@@ -69,9 +68,9 @@ def test_an_example_is_complete_and_counts_its_points(name):
         said = view.numbers("section", "\n# points forward")
         assert said == [len(forward)]
         cells, of = view.numbers("section", "late forward points occupy # of # cells.")
-        later = joined(orbit[len(orbit) // 2 :] for orbit in view.result.section.kind())
+        later = view.result.section.points(later=True)
         assert len(later) == approx(len(forward) * (0.5 if view.values["drop"] == "all" else 1.0), rel=0.01)
-        assert (cells, of) == (occupied_cells(later, 32), 1024)
+        assert (cells, of) == (occupied_cells(later, ((-pi, pi), (0.0, pi))), 1024)
     assert np.all((forward[:, 1] >= 0.0) & (forward[:, 1] <= pi + 1e-6))
     # Within the sea all is possible; grey is where (b, γ) > E.
     body, image = body_of(view), view.data["section-impossible"]
@@ -146,7 +145,7 @@ def test_where_volume_is_kept_no_attractor_is_claimed():
 def scores(view, count):
     """The mean divergence along orbits from all over the section, in units of its error; an attractor is below −3."""
     section = view.result.poincare
-    found = (contraction(section.body, y, view.values["long"]) for y in section.spread(section.window, count))
+    found = (contraction(section.body, y, view.values["long"]) for y in section.spread(count))
     return [one.mean / one.error for one in found]
 
 

@@ -144,7 +144,7 @@ def test_the_cost_of_all_is_measured_when_its_picture_is_unfolded():
     view = View(scene, {}, seen=("trade",))
     trial = next(one for one in view.result.trials if one.kind == Kind.MAP)
     samples = view.result.costs.samples[trial]
-    errors, ms = view.result.costs.curve(trial)
+    errors, ms = view.result.costs.curves[trial]
     assert errors == approx([max(2.0 * one.error, 1e-9) for one in samples])
     assert ms == approx([one.ms for one in samples])
     assert any(row.startswith("map: ") and row.endswith(" pixels") for row in view.report.derived)

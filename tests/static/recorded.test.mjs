@@ -24,7 +24,7 @@ test("a place in a picture takes the computed state that is nearest in the pictu
 
 const query = (h, f) => `v=1&scene=hess&h=${h}&f=${f}`
 const tree = (h) => ({
-  sources: { curve: { x: { of: h } }, ...(h === 2 ? { label: { x: [2] } } : {}) }, ranges: { plane: [0, 10, 0, 1] },
+  sources: { curve: { x: { at: h, n: 1 } }, ...(h === 2 ? { label: { x: [2] } } : {}) }, ranges: { plane: [0, 10, 0, 1] },
   texts: { notes: "" }, captions: { plane: { title: `h = ${h}` } }, controls: { f: [0.4, -1, 1, 0.01, true] },
 })
 const recording = {
@@ -41,7 +41,7 @@ const recording = {
   scenes: { hess: { name: "hess", controls: [{ name: "f", symbol: "f₀" }] } }, lessons: { first: { name: "first" } },
 }
 const strip = (number) => Promise.resolve({
-  trees: number === 0 ? LINES.points.map(([h]) => tree(h)) : [tree(7)], block: (sources) => [sources, new ArrayBuffer(0)],
+  trees: number === 0 ? LINES.points.map(([h]) => tree(h)) : [tree(7)], block: new ArrayBuffer(0),
 })
 const answers = (first = "") => {
   const answer = createRecorded(recording, strip, first)
@@ -57,14 +57,14 @@ test("answers are those of a server: state, description once, controls, only the
   assert.deepEqual([h, f].map(([value, low, high, step, idle]) => [value, low, high, Math.round(100 * step), idle]),
     // The state has its own values, and controls without effect.
     [[1, 0, 2, 100, false], [0.4, 0, 1, 50, true]])
-  assert.deepEqual(first.state.tree.sources, { curve: { x: { of: 1 } }, label: { x: [] } })
+  assert.deepEqual(first.state.tree.sources, { curve: { x: { at: 1, n: 1 } }, label: { x: [] } })
   const second = await ask({ values: { h: 1.9 } })
   assert.equal("scene" in second, false)
   assert.equal(second.state.query, query(2, 0.5))
   assert.equal(second.state.answers, 1)
   assert.deepEqual(second.state.tree.ranges, { plane: [0, 10, 0, 1] })
   // What a state does not fill is emptied.
-  assert.deepEqual(second.state.tree.sources, { curve: { x: { of: 2 } }, label: { x: [2] } })
+  assert.deepEqual(second.state.tree.sources, { curve: { x: { at: 2, n: 1 } }, label: { x: [2] } })
   assert.deepEqual((await ask({ values: { h: 0 }, held: true })).state.tree.sources.label, { x: [] })
   // Axes stay while a slider is held.
   assert.deepEqual((await ask({ values: { h: 2 }, held: true })).state.tree.ranges, {})

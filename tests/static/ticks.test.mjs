@@ -1,8 +1,7 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import { roundNumbers, tickLabels } from "../../static/pictures/ticks.js"
-import { assertClose } from "./close.mjs"
+import { tickLabels } from "../../static/pictures/ticks.js"
 
 // The labels of ticks where there is room for 26 letters.
 const LABELS = [
@@ -18,11 +17,4 @@ const LABELS = [
 
 test("labels are short and fit the room", () => {
   for (const [ticks, labels] of LABELS) assert.deepEqual(tickLabels(ticks, 26), labels)
-})
-
-test("round numbers are multiples of 1, 2 or 5 times a power of ten, within the ends", () => {
-  assertClose(roundNumbers(0, 1, 5), [0, 0.2, 0.4, 0.6, 0.8, 1])
-  assertClose(roundNumbers(-0.3, 0.3, 6), [-0.3, -0.2, -0.1, 0, 0.1, 0.2, 0.3])
-  assertClose(roundNumbers(120, 980, 2), [500])
-  assertClose(roundNumbers(1e-9, 9e-9, 4), [2e-9, 4e-9, 6e-9, 8e-9], 1e-20)
 })

@@ -315,7 +315,7 @@ def _examples():
     """The command lines in the help of all commands."""
     for name in COMMANDS:
         # Those that take minutes, a browser, a port or files are for other tests.
-        if name not in ("bench", "docs", "lesson", "serve", "shot", "site"):
+        if name not in ("docs", "lesson", "serve", "shot", "site"):
             yield [name, *shlex.split(import_module(f"hess_explorer.commands.{name}").COMMAND.example)]
     for one in catalogue().values():
         yield [*one.key.split(), *shlex.split(command_of(one).example)]

@@ -9,8 +9,8 @@ import numpy as np
 from hess_explorer.lessons import shipped
 from hess_explorer.protocol.specs import places
 from hess_explorer.scenes import scenes
-from hess_mechanics import level, lyapunov_spectrum, period_doublings, periodic_orbit, return_map
-from hess_mechanics.dynamics.parameter_diagram import doublings, sets_of
+from hess_explorer.scenes.parts.orbits.regime import sets_of
+from hess_mechanics import ReturnMap, level, lyapunov_spectrum, period_doublings, periodic_orbit, return_map
 
 NAME = "period-doubling-and-a-mirror-repeller"
 
@@ -21,7 +21,7 @@ def heavy_body(values):
         scenes()["orbit-diagram"].defaults()
         | {name: values[name] for name in ("I11", "I22", "I13", "I23", "b1", "b2", "b3", "h")}
     )
-    return state.body, state.E
+    return state.body, state.poincare.E
 
 
 @cache
@@ -39,8 +39,9 @@ def cascade_of_the_ball():
     """The doublings of the ball over 𝒟, from period 2."""
     scene = scenes()["ball-diagram"]
     state = scene.of({**scene.defaults(), "D": 1.7})
-    settled = sets_of(state.poincare, state.diagram.place, 500, 2, level("standard")).attractor
-    return doublings(state.diagram.family, "D", 1.7, tuple(map(tuple, settled.tolist())), 1.34, 4)
+    settled, _ = sets_of(ReturnMap(state.poincare, level("standard")), state.diagram.place, 500, 2)
+    map_ = return_map(state.body, h=state.h)
+    return period_doublings(map_, periodic_orbit(map_, settled[0], 2), "D", 1.34, 4)
 
 
 @cache
@@ -68,7 +69,7 @@ def tenfold(_step):
     """Return the exponents of many orbits over the time of the picture, and their times of a tenfold growth."""
     values = next(step for step in shipped()[NAME].steps if step.title == "Measure the chaos").prediction.then.values
     section = return_map(heavy_body(values)[0], E=heavy_body(values)[1]).section
-    starts = section.spread(section.window, 16)
+    starts = section.spread(16)
     found = np.array([lyapunov_spectrum(section.body, start, 2.0 * values["long"]).values[0] for start in starts])
     return found, (math.log(10.0) / found, 5.0)
 
@@ -90,12 +91,12 @@ def end(_step):
 def sets_at(values, **changes):
     """Attractor and repeller of a state of "Orbit diagram"."""
     state = scenes()["orbit-diagram"].of({**values, **changes})
-    return sets_of(state.poincare, state.diagram.place, 500, 1500, level("standard"))
+    return sets_of(ReturnMap(state.poincare, level("standard")), state.diagram.place, 500, 1500)
 
 
 def points_of(place):
     """The number of places to which the section of a state settles."""
-    return len(np.unique(np.round(sets_at(place.values).attractor, 4), axis=0))
+    return len(np.unique(np.round(sets_at(place.values)[0], 4), axis=0))
 
 
 def first_cascade(_step):

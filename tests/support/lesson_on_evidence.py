@@ -37,7 +37,7 @@ def bought_by_a_digit(_step):
     """Return the time that a digit buys, the digits of a double, and whether no level is right to a pixel at a time."""
     state = scenes()["orbit-diagram"].of(STEPS["What is a picture of chaos worth?"].at.values)
     section = state.poincare
-    starts = section.spread(section.window, 16)
+    starts = section.spread(16)
     units = math.log(10.0) / np.array([lyapunov_spectrum(state.body, start, 8000.0).values[0] for start in starts])
 
     def lost(time):

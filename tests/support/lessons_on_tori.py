@@ -6,7 +6,7 @@ from functools import cache
 import numpy as np
 
 from hess_mechanics import HeavyBody, SuslovBody, circle_map, level, scattering
-from hess_mechanics.euler_poisson.hess_isomorphism import hess_body
+from hess_mechanics.euler_poisson.hess_isomorphism import Bridge
 from hess_mechanics.suslov.additional_integral import I11_at
 from support.numbers import DIGITS, elsewhere, of
 from support.rotation_number import displacement
@@ -75,7 +75,7 @@ def outgoing(step):
 def on_the_wall(step):
     """Return the circle map of the Hess manifold of a heavy body."""
     one = step.at.values
-    body = hess_body(HeavyBody.hess((one["I1"], one["I2"], one["I3"]), one["m"]))
+    body = Bridge.of_heavy(HeavyBody.hess((one["I1"], one["I2"], one["I3"]), one["m"])).hess
     a1 = 1.0 / one["I2"]
     return circle_map(body.a, a1 * one["h"] / body.b, a1 * one["f"] / math.sqrt(body.b), PRECISE)
 

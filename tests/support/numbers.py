@@ -25,7 +25,7 @@ NUMBER = re.compile(
 )
 _NO_CLAIM = re.compile(
     r"""
-    <!--\ measured.*?<!--\ end | ```.*?``` | `[^`]*` | \]\([^)]*\)  # what a benchmark writes, fences, code, links
+    <!--\ (?:measured|levels).*?<!--\ end | ```.*?``` | `[^`]*` | \]\([^)]*\)  # tested tables, fences, code, links
     | \A---.*?^--- | ^\#.*?$ | (?<![*^])\*[^*]+\*(?!\*)              # titles, and names of examples and controls
     | (?:^\ *|\ and\ )\d\.\ | (?:\(?20\d\d\)|\bin\ 20\d\d\b)           # items of a list, years
     | \(\d(?:\.\d+)?\)                                              # equations, items in a line

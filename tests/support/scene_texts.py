@@ -23,6 +23,7 @@ from hess_mechanics import (
 )
 from hess_mechanics.dynamics import attraction, edge, megno, point_sets, regime, spectrum, work_precision
 from hess_mechanics.dynamics.birkhoff import rotation_number
+from hess_mechanics.dynamics.return_map import section_crossings
 from hess_mechanics.euler_poisson import andoyer, equations, rotation
 from hess_mechanics.numerics import doubled_kernels
 from hess_mechanics.suslov.additional_integral import _FORMULAS, MAX_K
@@ -89,7 +90,7 @@ def shared(_step):
     found = state("orbit-diagram", "Touching")
     both = [settled(found.poincare, 64, 1500, 500, forward) for forward in (True, False)]
     parts = [point_sets.set_distance(found.poincare.turns, *pair).shared for pair in zip(*both, strict=True)]
-    points = len(example("orbit-diagram", "Touching", seen=("section",)).result.regime.attractor)
+    points = len(example("orbit-diagram", "Touching", seen=("section",)).result.regime.sets[0])
     return (100.0 * np.array(parts), 5.0), points, points
 
 
@@ -157,7 +158,7 @@ def flip_of_the_ball(_step):
 def rest(h):
     """Return body, state, and rates and vectors of the linear motion of the uniform rotation of "A spiral"."""
     found = state("orbit-diagram", "A spiral", h=h)
-    rotations = permanent_rotations(found.body, found.E)
+    rotations = permanent_rotations(found.body, found.poincare.E)
     y = next(one for one in rotations if abs(np.hypot(*one[:2]) - 2.1) < 0.01 and one[0] > 0.0)
     # The field is quadratic: central differences are exact.
     columns = [(field(found.body, y + e) - field(found.body, y - e)) / 2.0 for e in np.eye(5)]
@@ -202,7 +203,7 @@ def meander(_step):
     section, middle = andoyer.AndoyerSection(found.body, found.h, found.f), (-1.85, 0.03)
 
     def turns(l):
-        points = section.points([section.state_at(l, middle[1])], 3000, level("standard")).states[0]
+        points = section_crossings(section, [section.state_at(l, middle[1])], 3000, level("standard")).states[0]
         return rotation_number(andoyer.coordinates(points), middle)[0]
 
     return min(map(turns, np.linspace(-1.6, -1.575, 6))), 1.0 / turns(-1.535), (turns(-1.535), 1e-6)

@@ -47,8 +47,8 @@ def test_fields_become_variables_and_a_number_one_of_the_name_of_the_function():
 
 
 def test_a_function_may_take_any_names_other_values_and_the_level():
-    def rotation(h, level, **others):
-        return circle_map(h=h, accuracy=level, **others).rotation_number
+    def rotation(h, accuracy, **others):
+        return circle_map(h=h, accuracy=accuracy, **others).rotation_number
 
     tori = {"over": {"h": (1.2, 1.6, 3)}, "a": 0.5, "f": 0.3}
     assert np.allclose(sweep(rotation, **tori).rotation, sweep("circle-map", **tori).rotation_number)

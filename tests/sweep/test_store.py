@@ -92,10 +92,10 @@ def test_runs_at_once_share_one_store_and_lose_nothing(tori, tmp_path):
 
 
 def test_a_store_is_plain_zarr_that_says_what_it_is(tori, tmp_path):
-    tori(store=tmp_path / "rho.zarr", level="draft")
+    tori(store=tmp_path / "rho.zarr", accuracy="draft")
     # Read without this package, and without Zarr.
     facts = json.loads((tmp_path / "rho.zarr" / "zarr.json").read_text())["attributes"]
-    assert (facts["computation"], facts["numbers"], facts["level"]) == ("circle-map", "rotation-number", "draft")
+    assert (facts["computation"], facts["numbers"], facts["accuracy"]) == ("circle-map", "rotation-number", "draft")
     assert json.loads(facts["parameters"]) == {"a": 0.5, "phi": 0.5}
     assert json.loads((tmp_path / "rho.zarr" / "status" / "zarr.json").read_text())["data_type"] == "uint8"
     array = json.loads((tmp_path / "rho.zarr" / "rotation_number" / "zarr.json").read_text())
@@ -107,7 +107,7 @@ def test_a_store_is_plain_zarr_that_says_what_it_is(tori, tmp_path):
     "change, said",
     [
         ({"numbers": ["trace"]}, "has numbers = rotation-number, not trace"),
-        ({"level": "draft"}, "has level = precise, not draft"),
+        ({"accuracy": "draft"}, "has accuracy = precise, not draft"),
         ({"over": {"h": (-1.2, 2.0, 13), "f": (0.0, 1.2, 9)}}, "has other values of h"),
         ({"a": 0.25}, 'has parameters = {"a": 0.5, .* not {"a": 0.25, '),
     ],

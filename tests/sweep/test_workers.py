@@ -19,7 +19,9 @@ from support.processes import interruptible
 
 def motions(**options):
     """The exponents of some motions; the options are those of `sweep`."""
-    return sweep("lyapunov suslov", {"w1": (0.2, 1.4, 6), "I22": (1.0, 2.0, 5)}, accuracy="draft", t=15.0, **options)
+    return sweep(
+        "lyapunov suslov", {"w1": (0.2, 1.4, 6), "I22": (1.0, 2.0, 5)}, accuracy="draft", duration=15.0, **options
+    )
 
 
 @pytest.fixture(scope="module")
@@ -70,7 +72,7 @@ def test_a_cluster_finds_the_same_and_its_client_stays_open(client, pairs, alone
     assert client.submit(sum, [1, 2]).result() == 3
 
 
-SWEEP = typed("sweep lyapunov suslov --over w1=0.2:1.4:4000 --set t=1e5 --accuracy draft --workers 2")
+SWEEP = typed("sweep lyapunov suslov --over w1=0.2:1.4:4000 --set duration=1e5 --accuracy draft --workers 2")
 
 
 @pytest.mark.parametrize("end", [signal.SIGINT, signal.SIGKILL], ids=lambda one: one.name)

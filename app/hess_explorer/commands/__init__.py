@@ -18,13 +18,12 @@ COMMANDS: Mapping[str, tuple[str, str]] = {
     "serve": ("page", "open the explorer in the browser (default)"),
     "shot": ("page", "take a screenshot of the page as PNG"),
     "prove": ("prove", "prove that a Suslov–Hess torus has two limit cycles, or none"),
-    "export": ("files", "export a picture as CSV, JSON, PNG, SVG, PDF or a film, or a state or lesson as a page"),
+    "export": ("files", "export a picture as data, figure, film or Python code, or a state or lesson as a page"),
     "site": ("files", "build a folder of pages that needs no server"),
-    "code": ("files", "print the Python code that computes and draws a picture of the page"),
     "lesson": ("files", "check a lesson that you write, or begin one"),
     "sweep": ("files", "compute numbers over one to three parameters"),
+    "levels": ("help", "print what each level of accuracy promises and computes"),
     "docs": ("help", "build the documentation"),
-    "bench": ("help", "compare the speed with other integrators at equal measured error (in a source checkout)"),
 }
 """Heading and purpose of each command that is written by hand."""
 

@@ -1,16 +1,15 @@
-"""A command as data: its description, its options, and the function that runs it."""
+"""A command: its description, its options, and the function that runs it."""
 
 from __future__ import annotations
 
 import argparse
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NoReturn
 
 from hess_explorer.commands import CommandError, arguments
 
-__all__ = ["OUT", "OUTPUT", "STATE", "Command", "Option", "Options", "Parser", "flag", "option", "picture", "whole"]
+__all__ = ["OUT", "OUTPUT", "STATE", "Command", "Option", "Options", "flag", "option", "picture", "whole"]
 
 Options = argparse.Namespace
 """The parsed options of a command."""
@@ -24,14 +23,42 @@ class _Help(argparse.HelpFormatter):
         return "\n\n".join(one if "\n  " in one else super(_Help, self)._fill_text(one, width, indent) for one in parts)
 
 
-class Parser(argparse.ArgumentParser):
-    """Argument parser that reports an error in one sentence, without the usage text, and knows no abbreviations."""
+Option = tuple[str, str, Mapping[str, Any]]
+"""Name with the dashes, which a positional argument lacks; heading in the help; settings of `add_argument`."""
 
-    def __init__(self, prog: str, usage: str, description: str, epilog: str = "") -> None:
-        super().__init__(
-            prog, f"{prog} {usage}", description, epilog, formatter_class=_Help, allow_abbrev=False, add_help=False
-        )
-        self.add_argument("-h", "--help", action="help", help="show this help and exit")
+
+class Command(argparse.ArgumentParser):
+    """A command, which reports an error in one sentence, without the usage text, and knows no abbreviations.
+
+    description, options : its help text and its options.  run : runs the command with the parsed options; raises
+    `CommandError`.  example : arguments of an example.
+    """
+
+    def __init__(
+        self,
+        description: str,
+        options: Sequence[Option] = (),
+        run: Callable[[Options], None] | None = None,
+        example: str = "",
+    ) -> None:
+        super().__init__(description=description, formatter_class=_Help, allow_abbrev=False)
+        self.example = example
+        self.places = [settings["metavar"] for name, _, settings in options if not name.startswith("-")]
+        self.set_defaults(run=run)
+        groups: dict[str, argparse._ActionsContainer] = {"": self}
+        for name, group, settings in options:
+            if group not in groups:
+                groups[group] = self.add_argument_group(group)
+            try:
+                groups[group].add_argument(name, **settings)
+            except argparse.ArgumentError as error:
+                raise CommandError(f"There are two options {name}: rename one of them.") from error
+
+    def parsed(self, prog: str, words: Sequence[str] | None = None) -> Options:
+        """Return the options of a command line; prog : how the command is typed.  Raises `CommandError`."""
+        self.prog, self.usage = prog, " ".join([prog, "[OPTIONS]", *self.places])
+        self.epilog = f"Example: {prog} {self.example}" if self.example else ""
+        return self.parse_args(words)
 
     def error(self, message: str) -> NoReturn:
         """Raise `CommandError`."""
@@ -44,55 +71,9 @@ class Parser(argparse.ArgumentParser):
             group.add_argument(word, help=meaning.replace("%", "%%"))
 
 
-@dataclass(frozen=True)
-class Option:
-    """An option.
-
-    name : with the dashes; a positional argument has none.  settings : of `add_argument`.  group : heading in the help.
-    """
-
-    name: str
-    settings: Mapping[str, Any]
-    group: str = ""
-
-
-@dataclass(frozen=True)
-class Command:
-    """A command.
-
-    Attributes
-    ----------
-    description : help text.
-    options : its options.
-    run : runs the command with the parsed options; raises `CommandError`.
-    example : arguments of an example.
-    """
-
-    description: str
-    options: Sequence[Option]
-    run: Callable[[Options], None]
-    example: str = ""
-
-    def parser(self, prog: str) -> Parser:
-        """Return the parser of its arguments; prog : how the command is typed."""
-        places = [one.settings["metavar"] for one in self.options if not one.name.startswith("-")]
-        example = f"Example: {prog} {self.example}" if self.example else ""
-        parser = Parser(prog, " ".join(["[OPTIONS]", *places]), self.description, example)
-        groups: dict[str, argparse._ActionsContainer] = {"": parser}
-        for one in self.options:
-            if one.group not in groups:
-                groups[one.group] = parser.add_argument_group(one.group)
-            try:
-                groups[one.group].add_argument(one.name, **one.settings)
-            except argparse.ArgumentError as error:
-                raise CommandError(f"{prog} has two options {one.name}: rename one of them.") from error
-        parser.set_defaults(run=self.run)
-        return parser
-
-
 def option(name: str, help: str, group: str = "", **settings: Any) -> Option:
     """Return an option; settings : arguments of `ArgumentParser.add_argument`."""
-    return Option(name, {"help": help, **settings}, group)
+    return name, group, {"help": help, **settings}
 
 
 def flag(name: str, help: str) -> Option:
@@ -122,7 +103,7 @@ STATE = (
     option(
         "--state",
         "a link to the page, or its part after ? (default: the first scene)",
-        type=arguments.state_of,
+        type=arguments.state,
         default="",
         metavar="QUERY",
     ),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import inspect
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from difflib import get_close_matches
 from functools import partial
 from typing import Any
@@ -14,25 +14,20 @@ from hess_mechanics.dynamics.system import System
 from hess_mechanics.parameters import Parameter, plain
 
 from . import COMMANDS, CommandError
-from .arguments import defined, number, shown
-from .command import OUTPUT, Command, Option, Options, Parser, option
+from .arguments import defined, shown
+from .command import OUTPUT, Command, Option, Options, option
 from .output import computing, require_file, write
 
-__all__ = ["command_of", "parser", "title_of", "titles"]
-
-
-def title_of(what: Computation) -> str:
-    """Return the title of a computation without that of its system."""
-    return what.title.removesuffix(f": {motions()[what.system].title}") if what.system else what.title
+__all__ = ["command_of", "parsed", "titles"]
 
 
 def titles(group: str) -> dict[str, str]:
     """Return the computations under a heading: names and titles."""
-    return {one.name: title_of(one) for one in catalogue().values() if one.group == group}
+    return {one.name: one.title for one in catalogue().values() if one.group == group}
 
 
-def parser(name: str, rest: list[str]) -> tuple[Parser, list[str]]:
-    """Return the parser of a computation and the words that it parses, those after the system.
+def parsed(name: str, rest: list[str]) -> Options:
+    """Return the options of a computation; rest : the words after its name.
 
     Raises `CommandError` if there is no such computation or system.
     """
@@ -41,20 +36,18 @@ def parser(name: str, rest: list[str]) -> tuple[Parser, list[str]]:
         raise _unknown("command", name, [*COMMANDS, *dict.fromkeys(one.name for one in catalogue().values())])
     prog = f"hess-explorer {name}"
     if "" in of:
-        return command_of(of[""]).parser(prog), rest
+        return command_of(of[""]).parsed(prog, rest)
     if rest and not rest[0].startswith("-"):
         what = _own(name, rest[0]) if ":" in rest[0] else of.get(rest[0])
         if what is None:
             raise _unknown("system", rest[0], [*of])
-        return command_of(what).parser(f"{prog} {rest[0]}"), rest[1:]
-    overview = Parser(
-        prog, "SYSTEM [OPTIONS]", f"{title_of(next(iter(of.values())))}.  SYSTEM --help shows the options."
-    )
+        return command_of(what).parsed(f"{prog} {rest[0]}", rest[1:])
+    if not {"-h", "--help"} & {*rest}:
+        raise CommandError(f"Name a system after {name}: {', '.join(of)}.")
+    overview = Command(f"{next(iter(of.values())).title}.  SYSTEM --help shows the options.")
     own = {"FILE.py:NAME": "a System that a Python file of yours defines"}
     overview.list_words("systems", {system: motions()[system].title for system in of} | own)
-    if not {"-h", "--help"} & {*rest}:
-        overview.error(f"name a system after {name}: {', '.join(of)}")
-    return overview, ["--help"]
+    return overview.parsed(f"{prog} SYSTEM", ["--help"])
 
 
 def _unknown(kind: str, name: str, known: list[str]) -> CommandError:
@@ -102,7 +95,7 @@ def _option(of: Parameter) -> Option:
     bounds = f"{of.symbol}{_unit(of.unit)}, {of.range}, default {plain(of.default)}"
     help = f"{of.doc or of.label} ({bounds})".replace("%", "%%")
     name = _typed(of.name)
-    return option(name, help, of.group, type=number, default=of.default, metavar=of.name.upper(), dest=name)
+    return option(name, help, of.group, type=float, default=of.default, metavar=of.name.upper(), dest=name)
 
 
 def _run(what: Computation, options: Options) -> None:
@@ -139,10 +132,9 @@ def _notes_on_body(given: Mapping[str, Any]) -> list[str]:
     """Return a note if no rigid body has these moments of inertia."""
     from hess_mechanics import HeavyBody, check_body
 
-    if {"I11", "I22", "I13", "I23"} <= given.keys():
-        check = check_body(given["I11"], given["I22"], given["I13"], given["I23"])
-    elif {"a1", "a2", "a3"} <= given.keys():
-        check = HeavyBody((given["a1"], given["a2"], given["a3"]), (0.0, 0.0, 0.0), 0.0).check
-    else:
-        return []
-    return [] if check.is_body else [check.sentence]
+    checks: dict[tuple[str, ...], Callable[..., Any]] = {
+        ("I11", "I22", "I13", "I23"): check_body,
+        ("a1", "a2", "a3"): lambda *moments: HeavyBody(moments, (0.0, 0.0, 0.0), 0.0).check,
+    }
+    found = [of(*map(given.get, names)) for names, of in checks.items() if {*names} <= given.keys()]
+    return [one.sentence for one in found if not one.is_body]

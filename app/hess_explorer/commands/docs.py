@@ -7,7 +7,6 @@ import sys
 import tempfile
 import webbrowser
 from importlib.resources import files
-from importlib.util import find_spec
 from pathlib import Path
 
 from . import CommandError
@@ -20,16 +19,16 @@ _SOURCE = Path(str(files("hess_explorer"))) / "docs"
 
 
 def _run(options: Options) -> None:
-    missing = [name for name in ("sphinx", "myst_nb", "furo", "numpydoc", "matplotlib") if find_spec(name) is None]
-    if missing:
-        raise CommandError(f"The documentation needs {', '.join(missing)}: pip install 'hess-explorer[docs]'.")
     folder = Path(options.out or tempfile.mkdtemp(prefix="hess-explorer-docs-"))
     print("Building the documentation takes a few minutes.", file=sys.stderr)
     words = ["-q", "-b", "html", "-d", str(folder / ".doctrees"), str(_SOURCE), str(folder)]
     # Show only the end of Sphinx's output, and only on failure.
     ran = subprocess.run([sys.executable, "-m", "sphinx", *words], capture_output=True, text=True, check=False)
     if ran.returncode:
-        raise CommandError(f"The documentation could not be built in {str(folder)!r}: {ran.stderr.strip()[-500:]}")
+        raise CommandError(
+            f"The documentation could not be built in {str(folder)!r}: {ran.stderr.strip()[-500:]}  It needs: pip "
+            "install 'hess-explorer[docs]'."
+        )
     index = folder / "index.html"
     show(f"{index}\n".encode())
     if options.out is None:

@@ -1,12 +1,11 @@
-"""`hess-explorer export`: a picture as a table, figure or film, or a state or lesson as an HTML page."""
+"""`hess-explorer export`: a picture as a table, figure, film or program, or a state or lesson as an HTML page."""
 
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable
 from pathlib import Path
 
-from hess_explorer.export.formats import FILM_WIDTHS, SECONDS, WIDTHS, FileRequest, Loop, holding
+from hess_explorer.export.formats import FILM_WIDTHS, FORMATS, SECONDS, WIDTHS, FileRequest, Loop, holding
 
 from . import CommandError
 from .arguments import shown
@@ -15,30 +14,9 @@ from .output import computing, require_file, show
 
 __all__ = ["COMMAND"]
 
-_LARGE = 20e6
-"""Size of a page in bytes beyond which a warning is printed, as on the page."""
 
-
-def _printer(lines: bool, what: str) -> Callable[..., None]:
-    """Return a function that prints the progress: as lines, or as one changing line in a terminal.
-
-    It takes the number of finished parts, that of all, and of a page the size of its states at first, which it prints.
-    """
-
-    def report(done: int, of: int, size: int = 0) -> None:
-        if lines:
-            print(f"{done}/{of}", file=sys.stderr, flush=True)
-            return
-        if size and done == 1 < of:
-            from hess_explorer.offline.html import frame_size
-
-            whole = frame_size() + size
-            warning = ": too large for most mail, slow on phones" if whole > _LARGE else ""
-            print(f"{of} states, about {whole / 1e6:.1f} MB{warning}.", file=sys.stderr, flush=True)
-        if sys.stderr.isatty():
-            print(f"\r{what} {done} of {of}", end="" if done < of else "\n", file=sys.stderr, flush=True)
-
-    return report
+def _print(done: int, of: int, size: int = 0) -> None:
+    print(f"{done}/{of}", file=sys.stderr, flush=True)
 
 
 def _page(options: Options) -> bytes:
@@ -53,28 +31,31 @@ def _page(options: Options) -> bytes:
         grid=options.grid,
         home=options.page or HOME,
         lenient=options.lenient,
-        report=_printer(options.progress, "state"),
+        report=_print if options.progress else None,
     )[1]
 
 
 def _lesson(options: Options) -> bytes:
     from hess_explorer.lessons import shipped
-    from hess_explorer.lessons.lesson import LessonError
     from hess_explorer.lessons.reading import read_file
     from hess_explorer.offline.html import HOME
     from hess_explorer.offline.pages import lesson_page
 
     path = Path(options.lesson)
-    try:
-        lesson = read_file(path) if path.suffix == ".md" else shipped().get(options.lesson)
-    except LessonError as error:
-        raise CommandError(str(error)) from error
+    lesson = read_file(path) if path.suffix == ".md" else shipped().get(options.lesson)
     if lesson is None:
         raise CommandError(
             f"There is no lesson {shown(options.lesson)}: name a Markdown file or one of {', '.join(shipped())}."
         )
-    report = _printer(options.progress, "state")
+    report = _print if options.progress else None
     return lesson_page(lesson, options.values, home=options.page or HOME, report=report)
+
+
+def _program(options: Options) -> bytes:
+    from hess_explorer.export.notebook import PROGRAMS
+    from hess_explorer.export.picture_data import address
+
+    return PROGRAMS[options.format](address(options.state, options.picture, lenient=options.lenient)).encode()
 
 
 def _picture(options: Options) -> bytes:
@@ -84,35 +65,36 @@ def _picture(options: Options) -> bytes:
     found = picture_data(options.state, options.picture, lenient=options.lenient)
     loop = Loop(options.loop == "dark", options.page) if options.loop else None
     request = FileRequest(options.format, options.width, options.black, options.seconds, loop)
-    return content(found, request, _printer(options.progress, "frame"))
+    return content(found, request, *([_print] if options.progress else []))
 
 
 def _run(options: Options) -> None:
-    require_file(options, ("csv", "json", "svg", "html"))
+    require_file(options, ("csv", "json", "svg", "html", "py", "ipynb"))
     is_page = options.format in holding("state")
     if (options.vary or options.lesson) and not is_page:
         raise CommandError("Sliders and lessons need a page: add --format html.")
-    if options.lesson and (options.vary or options.state):
-        raise CommandError("A lesson has its own states and sliders: leave out --state and --vary.")
-    # Films and pages print their own progress.
-    with computing(own_progress=is_page or options.format in holding("film")):
-        data = (_lesson if options.lesson else _page)(options) if is_page else _picture(options)
+    with computing(own_progress=options.progress):
+        if is_page:
+            data = (_lesson if options.lesson else _page)(options)
+        else:
+            data = (_program if options.format in holding("program") else _picture)(options)
     show(data, options.out)
 
 
 COMMAND = Command(
     "Export a picture of the state that a link describes: its data in full precision as CSV or JSON; a figure as PNG, "
-    "SVG or PDF, at the time of the link; or a film of the motion as WebM or MP4. A headless browser draws films, and "
-    "spheres, bodies, tori and clouds. HTML is an interactive page in one file that needs no server: pictures of the "
-    "state, whose sliders move if they are named by --vary, or a lesson. Every file contains link, parameters, "
-    "accuracy, errors and version. Figures and films require: pip install 'hess-explorer[export]'; "
-    "playwright install chromium.",
+    "SVG or PDF, at the time of the link; a film of the motion as WebM or MP4; or the Python code that computes and "
+    "draws it, as PY or as a notebook, IPYNB, with the columns of the CSV file and the same values to the last bit. A "
+    "headless browser draws films, and spheres, bodies, tori and clouds. HTML is an interactive page in one file that "
+    "needs no server: pictures of the state, whose sliders move if they are named by --vary, or a lesson. Every file "
+    "contains link, parameters, accuracy, errors and version. Figures and films require: pip install "
+    "'hess-explorer[export]'; playwright install chromium.",
     (
         *picture("; for HTML a list with commas, by default those open at first"),
         option(
             "--format",
             "file format (default: csv)",
-            choices=holding("data", "figure", "film", "state"),
+            choices=[*FORMATS],
             default=FileRequest.kind,
         ),
         option(

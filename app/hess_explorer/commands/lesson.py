@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from contextlib import suppress
 from importlib.resources import files
 from pathlib import Path
 
 from . import CommandError
 from .command import Command, Options, option
+from .output import write_file
 
 __all__ = ["COMMAND"]
 
@@ -16,14 +16,9 @@ _GUIDE = Path(str(files("hess_explorer"))) / "docs/guides/lesson.md"
 
 def _check(files: list[Path]) -> None:
     from hess_explorer.lessons.collection import examined, files_in
-    from hess_explorer.lessons.lesson import LessonError
 
-    try:
-        paths = files_in(files)
-    except LessonError as error:
-        raise CommandError(str(error)) from error
     count = 0
-    for path, lesson, problems in examined(paths):
+    for path, lesson, problems in examined(files_in(files)):
         for problem in sorted(problems, key=lambda one: one.line):
             print(f"{path}:{problem.line}: {problem.message}")
         if lesson is not None and not problems:
@@ -37,16 +32,9 @@ def _new(files: list[Path]) -> None:
     from hess_explorer.lessons.example import EXAMPLE
 
     (file,) = files
-    try:
-        with file.open("x", encoding="utf-8") as new:
-            new.write(EXAMPLE)
-    except FileExistsError as error:
-        raise CommandError(f"{str(file)!r} exists: choose another name.") from error
-    except OSError as error:
-        # On a full disk it has begun.
-        with suppress(OSError):
-            file.unlink()
-        raise CommandError(f"Cannot write {str(file)!r} ({error.strerror}): choose another file.") from error
+    if file.exists():
+        raise CommandError(f"{str(file)!r} exists: choose another name.")
+    write_file(file, EXAMPLE.encode())
     print(f"Wrote {file}.  Look at it: hess-explorer serve --lesson {file}")
 
 

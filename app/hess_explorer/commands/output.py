@@ -6,11 +6,10 @@ import argparse
 import json
 import os
 import sys
-import textwrap
 import threading
 import unicodedata
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager, nullcontext
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -23,37 +22,28 @@ LONG = 2.0
 PATIENCE = "Still computing; Ctrl-C ends it."
 _ROWS = 20
 """Most rows of a table in text."""
+_LOST = "null stands for a number that is missing or exceeds the range of double precision."
 
 
 @contextmanager
 def computing(own_progress: bool = False) -> Iterator[None]:
-    """Convert errors of the mechanics to `CommandError`, and report on stderr a computation that takes long.
+    """Report on stderr a computation that takes long, and convert an overflow to `CommandError`.
 
     own_progress : True if the command prints its own progress.
     """
     import numpy as np
 
-    from hess_mechanics import ModelError
-
+    timer = threading.Timer(LONG, print, (PATIENCE,), {"file": sys.stderr, "flush": True})
+    timer.daemon = True
+    if not own_progress:
+        timer.start()
     try:
         # `hess_mechanics` checks its results for overflow itself, so NumPy's warnings would be noise.
-        with np.errstate(all="ignore"), nullcontext() if own_progress else _patience():
+        with np.errstate(all="ignore"):
             yield
-    except ModelError as error:
-        raise CommandError(str(error)) from error
     except ArithmeticError as error:
         # Python floats raise an exception on overflow, whereas NumPy returns ∞.
         raise CommandError("These numbers exceed the range of double precision: choose less extreme ones.") from error
-
-
-@contextmanager
-def _patience() -> Iterator[None]:
-    """Report after `LONG` seconds that the command is still running."""
-    timer = threading.Timer(LONG, print, (PATIENCE,), {"file": sys.stderr, "flush": True})
-    timer.daemon = True
-    timer.start()
-    try:
-        yield
     finally:
         timer.cancel()
 
@@ -76,20 +66,22 @@ def write(
     table : DataFrame of its columns.  facts : all other results.  data : returns a Dataset of the columns.  notes :
     remarks in full sentences.  Raises `CommandError` if the file cannot be written.
     """
-    told = list(notes)
-    known = _strict(facts, told)
-    known["notes"] = json.dumps(told, ensure_ascii=False)
+    lost: list[str] = []
+    known = _strict(facts, lost)
+    known["notes"] = [*notes, *([_LOST] if lost else [])]
+    if options.format == "json":
+        known |= _strict({str(name): column.tolist() for name, column in table.items()}, [])
+    lines = {name: json.dumps(value, ensure_ascii=False, allow_nan=False) for name, value in known.items()}
     if options.format == "netcdf":
-        written = _netcdf(data(), known)
+        written = _netcdf(data(), lines)
     elif options.format == "text":
         written = _text(table, facts, notes).encode()
     elif options.format == "csv":
-        comments = "".join(f"# {name}: {value}\n" for name, value in known.items())
+        comments = "".join(f"# {name}: {value}\n" for name, value in lines.items())
         written = (comments + str(table.to_csv(index=False, lineterminator="\n"))).encode()
     else:
-        known |= _strict({str(name): column.tolist() for name, column in table.items()}, [])
-        lines = ",\n".join(f'  "{name}": {value}' for name, value in known.items())
-        written = f"{{\n{lines}\n}}\n".encode()
+        inner = ",\n".join(f'  "{name}": {value}' for name, value in lines.items())
+        written = f"{{\n{inner}\n}}\n".encode()
     show(written, options.out)
 
 
@@ -98,16 +90,10 @@ def _plain(value: Any) -> Any:
     return [value.real, value.imag] if isinstance(value, complex) else value.tolist()
 
 
-def _strict(named: Mapping[str, Any], notes: list[str]) -> dict[str, str]:
-    """Return the values as strict JSON, with null for numbers that are not finite, and note these."""
-    strict = {}
-    for name, value in named.items():
-        lost: list[str] = []
-        known = json.loads(json.dumps(value, default=_plain), parse_constant=lost.append)
-        strict[name] = json.dumps(known, ensure_ascii=False, allow_nan=False)
-        if lost:
-            notes.append(f"{name}: null stands for a number that is missing or exceeds the range of double precision.")
-    return strict
+def _strict(named: Mapping[str, Any], lost: list[str]) -> dict[str, Any]:
+    """Return values that JSON has, with null for numbers that are not finite, which are appended to `lost`."""
+    known: dict[str, Any] = json.loads(json.dumps(named, default=_plain), parse_constant=lost.append)
+    return known
 
 
 def _netcdf(data: Any, attributes: Mapping[str, str]) -> bytes:
@@ -128,11 +114,9 @@ def _ascii(name: str) -> str:
 
 
 def _text(table: Any, facts: Mapping[str, Any], notes: Sequence[str]) -> str:
-    lines, errors = [], facts.get("errors", {})
+    lines = []
     for name, value in facts.items():
-        if name not in ("errors", "units"):
-            words = _words(value, errors if name == "numbers" else {})
-            lines += textwrap.wrap(f"{name}: {words}", 100, subsequent_indent="  ")
+        lines += [f"{name}: {_words(value)}"] if value != {} else []
     if not table.empty:
         lines += ["", table.to_string(index=False, max_rows=_ROWS, na_rep="–", float_format="{:.9g}".format)]
     if len(table) > _ROWS:
@@ -140,10 +124,9 @@ def _text(table: Any, facts: Mapping[str, Any], notes: Sequence[str]) -> str:
     return "\n".join([*lines, *notes, ""])
 
 
-def _words(value: Any, errors: Mapping[str, float]) -> str:
+def _words(value: Any) -> str:
     if isinstance(value, Mapping):
-        off = {name: f" ± {error:.1g}" for name, error in errors.items()}
-        return ", ".join(f"{name} = {_words(one, {})}{off.get(name, '')}" for name, one in value.items())
+        return ", ".join(f"{name} = {_words(one)}" for name, one in value.items())
     return f"{value:.12g}" if isinstance(value, float) else str(value)
 
 

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
-from typing import Any
 
-from hess_mechanics import EdgeProof, Proof, certificate, prove
+from hess_mechanics import certificate, prove
 from hess_mechanics.suslov_hess.certificate import claim
 
 from .command import OUT, Command, Options, option, whole
 from .output import computing, show
 
 __all__ = ["COMMAND"]
+
+_INTERVALS = ("trace", "rotation_number", "period", "fixed_points", "multipliers", "rates")
 
 
 def _run(options: Options) -> None:
@@ -22,29 +22,16 @@ def _run(options: Options) -> None:
     if options.format == "json":
         text = json.dumps(found, ensure_ascii=False, allow_nan=False, indent=1)
     else:
-        text = "\n".join(_words(proof, found))
+        names = [name for name in (*_INTERVALS, "bits", "versions") if found.get(name) is not None]
+        text = "\n".join(
+            [
+                claim(proof),
+                *(f"{name.replace('_', ' ')}: {json.dumps(found[name])}" for name in names),
+                "The proof holds for the equations with exactly these numbers, provided that the ball arithmetic of "
+                "Arb is correct; --format json prints the certificate.",
+            ]
+        )
     show(f"{text}\n".encode(), options.out)
-
-
-def _words(proof: Proof | EdgeProof, found: dict[str, Any]) -> Iterator[str]:
-    yield claim(proof)
-    for key, name in (("trace", "|trace|"), ("rotation_number", "rotation number"), ("period", "period")):
-        if found.get(key) is not None:
-            yield f"{name} {_interval(found[key])}"
-    what, key, rate = ("equilibrium", "rates", "rate") if "rates" in found else ("cycle", "multipliers", "multiplier")
-    for name, phi, value in zip(("attracting", "repelling"), found["fixed_points"], found[key], strict=False):
-        yield f"{name} {what}: φ {_interval(phi)}, {rate} {_interval(value)}"
-    if isinstance(proof, Proof):
-        yield f"{len(proof.steps)} Taylor steps, {proof.bits} bits, {proof.seconds:.2f} s"
-    yield f"python-flint {found['versions']['python-flint']}, FLINT {found['versions']['flint']}"
-    yield (
-        "The proof holds for the equations with exactly these numbers, provided that the ball arithmetic of Arb is "
-        "correct; --format json prints the certificate."
-    )
-
-
-def _interval(pair: list[str]) -> str:
-    return f"= {pair[0]}" if pair[0] == pair[1] else f"in [{pair[0]}, {pair[1]}]"
 
 
 COMMAND = Command(

@@ -12,13 +12,13 @@ import signal
 import socket
 import sys
 import webbrowser
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from . import CommandError
-from .arguments import assigned, number, run_file, shown
+from .arguments import run_file, shown
 from .command import Command, Options, option, whole
 
 if TYPE_CHECKING:
@@ -32,21 +32,16 @@ _MOST_CELLS = 256
 """Largest number of cells of a stored sweep along each side that the page shows."""
 
 
-def _host(before: str) -> Callable[[str], str]:
-    """Return the argument type of a host with a port; before : pattern of the text that may come before it."""
-
-    def parse(text: str) -> str:
-        if not re.fullmatch(before + r"([A-Za-z0-9._-]{1,253}|\[[0-9A-Fa-f:.]{2,45}\])(:\d{1,5})?", text):
-            raise argparse.ArgumentTypeError(f"{shown(text)} is not a host; write it like example.org:8080")
-        return text
-
-    return parse
+def _host(text: str) -> str:
+    if not re.fullmatch(r"(https?://)?(\*\.)?([A-Za-z0-9._-]{1,253}|\[[0-9A-Fa-f:.]{2,45}\])(:\d{1,5})?", text):
+        raise argparse.ArgumentTypeError(f"{shown(text)} is not a host; write it like example.org:8080")
+    return text
 
 
 def _run(options: Options) -> None:
     _add_scenes(options.scenes)
     lessons = _lessons(options.lessons)
-    state = _chart(options.chart, dict(options.slice))
+    state = _chart(options.chart)
     _require_free(options.address, options.port)
     if options.workers > 1 and not hasattr(os, "fork"):
         raise CommandError("--workers needs an operating system with fork: run the command without it.")
@@ -67,24 +62,20 @@ def _run(options: Options) -> None:
     # `hess_explorer.server.warm` enables it again.
     gc.disable()
     with suppress(KeyboardInterrupt), _second_compiler():
-        from hess_explorer.server.handlers import HandlerMissing
         from hess_explorer.server.serving import serve
 
         embedders = ["*"] if options.embedders is None else [one for one in options.embedders if one != "none"]
-        try:
-            serve(
-                port=options.port,
-                address=options.address,
-                show=show,
-                origins=options.origins,
-                ready=ready,
-                lessons=lessons,
-                embedders=embedders,
-                workers=options.workers,
-                sessions=options.sessions,
-            )
-        except HandlerMissing as error:
-            raise CommandError(str(error)) from error
+        serve(
+            port=options.port,
+            address=options.address,
+            show=show,
+            origins=options.origins,
+            ready=ready,
+            lessons=lessons,
+            embedders=embedders,
+            workers=options.workers,
+            sessions=options.sessions,
+        )
 
 
 def _add_scenes(paths: Sequence[Path]) -> None:
@@ -99,25 +90,19 @@ def _add_scenes(paths: Sequence[Path]) -> None:
             raise CommandError(f"{shown(str(path))} brings no scene: {error}") from error
 
 
-def _chart(path: Path | None, at: Mapping[str, float]) -> str:
+def _chart(path: Path | None) -> str:
     """Show a stored sweep as the chart of a scene, and return the address of its state behind that of the server."""
     if path is None:
-        if at:
-            raise CommandError("--slice belongs to a chart: add --chart FOLDER.")
         return ""
     from hess_explorer.sweep import read
-    from hess_mechanics.errors import ModelError
 
-    try:
-        return f"/?{_shown(read(path), at)}&large=chart"
-    except ModelError as error:
-        raise CommandError(str(error)) from error
+    return f"/?{_shown(read(path))}&large=chart"
 
 
-def _shown(found: xr.Dataset, at: Mapping[str, float]) -> str:
+def _shown(found: xr.Dataset) -> str:
     """Put a sweep over two evenly spaced parameters into the chart of a scene, and return the link of its state.
 
-    at : values of its other parameters.  Raises `InvalidParameter`.
+    Raises `InvalidParameter`.
     """
     import numpy as np
 
@@ -126,27 +111,19 @@ def _shown(found: xr.Dataset, at: Mapping[str, float]) -> str:
     from hess_explorer.scenes.framework.chart_cells import STORED
     from hess_mechanics.errors import InvalidParameter
 
-    fixed = json.loads(found.attrs["parameters"])
-    for name, value in at.items():
-        try:
-            found = found.sel({name: value}, method="nearest", tolerance=1e-9)
-        except KeyError as error:
-            raise InvalidParameter(f"The sweep has no cells at {name} = {value:g} for --slice.") from error
-        fixed[name] = float(found[name])
     names = tuple(map(str, found.status.dims))
     found = found.isel({name: slice(None, None, -(-found.sizes[name] // _MOST_CELLS)) for name in names})
     sides = [found[name].values for name in names]
     steps = [np.diff(side) for side in sides]
     if len(names) != 2 or not all(one.size and one[0] > 0.0 and np.allclose(one, one[0], atol=0.0) for one in steps):
         raise InvalidParameter(
-            f"A chart is over two parameters LO:HI:N, but this sweep is over {', '.join(names)}: choose a value of "
-            "each further one with --slice NAME=NUMBER, or open it in Python."
+            f"A chart is over two parameters LOW:HIGH:COUNT, but this sweep is over {', '.join(names)}: open it in "
+            "Python with hess_explorer.sweep.read."
         )
-    (x0, x1), (y0, y1) = (
-        (side[0] - one[0] / 2.0, side[-1] + one[0] / 2.0) for side, one in zip(sides, steps, strict=True)
-    )
-    x, y = names
-    cells = found.transpose(y, x)
+    ends = ((side[0] - one[0] / 2.0, side[-1] + one[0] / 2.0) for side, one in zip(sides, steps, strict=True))
+    window: Any = tuple(zip(*ends, strict=True))
+    cells = found.transpose(*reversed(names))
+    fixed = json.loads(found.attrs["parameters"])
     for scene in scenes().values():
         symbols = {one.name: one.symbol for one in scene.specs if isinstance(one, Number)}
         numbers = {} if scene.charted is None or not {*names} <= {*symbols} else scene.charted.numbers
@@ -154,17 +131,18 @@ def _shown(found: xr.Dataset, at: Mapping[str, float]) -> str:
             variable = name.replace("-", "_")
             if charted.key != found.attrs["computation"] or variable not in found:
                 continue
+            x, y = names
             chosen = {"chart": chart, "chart_x": symbols[x], "chart_y": symbols[y]}
             own = {name: value for name, value in fixed.items() if name in symbols}
-            values, _ = scene.admit({**scene.defaults(), **own, **chosen, "accuracy": found.attrs["level"]})
+            values, _ = scene.admit({**scene.defaults(), **own, **chosen, "accuracy": found.attrs["accuracy"]})
             key = scene.of(values).charting.key
             corners = ({**fixed, **{name: float(found[name][i]) for name in names}} for i in (0, -1))
-            if all(_same(charted.computation.values(key.arguments(one[x], one[y])), one) for one in corners):
+            if all(_same(key.arguments(one[x], one[y]), one) for one in corners):
                 errors = cells.get(f"{variable}_error", np.full(cells.status.shape, np.nan))
-                STORED[key] = np.stack([cells[variable], errors, cells.status], axis=1), ((x0, y0), (x1, y1))
+                STORED[key] = np.stack([cells[variable], errors, cells.status], axis=1), window
                 return encode(scene.name, values)
     raise InvalidParameter(
-        f"No scene shows {found.attrs['computation']} over {x} and {y} with these parameters: open the sweep "
+        f"No scene shows {found.attrs['computation']} over {' and '.join(names)} with these parameters: open the sweep "
         "in Python with hess_explorer.sweep.read."
     )
 
@@ -178,12 +156,8 @@ def _lessons(paths: Sequence[Path]) -> tuple[Lesson, ...]:
     if not paths:
         return ()
     from hess_explorer.lessons.collection import read_paths
-    from hess_explorer.lessons.lesson import LessonError
 
-    try:
-        lessons, mistakes = read_paths(paths)
-    except LessonError as error:
-        raise CommandError(str(error)) from error
+    lessons, mistakes = read_paths(paths)
     if not lessons:
         raise CommandError("\n".join(map(str, mistakes)))
     for mistake in mistakes:
@@ -255,7 +229,7 @@ COMMAND = Command(
             "--allow-origin",
             "further hosts by which browsers reach the page, as in the address bar, for example of a proxy",
             dest="origins",
-            type=_host(""),
+            type=_host,
             default=[],
             metavar="HOST:PORT",
             **_SEVERAL,
@@ -265,7 +239,7 @@ COMMAND = Command(
             "hosts that may embed parts of the page (embed=1), like example.org or *.example.org; none for no host "
             "(default: any)",
             dest="embedders",
-            type=_host(r"(https?://)?(\*\.)?"),
+            type=_host,
             metavar="HOST",
             **_SEVERAL,
         ),
@@ -276,14 +250,6 @@ COMMAND = Command(
             "store of a sweep over two parameters of a scene, which opens as a chart",
             type=Path,
             metavar="FOLDER",
-        ),
-        option(
-            "--slice",
-            "value of a further parameter of that sweep; may be repeated",
-            type=assigned(number, "a=0.5"),
-            default=[],
-            metavar="NAME=NUMBER",
-            **_SEVERAL,
         ),
         option(
             "--scene",

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import sys
-import time
 from pathlib import Path
 
 from .command import Command, Options, option, whole
@@ -16,10 +15,8 @@ def _run(options: Options) -> None:
     from hess_explorer.offline.html import HOME
     from hess_explorer.offline.site import build
 
-    begun = time.monotonic()
-
     def report(name: str, done: int, of: int) -> None:
-        print(f"{done}/{of} {name}, {time.monotonic() - begun:.0f} s", file=sys.stderr, flush=True)
+        print(f"{done}/{of} {name}", file=sys.stderr, flush=True)
 
     with computing(own_progress=True):
         sizes = build(
@@ -30,9 +27,7 @@ def _run(options: Options) -> None:
             report=report,
         )
     lines = [f"{size:>12,} bytes  {path}" for path, size in sorted(sizes.items())]
-    total = (
-        f"{sum(sizes.values()):>12,} bytes in {time.monotonic() - begun:.0f} s: open {options.folder / 'index.html'}"
-    )
+    total = f"{sum(sizes.values()):>12,} bytes: open {options.folder / 'index.html'}"
     show("\n".join([*lines, total, ""]).encode())
 
 

@@ -126,19 +126,19 @@ def _at_once(
     assert what.many is not None
     every = {one.name: np.full(count, one.default) for one in what.parameters} | dict(columns)
     try:
-        found = what.many(level, **every)
+        known, missing = what.many(level, **every)
     except ModelError:
         # One by one tells which cells are wrong.
         return None
-    if not set(numbers) <= set(found.numbers):
+    if not {*numbers} <= known.keys():
         return None
     status: Outcomes = np.full(count, Outcome.OK, np.uint8)
     why: dict[int, str] = {}
-    for kind, there in found.missing.items():
+    for kind, there in missing.items():
         outcome = next(outcome for error, outcome in _OF_ERROR if issubclass(kind, error))
         status[there] = outcome
         why |= dict.fromkeys(np.flatnonzero(there).tolist(), f"{outcome.words}.")
-    values = {name: np.asarray(found.numbers[name], float) for name in numbers}
+    values = {name: known[name] for name in numbers}
     finite = np.any([np.isfinite(one) for one in values.values()], axis=0)
     status[~finite & (status < Outcome.OUTSIDE_REGION)] = Outcome.BEYOND_RANGE
     return CellResults(values, {}, status, why)

@@ -8,12 +8,11 @@ from contextlib import redirect_stderr, redirect_stdout
 from importlib.metadata import version as installed
 
 from sphinx.application import Sphinx
-from sphinx.pycode import ModuleAnalyzer
 
 from hess_explorer.__main__ import main
-from hess_explorer.commands.compute import command_of, title_of
+from hess_explorer.commands.compute import command_of
 from hess_mechanics.catalogue import Computation, catalogue, motions
-from hess_mechanics.numerics.accuracy import LEVELS, PLANS, Kind
+from hess_mechanics.numerics.accuracy import levels_table
 from hess_mechanics.parameters import Parameter, plain
 
 project = "Hess Explorer"
@@ -63,21 +62,6 @@ def _output(words: list[str]) -> str:
     return said.buffer.getvalue().decode().strip()
 
 
-def _levels() -> Iterator[str]:
-    docs = ModuleAnalyzer.for_module("hess_mechanics.numerics.accuracy").find_attr_docs()
-    yield from _table(
-        ("kind", *LEVELS, "the promise"),
-        *(
-            (
-                kind,
-                *(f"{plan.promise:g}" for plan in PLANS[kind].values()),
-                docs["Kind", kind.name][0].removeprefix("Promise: "),
-            )
-            for kind in Kind
-        ),
-    )
-
-
 def _parameters(of: Iterable[Parameter]) -> Iterator[str]:
     head = ("parameter", "symbol", "meaning", "unit", "bounds", "default")
     rows = ((f"`{p.name}`", p.symbol, p.doc or p.label, p.unit, p.range, plain(p.default)) for p in of)
@@ -95,7 +79,7 @@ def _computations() -> Iterator[str]:
         system = motions().get(one.system)
         own = [p for p in one.parameters if system is None or p not in (*system.parameters, *system.place)]
         words = f"{one.key} {command_of(one).example}".strip()
-        yield f"({name})=\n## {title_of(one)}\n\n{inspect.cleandoc(one.doc)}\n"
+        yield f"({name})=\n## {one.title}\n\n{inspect.cleandoc(one.doc)}\n"
         python = f"{{py:func}}`{one.function.__name__} <hess_mechanics.{one.function.__name__}>`"
         yield f"- Python: {python}; command: `hess-explorer {name}{' SYSTEM' if system else ''}`"
         if system is not None:
@@ -113,7 +97,7 @@ def _computations() -> Iterator[str]:
         yield f"(system-{system.name})=\n### {system.name}\n\n{system.title}. Source: {system.source or 'none'}.\n"
         yield from _parameters((*system.parameters, *system.place))
     yield "(levels)=\n## What a level promises\n"
-    yield from _levels()
+    yield from _table(*levels_table())
 
 
 def _fill(app: object, page: str, source: list[str]) -> None:

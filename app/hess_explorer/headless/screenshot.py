@@ -13,6 +13,7 @@ from pathlib import Path
 
 from hess_explorer.headless.browser import BrowserError, launched, wait_ready
 from hess_explorer.server.liveness import is_alive
+from hess_mechanics.errors import ModelError
 
 __all__ = ["ServerError", "free_port", "screenshot", "server_process", "wait_alive"]
 
@@ -22,7 +23,7 @@ _LOAD_SECONDS = 120
 """Timeout of the first page load, during which the server may have to compile."""
 
 
-class ServerError(RuntimeError):
+class ServerError(ModelError):
     """The server or the page did not become ready; the message gives the reason."""
 
 
@@ -84,7 +85,7 @@ def server_process(
                 process.kill()
 
 
-def screenshot(query: str, size: tuple[int, int], *, dark: bool = False) -> bytes:
+def screenshot(query: str, size: tuple[int, int]) -> bytes:
     """Return a screenshot of the page as PNG.
 
     Parameters
@@ -93,8 +94,6 @@ def screenshot(query: str, size: tuple[int, int], *, dark: bool = False) -> byte
         Query of the state, URL-encoded.
     size : tuple of int
         Width and height of the viewport in pixels.
-    dark : bool
-        True for the dark theme.
 
     Returns
     -------
@@ -113,11 +112,7 @@ def screenshot(query: str, size: tuple[int, int], *, dark: bool = False) -> byte
         from playwright.sync_api import Error
 
         with server_process(Path(folder) / "server.log") as (_, base):
-            page = browser.new_page(
-                viewport={"width": size[0], "height": size[1]},
-                color_scheme="dark" if dark else "light",
-                reduced_motion="reduce",
-            )
+            page = browser.new_page(viewport={"width": size[0], "height": size[1]}, reduced_motion="reduce")
             try:
                 page.goto(f"{base}/?{query}", timeout=1000 * _LOAD_SECONDS)
                 wait_ready(page)

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from hess_explorer.protocol.specs import Values
+from hess_mechanics.errors import ModelError
 
 __all__ = ["TIME", "Animation", "HiddenLayer", "Lesson", "LessonError", "LessonStep", "Prediction", "StateLink"]
 
@@ -14,7 +15,7 @@ TIME = "time"
 """Name of the player's time, which can be animated like a parameter."""
 
 
-class LessonError(Exception):
+class LessonError(ModelError):
     """A lesson file is invalid; the error names file, line, problem and remedy.
 
     message : the problem and what is allowed; line : line of the file, from 1.

@@ -237,6 +237,8 @@ def _yaml(text: str, line: int) -> Any:
         if any(isinstance(event, yaml.AliasEvent) for event in yaml.parse(text, _Loader)):
             raise LessonError("YAML references (*) are not supported: write the value out.", line)
         found = yaml.load(text, _Loader)
+    except LessonError:
+        raise
     except (yaml.YAMLError, ValueError) as error:
         mark = getattr(error, "problem_mark", None)
         raise LessonError(

@@ -326,8 +326,6 @@ def _picture(system: System, wanted: str, leveled: bool) -> Picture[Any]:
         shown = ("megno", "periodic_orbit") if leveled else ("megno",)
         return section_picture(
             layers=section_layers(*shown, ended=lambda s: s.section.points(ends=True)),
-            caption=lambda s: s.about_section,
-            on_click=LevelState.start_at if leveled else OwnState.start_at,
             on_box=OwnState.look_closer,
         )
     names = wanted.split()

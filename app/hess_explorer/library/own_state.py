@@ -14,6 +14,7 @@ from hess_explorer.scenes.framework.part import Start, part
 from hess_explorer.scenes.framework.periodic_search import Closed, NotPeriodic
 from hess_explorer.scenes.framework.scene import State
 from hess_explorer.scenes.framework.sliders import accuracy_level, exponent_time, parameter, time_span
+from hess_explorer.scenes.framework.windows import boxed
 from hess_explorer.scenes.parts.orbits.exponent import Exponent
 from hess_explorer.scenes.parts.sections import (
     MEGNO,
@@ -104,17 +105,18 @@ class OwnState(State):
         """The section."""
         return variable_section(self.body, self.levels(), self.surface, self.coordinates, self.ranges)
 
-    section = part(lambda s: Section(s, lambda: (s.given,), periodic=lambda: s.periodic_orbit, zoom=s.window))
+    section = part(Section)
     megno = part(lambda s: Indicator(s.section, s.indicator == MEGNO))
 
     @property
-    def about_section(self) -> Caption:
-        """The caption of the section."""
-        return self.megno.caption or self.section.caption
+    def special(self) -> Caption | None:
+        """The caption of a section with MEGNO; None without it."""
+        return self.megno.caption
 
     def look_closer(self, corners: Corners) -> Values:
         """Return the window of the section that a box selects."""
-        return self.section.look_closer(corners)
+        (x0, x1), (y0, y1) = self.poincare.window
+        return boxed(corners, ((x0, y0), (x1, y1)))
 
     def start_at(self, x: float, y: float) -> Values:
         """Return the initial values at a place of the section; none where no motion crosses it."""
@@ -142,24 +144,24 @@ class LevelState(OwnState):
     @property
     def start(self) -> Start:
         """The initial state of the orbit on show."""
-        return self.periodic_orbit.start
+        return self.given if self.closed is None else self.closed.state
 
     @property
     def lasts(self) -> float:
         """The time span of the orbit on show."""
-        return self.periodic_orbit.lasts
+        return self.span if self.closed is None else self.closed.time
 
     @property
     def closed(self) -> Closed | None:
         """The periodic orbit, if known."""
         return self.periodic_orbit.closed
 
-    periodic_orbit = part(lambda s: PeriodicOrbit(s.section, s.periodic, s.reach, s.span))
+    periodic_orbit = part(lambda s: PeriodicOrbit(s.section, s.periodic, s.reach))
 
     @property
-    def about_section(self) -> Caption:
-        """The caption of the section, or of its periodic orbit."""
-        return self.periodic_orbit.caption or super().about_section
+    def special(self) -> Caption | None:
+        """The caption of a section with a periodic orbit or MEGNO; None without them."""
+        return self.periodic_orbit.caption or self.megno.caption
 
     def levels(self) -> dict[str, float]:
         """Return the chosen values of integrals."""

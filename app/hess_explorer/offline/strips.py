@@ -97,6 +97,7 @@ class Strip:
     def __init__(self) -> None:
         self.trees: list[Any] = []
         self._arrays: list[list[float]] = []
+        self._starts: list[int] = []
         self._wholes: list[np.ndarray] = []
         self._residuals: list[np.ndarray] = []
         # Place in the tree → number of its array in the last state.
@@ -123,7 +124,11 @@ class Strip:
                 return item
             values = numbers[item["at"] : item["at"] + item["n"]]
             number = places[path] = self._array(values, column, steps.get(source, {}).get(column), self._last.get(path))
-            return {"of": number, **({"shape": item["shape"]} if "shape" in item else {})}
+            return {
+                "at": self._starts[number],
+                "n": len(values),
+                **({"shape": item["shape"]} if "shape" in item else {}),
+            }
 
         sources = {
             source: {name: stored(item, f"{source}/{name}", source, name) for name, item in columns.items()}
@@ -148,6 +153,7 @@ class Strip:
             if (step, low) == (step_before, low_before) and np.array_equal(whole, self._wholes[before]):
                 return before
             away = whole - self._wholes[before]
+        self._starts.append(self.size)
         self._arrays.append([len(values), step, low, -1 if before is None else before])
         self._wholes.append(whole)
         self._residuals.append(np.diff(away, prepend=np.uint32(0)).view(np.int32))

@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import ClassVar
 
 from hess_explorer.protocol.specs import Value
-from hess_explorer.scenes.diagrams import DiagramState, charts, pictures
+from hess_explorer.scenes.diagrams import DiagramState, diagram_scene, regime_in
 from hess_explorer.scenes.framework import ball_parameters as ball
-from hess_explorer.scenes.framework.scene import Preset, Scene
+from hess_explorer.scenes.framework.scene import Preset
 from hess_explorer.scenes.framework.sliders import like, parameter
-from hess_explorer.scenes.parts.diagrams.growing_diagram import parameter_of_diagram
-from hess_explorer.views.plane.velocity_plane import orbit_columns
+from hess_explorer.scenes.parts.diagrams.controls import parameter_of_diagram
 from hess_mechanics.chaplygin_ball.ball_section import BallSection
 from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.parameters import H_BALL
@@ -75,28 +73,22 @@ class BallDiagram(DiagramState):
 
     symbols: ClassVar[Mapping[str, str]] = ball.PARAMETERS
 
-    @property
-    def E(self) -> float:
-        """The energy."""
-        return self.h - math.hypot(self.b1, self.b2)
-
     @cached_property
     def poincare(self) -> BallSection:
         """The section γ3 = 0."""
-        return BallSection(BallBody(self.I11, self.I22, self.I13, self.I23, self.D, self.b1, self.b2, self.b3), self.E)
+        return BallSection(BallBody(**self.parameters), 0.0).moved("h", self.h)
 
 
-SCENE = Scene(
+SCENE = diagram_scene(
     BallDiagram,
     __file__,
+    PRESETS,
+    regime_in("ball-section"),
+    ball=True,
     place=17,
-    presets=PRESETS,
     group="Ball",
-    charts=charts("ball-section"),
     essential=("D", "first", "last", "I13"),
     handle="D",
     title="Orbit diagram of the ball",
     summary="The ball in a field over a parameter: doublings along 𝒟, a strange attractor and its repeller, reversal.",
-    tracks={"orbit": lambda s: orbit_columns(s.orbit.path, turning=s.turning)},
-    views=pictures(BallDiagram, ball=True),
 )

@@ -12,31 +12,23 @@ import numpy as np
 from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.specs import Values
 from hess_explorer.scenes.framework import ball_parameters as ball
-from hess_explorer.scenes.framework.charted import Charts, of_motion
-from hess_explorer.scenes.framework.orbit_batches import OrbitBatch, batch_of
-from hess_explorer.scenes.framework.part import Start, part
+from hess_explorer.scenes.framework.charted import Charts, of_motion, parameters_of
+from hess_explorer.scenes.framework.part import part
 from hess_explorer.scenes.framework.scene import Preset, Scene
-from hess_explorer.scenes.framework.sliders import accuracy_level, choice, number, parameter, time_span
-from hess_explorer.scenes.framework.solid_body import Solid, constrained_solid, solid_body
-from hess_explorer.scenes.parts.orbits.proof import Proof, proved_error_shown
+from hess_explorer.scenes.framework.sliders import choice, number, parameter
+from hess_explorer.scenes.framework.solid_body import solid_body
 from hess_explorer.scenes.parts.sections import (
+    PLAIN,
     Branch,
-    Orbit,
     Section,
     SectionState,
     branch_picture,
-    colouring,
     coordinate_of_branch,
-    crossings_of_each,
     end_of_branch,
-    length_of_manifolds,
     parameter_of_branch,
-    plain,
     section_layers,
     section_picture,
     section_trials,
-    shown_in_section,
-    which,
 )
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.graphs.graph import ANGLE, ANGLE_TICKS
@@ -48,98 +40,39 @@ from hess_explorer.views.plot import Plot
 from hess_explorer.views.space.poisson_sphere import Direction, along_the_orbit, centre_of_mass
 from hess_explorer.views.text import digits, vector
 from hess_mechanics.chaplygin_ball import ball_section as mechanics
-from hess_mechanics.chaplygin_ball.ball_section import (
-    ball_section,
-    fastest,
-    forbidden_band,
-    outside_band,
-    seeds,
-    state_at,
-)
+from hess_mechanics.chaplygin_ball.ball_section import fastest, outside_band
 from hess_mechanics.chaplygin_ball.energy_surface import lowest_energy
 from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody
 from hess_mechanics.chaplygin_ball.integrable_cases import area_integral, has_area_integral, is_reversible
-from hess_mechanics.dynamics.plane_section import occupied_cells
-from hess_mechanics.numerics.accuracy import Level
+from hess_mechanics.dynamics.cells import occupied_cells
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.parameters import H_BALL
 
-_ORBITS = 20
 _CELLS = 32
-_MOST_STEPS = 15_000
 _NAMES = ("ψ", "δ")
 
-_PLAIN = {"I13": 0.0, "I23": 0.0}
+_DOUBLES = parameters_of(BallBody(1.5, 3.0, -0.3, 0.0, 1.0, 1.0, -0.7, 0.7))
+_WIDER = parameters_of(BallBody(1.5, 3.0, -0.1, 0.4, 4.0, -0.8, -0.3, -0.7))
+_LATE = "the later half"
 PRESETS = (
-    *map(
-        plain,
-        (
-            Preset("Mixed: curves and a sea, I₁₃ = I₂₃ = 0"),
-            Preset("Regular: I₁₁ = I₂₂, b ∥ e₃", **_PLAIN, I11=1.0, I22=1.0, D=3.0, b1=0.0, b3=1.0, h=1.5),
-            Preset(
-                "Every orbit closes: b₃ = 0",
-                **_PLAIN,
-                I11=1.0,
-                I22=2.0,
-                D=1.0,
-                b1=1.0,
-                b2=0.5,
-                b3=0.0,
-                h=2.618,
-                psi=0.5,
-            ),
-            Preset("A sea nearly everywhere", **_PLAIN, I11=1.0, I22=4.0, D=2.0, b1=0.3, b3=1.0, h=0.8),
-            Preset(
-                "Strange attractor, I₁₃ ≠ 0",
-                I11=1.5,
-                I22=3.0,
-                I13=-0.3,
-                I23=0.0,
-                D=1.0,
-                b1=1.0,
-                b2=-0.7,
-                b3=0.7,
-                h=2.72,
-                psi=2.5,
-                count=600.0,
-                drop="the later half",
-            ),
-            Preset(
-                "A wider one, I₁₃I₂₃ ≠ 0",
-                I11=1.5,
-                I22=3.0,
-                I13=-0.1,
-                I23=0.4,
-                D=4.0,
-                b1=-0.8,
-                b2=-0.3,
-                b3=-0.7,
-                h=1.0,
-                psi=0.4,
-                count=600.0,
-                drop="the later half",
-            ),
-            Preset(
-                "The orbit that doubles, over I₁₃",
-                I11=1.5,
-                I22=3.0,
-                I13=-0.3,
-                I23=0.0,
-                D=1.0,
-                b1=1.0,
-                b2=-0.7,
-                b3=0.7,
-                h=2.72,
-                psi=-2.7834,
-                delta=1.0275,
-                reach=2.0,
-                drop="the later half",
-                periodic="period 1",
-                over="I₁₃",
-                low=-0.55,
-                high=-0.05,
-            ),
-        ),
+    Preset("Mixed: curves and a sea, I₁₃ = I₂₃ = 0", **PLAIN),
+    Preset("Regular: I₁₁ = I₂₂, b ∥ e₃", I11=1.0, I22=1.0, D=3.0, b1=0.0, b3=1.0, h=1.5),
+    Preset("Every orbit closes: b₃ = 0", I11=1.0, I22=2.0, D=1.0, b1=1.0, b2=0.5, b3=0.0, h=2.618, psi=0.5),
+    Preset("A sea nearly everywhere", I11=1.0, I22=4.0, D=2.0, b1=0.3, b3=1.0, h=0.8),
+    Preset("Strange attractor, I₁₃ ≠ 0", **_DOUBLES, h=2.72, psi=2.5, count=600.0, drop=_LATE),
+    Preset("A wider one, I₁₃I₂₃ ≠ 0", **_WIDER, h=1.0, psi=0.4, count=600.0, drop=_LATE),
+    Preset(
+        "The orbit that doubles, over I₁₃",
+        **_DOUBLES,
+        h=2.72,
+        psi=-2.7834,
+        delta=1.0275,
+        reach=2.0,
+        drop=_LATE,
+        periodic="period 1",
+        over="I₁₃",
+        low=-0.55,
+        high=-0.05,
     ),
 )
 
@@ -175,18 +108,11 @@ class BallSection(SectionState):
         label="Start: δ, from γ to ω",
         doc="On the section ω points at the angle δ from γ.",
     )
-    periodic: str = which()
-    count: float = crossings_of_each()
-    indicator: str = colouring()
-    reach: float = length_of_manifolds()
     over: str = parameter_of_branch(tuple(ball.PARAMETERS))
     low: float = end_of_branch("from")
     high: float = end_of_branch("to")
     upwards: str = coordinate_of_branch(_NAMES)
-    span: float = time_span(40.0, 200.0, what="the chosen orbit")
-    drop: str = choice("Points shown", ("all", "the later half"), "all", doc="The later half shows the attractor.")
-    certain: str = proved_error_shown()
-    accuracy: str = accuracy_level()
+    drop: str = choice("Points shown", ("all", _LATE), "all", doc="The later half shows the attractor.")
 
     # ---- the motion ---------------------------------------------------------------------------------------------
 
@@ -212,7 +138,7 @@ class BallSection(SectionState):
     @cached_property
     def band(self) -> tuple[float, float] | None:
         """The centre and half width of the forbidden band of ψ; None if every ψ is possible."""
-        return forbidden_band(self.body, self.E)
+        return self.poincare.forbidden
 
     @cached_property
     def poincare(self) -> mechanics.BallSection:
@@ -222,7 +148,7 @@ class BallSection(SectionState):
     @cached_property
     def given(self) -> tuple[float, ...]:
         """The state at (ψ, δ) of the section."""
-        return state_at(self.body, self.E, self.psi, self.delta)
+        return self.poincare.state_at(self.psi, self.delta)
 
     @cached_property
     def weights(self) -> tuple[float, ...]:
@@ -234,17 +160,11 @@ class BallSection(SectionState):
     section = part(
         lambda s: Section(
             s,
-            lambda: (s.given,),
-            _crossings,
-            lambda section: [tuple(seeds(s.body, s.E, _ORBITS))],
-            lambda: s.periodic_orbit,
-            later=s.drop != "all",
+            most_steps=15_000,
+            later=s.drop == _LATE,
         )
     )
-    density, megno, periodic_orbit = shown_in_section()
     branch = part(lambda s: Branch(s, s.periodic_orbit, ball.PARAMETERS))
-    orbit = part(Orbit)
-    proof = part(lambda s: Proof(s.orbit, s.certain))
 
     # ---- the pictures -------------------------------------------------------------------------------------------
 
@@ -252,11 +172,6 @@ class BallSection(SectionState):
     def r(self) -> Direction | None:
         """The direction of the centre of mass; None without a field."""
         return centre_of_mass((self.b1, self.b2, self.b3))
-
-    @cached_property
-    def solid(self) -> Solid:
-        """The ball along the orbit."""
-        return constrained_solid(self.work, self.body, self.orbit.path)
 
     def start_at(self, x: float, y: float) -> Values:
         """Return the parameters of an orbit that starts at (ψ, δ)."""
@@ -268,7 +183,7 @@ class BallSection(SectionState):
 
     def forbidden(self, axes: Axes) -> list[list[Array]]:
         """Return the band of ψ that the energy forbids."""
-        if self.band is None or self.section.reason:
+        if self.band is None or self.section.known.reason:
             return []
         return section_plane.band(*self.band, 2.0 * math.pi, axes)
 
@@ -279,23 +194,22 @@ class BallSection(SectionState):
             psi = closed.orbit.places[:, 0]
             return np.column_stack([psi, np.roll(psi, -1)])
         psi = self.section.own[:, 0]
-        return None if self.section.reason else np.column_stack([psi[:-1], psi[1:]])
+        return None if self.section.known.reason else np.column_stack([psi[:-1], psi[1:]])
 
     # ---- words --------------------------------------------------------------------------------------------------
 
     def _about_section(self) -> Caption:
-        special = self.periodic_orbit.caption or self.megno.caption
-        if special is not None:
-            return special
-        if self.section.reason:
+        if self.special is not None:
+            return self.special
+        if self.section.known.reason:
             return Caption("Left out: too many steps.")
         volume = "The flow preserves volume." if self.I13 == self.I23 == 0.0 else "The flow does not preserve volume."
-        visited = occupied_cells(self.section.own, _CELLS)
+        visited = occupied_cells(self.section.own, self.poincare.window, _CELLS)
         counted = self.density.said or f"{len(self.section.own)} points of the "
         return Caption(volume, f"{counted}orbit in {visited} of {_CELLS**2} cells.")
 
     def _about_returns(self) -> Caption:
-        if self.section.reason:
+        if self.section.known.reason:
             return Caption("Left out: too many steps.")
         if is_reversible(self.body):
             return Caption("One point: every orbit that returns closes.", "Proved by the symmetry γ₃ → −γ₃, t → −t.")
@@ -314,12 +228,6 @@ class BallSection(SectionState):
         yield f"γ(0) = {vector(self.start[2:])}"
         if has_area_integral(self.body):
             yield f"ω₁γ₁ + ω₂γ₂ = {digits(float(area_integral(np.array(self.start))))}, an integral"
-
-
-def _crossings(
-    section: mechanics.BallSection, starts: tuple[Start, ...], crossings: int, forward: bool, level: Level
-) -> OrbitBatch:
-    return batch_of(section, ball_section(section.body, section.h, starts, crossings, level, _MOST_STEPS))
 
 
 SCENE = Scene(
@@ -346,13 +254,9 @@ SCENE = Scene(
             y=square.POLAR,
             ticks=ANGLE_TICKS,
             y_ticks=square.POLAR_TICKS,
-            on_click=BallSection.start_at,
             layers=section_layers(
-                "megno",
-                "density",
-                "periodic_orbit",
                 forbidden=BallSection.forbidden,
-                start=lambda s: [(s.psi, s.delta)] if s.section.chosen else [],
+                start=lambda s: [(s.psi, s.delta)] if s.section.known.chosen else [],
             ),
         ),
         orbit_alone(BallSection.half_width, energy=lambda s: s.E, label="chosen orbit", proved=lambda s: s.proof.band),
@@ -366,7 +270,7 @@ SCENE = Scene(
             x=ANGLE,
             y=ANGLE,
             ticks=ANGLE_TICKS,
-            message=lambda s: s.section.reason,
+            message=lambda s: s.section.known.reason,
             layers=section_plane.layers(BallSection.returns),
         ),
         branch_picture(),

@@ -15,7 +15,15 @@ from hess_explorer.scenes.framework import hess_case
 from hess_explorer.scenes.framework.charted import Charts, of_torus
 from hess_explorer.scenes.framework.hess_case import HeavyHess
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
-from hess_explorer.scenes.framework.sliders import Slider, accuracy_level, choice, number, parameter, slider_within
+from hess_explorer.scenes.framework.sliders import (
+    Slider,
+    accuracy_level,
+    choice,
+    number,
+    parameter,
+    slider_within,
+    time_span,
+)
 from hess_explorer.scenes.framework.solid_body import Solid, heavy_solid, hess_solid, solid_body
 from hess_explorer.scenes.framework.work import orbit_status
 from hess_explorer.views import theme
@@ -99,16 +107,7 @@ class BothSides(State):
         label="Free moment, x",
         doc="Suslov–Hess leaves a moment of Euler–Poisson free: x = 1 is a flat body, where |a| < 1.",
     )
-    span: float = number(
-        "t",
-        50.0,
-        (1.0, 200.0),
-        1.0,
-        bounds=(0.01, 1e5),
-        group="Computation",
-        label="Time span",
-        doc="Duration of the motion, in the time that both sides share.",
-    )
+    span: float = time_span(50.0, 200.0, most=1e5, what="the motion of both sides")
     accuracy: str = accuracy_level()
 
     @cached_property

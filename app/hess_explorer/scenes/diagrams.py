@@ -3,47 +3,31 @@
 from __future__ import annotations
 
 import math
-from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import ClassVar, TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.specs import Values, written
 from hess_explorer.scenes.framework.charted import Charted, Charts, parameters_of
-from hess_explorer.scenes.framework.continuation import Continuation
 from hess_explorer.scenes.framework.part import Start, part
-from hess_explorer.scenes.framework.periodic_search import NONE, PERIODS, Closed
-from hess_explorer.scenes.framework.scene import Motion, State
-from hess_explorer.scenes.framework.sliders import (
-    accuracy_level,
-    choice,
-    exponent_time,
-    number,
-    parameter,
-    places,
-    proved_error_shown,
-    time_span,
-)
+from hess_explorer.scenes.framework.periodic_search import NONE, Closed
+from hess_explorer.scenes.framework.scene import Motion, Preset, Scene
 from hess_explorer.scenes.framework.solid_body import Solid, constrained_solid, solid_body
 from hess_explorer.scenes.framework.windows import boxed
-from hess_explorer.scenes.parts.diagrams.diagram_density import DiagramDensity
-from hess_explorer.scenes.parts.diagrams.growing_diagram import (
-    ANEW,
+from hess_explorer.scenes.parts.diagrams.controls import (
     BACKWARD,
     BOUNDS,
     COORDINATES,
     FALLING,
-    FARTHEST,
-    FOLLOWED,
     RISING,
-    WAYS,
-    OrbitDiagram,
-    parameter_of_diagram,
+    DiagramControls,
 )
+from hess_explorer.scenes.parts.diagrams.diagram_density import DiagramDensity
+from hess_explorer.scenes.parts.diagrams.growing_diagram import DiagramBranch, OrbitDiagram
 from hess_explorer.scenes.parts.orbits.proof import Proof
 from hess_explorer.scenes.parts.orbits.regime import Regime, few
 from hess_explorer.scenes.parts.sections import Orbit
@@ -54,22 +38,19 @@ from hess_explorer.views.layers import Axes, curves, dots, levels, names, points
 from hess_explorer.views.maps import branch
 from hess_explorer.views.picture import Picture
 from hess_explorer.views.plane import density, layered_section, periodic
-from hess_explorer.views.plane.velocity_plane import pixels_per_unit, room_for
+from hess_explorer.views.plane.velocity_plane import orbit_columns, pixels_per_unit, room_for
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.space.poisson_sphere import along_the_orbit, centre_of_mass
 from hess_explorer.views.text import digits
-from hess_mechanics.chaplygin_ball.ball_section import BallSection
 from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.dynamics.orbit_diagram import Cascade
 from hess_mechanics.dynamics.periodic import PeriodicOrbit
 from hess_mechanics.numerics.results import Array, SectionCrossings
-from hess_mechanics.parameters import B1, B2, B3, H_SUSLOV, I11, I13, I22, I23
 from hess_mechanics.rigid_body.inertia import check_body
 from hess_mechanics.rigid_body.reversal import rate, reversals
 from hess_mechanics.suslov.equations import SuslovBody
-from hess_mechanics.suslov.suslov_section import SuslovSection
 
-__all__ = ["DiagramState", "charts", "pictures"]
+__all__ = ["DiagramState", "diagram_scene", "regime_in"]
 
 _WINDOW = ((-math.pi, 0.0), (math.pi, math.pi))
 _TOP, _LINE = 0.06, 0.07
@@ -77,96 +58,8 @@ _TOP, _LINE = 0.06, 0.07
 
 
 @dataclass(frozen=True)
-class DiagramState(State, ABC):
-    """Attractors of a section over one parameter, and one orbit at the current value of that parameter.
-
-    symbols : symbol of each parameter of the section → its name.
-    """
-
-    I11: float = parameter(I11)
-    I22: float = parameter(I22)
-    I13: float = parameter(I13)
-    I23: float = parameter(I23)
-    b1: float = parameter(B1)
-    b2: float = parameter(B2)
-    b3: float = parameter(B3)
-    h: float = parameter(H_SUSLOV)
-    along: str = parameter_of_diagram(("h",), "h")
-    first: float = number(
-        "from", -0.15, (-3.0, 6.0), 0.01, bounds=FARTHEST, label="Diagram from", doc="Value at the left edge."
-    )
-    last: float = number(
-        "to", 0.3, (-3.0, 6.0), 0.01, bounds=FARTHEST, label="Diagram to", doc="Value at the right edge."
-    )
-    shown: str = choice("Coordinate of the section", COORDINATES, "ψ", doc="Quantity on the vertical axis.")
-    ways: str = choice(
-        "Followed",
-        tuple(WAYS),
-        next(iter(WAYS)),
-        doc="There: the parameter rises. Back: it falls. Backward in time, motions tend to repellers.",
-    )
-    begins: str = choice(
-        "Each value starts",
-        (FOLLOWED, ANEW),
-        FOLLOWED,
-        doc="A followed orbit stays with its attractor, and may differ on the way back.",
-    )
-    steps: float = number(
-        "n",
-        150.0,
-        (30.0, 300.0),
-        10.0,
-        bounds=(2.0, 600.0),
-        label="Values of the parameter",
-        doc="Number of evenly spaced values.",
-        group="Computation",
-    )
-    transient: float = number(
-        "N₀",
-        300.0,
-        (0.0, 1000.0),
-        10.0,
-        bounds=(0.0, 5000.0),
-        label="Crossings left out",
-        doc="Crossings left out at each value, until the orbit has settled.",
-        group="Computation",
-    )
-    count: float = number(
-        "N",
-        60.0,
-        (10.0, 200.0),
-        5.0,
-        bounds=(2.0, 500.0),
-        label="Crossings shown",
-        doc="Crossings drawn at each value, after those left out.",
-        group="Computation",
-    )
-    window: str = places("The window of the diagram", 2, *BOUNDS)
-    branch: str = choice(
-        "Branch of a periodic orbit",
-        (NONE, *PERIODS),
-        NONE,
-        group="State",
-        doc="Over the diagram: the periodic orbit that Newton's method finds from the chosen place, "
-        "continued in the parameter, through folds. A click on it shows that orbit.",
-    )
-    span: float = time_span(60.0, 400.0, what="the chosen orbit")
-    long: float = exponent_time(4000.0, 5000.0, 2e4, "the mean divergence is")
-    certain: str = proved_error_shown()
-    accuracy: str = accuracy_level()
-    chosen: str = places("The place of the chosen orbit", 1, *BOUNDS)
-
-    symbols: ClassVar[Mapping[str, str]]
-
-    @property
-    @abstractmethod
-    def E(self) -> float:
-        """The energy."""
-
-    @property
-    @abstractmethod
-    def poincare(self) -> SuslovSection | BallSection:
-        """The section γ3 = 0.  Raises `ModelError`."""
+class DiagramState(DiagramControls):
+    """Attractors of a section over one parameter, and one orbit at the current value of that parameter."""
 
     @property
     def body(self) -> SuslovBody | BallBody:
@@ -176,7 +69,7 @@ class DiagramState(State, ABC):
     @property
     def weights(self) -> tuple[float, ...]:
         """Scale of each variable in pixels per unit, with room for all motions of this energy."""
-        highest = self.E + math.hypot(self.b1, self.b2, self.b3)
+        highest = self.poincare.E + math.hypot(self.b1, self.b2, self.b3)
         return pixels_per_unit(room_for(math.sqrt(2.0 * highest / min(self.I11, self.I22))))
 
     @property
@@ -198,37 +91,12 @@ class DiagramState(State, ABC):
         """Return the orbit on show."""
         return self.orbit.motion()
 
-    # ---- the parts ----------------------------------------------------------------------------------------------
-
-    @part
-    def diagram(self) -> OrbitDiagram:
-        """The attractors over the parameter."""
-        return OrbitDiagram(self)
-
-    @part
-    def density(self) -> DiagramDensity:
-        """The density of its points."""
-        return DiagramDensity(self.diagram)
-
-    @part
-    def continuation(self) -> Continuation:
-        """The branch of a periodic orbit over the same parameter."""
-        return Continuation(self.diagram)
-
-    @part
-    def orbit(self) -> Orbit:
-        """The orbit on show."""
-        return Orbit(self)
-
-    @part
-    def proof(self) -> Proof:
-        """The proved error of the orbit."""
-        return Proof(self.orbit, self.certain)
-
-    @part
-    def regime(self) -> Regime:
-        """The regime of the motion."""
-        return Regime(self.diagram, self.long)
+    diagram = part(OrbitDiagram)
+    density = part(lambda s: DiagramDensity(s.diagram))
+    continuation = part(lambda s: DiagramBranch(s.diagram, s.branch))
+    orbit = part(Orbit)
+    proof = part(lambda s: Proof(s.orbit, s.certain))
+    regime = part(lambda s: Regime(s.diagram, s.long))
 
     # ---- the pictures -------------------------------------------------------------------------------------------
 
@@ -265,8 +133,6 @@ class DiagramState(State, ABC):
         if self.branch == NONE:
             return self.diagram.caption(self.density.said)
         found = self.continuation.caption
-        if found is None:
-            return Caption(self.work.awaited("A periodic orbit is"))
         return replace(found, numbers=f"{self.density.said}{found.numbers}".rstrip())
 
     def _about_turning(self) -> Caption:
@@ -281,7 +147,7 @@ class DiagramState(State, ABC):
         """Return the energy, the chosen place, the bifurcations of the branch and the check of the body."""
         psi, delta = map(digits, self.diagram.place)
         return [
-            f"E = {digits(self.E)}",
+            f"E = {digits(self.poincare.E)}",
             f"chosen: ψ = {psi}, δ = {delta}",
             *super().derived(),
             check_body(*self.body.parameters[:4]).sentence,
@@ -289,16 +155,6 @@ class DiagramState(State, ABC):
 
 
 S = TypeVar("S", bound=DiagramState)
-
-
-def charts(section: str, **more: float) -> Charts:
-    """Return the chart of such states: the regime of the motion."""
-
-    def arguments(s: DiagramState) -> Mapping[str, float]:
-        psi, delta = s.diagram.place
-        return {**parameters_of(s.body), "h": s.h, "psi": psi, "delta": delta, **more}
-
-    return Charts((Charted(f"regime {section}", ("kind",), arguments),), over=("h", "I13"))
 
 
 def _upright(values: Iterable[float], axes: Axes) -> list[Array]:
@@ -318,22 +174,50 @@ def _flip_values(s: DiagramState, axes: Axes) -> list[tuple[float, float, str]]:
     ]
 
 
-def pictures(state: type[S], ball: bool = False) -> tuple[Picture[S], ...]:
+def diagram_scene(
+    state: type[S], module: str, presets: tuple[Preset, ...], section: Charted, ball: bool = False, **words: Any
+) -> Scene[S]:
+    """Return the scene of such states.
+
+    section : the regime of its motions, which is charted; words : other arguments of `Scene`.
+    """
+    return Scene(
+        state,
+        module,
+        presets=presets,
+        charts=Charts((section,), over=("h", "I13")),
+        tracks={"orbit": lambda s: orbit_columns(s.orbit.path, turning=s.turning)},
+        views=_pictures(state, ball),
+        **words,
+    )
+
+
+def regime_in(section: str, **more: float) -> Charted:
+    """Return the regime of the motion in a section of the catalogue, at other arguments too."""
+
+    def arguments(s: DiagramState) -> Mapping[str, float]:
+        psi, delta = s.diagram.place
+        return {**parameters_of(s.body), "h": s.h, "psi": psi, "delta": delta, **more}
+
+    return Charted(f"regime {section}", ("kind",), arguments)
+
+
+def _pictures(state: type[DiagramState], ball: bool) -> tuple[Picture[Any], ...]:
     """Return the pictures: diagram with branch, body, section, reversal and, folded, Poisson sphere."""
 
-    def closed(s: S) -> list[PeriodicOrbit]:
+    def closed(s: DiagramState) -> list[PeriodicOrbit]:
         return [] if s.closed is None else [s.closed.orbit]
 
-    def dotted(way: str) -> Callable[[S], Array | None]:
+    def dotted(way: str) -> Callable[[DiagramState], Array | None]:
         return lambda s: None if s.density.tones else s.diagram.points(way)
 
     return (
-        Plot(
+        Plot[DiagramState](
             name="diagram",
             title="Orbit diagram",
-            caption=lambda s: s._about_diagram(),
+            caption=DiagramState._about_diagram,
             on_hover=lambda s, x, y: s.continuation.about(x, y),
-            on_click=lambda s, x, y: s.choose(x, y),
+            on_click=DiagramState.choose,
             axes=lambda s: (s.along, s.shown),
             first=Axes((state.first, state.last), (-math.pi, math.pi)),
             x=lambda s: (s.diagram.frame[0][0], s.diagram.frame[1][0]),
@@ -369,43 +253,39 @@ def pictures(state: type[S], ball: bool = False) -> tuple[Picture[S], ...]:
                     label="state on show",
                     tag="state on show",
                 ),
-                *branch.layers(
-                    lambda s: s.continuation.branches,
-                    lambda s: s.diagram.side,
-                    lambda s: s.poincare.turns[s.diagram.side],
-                ),
+                *branch.layers(lambda s: s.continuation),
                 names("flip-values", within=_flip_values, size=13, on_paper=True),
             ),
         ),
         solid_body(ball=ball),
-        Plot(
+        Plot[DiagramState](
             name="section",
             title="Section γ₃ = 0 (upward crossings)",
             caption=lambda s: s.regime.caption,
             axes=COORDINATES,
             x=(-math.pi, math.pi),
             y=(0.0, math.pi),
-            on_click=lambda s, x, y: s.start_here(x, y),
+            on_click=DiagramState.start_here,
             starts=True,
             layers=(
                 *layered_section.layers(
-                    lambda s: s.regime.attractor,
-                    lambda s: s.regime.repeller,
+                    lambda s: s.regime.sets[0],
+                    lambda s: s.regime.sets[1],
                     lambda s: np.empty((0, 2)),
                     chosen=lambda s: [s.diagram.place],
                     window=lambda s: _WINDOW,
                     impossible=lambda s: s.poincare.impossible(_WINDOW),
                     labels=("attractor", "repeller"),
                 ),
-                points("few", lambda s: few(s.regime.attractor), color=theme.ORBIT, size=9),
+                points("few", lambda s: few(s.regime.sets[0]), color=theme.ORBIT, size=9),
                 *periodic.places(closed),
-                points("few-repelling", lambda s: few(s.regime.repeller), color=theme.UNSTABLE, size=9),
+                points("few-repelling", lambda s: few(s.regime.sets[1]), color=theme.UNSTABLE, size=9),
             ),
         ),
-        Plot(
+        Plot[DiagramState](
             name="reversal",
             title="Rotation about the vertical, (ω, γ)",
-            caption=lambda s: s._about_turning(),
+            caption=DiagramState._about_turning,
             axes=("t", "(ω, γ)"),
             dot=("t", "turning"),
             first=Axes((0.0, 60.0), (-2.0, 2.0)),

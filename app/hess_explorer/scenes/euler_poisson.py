@@ -20,7 +20,6 @@ from hess_explorer.scenes.framework.scene import Preset, Scene
 from hess_explorer.scenes.framework.sliders import (
     TURN,
     Slider,
-    accuracy_level,
     choice,
     exponent_time,
     number,
@@ -31,7 +30,7 @@ from hess_explorer.scenes.framework.sliders import (
 from hess_explorer.scenes.framework.solid_body import Solid, heavy_solid, solid_body
 from hess_explorer.scenes.framework.windows import inside
 from hess_explorer.scenes.parts.diagrams.hess_split import HessSplit, split_picture
-from hess_explorer.scenes.parts.orbits.exponent import Exponent, exponent_picture, exponent_trial
+from hess_explorer.scenes.parts.orbits.exponent import exponent_picture, exponent_trial
 from hess_explorer.scenes.parts.orbits.hess_surface import (
     INVARIANT,
     HeavyTorus,
@@ -39,27 +38,23 @@ from hess_explorer.scenes.parts.orbits.hess_surface import (
     shaded_by,
     surface_picture,
 )
-from hess_explorer.scenes.parts.orbits.proof import Proof, proved_error_shown
 from hess_explorer.scenes.parts.sections import (
+    PLAIN,
     Branch,
     Clicks,
-    Orbit,
-    SectionState,
+    FilledState,
     branch_picture,
-    colouring,
     coordinate_of_branch,
     end_of_branch,
     filled,
     filled_picture,
-    length_of_manifolds,
     orbits_spread,
     parameter_of_branch,
-    plain,
     points_of_each,
     section_trials,
-    shown_in_section,
-    which,
+    start_on,
 )
+from hess_explorer.scenes.parts.sections.density import Density
 from hess_explorer.scenes.parts.sections.rotation_across import RotationAcross, rotation_picture, rotation_trial
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import Columns, column
@@ -67,6 +62,7 @@ from hess_explorer.views.plane import andoyer
 from hess_explorer.views.plane.section_plane import joined
 from hess_explorer.views.space.poisson_sphere import Direction, along_the_orbit, gamma_columns
 from hess_explorer.views.text import digits, vector
+from hess_mechanics.dynamics.return_map import section_crossings
 from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.euler_poisson.andoyer import AndoyerSection, hess_curve, relation
 from hess_mechanics.euler_poisson.equations import SYSTEM, HeavyBody
@@ -75,114 +71,77 @@ from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.results import Array, frozen
 from hess_mechanics.parameters import F_HEAVY, H_HEAVY, I1, I2, I3, MU_R
 
-_MOST_STEPS = 200_000
 _NAMES = ("l", "L/G")
 _BOUNDS = ((-TURN, -1.0), (TURN, 1.0))
 _OVER = {"ε": "away", "h": "h", "f": "f", "μ|r|": "m", "I₁": "I1", "I₂": "I2", "I₃": "I3"}
 _ALONG, _ABOUT = "along l", "about the middle"
 _LARGEST, _SECOND = "largest G", "second G"
+_MORE = "a larger h, a smaller |f|"
 
-# Each example sets the line of the rotation number too; unset choices would keep their values.
-_RIS: dict[str, Value] = {
-    "turns": _ALONG,
-    "sheet": _LARGEST,
-    "I1": 1.0,
-    "I2": 1.5,
-    "I3": 2.0,
-    "m": -math.sqrt(0.5),
-    "span": 60.0,
-}
+_RIS: dict[str, Value] = {"I1": 1.0, "I2": 1.5, "I3": 2.0, "m": -math.sqrt(0.5), "span": 60.0}
 _THERE, _LOW = "2.8,0.3", "-1.54,-0.86"
 """The first of these starts is impossible at the lowest energies."""
-_BELOW, _AT, _ABOVE = "a curve in a regular leaf", "the separatrix", "two layers part"
 _LS = np.array([-2.9, -2.7, -2.5, -2.2, 2.2, 2.5, 2.7, 2.9])
 _ON_HESS = written([*zip(_LS, hess_curve(HeavyBody.hess((1.0, 1.5, 2.0), -math.sqrt(0.5)), _LS), strict=True)])
-_NONE, _STABLE, _UNSTABLE = "no Hess motion yet", "no limit cycles", "two limit cycles, two layers part"
+
+
+def _figure(number: int, f: float, what: str, energies: Mapping[str, float]) -> Iterator[Preset]:
+    """Yield the examples of a figure, by letter."""
+    for letter, h in energies.items():
+        yield Preset(
+            f"Figure {number} {letter}: f = {f:g}, h = {h:.4g}, {what}",
+            **_RIS,
+            h=h,
+            f=f,
+            starts=_THERE if f == 0.0 or h > 0.4 else _LOW,
+        )
+
+
 PRESETS = (
-    *map(
-        plain,
-        (
-            Preset("Two layers that never mix (figure 11)", turns=_ALONG, sheet=_LARGEST),
-            Preset(
-                "Meandering torus (figure 12)",
-                sheet=_LARGEST,
-                window="-2.25,-0.27;-1.45,0.33",
-                turns=_ABOUT,
-                starts="-1.558,0.03",
-                orbits=40.0,
-                count=600.0,
-            ),
-            Preset("The barrier breaks: 0.02 away from Hess", turns=_ALONG, sheet=_LARGEST, away=0.02, count=600.0),
-            *(
-                Preset(f"Figure 13 {letter}: f = 0, h = {h:.4g}, {what}", **_RIS, h=h, f=0.0, starts=_THERE)
-                for letter, h, what in (
-                    ("a", -0.4, _BELOW),
-                    ("b", 0.0, _BELOW),
-                    ("c", 0.5, _BELOW),
-                    ("d", math.sqrt(0.5), _AT),
-                    ("e", 1.0, _ABOVE),
-                    ("f", 2.0, _ABOVE),
-                )
-            ),
-            *(
-                Preset(
-                    f"Figure 14 {letter}: f = 1, h = {h:.4g}, {what}",
-                    **_RIS,
-                    h=h,
-                    f=1.0,
-                    starts=_THERE if h > 0.4 else _LOW,
-                )
-                for letter, h, what in (
-                    ("a", 0.0, _NONE),
-                    ("b", 0.2, _STABLE),
-                    ("c", 0.5, _STABLE),
-                    ("d", 0.8, _UNSTABLE),
-                    ("e", 1.0, _UNSTABLE),
-                    ("f", 1.3, _UNSTABLE),
-                    ("g", 2.0, _UNSTABLE),
-                    ("h", 4.0, _UNSTABLE),
-                )
-            ),
-            Preset(
-                "On the Hess curve, f = 0, h below: fixed points, some in pairs", **_RIS, h=0.2, f=0.0, starts=_ON_HESS
-            ),
-            Preset(
-                "h → ∞: Euler's case, h = 5000",
-                turns=_ALONG,
-                sheet=_LARGEST,
-                h=5000.0,
-                span=1.0,
-                long=20.0,
-                starts="0,0.5",
-            ),
-            Preset(
-                "The second sheet of figure 14 a: a smaller G",
-                **_RIS,
-                h=0.0,
-                f=1.0,
-                starts="2.5,-0.92",
-                window="2,-0.97;2.6,-0.86",
-                count=600.0,
-            ),
-            Preset(
-                "Where the two Hess cycles meet, over h",
-                **_RIS,
-                h=2.0,
-                f=1.0,
-                starts="-0.1497,0.2064",
-                reach=2.0,
-                periodic="period 1",
-                over="h",
-                low=0.4,
-                high=2.2,
-            ),
-        ),
+    Preset("Two layers that never mix (figure 11)", **PLAIN, turns=_ALONG, sheet=_LARGEST),
+    Preset(
+        "Meandering torus (figure 12)",
+        window="-2.25,-0.27;-1.45,0.33",
+        turns=_ABOUT,
+        starts="-1.558,0.03",
+        orbits=40.0,
+        count=600.0,
+    ),
+    Preset("The barrier breaks: 0.02 away from Hess", away=0.02, count=600.0),
+    *_figure(13, 0.0, "a curve in a regular leaf", {"a": -0.4, "b": 0.0, "c": 0.5}),
+    *_figure(13, 0.0, "the separatrix", {"d": math.sqrt(0.5)}),
+    *_figure(13, 0.0, "two layers part", {"e": 1.0, "f": 2.0}),
+    *_figure(14, 1.0, "no Hess motion yet", {"a": 0.0}),
+    *_figure(14, 1.0, "no limit cycles", {"b": 0.2, "c": 0.5}),
+    *_figure(14, 1.0, "two limit cycles, two layers part", {"d": 0.8, "e": 1.0, "f": 1.3, "g": 2.0, "h": 4.0}),
+    Preset("On the Hess curve, f = 0, h below: fixed points, some in pairs", **_RIS, h=0.2, f=0.0, starts=_ON_HESS),
+    Preset("h → ∞: Euler's case, h = 5000", h=5000.0, span=1.0, long=20.0, starts="0,0.5"),
+    Preset(
+        "The second sheet of figure 14 a: a smaller G",
+        **_RIS,
+        h=0.0,
+        f=1.0,
+        starts="2.5,-0.92",
+        window="2,-0.97;2.6,-0.86",
+        count=600.0,
+    ),
+    Preset(
+        "Where the two Hess cycles meet, over h",
+        **_RIS,
+        h=2.0,
+        f=1.0,
+        starts="-0.1497,0.2064",
+        reach=2.0,
+        periodic="period 1",
+        over="h",
+        low=0.4,
+        high=2.2,
     ),
 )
 
 
 @dataclass(frozen=True)
-class EulerPoisson(SectionState):
+class EulerPoisson(FilledState):
     """A section of one body at one energy and area integral, filled with orbits on both sides of the barrier."""
 
     I1: float = parameter(I1)
@@ -201,11 +160,8 @@ class EulerPoisson(SectionState):
     m: float = parameter(MU_R)
     h: float = parameter(H_HEAVY, softbounds=(-1.0, 60.0), doc="Energy, H = h.")
     f: float = parameter(F_HEAVY, doc="(M, γ) = f; the section needs G ≥ |f|.")
-    periodic: str = which()
-    indicator: str = colouring()
     orbits: float = orbits_spread(60.0, 200.0, 400.0)
     count: float = points_of_each(300.0)
-    reach: float = length_of_manifolds()
     over: str = parameter_of_branch(tuple(_OVER))
     low: float = end_of_branch("from")
     high: float = end_of_branch("to")
@@ -225,9 +181,7 @@ class EulerPoisson(SectionState):
         _LARGEST,
         doc="Where two momenta G have this energy at the same point of the section: the one with which orbits start.",
     )
-    certain: str = proved_error_shown()
     shade: str = shaded_by()
-    accuracy: str = accuracy_level()
     starts: str = places("The places of the chosen orbits", 12, *_BOUNDS, "0,0.2")
     window: str = places("The window of the section", 2, *_BOUNDS)
 
@@ -265,15 +219,18 @@ class EulerPoisson(SectionState):
         """The splitting of the separatrices."""
         return HessSplit(self, HessTorus(self.moments, self.m, self.h, self.f), self.away)
 
-    section = part(lambda s: filled(s, 16, _crossings, bounds=_BOUNDS))
-    clicks = part(lambda s: Clicks(s, "no motion with this h and f crosses the section", _BOUNDS))
-    density, megno, periodic_orbit = shown_in_section(
-        2, lambda s, states: (relation(s.body, states) <= 0.0).astype(int)
+    section = part(lambda s: filled(s, 16, compute=_crossings, most_steps=200_000))
+
+    @part
+    def clicks(self) -> Clicks:
+        """The starts of the chosen orbits."""
+        which, remedy = ("a second sheet", "the largest G") if self.poincare.sheet else ("the section", _MORE)
+        return Clicks(self, f"no motion with this h and f crosses {which}", remedy)
+
+    density = part(
+        lambda s: Density(s.section, s.dense, 2, lambda states: (relation(s.body, states) <= 0.0).astype(int))
     )
     branch = part(lambda s: Branch(s, s.periodic_orbit, _OVER, ("sheet",)))
-    orbit = part(Orbit)
-    proof = part(lambda s: Proof(s.orbit, s.certain))
-    exponent = part(Exponent)
 
     @part
     def surface(self) -> HessSurface:
@@ -298,19 +255,6 @@ class EulerPoisson(SectionState):
         """Return the parameters of an orbit that starts at a place of the section."""
         return self.clicks.move(x, y)
 
-    @property
-    def impossible_here(self) -> str:
-        """The message for a window that no motion reaches."""
-        if self.sheet == _SECOND:
-            return (
-                f"No motion crosses a second sheet here with h = {self.h:.6g} and f = {self.f:.6g}: choose the "
-                "largest G, or press Clear for the whole section."
-            )
-        return (
-            f"Nothing is possible here with h = {self.h:.6g} and f = {self.f:.6g}: choose a larger h, a smaller "
-            "|f|, or press Clear for the whole section."
-        )
-
     # ---- what the pictures show ---------------------------------------------------------------------------------
 
     def track(self) -> Columns:
@@ -327,7 +271,7 @@ class EulerPoisson(SectionState):
     @cached_property
     def elsewhere(self) -> Array:
         """Points (n, 2) of all orbits on other sheets."""
-        known = *self.section.chosen, *self.section.batches
+        known = *self.section.known.chosen, *self.section.known.batches
         return joined(batch.elsewhere for batch in known if batch.elsewhere is not None)
 
     def hess_curve(self) -> tuple[Array, Array]:
@@ -338,10 +282,9 @@ class EulerPoisson(SectionState):
     # ---- words --------------------------------------------------------------------------------------------------
 
     def _about_section(self) -> Caption:
-        special = self.periodic_orbit.caption or self.megno.caption
-        if special is not None:
-            return special
-        kept = [one for batch in self.section.batches for one in batch.kept]
+        if self.special is not None:
+            return self.special
+        kept = [one for batch in self.section.known.batches for one in batch.kept]
         return Caption(
             "The two layers never mix." if self.away == 0.0 else "",
             f"{self.density.said}r·M keeps its sign along {sum(kept)} of {len(kept)} orbits.",
@@ -350,17 +293,16 @@ class EulerPoisson(SectionState):
     def derived(self) -> Iterator[str]:
         """Yield a and r, the start of the orbit on show and the check of the body."""
         yield f"a = {digits(self.body.hess_a)}, r = {vector(self.body.r)}"
-        yield self.clicks.sentence
         yield from super().derived()
-        if self.section.asked("_known") and len(self.elsewhere):
+        if self.section.asked("known") and len(self.elsewhere):
             yield f"on another sheet: {len(self.elsewhere)} points"
         yield self.body.check.sentence
 
 
 def _crossings(
-    section: AndoyerSection, starts: tuple[Start, ...], crossings: int, forward: bool, level: Level
+    section: AndoyerSection, starts: tuple[Start, ...], crossings: int, forward: bool, level: Level, most: int
 ) -> OrbitBatch:
-    found = section.points(starts, crossings, level, threads=1, most_steps=_MOST_STEPS)
+    found = section_crossings(section, starts, crossings, level, threads=1, most_steps=most)
     signs = np.sign(relation(section.body, np.array(starts)))
     kept = (
         bool(np.all(sign * relation(section.body, states) >= 0.0))
@@ -380,13 +322,9 @@ SCENE = Scene(
     __file__,
     place=11,
     presets=PRESETS,
-    measures=(
-        *section_trials(orbits=40.0),
-        exponent_trial(),
-        rotation_trial(),
-    ),
+    measures=(*section_trials(orbits=40.0), exponent_trial(), rotation_trial()),
     charts=Charts(
-        of_motion(SYSTEM, lambda s: s.clicks.asked_start, time=lambda s: s.long),
+        of_motion(SYSTEM, lambda s: start_on(s.poincare, s.starts), time=lambda s: s.long),
         over=_NAMES,
         placed=("starts", _NAMES),
     ),

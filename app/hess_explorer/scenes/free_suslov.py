@@ -275,7 +275,7 @@ class FreeSuslov(State):
         else:
             integral, f = self.F2
             yield f"F₂, degree {integral.k} in ω: f = {digits(f)}"
-            yield f"F₂ at the fixed points: ±{digits(abs(integral.at_fixed_points(self.h)[0]))}"
+            yield f"F₂ at the fixed points: ±{digits(abs(integral.at_fixed_points(self.h)))}"
 
     def status(self) -> Iterator[str]:
         """Yield the status of the orbit."""

@@ -165,7 +165,7 @@ class Loxodrome(State):
 
     def status(self) -> Iterator[str]:
         """Yield the status of the attitude and of its orbit."""
-        yield from orbit_status(self.found.attitude.orbit)
+        yield from orbit_status(self.found.orbit)
         yield f"γ, e orthonormalised, defect {digits(self.found.attitude.defect, 1)}"
 
     def notes(self) -> Iterator[str]:

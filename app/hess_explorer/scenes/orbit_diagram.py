@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import ClassVar
 
 from hess_explorer.protocol.specs import Value
-from hess_explorer.scenes.diagrams import DiagramState, charts, pictures
-from hess_explorer.scenes.framework.scene import Preset, Scene
-from hess_explorer.scenes.framework.sliders import like
-from hess_explorer.scenes.parts.diagrams.growing_diagram import parameter_of_diagram
-from hess_explorer.views.plane.velocity_plane import orbit_columns
+from hess_explorer.scenes.diagrams import DiagramState, diagram_scene, regime_in
+from hess_explorer.scenes.framework.scene import Preset
+from hess_explorer.scenes.framework.sliders import like, parameter
+from hess_explorer.scenes.parts.diagrams.controls import parameter_of_diagram
+from hess_mechanics import parameters as known
 from hess_mechanics.suslov.equations import SuslovBody
 from hess_mechanics.suslov.suslov_section import SuslovSection
 
@@ -87,42 +86,35 @@ PRESETS = (
 class SuslovDiagram(DiagramState):
     """State of the orbit diagram of the Suslov problem."""
 
-    I11: float = like(DiagramState, "I11", 1.1)
-    I22: float = like(DiagramState, "I22", 2.9)
-    I13: float = like(DiagramState, "I13", -0.9)
-    I23: float = like(DiagramState, "I23", 0.2)
-    b1: float = like(DiagramState, "b1", -1.7)
-    b2: float = like(DiagramState, "b2", -1.6)
-    b3: float = like(DiagramState, "b3", 1.2)
-    h: float = like(DiagramState, "h", 2.3)
+    I11: float = parameter(known.I11, 1.1)
+    I22: float = parameter(known.I22, 2.9)
+    I13: float = parameter(known.I13, -0.9)
+    I23: float = parameter(known.I23, 0.2)
+    b1: float = parameter(known.B1, -1.7)
+    b2: float = parameter(known.B2, -1.6)
+    b3: float = parameter(known.B3, 1.2)
+    h: float = parameter(known.H_SUSLOV, 2.3)
     along: str = parameter_of_diagram(tuple(_PARAMETERS), "I₂₃")
     last: float = like(DiagramState, "last", 0.2)
     chosen: str = like(DiagramState, "chosen", "0.7248,1.8925")
 
     symbols: ClassVar[Mapping[str, str]] = _PARAMETERS
 
-    @property
-    def E(self) -> float:
-        """The energy."""
-        return self.h - math.hypot(self.b1, self.b2, self.b3)
-
     @cached_property
     def poincare(self) -> SuslovSection:
         """The section γ3 = 0."""
-        return SuslovSection(SuslovBody(self.I11, self.I22, self.I13, self.I23, self.b1, self.b2, self.b3), self.E, 3)
+        return SuslovSection(SuslovBody(**self.parameters), 0.0).moved("h", self.h)
 
 
-SCENE = Scene(
+SCENE = diagram_scene(
     SuslovDiagram,
     __file__,
+    PRESETS,
+    regime_in("suslov-section", k=3.0),
     place=15,
-    presets=PRESETS,
     group="Heavy body",
-    charts=charts("suslov-section", k=3.0),
     essential=("h", "first", "last", "I13"),
     handle="h",
     title="Orbit diagram",
     summary="Attractors and repellers over a parameter: doublings, hysteresis, reversal.",
-    tracks={"orbit": lambda s: orbit_columns(s.orbit.path, turning=s.turning)},
-    views=pictures(SuslovDiagram),
 )

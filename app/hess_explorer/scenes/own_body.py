@@ -39,7 +39,7 @@ from hess_mechanics.dynamics.orbit import solve
 from hess_mechanics.dynamics.plane_section import section
 from hess_mechanics.dynamics.system import System
 from hess_mechanics.numerics.results import Array, SectionCrossings
-from hess_mechanics.parameters import I11, I13, I22, I23, MAX_STEP
+from hess_mechanics.parameters import I11, I13, I22, I23, MAX_STEP, Group
 from hess_mechanics.rigid_body.own_body import OwnBody, Polynomial
 
 __all__ = ["SCENE", "OwnBodyState"]
@@ -50,21 +50,14 @@ _NO_WORK = 1e-10
 _CONSTRAINED, _FREE = "(a, ω) = 0", "none"
 
 
-def _component(symbol: str, label: str, default: float, doc: str) -> Any:
+def _component(symbol: str, label: str, default: float, doc: str, group: Group = "Computation") -> Any:
+    bounds = (-1e3, 1e3)
     return number(
-        symbol,
-        default,
-        (-2.0, 2.0),
-        0.01,
-        bounds=(-1e3, 1e3),
-        label=label,
-        doc=doc,
-        group="Body",
-        means="own body",
+        symbol, default, (-2.0, 2.0), 0.01, bounds=bounds, label=label, doc=doc, group=group, means="own body"
     )
 
 
-def _velocity(symbol: str, default: float) -> Any:
+def _velocity(symbol: str, default: float, group: Group = "State") -> Any:
     return number(
         symbol,
         default,
@@ -73,6 +66,7 @@ def _velocity(symbol: str, default: float) -> Any:
         bounds=(-1e3, 1e3),
         label=f"Velocity {symbol}",
         doc="Angular velocity at t = 0; the part that the constraint forbids is left out.",
+        group=group,
         means="own body",
     )
 
@@ -87,6 +81,7 @@ class OwnBodyState(State):
         "cos(W*t)",
         drive,
         doc="A sum of cos(n*W*t) and sin(n*W*t), like cos(W*t) + 0.5*sin(2*W*t); W is Ω.",
+        group="Computation",
     )
     constraint: str = choice(
         "Constraint",
@@ -115,16 +110,16 @@ class OwnBodyState(State):
     a3: float = _component("a₃", "Constraint a₃", 1.0, "Third component of a.")
     k1: float = _component("k₁", "Rotor k₁", 0.0, "Gyrostatic momentum, first component.")
     k2: float = _component("k₂", "Rotor k₂", 0.0, "Gyrostatic momentum, second component.")
-    k3: float = _component("k₃", "Rotor k₃", 0.0, "Gyrostatic momentum, third component.")
+    k3: float = _component("k₃", "Rotor k₃", 0.0, "Gyrostatic momentum, third component.", "Body")
     d1: float = _component("d₁", "Drive d₁", 0.0, "The gyrostatic momentum is k + d p(t).")
     d2: float = _component("d₂", "Drive d₂", 0.0, "The gyrostatic momentum is k + d p(t).")
-    d3: float = _component("d₃", "Drive d₃", 0.0, "The gyrostatic momentum is k + d p(t).")
+    d3: float = _component("d₃", "Drive d₃", 0.0, "The gyrostatic momentum is k + d p(t).", "Body")
     frequency: float = number(
-        "Ω", 1.0, (0.0, 5.0), 0.01, bounds=(0.0, 100.0), label="Frequency Ω", doc="Of the drive.", group="Body"
+        "Ω", 1.0, (0.0, 5.0), 0.01, bounds=(0.0, 100.0), label="Frequency Ω", doc="Of the drive.", group="Computation"
     )
     w1: float = _velocity("ω₁(0)", 0.5)
     w2: float = _velocity("ω₂(0)", 1.0)
-    w3: float = _velocity("ω₃(0)", 0.0)
+    w3: float = _velocity("ω₃(0)", 0.0, "Computation")
     azimuth: float = number(
         "φ",
         0.0,
@@ -133,6 +128,7 @@ class OwnBodyState(State):
         bounds=ONE_TURN,
         label="Azimuth of γ",
         doc="Of the vertical, in the plane 1, 2.",
+        group="Computation",
         means="own body",
     )
     height: float = number(

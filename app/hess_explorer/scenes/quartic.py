@@ -11,38 +11,23 @@ import numpy as np
 
 from hess_explorer.protocol.specs import Values
 from hess_explorer.scenes.framework.charted import Charts, of_motion
-from hess_explorer.scenes.framework.orbit_batches import OrbitBatch, batch_of
 from hess_explorer.scenes.framework.part import Start, part
 from hess_explorer.scenes.framework.scene import Preset, Scene
-from hess_explorer.scenes.framework.sliders import (
-    Slider,
-    accuracy_level,
-    number,
-    parameter,
-    slider_within,
-    time_span,
-)
-from hess_explorer.scenes.framework.solid_body import Solid, constrained_solid, solid_body
+from hess_explorer.scenes.framework.sliders import Slider, number, parameter, slider_within, time_span
+from hess_explorer.scenes.framework.solid_body import solid_body
 from hess_explorer.scenes.framework.windows import Window
-from hess_explorer.scenes.parts.orbits.proof import Proof, proved_error_shown
 from hess_explorer.scenes.parts.sections import (
+    PLAIN,
     Branch,
-    Orbit,
     Section,
     SectionState,
     branch_picture,
-    colouring,
     coordinate_of_branch,
-    crossings_of_each,
     end_of_branch,
-    length_of_manifolds,
     parameter_of_branch,
-    plain,
     section_layers,
     section_picture,
     section_trials,
-    shown_in_section,
-    which,
 )
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import Axes
@@ -50,15 +35,13 @@ from hess_explorer.views.plane import plane_domain, section_plane
 from hess_explorer.views.plane.velocity_plane import centred, nice_above
 from hess_explorer.views.space.poisson_sphere import Sphere, centre_of_mass, parallels
 from hess_explorer.views.text import digits, staying, vector
+from hess_mechanics.dynamics.cells import occupied_cells
 from hess_mechanics.errors import ModelError
-from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.parameters import B3, H_QUARTIC, I22, RATIO
 from hess_mechanics.suslov import quartic as model
 from hess_mechanics.suslov.equations import SYSTEM
 
-_ORBITS = 20
-_MOST_STEPS = 40_000
 _CELLS = 32
 _NAMES = ("q", "p")
 _ALONG = {"h": "h", "I₁₁/I₂₂": "ratio", "b₃": "b3"}
@@ -67,21 +50,14 @@ _HEIGHTS = (-0.75, -0.5, -0.25, 0.0, 0.25, 0.5, 0.75)
 """Values of γ3 on the equipotentials."""
 
 PRESETS = (
-    *map(
-        plain,
-        (
-            Preset("Mixed: in the sea"),
-            Preset("Mixed: on a curve", Q1=0.2, Q2=1.9, beta=0.0),
-            Preset("Integrable: I₁₁ = I₂₂", ratio=1.0, h=0.6),
-            Preset("Integrable, in a ring: h > |b₃|", ratio=1.0, h=1.5, Q1=1.8, Q2=0.0),
-            Preset("Regular: nearly round", ratio=1.05, h=0.6),
-            Preset("A sea nearly everywhere", ratio=3.0, h=1.2, Q1=0.9, Q2=1.2),
-            Preset("In a ring: bouncing at its far end", ratio=1.5, h=3.0, Q1=0.3, Q2=3.0, beta=1.571, span=60.0),
-            Preset(
-                "A pitchfork, over h", Q1=0.0, Q2=0.266, beta=0.0, periodic="period 1", over="h", low=0.6, high=0.95
-            ),
-        ),
-    ),
+    Preset("Mixed: in the sea", **PLAIN),
+    Preset("Mixed: on a curve", Q1=0.2, Q2=1.9, beta=0.0),
+    Preset("Integrable: I₁₁ = I₂₂", ratio=1.0, h=0.6),
+    Preset("Integrable, in a ring: h > |b₃|", ratio=1.0, h=1.5, Q1=1.8, Q2=0.0),
+    Preset("Regular: nearly round", ratio=1.05, h=0.6),
+    Preset("A sea nearly everywhere", ratio=3.0, h=1.2, Q1=0.9, Q2=1.2),
+    Preset("In a ring: bouncing at its far end", ratio=1.5, h=3.0, Q1=0.3, Q2=3.0, beta=1.571, span=60.0),
+    Preset("A pitchfork, over h", Q1=0.0, Q2=0.266, beta=0.0, periodic="period 1", over="h", low=0.6, high=0.95),
 )
 
 
@@ -121,17 +97,11 @@ class Quartic(SectionState):
         label="Start: direction β",
         doc="Initial direction of the point: q̇ = −p, |p| = √(1 − γ₃²). Click the section to choose all three.",
     )
-    periodic: str = which()
-    count: float = crossings_of_each()
-    indicator: str = colouring()
-    reach: float = length_of_manifolds()
     over: str = parameter_of_branch(tuple(_ALONG))
     low: float = end_of_branch("from")
     high: float = end_of_branch("to")
     upwards: str = coordinate_of_branch(_NAMES)
     span: float = time_span(40.0, 200.0, most=1e3, what="the chosen orbit")
-    certain: str = proved_error_shown()
-    accuracy: str = accuracy_level()
 
     def admitted(self, notes: list[str]) -> Quartic:
         """Move a start that the energy forbids to the edge of the region."""
@@ -178,17 +148,11 @@ class Quartic(SectionState):
     section = part(
         lambda s: Section(
             s,
-            lambda: (s.given,),
-            _crossings,
-            lambda section: [tuple(model.seeds(s.body, _ORBITS))],
-            lambda: s.periodic_orbit,
+            most_steps=40_000,
             whole=s.section_window,
         )
     )
-    density, megno, periodic_orbit = shown_in_section()
     branch = part(lambda s: Branch(s, s.periodic_orbit, _ALONG, ("I22",)))
-    orbit = part(Orbit)
-    proof = part(lambda s: Proof(s.orbit, s.certain))
 
     # ---- the pictures -------------------------------------------------------------------------------------------
 
@@ -196,11 +160,6 @@ class Quartic(SectionState):
         """Return the window with room for all q and p."""
         (q0, q1), (p0, p1) = centred(nice_above(1.05 * self.body.longest)), _P_AXIS
         return (q0, p0), (q1, p1)
-
-    @cached_property
-    def solid(self) -> Solid:
-        """The body along the orbit."""
-        return constrained_solid(self.work, self.body, self.orbit.path)
 
     @cached_property
     def momentum(self) -> Array:
@@ -217,7 +176,7 @@ class Quartic(SectionState):
     def impossible(self, axes: Axes) -> list[list[Array]]:
         """Return the part of the section outside its boundary."""
         reach = 4.0 * max(axes.x[1], self.body.longest)
-        return [] if self.section.reason else section_plane.outside(self.body.section_boundaries(), reach, 4.0)
+        return [] if self.section.known.reason else section_plane.outside(self.body.section_boundaries(), reach, 4.0)
 
     def start_at(self, x: float, y: float) -> Values:
         """Return the start and direction at a place of the section; nothing if no motion passes there."""
@@ -237,12 +196,11 @@ class Quartic(SectionState):
         )
 
     def _about_section(self) -> Caption:
-        special = self.periodic_orbit.caption or self.megno.caption
-        if special is not None:
-            return special
-        if self.section.reason:
-            return Caption(numbers=self.section.reason)
-        visited = model.visited(self.body, self.section.own, _CELLS)
+        if self.special is not None:
+            return self.special
+        if self.section.known.reason:
+            return Caption(numbers=self.section.known.reason)
+        visited = occupied_cells(self.section.own, self.poincare.window, _CELLS)
         counted = self.density.said or f"{len(self.section.own)} points of the "
         return Caption(numbers=f"{counted}orbit in {visited} of {_CELLS * _CELLS} cells.")
 
@@ -260,12 +218,6 @@ class Quartic(SectionState):
             yield f"H = ½ to {digits(model.level_error(self.body, self.orbit.path.states), 1)}"
         yield "Integrable" if self.body.integrable else "Not integrable"
         yield "div v = 0: the standard measure"
-
-
-def _crossings(
-    section: model.QuarticSection, starts: tuple[Start, ...], crossings: int, forward: bool, level: Level
-) -> OrbitBatch:
-    return batch_of(section, model.quartic_section(section.body, starts, crossings, level, _MOST_STEPS))
 
 
 SCENE = Scene(
@@ -304,14 +256,13 @@ SCENE = Scene(
             caption=Quartic._about_section,
             axes=_NAMES,
             y=_P_AXIS,
-            on_click=Quartic.start_at,
-            layers=section_layers("megno", "density", "periodic_orbit", forbidden=Quartic.impossible),
+            layers=section_layers(forbidden=Quartic.impossible),
         ),
         Sphere(
             caption=Quartic._about_sphere,
             looks={"orbit": "orbit"},
             axis=lambda s: centre_of_mass((0.0, 0.0, s.b3)),
-            circles=lambda s: [*parallels((0.0, 0.0, 1.0), [s.body.h / s.body.b3]), *s.proof.around],
+            circles=lambda s: [*parallels((0.0, 0.0, 1.0), [s.body.E / s.body.b3]), *s.proof.around],
         ),
         plane_domain.momentum_picture(
             lambda s: (s.orbit.path.times, s.momentum),

@@ -3,29 +3,30 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.charted import Charts, of_torus
 from hess_explorer.scenes.framework.hess_case import map_or_none, possible_f
+from hess_explorer.scenes.framework.part import part
 from hess_explorer.scenes.framework.scene import Preset, Scene, State
-from hess_explorer.scenes.framework.sliders import accuracy_level, choice, number, parameter, places
+from hess_explorer.scenes.framework.sliders import accuracy_level, choice, number, parameter
 from hess_explorer.scenes.framework.trial import COLOUR_UNIT, Trial, boundary_error, colour_error, curve_error
-from hess_explorer.scenes.framework.windows import Window, boxed, inside, tidy_window, window_of
+from hess_explorer.scenes.framework.windows import tidy_window
+from hess_explorer.scenes.parts.diagrams.rotation_map import BOUNDS, FULL, RotationMap, rotation_map, window_over
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.layers import Axes, CellGrid
+from hess_explorer.views.layers import Axes
 from hess_explorer.views.maps import circle_map as circle
-from hess_explorer.views.maps import rotation_line, rotation_plane
+from hess_explorer.views.maps import rotation_line
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits, superscript
 from hess_mechanics import parameters as known
-from hess_mechanics.numerics.accuracy import REFERENCE, Kind, Level, Plan
+from hess_mechanics.numerics.accuracy import REFERENCE, Kind, Plan
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov_hess import rotation_number as mechanics
 from hess_mechanics.suslov_hess.circle_map import CircleMap
@@ -34,28 +35,12 @@ from hess_mechanics.suslov_hess.rotation_number import (
     ParameterLine,
     PeriodicTorus,
     Torus,
-    TorusValues,
     possible_part,
 )
 
-_COARSE, _FINE = (75, 50), (300, 200)
-_ROWS = 25  # of the fine map in one task
 _ON_LINE = 400
-_ON_CURVE = 48  # points of the boundary of the lock zone
 _RATIONALS = ("−1/2", "−1/3", "−1/4", "−2/5", "−1/5", "−3/7", "−1/6")
-_FULL = {"h": (-1.0, 4.0), "f": (-3.0, 3.0), "a": (0.0, 2.0)}
-_AT_MOST = {"h": (-1.0, 1e6), "f": (-1e4, 1e4), "a": (-100.0, 100.0)}
 _ITERATES = 40
-
-
-def _corners(plane: str, ranges: Mapping[str, tuple[float, float]]) -> Window:
-    """Return the lower left and upper right corners of the map over a plane."""
-    x, y = (ranges[name] for name in plane.split(", "))
-    return (x[0], y[0]), (x[1], y[1])
-
-
-def _window(plane: str) -> Any:
-    return places(f"The window of the map over {plane}", 2, *_corners(plane, _AT_MOST))
 
 
 PRESETS = (
@@ -73,7 +58,7 @@ PRESETS = (
 class RotationNumber(State):
     """One torus, a map of ρ over two parameters, and a line through the torus along one parameter."""
 
-    a: float = parameter(known.A_HESS, bounds=_AT_MOST["a"])  # the range of the map
+    a: float = parameter(known.A_HESS, bounds=BOUNDS["a"])  # the range of the map
     h: float = parameter(known.H_HESS, 0.5, step=0.005)
     f: float = parameter(known.F_HESS, 0.8, step=0.005, doc="Area integral in units b = 1.")
     over: str = choice("Map over", PLANES, "h, f", group="State", doc="Two parameters of the map; the third is fixed.")
@@ -98,9 +83,9 @@ class RotationNumber(State):
     )
     accuracy: str = accuracy_level()
     # One window for each map.
-    part_hf: str = _window("h, f")
-    part_ha: str = _window("h, a")
-    part_fa: str = _window("f, a")
+    part_hf: str = window_over("h, f")
+    part_ha: str = window_over("h, a")
+    part_fa: str = window_over("f, a")
 
     def admitted(self, notes: list[str]) -> RotationNumber:
         """Clamp f to the region of this h, and repair the windows."""
@@ -117,112 +102,33 @@ class RotationNumber(State):
         """The torus on show."""
         return Torus(self.a, self.h, self.f)
 
-    @property
-    def sides(self) -> tuple[str, str]:
-        """The parameters on the axes of the map, the horizontal one first."""
-        across, up = self.over.split(", ")
-        return across, up
-
-    @property
-    def place(self) -> tuple[float, float]:
-        """The coordinates of the torus in the plane of the map."""
-        across, up = (vars(self.torus)[name] for name in self.sides)
-        return across, up
-
-    @property
-    def part(self) -> str:
-        """The name of the parameter that holds the window of this map."""
-        return "part_" + "".join(self.sides)
-
-    @cached_property
-    def window(self) -> Window:
-        """The ranges of the horizontal and the vertical axis of the map."""
-        (x0, y0), (x1, y1) = window_of(getattr(self, self.part), _corners(self.over, _FULL))
-        return (x0, x1), (y0, y1)
-
-    @property
-    def beside(self) -> Torus:
-        """The torus with the map's own parameters set to 0: a cache key that is constant within the plane."""
-        return self.torus.at(**dict.fromkeys(self.sides, 0.0))
-
-    @cached_property
-    def grid(self) -> tuple[TorusValues, tuple[int, int]]:
-        """The map and its cells (m, n), coarse first."""
-        common = (self.over, self.beside, self.window)
-        plan = self.plan(Kind.GRID)
-        fine = plan.grid(_FINE)
-        parts = [
-            (
-                None
-                if self.work.dragging
-                else self.work.need(
-                    Task(mechanics.rows, *common, fine, first, min(first + _ROWS, fine[1]), plan.level), preview=None
-                )
-            )
-            for first in range(0, fine[1], _ROWS)
-        ]
-        known = [part for part in parts if part is not None]
-        if len(known) == len(parts):
-            return mechanics.together(known), fine
-        return self.work.need(Task(mechanics.rows, *common, _COARSE, 0, _COARSE[1], plan.level)), _COARSE
-
-    @cached_property
-    def grids(self) -> tuple[CellGrid, CellGrid]:
-        """ρ and the zones over the window."""
-        return rotation_plane.grids(*self.grid, *self.window)
-
-    def lock(self, plan: Plan) -> tuple[str, Torus, tuple[float, float, float, float], Level, int]:
-        """Return the arguments of `lock_curve`, which computes |t| = 2 in the map, (n, 2)."""
-        return self.over, self.beside, (*self.window[0], *self.window[1]), plan.level, plan.side(_ON_CURVE)
-
-    @cached_property
-    def boundary(self) -> list[Array]:
-        """Return |t| = 2 in the map, once known."""
-        found = (
-            None
-            if self.work.dragging
-            else self.work.need(Task(mechanics.lock_curve, *self.lock(self.plan(Kind.CURVE))), preview=None)
-        )
-        if found is None or not len(found):
-            return []
-        return [found, found * np.array([1.0, -1.0])] if self.sides[1] == "f" else [found]
+    @part
+    def rho(self) -> RotationMap:
+        """The rotation number over two parameters."""
+        window = getattr(self, "part_" + self.over.replace(", ", ""))
+        return RotationMap(self, self.over, self.torus, self.line, window)
 
     @cached_property
     def on_line(self) -> ParameterLine:
         """The tori on the line, within the window of the map if the line lies in its plane."""
-        low, high = dict(zip(self.sides, self.window, strict=True)).get(self.line, _FULL[self.line])
+        low, high = dict(zip(self.rho.sides, self.rho.window, strict=True)).get(self.line, FULL[self.line])
         # The line's own parameter is set to 0, so the cache key is constant along the line.
         return possible_part(ParameterLine(self.line, self.torus.at(**{self.line: 0.0}), low, high))
 
-    @property
-    def x(self) -> Array:
-        """Values of the line's parameter (n,)."""
-        return self.on_line.places(_ON_LINE // 4 if self.dragging else self.plan(Kind.LINE).side(_ON_LINE))
-
     @cached_property
-    def along(self) -> TorusValues:
-        """ρ and trace at `x`."""
-        return self.work.need(Task(mechanics.along, self.on_line, self.x.size, self.plan(Kind.LINE).level))
+    def tori(self) -> rotation_line.Tori:
+        """ρ and trace of tori on the line."""
+        count = _ON_LINE // 4 if self.dragging else self.plan(Kind.LINE).side(_ON_LINE)
+        values = self.work.need(Task(mechanics.along, self.on_line, count, self.plan(Kind.LINE).level))
+        return rotation_line.Tori(self.on_line.places(count), values, self.on_line.place(self.torus))
 
     @cached_property
     def perturbed(self) -> Array | None:
-        """ρ of the other family at `x`, once known; NaN where there is no torus."""
-        plan = self.plan(Kind.LINE)
-        return (
-            None
-            if self.work.dragging
-            else self.work.need(
-                Task(
-                    mechanics.perturbed_along,
-                    self.on_line,
-                    self.x.size,
-                    self.epsilon,
-                    plan.level,
-                    plan.part(mechanics.TURNS),
-                ),
-                preview=None,
-            )
-        )
+        """ρ of the other family at the same tori, once known; NaN where there is no torus."""
+        plan, count = self.plan(Kind.LINE), self.tori.x.size
+        turns = plan.part(mechanics.TURNS)
+        task = Task(mechanics.perturbed_along, self.on_line, count, self.epsilon, plan.level, turns)
+        return None if self.dragging else self.work.need(task, preview=None)
 
     @property
     def sought(self) -> Fraction:
@@ -240,20 +146,6 @@ class RotationNumber(State):
     def map(self) -> CircleMap | None:
         """The circle map of the torus on show; None on the separatrix."""
         return map_or_none(self.work, self.a, self.h, self.f, self.level)
-
-    # ---- what the pictures show --------------------------------------------------------------------------------
-
-    def here(self) -> list[tuple[float, float]]:
-        """Return the torus on show if the window of the map contains it."""
-        (x0, x1), (y0, y1) = self.window
-        return inside([self.place], ((x0, y0), (x1, y1)))
-
-    def line_in_map(self) -> list[Array]:
-        """Return the line through the torus within the map."""
-        (x, y), (across, up) = self.place, self.sides
-        return rotation_plane.across(
-            *self.window, y=y if self.line == across else None, x=x if self.line == up else None
-        )
 
     # ---- words --------------------------------------------------------------------------------------------------
 
@@ -287,22 +179,12 @@ class RotationNumber(State):
                 yield "multipliers " + ", ".join(digits(point.multiplier) for point in self.map.fixed_points)
         perturbed = self.known("perturbed")
         if perturbed is not None:
-            steps = ", ".join(map(str, mechanics.plateaus(perturbed, self.along.possible)[:8]))
+            steps = ", ".join(map(str, mechanics.plateaus(perturbed, self.tori.values.possible)[:8]))
             yield f"plateaus of Θ(φ + ε sin 3φ): {steps.replace('-', '−') or 'none seen'}"
 
     def status(self) -> Iterator[str]:
         """Yield the status of the map and of the circle map."""
-        if self.known("grid"):
-            m, n = self.grid[1]
-            level = self.plan(Kind.GRID).level
-            error = (
-                None
-                if self.work.dragging
-                else self.work.need(
-                    Task(mechanics.rows_error, self.over, self.beside, self.window, level), preview=None
-                )
-            )
-            yield f"map {m} × {n}" + (f", ρ to {error:.1e} (99 of 100 cells)" if error is not None else "")
+        yield from super().status()
         if self.map is not None:
             yield f"{self.map.level}: circle map error ≤ {self.map.error_estimate:.1e} ({self.map.status})"
 
@@ -329,16 +211,11 @@ def _line_error(s: RotationNumber, found: Array, exact: Array) -> float:
     return curve_error(found[there], exact[there], high - low, period=1.0) if there.any() else math.nan
 
 
-def _map(s: RotationNumber, plan: Plan) -> TorusValues:
-    m, n = plan.grid(_FINE)
-    return mechanics.rows(s.over, s.beside, s.window, (m, n), 0, n, plan.level)
-
-
 _MEASURES: tuple[Trial[RotationNumber], ...] = (
     Trial(
         Kind.GRID,
         ("map",),
-        _map,
+        lambda s, plan: s.rho.rows(plan).now(),
         lambda s, found, truth: colour_error(found.rho[found.possible], truth.rho[found.possible]),
         COLOUR_UNIT,
         "cells",
@@ -353,8 +230,8 @@ _MEASURES: tuple[Trial[RotationNumber], ...] = (
     Trial(
         Kind.CURVE,
         ("map",),
-        lambda s, plan: mechanics.lock_curve(*s.lock(plan)),
-        lambda s, found, truth: boundary_error(found, truth, Axes(*s.window)),
+        lambda s, plan: s.rho.lock(plan).now(),
+        lambda s, found, truth: boundary_error(found, truth, Axes(*s.rho.window)),
     ),
 )
 
@@ -370,24 +247,7 @@ SCENE = Scene(
     title="Rotation number",
     summary="Is ρ of the Suslov–Hess torus a ladder, as the paper asks? It has one plateau; another family has many.",
     views=(
-        Plot(
-            name="map",
-            title=lambda s: f"Rotation number ρ over ({s.over})",
-            axes=lambda s: s.sides,
-            caption=lambda s: Caption("ρ locks at 0 only."),
-            x=lambda s: s.window[0],
-            y=lambda s: s.window[1],
-            on_click=lambda s, x, y: {s.sides[0]: x, s.sides[1]: y},
-            on_box=lambda s, corners: boxed(corners, _corners(s.over, _AT_MOST), s.part),
-            layers=rotation_plane.layers(
-                grids=lambda s: s.grids,
-                boundary=lambda s: s.boundary,
-                across=RotationNumber.line_in_map,
-                impossible=lambda s: rotation_plane.outside(s.over, s.torus, *s.window),
-                edges=lambda s: rotation_plane.edges(s.over, s.torus, *s.window),
-                here=RotationNumber.here,
-            ),
-        ),
+        rotation_map(lambda s: s.rho),
         Plot(
             name="line",
             title=lambda s: f"ρ along {s.line}",
@@ -397,11 +257,9 @@ SCENE = Scene(
             y=rotation_line.RHO,
             on_click=lambda s, x, y: {s.line: x},
             layers=rotation_line.rho_layers(
-                line=lambda s: s.on_line,
-                values=lambda s: s.along,
-                perturbed=lambda s: s.perturbed,
-                rational=lambda s: None if s.periodic is None else float(s.sought),
-                place=lambda s: s.on_line.place(s.torus),
+                lambda s: s.tori,
+                lambda s: s.perturbed,
+                lambda s: [] if s.periodic is None else [float(s.sought)],
             ),
         ),
         Plot(
@@ -412,9 +270,7 @@ SCENE = Scene(
             x=lambda s: s.on_line.ends,
             y=rotation_line.TRACE,
             on_click=lambda s, x, y: {s.line: x},
-            layers=rotation_line.trace_layers(
-                line=lambda s: s.on_line, values=lambda s: s.along, place=lambda s: s.on_line.place(s.torus)
-            ),
+            layers=rotation_line.trace_layers(lambda s: s.tori),
         ),
         circle.picture(
             map=lambda s: s.map,

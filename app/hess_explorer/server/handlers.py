@@ -12,11 +12,12 @@ from panel.io.server import DocHandler, WSHandler
 
 from hess_explorer.server.headers import GuardedDocument
 from hess_explorer.server.websockets import PanelSocket
+from hess_mechanics.errors import ModelError
 
 __all__ = ["HandlerMissing", "replace_handlers"]
 
 
-class HandlerMissing(RuntimeError):
+class HandlerMissing(ModelError):
     """A handler was not found, because the installed version of Panel or Bokeh is not supported."""
 
 

@@ -6,8 +6,8 @@ import inspect
 import math
 import sys
 import textwrap
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Mapping
+from dataclasses import replace
 from functools import partial
 from typing import Any
 
@@ -16,15 +16,14 @@ import numpy as np
 from hess_explorer.compute.cells import UserError
 from hess_explorer.sweep.plan import Axis, Plan
 from hess_mechanics.catalogue import Computation, NoValue, Number
+from hess_mechanics.catalogue.declared import real
 from hess_mechanics.errors import InvalidParameter, ModelError
 from hess_mechanics.numerics.accuracy import Kind, Level
-from hess_mechanics.numerics.arguments import as_level
-from hess_mechanics.parameters import Parameter
 
-__all__ = ["plan_of"]
+__all__ = ["computation_of"]
 
-_LEVEL = "level"
-"""A parameter of this name receives the level of the sweep."""
+_ACCURACY = "accuracy"
+"""A parameter of this name receives the accuracy of the sweep."""
 _BOUNDS = (-sys.float_info.max, sys.float_info.max)
 _TRIALS = 16
 """Maximum number of cells at which a function is called to learn its fields."""
@@ -32,23 +31,20 @@ _TRIALS = 16
 Function = Callable[..., Any]
 
 
-@dataclass(frozen=True)
-class _Call:
-    """`Computation.call` of a function: returns its numbers by name."""
+def _named(function: Function, own: str, takes_accuracy: bool) -> Callable[..., dict[str, float]]:
+    """Return a function that returns the numbers of `function` by name; a single number is called `own`."""
 
-    name: str
-    function: Function
-    takes_level: bool
-
-    def __call__(self, accuracy: Level, **cell: float) -> Any:
+    def call(accuracy: Level, **cell: float) -> dict[str, float]:
         try:
-            found = self.function(**cell, **({_LEVEL: accuracy} if self.takes_level else {}))
-            named = found._asdict() if hasattr(found, "_asdict") else {self.name: found}
+            found = function(**cell, **({_ACCURACY: accuracy} if takes_accuracy else {}))
+            named = found._asdict() if hasattr(found, "_asdict") else {own: found}
             return {name: float(value) for name, value in named.items()}
         except (ModelError, ArithmeticError):
             raise
         except Exception as error:
             raise UserError(f"{type(error).__name__}: {error}") from error
+
+    return call
 
 
 def _number(name: str, title: str) -> Number:
@@ -61,10 +57,10 @@ def _number(name: str, title: str) -> Number:
     return Number(name, title, read)
 
 
-def plan_of(
-    function: Function, numbers: Sequence[str] | None, over: Mapping[str, Axis], fixed: Mapping[str, float], level: str
-) -> Plan:
-    """Return the plan of a function, which is called at one cell, or at a few until one has a result.
+def computation_of(
+    function: Function, over: Mapping[str, Axis], fixed: Mapping[str, float], accuracy: str
+) -> tuple[Computation, str]:
+    """Return a function as a computation, and its text.  It is called at one cell, or at a few until one has a result.
 
     Its parameters are those that the sweep gives, and those with a number as default.  Raises `InvalidParameter`,
     `WorkLimit`.
@@ -76,37 +72,32 @@ def plan_of(
         signature = dict(inspect.signature(function).parameters)
     except (TypeError, ValueError):
         signature = {}
-    call = _Call(name, function, signature.pop(_LEVEL, None) is not None)
+    call = _named(function, name, signature.pop(_ACCURACY, None) is not None)
     defaults = {each: one.default for each, one in signature.items() if type(one.default) in (int, float)}
     parameters = (
-        Parameter(each, each, each, float(value), (0.0, 1.0), 0.1, _BOUNDS)
+        real(each, each, float(value), *_BOUNDS, each)
         for each, value in {**defaults, **dict.fromkeys((*over, *fixed), 0.0)}.items()
     )
-    what = Computation(name, name, function, call, tuple(parameters), {}, Kind.MAP, lambda found, exact: math.nan)
-    fields = _fields(call, Plan.of(what, (), level, over, fixed))
+    what = Computation(name, name, function, tuple(parameters), {}, Kind.MAP, call=call)
     title = (inspect.getdoc(inner) or name).partition("\n")[0]
-    what = replace(what, numbers={each: _number(each, title) for each in fields})
-    return Plan.of(what, numbers or fields, level, over, fixed, _source(inner, name))
+    fields = _fields(what, Plan.of(what, (), accuracy, over, fixed))
+    try:
+        source = textwrap.dedent(inspect.getsource(inner))
+    except (OSError, TypeError):
+        source = name
+    return replace(what, numbers={each: _number(each, title) for each in fields}), source
 
 
-def _fields(call: _Call, plan: Plan) -> tuple[str, ...]:
+def _fields(what: Computation, plan: Plan) -> tuple[str, ...]:
     """Return the names of a function's numbers, from the first cell that has a result."""
     failed: Exception | None = None
     for cell in np.unique(np.linspace(0, plan.cells - 1, _TRIALS).astype(int)):
         columns = plan.columns(np.array([cell]))
         try:
-            return (*call(as_level(plan.level), **{name: column.item() for name, column in columns.items()}),)
+            return (*what.compute({name: column.item() for name, column in columns.items()}, plan.accuracy),)
         except (ModelError, ArithmeticError, UserError) as error:
             failed = failed or error
     raise InvalidParameter(
-        f"{call.name} failed at all cells that were tried (first: {failed}): let it take its parameters by name, and "
+        f"{what.name} failed at all cells that were tried (first: {failed}): let it take its parameters by name, and "
         "return a number or a named tuple of numbers."
     )
-
-
-def _source(function: Function, name: str) -> str:
-    """Return the text of a function, or its name where there is none."""
-    try:
-        return textwrap.dedent(inspect.getsource(function))
-    except (OSError, TypeError):
-        return name

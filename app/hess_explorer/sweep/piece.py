@@ -23,14 +23,10 @@ __all__ = ["PieceResult", "cells_of_a_piece", "compute", "compute_sent", "named"
 
 PieceResult = tuple[dict[str, Array], dict[str, str]]
 """Arrays in the shape of a piece by variable, the status last; and texts of exceptions by cell."""
-_MOST_FAILURES = 100
-"""Largest number of texts of exceptions of a piece."""
 _SHORTEST, _LONGEST = 0.25, 2.0
 """Duration of a piece in seconds: long compared with the overhead, short enough to lose."""
 _PIECES = 16
 """Pieces per worker, so that all workers finish at about the same time; fewer if they would be too short."""
-_RATE = 50.0
-"""Maximum number of pieces per second for the scheduler and the writer."""
 _MOST_NUMBERS = 1_000_000
 """Maximum number of values of a piece, which take 8 MB."""
 _LONG_ENOUGH = 0.05
@@ -47,14 +43,14 @@ def named(cell: Mapping[str, float]) -> str:
 def compute(piece: Plan) -> PieceResult:
     """Return the results at all cells of a plan."""
     columns = piece.columns()
-    found = evaluate(piece.computation, piece.numbers, columns, as_level(piece.level))
+    found = evaluate(piece.computation, piece.numbers, columns, as_level(piece.accuracy))
     arrays: dict[str, Any] = {}
     for own, name in piece.variables.items():
         arrays[own] = found.values[name]
         if name in found.errors:
             arrays[f"{own}_error"] = found.errors[name]
     arrays["status"] = found.status
-    failed = np.flatnonzero(found.status == Outcome.FAILED)[:_MOST_FAILURES].tolist()
+    failed = np.flatnonzero(found.status == Outcome.FAILED).tolist()
     failures = {named({name: columns[name][i] for name in piece.axes}): found.why[i] for i in failed}
     return {name: values.reshape(piece.shape) for name, values in arrays.items()}, failures
 
@@ -70,7 +66,7 @@ def sendable(plan: Plan) -> bytes:
     # By name where that is enough: a copy of a system would have to compile its kernels.
     known = catalogue().get(what.key) is what
     try:
-        return bytes(cloudpickle.dumps((what.key if known else what, plan.numbers, plan.level, plan.fixed)))
+        return bytes(cloudpickle.dumps((what.key if known else what, plan.numbers, plan.accuracy, plan.fixed)))
     # Whatever the objects that a function uses raise.
     except Exception as error:
         raise InvalidParameter(
@@ -82,8 +78,8 @@ def sendable(plan: Plan) -> bytes:
 @lru_cache(maxsize=1)
 def received(content: bytes) -> Plan:
     """Return the plan that was sent, the same object for all pieces: a function keeps what it has compiled."""
-    what, numbers, level, fixed = pickle.loads(content)
-    return Plan(find(what) if isinstance(what, str) else what, numbers, level, {}, fixed)
+    what, numbers, accuracy, fixed = pickle.loads(content)
+    return Plan(find(what) if isinstance(what, str) else what, numbers, accuracy, {}, fixed)
 
 
 def compute_sent(content: bytes, needed: str, axes: Mapping[str, Array]) -> PieceResult:
@@ -98,8 +94,8 @@ def compute_sent(content: bytes, needed: str, axes: Mapping[str, Array]) -> Piec
 
 def cells_of_a_piece(plan: Plan, workers: int) -> float:
     """Return how many cells a piece has at most, from trials at random cells."""
-    cost, least = _seconds_of_a_cell(plan), workers / _RATE
-    seconds = min(max(_LONGEST, least), max(_SHORTEST, least, cost * plan.cells / (_PIECES * workers)))
+    cost = _seconds_of_a_cell(plan)
+    seconds = min(_LONGEST, max(_SHORTEST, cost * plan.cells / (_PIECES * workers)))
     return max(1.0, min(seconds / cost, _MOST_NUMBERS / len(plan.numbers)))
 
 
@@ -111,7 +107,7 @@ def _seconds_of_a_cell(plan: Plan) -> float:
 
     def trial(count: int) -> float:
         columns, begun = plan.columns(random.integers(plan.cells, size=count)), time.perf_counter()
-        evaluate(plan.computation, plan.numbers, columns, as_level(plan.level))
+        evaluate(plan.computation, plan.numbers, columns, as_level(plan.accuracy))
         return time.perf_counter() - begun
 
     # The first cell compiles or loads kernels.

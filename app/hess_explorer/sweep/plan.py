@@ -51,7 +51,7 @@ class Plan:
 
     computation: Computation
     numbers: tuple[str, ...]
-    level: str
+    accuracy: str
     axes: Mapping[str, Array]
     fixed: Mapping[str, float]
     source: str = ""
@@ -61,7 +61,7 @@ class Plan:
         cls,
         what: Computation,
         numbers: Sequence[str],
-        level: str,
+        accuracy: str,
         over: Mapping[str, Axis],
         fixed: Mapping[str, float],
         source: str = "",
@@ -76,7 +76,7 @@ class Plan:
         axes = {name: _axis(what.parameter(name), values) for name, values in over.items()}
         given = what.values(fixed)
         others = {one.name: float(given[one.name]) for one in what.parameters if one.name not in over}
-        plan = cls(what, tuple(numbers), level, axes, others, source)
+        plan = cls(what, tuple(numbers), accuracy, axes, others, source)
         if plan.cells > MAX_CELLS:
             raise WorkLimit(f"The sweep has {plan.cells} cells, but at most {MAX_CELLS} are allowed: divide it.")
         return plan

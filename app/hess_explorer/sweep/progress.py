@@ -22,41 +22,31 @@ class Progress:
 
 
 _EVERY = 30.0
-"""Seconds between two lines of progress in a log."""
+"""Seconds between two bars in a log."""
 Report = Callable[[Progress], None]
 
 
 @contextmanager
-def reporting(progress: bool | Report | None, cells: int, before: int) -> Iterator[Callable[[int], None]]:
-    """Yield a callback for each number of finished cells, for a progress bar or log (True) or `progress`."""
-    done, begun, following = before, time.monotonic(), _EVERY
+def reporting(progress: bool | Report | None, cells: int, before: int) -> Iterator[Callable[[int], object]]:
+    """Yield a callback for each number of finished cells, for a progress bar (True) or `progress`."""
+    if not callable(progress):
+        from tqdm.auto import tqdm
 
-    def log(found: Progress) -> None:
-        nonlocal following
-        if found.seconds >= following:
-            following = found.seconds + _EVERY
-            left = "" if found.left is None else f", about {found.left:.0f} s left"
-            print(f"{found.done} of {cells} cells after {found.seconds:.0f} s{left}", file=sys.stderr, flush=True)
+        # The stderr of a notebook is not a terminal but is shown.
+        is_seen = sys.stderr.isatty() or "ipykernel" in sys.modules
+        wait = {} if is_seen else {"mininterval": _EVERY, "delay": _EVERY}
+        with tqdm(
+            total=cells, initial=before, unit="cell", unit_scale=True, dynamic_ncols=True, disable=not progress, **wait
+        ) as bar:
+            yield bar.update
+        return
+    done, begun = before, time.monotonic()
 
     def count(more: int) -> None:
         nonlocal done
         done += more
         seconds = time.monotonic() - begun
-        left = seconds / (done - before) * (cells - done) if done > before else None
-        report(Progress(done, cells, seconds, left))
+        progress(Progress(done, cells, seconds, seconds / (done - before) * (cells - done) if done > before else None))
 
-    if progress is True and (sys.stderr.isatty() or _in_notebook()):
-        from tqdm.auto import tqdm
-
-        with tqdm(total=cells, initial=before, unit="cell", unit_scale=True, dynamic_ncols=True) as bar:
-            yield lambda more: (bar.update(more), None)[1]
-        return
-    report = log if progress is True else progress or (lambda found: None)
     count(0)
     yield count
-
-
-def _in_notebook() -> bool:
-    """Return True in a kernel of Jupyter, whose stderr is not a terminal but is shown."""
-    kernel = sys.modules.get("IPython")
-    return kernel is not None and "IPKernelApp" in getattr(kernel.get_ipython(), "config", {})

@@ -12,7 +12,7 @@ import numpy as np
 
 from hess_explorer.compute.cells import Outcome, evaluate
 from hess_explorer.sweep.errors import Interrupted, StoreError, WorkersLost
-from hess_explorer.sweep.function import plan_of
+from hess_explorer.sweep.function import computation_of
 from hess_explorer.sweep.piece import cells_of_a_piece, named
 from hess_explorer.sweep.plan import Axis, Plan
 from hess_explorer.sweep.progress import Report, reporting
@@ -28,20 +28,6 @@ if TYPE_CHECKING:
     from distributed import Client
 
 __all__ = ["explain", "sweep"]
-
-
-def _planned(
-    computation: str | Computation | Callable[..., object],
-    numbers: Sequence[str] | None,
-    over: Mapping[str, Axis],
-    fixed: Mapping[str, float],
-    level: str,
-) -> Plan:
-    """Return the checked plan of a sweep.  Raises `InvalidParameter`, `WorkLimit`."""
-    if callable(computation):
-        return plan_of(computation, numbers, over, fixed, level)
-    what = computation if isinstance(computation, Computation) else find(computation)
-    return Plan.of(what, numbers or [*what.numbers][:1], level, over, fixed)
 
 
 def sweep(
@@ -82,7 +68,7 @@ def sweep(
         Address of a Dask scheduler, "tcp://…" or "tls://…", or a Client, whose workers compute the sweep; they need
         the same version of this package.
     progress : bool or callable, optional
-        True shows a progress bar, or prints a line every 30 seconds if standard error is not a terminal; a function is
+        True shows a progress bar, every 30 seconds if standard error is not a terminal; a function is
         called with a `Progress`.
     **fixed : float
         Values of the other parameters that differ from their defaults.
@@ -123,14 +109,20 @@ def sweep(
     [2.0, 6.0]
     """
     require_libraries()
-    plan = _planned(computation, numbers, over, fixed, as_level_name(accuracy))
+    level = as_level_name(accuracy)
+    if callable(computation):
+        what, source = computation_of(computation, over, fixed, level)
+        plan = Plan.of(what, numbers or [*what.numbers], level, over, fixed, source)
+    else:
+        what = computation if isinstance(computation, Computation) else find(computation)
+        plan = Plan.of(what, numbers or [*what.numbers][:1], level, over, fixed)
     path = None if store is None else Path(store)
     place: Any = path if path is not None and exists(path, plan) else None
     todo = None if place is None else missing(place, plan)
     hint = "" if path is None else f"  Finished cells are saved in {str(path)!r}: run the same sweep again to continue."
     try:
         # A finished sweep needs no workers.
-        with nullcontext() if todo == [] else connected(plan, workers, scheduler) as client:
+        with nullcontext() if todo == [] else connected(workers, scheduler) as client:
             if todo is None:
                 place = create(path, plan, cells_of_a_piece(plan, size(client)))
                 todo = missing(place, plan)
@@ -175,11 +167,11 @@ def explain(found: xr.Dataset, **cell: float) -> str:
     if "computation" not in facts or {*cell} != {*found.status.dims}:
         raise InvalidParameter("Pass a result of `sweep` or `read`, and all coordinates of one of its cells.")
     cell = {str(name): as_number(str(name), cell[str(name)]) for name in found.status.dims}
-    if (failure := json.loads(facts.get("failures", "{}")).get(named(cell))) is not None:
+    if (failure := json.loads(facts["failures"]).get(named(cell))) is not None:
         return str(failure)
     if facts["source"]:
         raise InvalidParameter(f"{facts['title']} is a function of your own: call it at the cell for the reason.")
-    over, fixed = {name: [value] for name, value in cell.items()}, json.loads(facts["parameters"])
-    plan = _planned(facts["computation"], facts["numbers"].split(", "), over, fixed, facts["level"])
-    outcome = evaluate(plan.computation, plan.numbers, plan.columns(), as_level(plan.level))
+    columns = {name: np.array([value]) for name, value in {**json.loads(facts["parameters"]), **cell}.items()}
+    numbers = facts["numbers"].split(", ")
+    outcome = evaluate(find(facts["computation"]), numbers, columns, as_level(facts["accuracy"]))
     return outcome.why.get(0, f"{Outcome(int(outcome.status[0])).words}.")

@@ -7,7 +7,6 @@ its values, so a piece with a status is finished, whenever the run ended.  Unrea
 from __future__ import annotations
 
 import json
-import math
 import shutil
 import uuid
 from collections.abc import Iterator
@@ -71,32 +70,27 @@ def _fill(place: Path | MemoryStore, plan: Plan, cells: float) -> None:
     """Write the attributes of a store, its axes, and its arrays without any chunk."""
     import dask.array
     import xarray as xr
-    from zarr.codecs import Crc32cCodec, ZstdCodec
+    from zarr.codecs import ZstdCodec
 
-    what, dimensions = plan.computation, tuple(plan.axes)
     chunks = dask.array.core.normalize_chunks("auto", plan.shape, limit=cells, dtype=np.uint8)
-
-    def empty(value: Any, name: str, symbol: str, unit: str, **about: Any) -> Any:
-        array = dask.array.full(plan.shape, value, chunks=chunks, dtype=np.asarray(value).dtype)
-        return dimensions, array, {"long_name": name, "symbol": symbol, "units": unit, **about}
-
-    variables = {}
+    dimensions, nothing = tuple(plan.axes), dask.array.full(plan.shape, np.nan, chunks=chunks)
+    variables: dict[str, Any] = {}
     for own, name in plan.variables.items():
-        one = what.number(name)
-        variables[own] = empty(math.nan, one.title, one.symbol, one.unit)
+        one = plan.computation.number(name)
+        about = {"long_name": one.title, "symbol": one.symbol, "units": one.unit}
+        variables[own] = dimensions, nothing, about
         if one.error_reader is not None:
-            variables[f"{own}_error"] = empty(math.nan, f"estimated error: {one.title}", f"δ{one.symbol}", one.unit)
+            variables[f"{own}_error"] = dimensions, nothing, {**about, "long_name": f"estimated error: {one.title}"}
     flags = {"flag_values": [*map(int, Outcome)], "flag_meanings": " ".join(o.words.replace(" ", "_") for o in Outcome)}
-    variables["status"] = empty(np.uint8(0), "how each cell ended", "status", "1", **flags)
-    known = {name: what.parameter(name) for name in dimensions}
-    axes = {
-        name: (name, plan.axes[name], {"long_name": one.label, "symbol": one.symbol, "units": one.unit})
-        for name, one in known.items()
-    }
-    facts = {**_facts(plan), "variables": ", ".join(variables)}
-    # Checksums reveal incomplete files.  The doubles look random, so compression would cost more than it saves.
-    packed: dict[Any, Any] = {name: {"compressors": (Crc32cCodec(),)} for name in variables}
-    packed["status"] = {"compressors": (ZstdCodec(level=1, checksum=True),), "fill_value": 0}
+    status = dask.array.zeros(plan.shape, dtype=np.uint8, chunks=chunks)
+    variables["status"] = dimensions, status, {"long_name": "how each cell ended", "units": "1", **flags}
+    axes = {}
+    for name, values in plan.axes.items():
+        of = plan.computation.parameter(name)
+        axes[name] = name, values, {"long_name": of.label, "symbol": of.symbol, "units": of.unit}
+    facts = {**_facts(plan), "variables": ", ".join(variables), "failures": "{}"}
+    # Checksums reveal incomplete files.
+    packed = {name: {"compressors": (ZstdCodec(level=1, checksum=True),)} for name in variables}
     # The specification of Zarr 3 has no consolidated metadata.
     whole = xr.Dataset(variables, axes, facts)
     whole.to_zarr(place, compute=False, zarr_format=3, consolidated=False, encoding=packed)
@@ -108,7 +102,7 @@ def _facts(plan: Plan) -> dict[str, str]:
         "computation": plan.computation.key,
         "title": plan.computation.title,
         "numbers": ", ".join(plan.numbers),
-        "level": plan.level,
+        "accuracy": plan.accuracy,
         "version": version(),
         "parameters": json.dumps(dict(plan.fixed), ensure_ascii=False, sort_keys=True),
         "source": plan.source,
@@ -120,11 +114,10 @@ def exists(path: Path, plan: Plan) -> bool:
     if not path.exists() or (path.is_dir() and not any(path.iterdir())):
         return False
     stored = _open(path)
-    held = {name: str(stored.attrs.get(name)) for name in _facts(plan)}
     other = [
-        f"{name} = {shorten(held[name], 80)}, not {shorten(value, 80)}"
+        f"{name} = {shorten(str(stored.attrs.get(name)), 80)}, not {shorten(value, 80)}"
         for name, value in _facts(plan).items()
-        if held[name] != value
+        if stored.attrs.get(name) != value
     ]
     axes = plan.axes.items()
     other += [f"other values of {name}" for name, values in axes if not np.array_equal(stored.get(name, ()), values)]
@@ -169,7 +162,7 @@ def write(place: Path | MemoryStore, region: Region, done: PieceResult) -> None:
     try:
         if failures:
             facts = zarr.open_group(place, mode="r+", use_consolidated=False).attrs
-            both = json.loads(str(facts.get("failures", "{}"))) | failures
+            both = json.loads(str(facts["failures"])) | failures
             # In an order that does not depend on which worker was first.
             facts["failures"] = json.dumps(dict(islice(sorted(both.items()), _MOST_FAILURES)), ensure_ascii=False)
         for variables in (parts, status):

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import signal
 from collections.abc import Generator, Iterable, Iterator
 from contextlib import ExitStack, contextmanager
@@ -11,9 +10,10 @@ from textwrap import shorten
 from typing import TYPE_CHECKING, Any
 
 from hess_explorer.sweep.errors import WorkersLost
-from hess_explorer.sweep.piece import PieceResult, compute, compute_sent, received, sendable
+from hess_explorer.sweep.piece import PieceResult, compute, compute_sent, sendable
 from hess_explorer.sweep.plan import Plan, Region, version
 from hess_mechanics.errors import InvalidParameter
+from hess_mechanics.numerics.arguments import as_whole
 
 if TYPE_CHECKING:
     from distributed import Client, Worker
@@ -76,17 +76,15 @@ def results(client: Client | None, plan: Plan, regions: Iterable[Region]) -> Gen
 
 
 @contextmanager
-def connected(plan: Plan, workers: str | int | None, scheduler: str | Client | None) -> Iterator[Client | None]:
+def connected(workers: str | int | None, scheduler: str | Client | None) -> Iterator[Client | None]:
     """Yield a client of the workers, None for this thread.  Raises `InvalidParameter`, `WorkersLost`."""
-    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-    count = cores if workers == "all" else workers or 1
-    if not isinstance(count, int) or not 1 <= count <= 4 * cores:
-        raise InvalidParameter(f"This machine has {cores} cores: choose all or 1 to {4 * cores} workers.")
+    # Dask starts one worker for each core of this process without a number.
+    count = None if workers == "all" else as_whole("workers", workers or 1, 1, 1000)
     if scheduler is None and count == 1:
         yield None
         return
     import dask.config
-    from distributed import Client, LocalCluster, fire_and_forget
+    from distributed import Client, LocalCluster
 
     if isinstance(scheduler, Client):
         yield scheduler
@@ -112,10 +110,6 @@ def connected(plan: Plan, workers: str | int | None, scheduler: str | Client | N
             )
             client = stack.enter_context(Client(at, timeout=_WAIT, set_as_default=False))
             client.wait_for_workers(1, timeout=_WAIT)
-            # They import the mechanics while this thread measures the cost of a cell.
-            for one in client.nthreads():
-                first = client.submit(received, sendable(plan), workers=[one], allow_other_workers=True, pure=False)
-                fire_and_forget(first)
         except (OSError, TimeoutError) as error:
             raise WorkersLost(
                 f"No Dask scheduler with a worker answered at {scheduler} within {_WAIT:g} s: start one with "

@@ -16,7 +16,7 @@ from difflib import get_close_matches
 from functools import cache
 
 from hess_mechanics.catalogue import of_motions, of_problems, of_sections
-from hess_mechanics.catalogue.declared import Choice, Computation, Many, NoValue, Number
+from hess_mechanics.catalogue.declared import Choice, Computation, NoValue, Number, declare
 from hess_mechanics.dynamics.motions import Motions, anywhere, section_of
 from hess_mechanics.dynamics.system import System, declared, systems
 from hess_mechanics.errors import InvalidParameter
@@ -24,7 +24,6 @@ from hess_mechanics.errors import InvalidParameter
 __all__ = [
     "Choice",
     "Computation",
-    "Many",
     "Motions",
     "NoValue",
     "Number",
@@ -54,9 +53,12 @@ def computations_of(system: System | Motions) -> Mapping[str, Computation]:
 
 
 def _of(of: Motions) -> Iterator[Computation]:
-    yield from of_motions.computations(of)
+    for one in of_motions.computations(of.system):
+        yield declare(of, one)
     if of.section is not None:
-        yield from of_sections.computations(of)
+        example = of.section({each.name: each.default for each in of.parameters})
+        for one in of_sections.computations(example, of.period):
+            yield declare(of, one, on_section=True)
 
 
 @cache
@@ -71,6 +73,5 @@ def find(key: str) -> Computation:
     every = catalogue()
     if isinstance(key, str) and key in every:
         return every[key]
-    named = [one for one in every if one.split(" ")[0] == str(key).split(" ")[0]]
-    close = named or get_close_matches(str(key), every, 3, 0.4) or [*dict.fromkeys(one.split(" ")[0] for one in every)]
+    close = get_close_matches(str(key), every, 3, 0.4) or [*dict.fromkeys(one.name for one in every.values())]
     raise InvalidParameter(f"There is no computation {str(key)[:60]!r}: choose from {', '.join(close)}.")

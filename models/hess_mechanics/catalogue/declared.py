@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from operator import attrgetter
 from typing import Any, Literal
 
@@ -12,14 +12,15 @@ import numpy as np
 
 from hess_mechanics.dynamics.motions import Motions
 from hess_mechanics.dynamics.return_map import ReturnMap
+from hess_mechanics.dynamics.trade import LevelCost, measure
 from hess_mechanics.errors import InvalidParameter, ModelError
-from hess_mechanics.numerics.accuracy import Accuracy, Kind, Level, Status
+from hess_mechanics.numerics.accuracy import PLANS, Accuracy, Kind, Level, Plan, Status
 from hess_mechanics.numerics.arguments import as_level, as_number
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.results import Array, Mask
 from hess_mechanics.parameters import Parameter
 
-__all__ = ["Choice", "Computation", "Many", "NoValue", "Number", "Numbers", "largest_difference", "number_of"]
+__all__ = ["Choice", "Computation", "Many", "NoValue", "Number", "Scalar", "declare", "largest_difference", "real"]
 
 Value = float | str
 
@@ -51,7 +52,7 @@ class Number:
 
     symbol: str
     title: str
-    reader: Reader
+    reader: Reader = "value"
     unit: str = "1"
     error_reader: Reader | None = None
     turn: float = 0.0
@@ -76,18 +77,17 @@ class Choice:
     default: str
 
 
+def real(name: str, symbol: str, default: float, low: float, high: float, doc: str) -> Parameter:
+    """Return a parameter of a computation that is any number from `low` to `high`."""
+    return Parameter(name, symbol, doc, default, (low, high), 0.01, (low, high), doc, "Computation")
+
+
 @dataclass(frozen=True)
-class Numbers(Result):
-    """Numbers by name, for functions that return no `Result` of their own, or numbers that belong to another result.
+class Scalar(Result):
+    """A number with its estimated error, and the result to which it belongs unless it stands alone."""
 
-    Attributes
-    ----------
-    values, errors : numbers by name, and the estimated errors of some of them.
-    of : the result to which they belong, if there is one.
-    """
-
-    values: Mapping[str, float]
-    errors: Mapping[str, float] = field(default_factory=dict)
+    value: float
+    error: float = math.nan
     of: Any = None
 
     @property
@@ -96,23 +96,12 @@ class Numbers(Result):
         return getattr(self.of, "status", Status.OK)
 
     def labels(self) -> Labels:
-        """Return the result to which the numbers belong, with the numbers among its facts."""
-        known = Labels({}, {}) if self.of is None else self.of.labels()
-        errors = {f"{name} error": value for name, value in self.errors.items()}
-        return Labels(known.coords, known.variables, known.units, {**self.values, **errors, **known.facts})
+        """Return those of the result to which the number belongs."""
+        return Labels({}, {}, facts={"value": self.value}) if self.of is None else self.of.labels()
 
 
-def number_of(name: str, symbol: str, title: str, unit: str = "1", error: bool = False) -> Number:
-    """Return a number of `Numbers`."""
-    return Number(symbol, title, lambda r: r.values[name], unit, (lambda r: r.errors[name]) if error else None)
-
-
-@dataclass(frozen=True)
-class Many:
-    """Numbers of many cells at once, NaN where there is none, and the cells without one by the type of their error."""
-
-    numbers: Mapping[str, Array]
-    missing: Mapping[type[ModelError], Mask]
+Many = tuple[Mapping[str, Array], Mapping[type[ModelError], Mask]]
+"""Numbers of many cells by name, NaN where there is none, and the cells without one by the type of their error."""
 
 
 @dataclass(frozen=True)
@@ -122,14 +111,15 @@ class Computation:
     Attributes
     ----------
     name : its name, such as "circle-map".
-    title : its name in words.
+    title : its name in words, without that of the system.
     function : the public function, whose docstring describes it.
-    call : computes it, call(accuracy, **values).  Raises `ModelError`.
     parameters : its numbers, whose defaults are the example.
     numbers : the numbers of a result by name; the first is what a sweep takes by default.
     kind : row of the table of accuracy: what a level means for it.
-    error : distance of a result from a more accurate one, NaN if there is nothing to compare.
-    unit : unit of this distance.
+    compared : values of a result that `error` compares: an attribute, or the first number by default.  Or the error, as
+        a function of a result and a more accurate one.
+    call : computes it, call(accuracy, **values), if `function` has other arguments.  Raises `ModelError`.
+    unit : unit of the error.
     choices : its arguments that are words.
     example : values that differ from the defaults in the example, so that it takes about a second.
     system : name of the system; empty for a computation of its own.
@@ -141,11 +131,11 @@ class Computation:
     name: str
     title: str
     function: Callable[..., Any]
-    call: Callable[..., Result]
     parameters: tuple[Parameter, ...]
     numbers: Mapping[str, Number]
     kind: Kind
-    error: Callable[[Any, Any], float]
+    compared: str | Callable[[Any, Any], float] = ""
+    call: Callable[..., Any] | None = None
     unit: str = "1"
     choices: tuple[Choice, ...] = ()
     example: Mapping[str, Value] = field(default_factory=dict)
@@ -200,66 +190,57 @@ class Computation:
             found[choice.name] = word
         return found
 
-    def compute(self, given: Mapping[str, Any] | None = None, accuracy: Accuracy = "precise") -> Result:
-        """Return the result for some values; the others have their defaults.
+    def compute(self, given: Mapping[str, Any] | None = None, accuracy: Accuracy = "precise") -> Any:
+        """Return the result for some values, a `Result`; the others have their defaults.
 
         Raises `ModelError`.
         """
-        level: Level = as_level(accuracy)
-        return self.call(level, **self.values(given))
+        found = (self.call or self.function)(accuracy=as_level(accuracy), **self.values(given))
+        return Scalar(found) if isinstance(found, float) else found
+
+    def error(self, result: Any, exact: Any) -> float:
+        """Return the distance of a result from a more accurate one, NaN if there is nothing to compare."""
+        if callable(self.compared):
+            return self.compared(result, exact)
+        read = attrgetter(self.compared) if self.compared else next(iter(self.numbers.values())).read
+        return largest_difference(read(result), read(exact))
+
+    def trade(self, given: Mapping[str, Any] | None = None, repeats: int = 1) -> tuple[LevelCost, ...]:
+        """Return time and error at each level, measured on this machine; the fastest of `repeats` runs counts.
+
+        The error is the distance from a run that is finer than `reference`.  Raises `ModelError`.
+        """
+
+        def run(plan: Plan) -> Any:
+            is_named = plan is PLANS[self.kind][plan.level.name]
+            return self.compute(given, plan.level.name if is_named else plan.level)
+
+        return tuple(measure(self.kind, run, self.error, repeats))
 
 
-Start = Callable[[Level, Mapping[str, Any]], tuple[Any, ...]]
+def declare(of: Motions, one: Computation, on_section: bool = False) -> Computation:
+    """Return a computation of the motions of a system.
 
+    one : its function takes body, initial state and accuracy, or with `on_section` the return map and a point of the
+    section, before its parameters.
+    """
+    names = [*(each.name for each in one.parameters), *(each.name for each in one.choices)]
 
-def moving(of: Motions) -> Start:
-    """Return a function of accuracy and values that returns body and state of a motion, and the accuracy."""
-    return lambda accuracy, values: (*of.start(values), accuracy)
+    def call(accuracy: Level, **values: Any) -> Any:
+        more = {name: values[name] for name in names}
+        start: tuple[Any, ...]
+        if on_section and of.section is not None:
+            start = ReturnMap(of.section(values), accuracy), tuple(values[each.name] for each in of.place)
+        else:
+            start, more["accuracy"] = of.start(values), accuracy
+        return (one.call or one.function)(*start, **more)
 
-
-def returning(of: Motions) -> Start:
-    """Return a function of accuracy and values that returns the return map of a section, and a place of it."""
-
-    def start(accuracy: Level, values: Mapping[str, Any]) -> tuple[Any, ...]:
-        assert of.section is not None
-        return ReturnMap(of.section(values), accuracy), tuple(values[one.name] for one in of.place)
-
-    return start
-
-
-def declare(
-    of: Motions,
-    start: Start,
-    name: str,
-    title: str,
-    function: Callable[..., Any],
-    call: Callable[..., Result],
-    parameters: tuple[Parameter, ...],
-    numbers: Mapping[str, Number],
-    kind: Kind,
-    error: Callable[[Any, Any], float],
-    **more: Any,
-) -> Computation:
-    """Return a computation of the motions of a system, from call(*start, **further parameters)."""
-    own = (*of.parameters, *of.place)
-    names = {one.name for one in own}
-
-    def run(accuracy: Level, **values: Any) -> Result:
-        rest = {name: value for name, value in values.items() if name not in names}
-        return call(*start(accuracy, values), **rest)
-
-    return Computation(
-        name,
-        f"{title}: {of.title}",
-        function,
-        run,
-        (*own, *parameters),
-        numbers,
-        kind,
-        error,
+    return replace(
+        one,
+        parameters=(*of.parameters, *of.place, *one.parameters),
+        call=call,
         system=of.name,
         source=of.source,
-        **more,
     )
 
 

@@ -32,6 +32,7 @@ from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.results import Array, Complex, Cost, frozen
 from hess_mechanics.rigid_body.inertia import require_finite
 from hess_mechanics.suslov.equations import SuslovBody
+from hess_mechanics.suslov.free import vertical
 from hess_mechanics.suslov.scattering import scattering
 
 __all__ = ["BallScattering", "all_phases", "ball_scattering", "free_theta_plus", "start", "starts"]
@@ -119,16 +120,6 @@ def _phases(body: BallBody) -> Array:
     return np.linspace(0.0, 2.0 * math.pi, count, endpoint=False)
 
 
-def _circle(body: BallBody, theta: Array | float, phi: Array) -> Array:
-    """Return γ = cos θ ξ + sin θ (cos φ η + sin φ e3), shape (..., 3)."""
-    xi, eta = line_of_rest(body)
-    across = np.sin(theta) * np.cos(phi)
-    return np.stack(
-        [np.cos(theta) * xi[0] + across * eta[0], np.cos(theta) * xi[1] + across * eta[1], np.sin(theta) * np.sin(phi)],
-        axis=-1,
-    )
-
-
 def _moment(body: BallBody, theta: Array | float) -> Array:
     """Return (ξ, Îξ) on the circles θ."""
     xi, _ = line_of_rest(body)
@@ -137,8 +128,10 @@ def _moment(body: BallBody, theta: Array | float) -> Array:
 
 def _growth(body: BallBody, theta: Array, phi: Array) -> Array:
     """Return μ = λ/u on the circles θ (m,) at the phases φ (n,), shape (m, n)."""
-    gamma = list(np.moveaxis(_circle(body, theta[:, None], phi), -1, 0))
-    growth: Array = math.hypot(body.I13, body.I23) * _moment(body, theta)[:, None] / determinant(gamma, body.parameters)
+    theta = theta[:, None]
+    gamma = vertical(line_of_rest(body)[0], np.cos(theta), np.sin(theta) * np.exp(1j * phi))
+    inertia = determinant(list(np.moveaxis(gamma, -1, 0)), body.parameters)
+    growth: Array = math.hypot(body.I13, body.I23) * _moment(body, theta) / inertia
     return np.maximum(growth, _TINY, out=growth)
 
 
@@ -171,9 +164,8 @@ def starts(strip: Strip, theta: float, phis: Array, distance: float) -> tuple[Ar
     known = lag is not None and abs(distance) * float(np.max(np.abs(lag))) < _MOST_TURN
     H = lag if lag is not None and known else np.zeros(phis.size, complex)
     z = math.sin(theta) * np.exp(1j * phis) + 1j * distance * math.cos(theta) * np.exp(1j * phis) * H.conj()
-    across = np.column_stack([math.cos(theta) - distance * math.sin(theta) * H.imag, z.real, z.imag])
-    across /= np.linalg.norm(across, axis=1)[:, None]
-    gamma = across @ np.array([[*xi, 0.0], [*eta, 0.0], [0.0, 0.0, 1.0]])
+    gamma = vertical(xi, math.cos(theta) - distance * math.sin(theta) * H.imag, z)
+    gamma /= np.linalg.norm(gamma, axis=1)[:, None]
     direction = xi + distance * eta
     omega = direction * np.sqrt(strip.h / kinetic_energy((*direction, *gamma.T), body.parameters))[:, None]
     left = (distance * (1.0 + np.abs(H))) ** 2 if known else abs(distance) * reach
@@ -195,10 +187,10 @@ def free_theta_plus(body: BallBody, theta: float, distance: float, phis: tuple[f
     return frozen(scattering(free, STANDARD, 1, distance).theta_plus(theta, np.array(phis)))
 
 
-def _speed_and_rate(strip: Strip, theta: Array) -> tuple[Array, Array]:
-    """Return u and the mean of λ over one turn, each (m,), on the circles θ (m,)."""
-    speeds = np.sqrt(2.0 * strip.h / _moment(strip.body, theta))
-    return speeds, speeds * np.mean(_growth(strip.body, theta, _phases(strip.body)), axis=1)
+def _rates(strip: Strip, theta: Array) -> Array:
+    """Return the mean of λ over one turn (m,) on the circles θ (m,)."""
+    growth = np.mean(_growth(strip.body, theta, _phases(strip.body)), axis=1)
+    return np.asarray(np.sqrt(2.0 * strip.h / _moment(strip.body, theta)) * growth)
 
 
 def ball_scattering(
@@ -272,7 +264,7 @@ def ball_scattering(
         raise InvalidParameter(f"The distance from N^u is {distance:g}: choose it from 1e-10 to 0.1, or minus that.")
 
     states, before = starts(strip, theta_minus, phis, distance)
-    _, rates = _speed_and_rate(strip, np.array([theta_minus, *np.linspace(0.0, math.pi, 33)]))
+    rates = _rates(strip, np.array([theta_minus, *np.linspace(0.0, math.pi, 33)]))
     # Departure from N^u at the rate of θ⁻, approach to N^s at that of the slowest circle; the factors cover the middle.
     with np.errstate(divide="ignore"):
         span = math.log(4.0 / abs(distance)) / rates[0] + math.log(40.0 / level.promise) / rates.min()
@@ -293,8 +285,7 @@ def ball_scattering(
     theta_plus = np.arctan2(across, along)
 
     # The angle by which θ would still change, ∫ (ω, η) dt ≈ (ω, η)/λ.
-    _, last = _speed_and_rate(strip, theta_plus)
-    errors = found.errors + before + np.abs(end[:, :2] @ eta) / last
+    errors = found.errors + before + np.abs(end[:, :2] @ eta) / _rates(strip, theta_plus)
     wall_ms = (time.perf_counter() - start) * 1e3
     return BallScattering(
         float(theta_minus),

@@ -13,10 +13,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from hess_mechanics.dynamics.attraction import RecurrentSets, recurrent_sets
+from hess_mechanics.dynamics.birkhoff import volume_sign
 from hess_mechanics.dynamics.ensemble import complete
 from hess_mechanics.dynamics.orbit import solve
 from hess_mechanics.dynamics.return_map import PoincareSection, section_crossings
-from hess_mechanics.dynamics.spectrum import volume_sign
 from hess_mechanics.dynamics.system import Body
 from hess_mechanics.numerics.accuracy import DRAFT, Accuracy
 from hess_mechanics.numerics.results import Array, frozen
@@ -33,8 +33,6 @@ __all__ = [
 
 _BATCHES = 12
 _SAMPLES = 4000
-_TURNS = 40.0
-"""Time limit per crossing, in units of 1/ν times the slowness of the section; few orbits take longer."""
 _MOST_STEPS = 1_000_000
 """Limit of the steps of an orbit."""
 
@@ -92,7 +90,7 @@ class SectionOrbits:
         if not len(starts):
             return []
         return complete(
-            section_crossings(self.section, starts, crossings, _TURNS, self.level, threads=1, most_steps=_MOST_STEPS)
+            section_crossings(self.section, starts, crossings, self.level, threads=1, most_steps=_MOST_STEPS)
         ).states
 
 

@@ -15,8 +15,8 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, field
-from functools import cached_property
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
 
 import numpy as np
 
@@ -47,6 +47,8 @@ _CONSERVATIVE = 1e-6
 
 _SINGULAR = (NotConverged, ModelError, np.linalg.LinAlgError)
 """Errors raised where two branches cross."""
+_MAPS = 8
+"""Maps of a family that are kept: Newton's method comes back to some."""
 _SHARES, _HALVINGS = (0.5, 0.35, 0.65, 0.2, 0.8, 0.05, 0.95), 24
 """Fractions at which a bracket may be divided, tried in this order; and the largest number of divisions."""
 
@@ -198,15 +200,17 @@ class _Point:
 
 @dataclass(frozen=True)
 class _Track:
-    """The constants of a branch; z holds the points (m, d) divided by √m, and λ divided by the width of its range."""
+    """The constants of a branch; z holds the points (m, d) divided by √m, and λ divided by the width of its range.
 
-    family: MapFamily
+    at : the family of maps, which keeps the last ones.
+    """
+
+    at: MapFamily
     parameter: str
     names: tuple[str, ...]
     level: str
     ends: tuple[float, float]
     shape: tuple[int, ...]
-    maps: dict[float, Map] = field(default_factory=dict)
 
     @property
     def width(self) -> float:
@@ -216,13 +220,6 @@ class _Track:
     def root(self) -> float:
         """Scale √m of the points."""
         return math.sqrt(self.shape[0])
-
-    def at(self, value: float) -> Map:
-        if len(self.maps) > 8:
-            self.maps.clear()
-        if value not in self.maps:
-            self.maps[value] = self.family(value)
-        return self.maps[value]
 
     def split(self, z: Array) -> tuple[Array, float]:
         return z[:-1].reshape(self.shape) * self.root, float(z[-1] * self.width)
@@ -349,7 +346,7 @@ def continued(
     edge = start if edge is None else edge
     if not (all(map(math.isfinite, (start, end, edge))) and min(edge, end) <= start <= max(edge, end) and start != end):
         raise InvalidParameter(f"{parameter} runs from {start:g} to {end:g}: give two different finite numbers.")
-    track = _Track(family, parameter, orbit.names, orbit.level, (edge, end), orbit.places.shape)
+    track = _Track(lru_cache(_MAPS)(family), parameter, orbit.names, orbit.level, (edge, end), orbit.places.shape)
     along = np.zeros(orbit.places.size + 1)
     along[-1] = math.copysign(1.0, end - start)
     z = track.joined(orbit.places, start)
@@ -377,8 +374,8 @@ def gone_on(
     """
     if branch.heading is None:
         raise InvalidParameter(f"This branch cannot be continued: {branch.ended}")
-    shape = branch.places.shape[1:]
-    track = _Track(family, branch.parameter, branch.names, branch.level, (edge, end), shape)
+    shape, kept = branch.places.shape[1:], lru_cache(_MAPS)(family)
+    track = _Track(kept, branch.parameter, branch.names, branch.level, (edge, end), shape)
     along, step = branch.heading
     point = track.corrected(track.joined(branch.places[-1], float(branch.values[-1])), along)
     return _followed(track, point, point.tangent(along), points, step, longest)

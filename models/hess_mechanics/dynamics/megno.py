@@ -17,9 +17,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hess_mechanics.dynamics.birkhoff import window_rates
+from hess_mechanics.dynamics.birkhoff import batch_error, volume_sign, window_rates
 from hess_mechanics.dynamics.orbit import checked_span, require_finite_rates
-from hess_mechanics.dynamics.spectrum import batch_error, no_chaos, volume_sign
+from hess_mechanics.dynamics.spectrum import no_chaos
 from hess_mechanics.dynamics.system import Body, Problem
 from hess_mechanics.dynamics.variation import LONGEST, one_direction, tangent
 from hess_mechanics.errors import InvalidParameter, MotionEnds, WorkLimit

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -66,16 +68,27 @@ class MegnoMap(Result):
         Labels
             Both arrays over the cells.
         """
-        across, up = self.names
-        return Labels(
-            {up: ((up,), self.y), across: ((across,), self.x)},
-            {
-                name: ((up, across), of)
-                for name, of in (("MEGNO", self.values), ("kind", self.kind), ("end", self.ends))
-            },
-            {**place_units(self.names), "MEGNO": "1", "end": "T"},
-            {"t": self.t, "level": self.level},
-        )
+        found = {"MEGNO": self.values, "kind": self.kind, "end": self.ends}
+        facts = {"t": self.t, "level": self.level}
+        return labels_of_cells(self.names, self.x, self.y, found, facts, MEGNO="1", end="T")
+
+
+def labels_of_cells(
+    names: tuple[str, str],
+    x: Array,
+    y: Array,
+    found: Mapping[str, Array],
+    facts: Mapping[str, Any],
+    **units: str,
+) -> Labels:
+    """Return arrays (n, m) by name, labelled with both coordinates x (m,) and y (n,) of a section."""
+    across, up = names
+    return Labels(
+        {up: ((up,), y), across: ((across,), x)},
+        {name: ((up, across), of) for name, of in found.items()},
+        {**place_units(names), **units},
+        facts,
+    )
 
 
 def row_of_cells(

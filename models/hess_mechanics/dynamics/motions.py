@@ -10,8 +10,6 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from hess_mechanics import parameters as known
 from hess_mechanics.dynamics.system import Body, System
 from hess_mechanics.errors import InvalidParameter
@@ -137,12 +135,8 @@ def on_section(
     """Return the motions from the points of a section; the arguments are those of `Motions`."""
 
     def start(values: Values) -> tuple[Body, Start]:
-        from hess_mechanics.dynamics.return_map import ReturnMap
-        from hess_mechanics.numerics.accuracy import PRECISE
-
         of = section(values)
-        state = ReturnMap(of, PRECISE).state_at(np.array([values[one.name] for one in place]))
-        return of, tuple(state.tolist())
+        return of, of.state_at(*(values[one.name] for one in place))
 
     return Motions(name, title, system, parameters, place, start, section, source, period)
 

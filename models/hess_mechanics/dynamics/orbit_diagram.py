@@ -1,4 +1,4 @@
-"""Orbit diagrams of a section over a parameter, with hysteresis, and cascades of period doublings.
+"""Orbit diagrams of a section over a parameter, and cascades of period doublings.
 
 An orbit is followed from value to value, each time from its last point at the value before, so that it stays with its
 attractor as long as there is one; the way back may differ.  Alternatively it starts anew at the same point.  The map
@@ -11,9 +11,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import cached_property
-from itertools import groupby
-from operator import itemgetter
 from typing import Protocol
 
 import numpy as np
@@ -21,20 +18,17 @@ from numpy.typing import NDArray
 
 from hess_mechanics.dynamics.continuation import Bifurcation, continued
 from hess_mechanics.dynamics.periodic import MAX_PERIOD, Map, PeriodicOrbit, apart, find_periodic, place_units, shoot
-from hess_mechanics.dynamics.point_sets import set_distance
 from hess_mechanics.errors import InvalidParameter, ModelError, NotConverged, OutsideRegion, WorkLimit
-from hess_mechanics.numerics.labelled import Labels, Named, Result, components
+from hess_mechanics.numerics.labelled import Labels, Result, components
 from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array, Mask, frozen
 
 __all__ = [
-    "COMPARED",
     "MAX_VALUES",
     "SAME",
     "Cascade",
     "Diagram",
     "Followed",
-    "Hysteresis",
     "cascade",
     "diagram_over",
     "doubling_seen",
@@ -42,8 +36,6 @@ __all__ = [
 ]
 
 MAX_VALUES, MAX_CROSSINGS = 2000, 20_000
-COMPARED = 16
-"""Smallest number of points at which two sets are compared."""
 SAME = 1e-4
 """Points closer than this are the same point of a periodic orbit: near a doubling, errors decay slowly."""
 _PROMISES = 3.0
@@ -97,8 +89,6 @@ class Diagram(Result):
         Points at each value; empty if the motion does not return.
     periods : ndarray of int, shape (n,)
         Period at each value; 0 if none up to 64 is found.
-    settled : ndarray of bool, shape (n,)
-        True if the orbit has settled.
     ends : ndarray, shape (n, d)
         Last point at each value; NaN if there is none.
     conservative : ndarray of bool, shape (n,)
@@ -112,7 +102,6 @@ class Diagram(Result):
     values: Array
     places: tuple[Array, ...]
     periods: Whole
-    settled: Mask
     ends: Array
     conservative: Mask
     level: str
@@ -182,7 +171,7 @@ def diagram_over(
     parameter : str
         Name of the parameter.
     values : array_like, shape (n,)
-        Values of the parameter, in the order in which they are visited.
+        Values of the parameter, in the order in which they are visited; there and back they show hysteresis.
     start : array_like, shape (d,)
         Point where the orbit starts.
     transient : int, default 200
@@ -216,18 +205,16 @@ def diagram_over(
     anew = first if again is None else np.array(again, float)
     place = first
     places: list[Array] = []
-    periods, settled = np.zeros(along.size, np.int64), np.zeros(along.size, bool)
-    conservative = np.zeros(along.size, bool)
+    periods, conservative = np.zeros(along.size, np.int64), np.zeros(along.size, bool)
     ends = np.full((along.size, first.size), np.nan)
     names: tuple[str, ...] = ()
-    turns: tuple[float, ...] = ()
     level = ""
     for i, value in enumerate(along.tolist()):
         go_on()
         found = np.empty((0, first.size))
         try:
             map_ = family(value)
-            names, turns, level = map_.names, map_.turns, map_.level
+            names, level = map_.names, map_.level
             conservative[i] = map_.volume_kept
             for origin in (place, anew) if follow else (anew,):
                 try:
@@ -244,7 +231,7 @@ def diagram_over(
             pass
         places.append(frozen(found.copy()))
         if len(found):
-            periods[i], settled[i] = period_of(turns, found, map_.promise)
+            periods[i], _ = period_of(map_.turns, found, map_.promise)
             ends[i] = place = found[-1]
         else:
             place = anew
@@ -254,7 +241,6 @@ def diagram_over(
         frozen(along),
         tuple(places),
         frozen(periods),
-        frozen(settled),
         frozen(ends),
         frozen(conservative),
         level,
@@ -303,61 +289,6 @@ def doubling_seen(parts: Sequence[Diagram]) -> tuple[float, Array, float] | None
             m, k = min(steps)
             return way[k][0], way[k][2][-m:], way[-1][0]
     return None
-
-
-@dataclass(frozen=True)
-class Hysteresis(Result):
-    """Orbit diagrams over a parameter there and back.
-
-    Attributes
-    ----------
-    there, back : Diagram
-        The diagram over rising values, and over falling values from where the first one ends.
-    turns : tuple of float
-        Period of each coordinate, ∞ if it is not an angle.
-    """
-
-    there: Diagram
-    back: Diagram
-    turns: tuple[float, ...]
-
-    @cached_property
-    def intervals(self) -> tuple[tuple[float, float], ...]:
-        """Intervals of values (low, high) over which the two diagrams differ.
-
-        They differ at a value if the distance between the two sets of points exceeds the distance between the halves of
-        each set, by three times the error.  Sets of fewer than 16 points are not compared.
-        """
-        differ: list[tuple[float, bool]] = []
-        there, back = self.there, self.back
-        for value, one, other in zip(there.values, there.places, reversed(back.places), strict=True):
-            if min(len(one), len(other)) < COMPARED:
-                continue
-            found = set_distance(self.turns, one, other)
-            differ.append((float(value), found.distance > 3.0 * (found.grain + found.error) + 1e-3))
-        runs = [(is_other, [value for value, _ in run]) for is_other, run in groupby(sorted(differ), itemgetter(1))]
-        return tuple((run[0], run[-1]) for is_other, run in runs if is_other)
-
-    def labels(self) -> Labels:
-        """Return the points of both diagrams, labelled with the way and the value of the parameter.
-
-        Returns
-        -------
-        Labels
-            The coordinates over the points.
-        """
-        one, other = self.there.labels(), self.back.labels()
-
-        def joined(first: Named, second: Named) -> Named:
-            return {name: (dims, np.concatenate([values, second[name][1]])) for name, (dims, values) in first.items()}
-
-        counts = [sum(map(len, way.places)) for way in (self.there, self.back)]
-        return Labels(
-            {"way": (("point",), np.repeat(["there", "back"], counts)), **joined(one.coords, other.coords)},
-            joined(one.variables, other.variables),
-            one.units,
-            {"intervals": "; ".join(f"{low:.12g} to {high:.12g}" for low, high in self.intervals), **one.facts},
-        )
 
 
 @dataclass(frozen=True)

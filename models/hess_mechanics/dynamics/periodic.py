@@ -8,7 +8,7 @@ a more accurate map.  The multipliers are the eigenvalues of M = DP(x_(mâˆ’1)) â
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -368,43 +368,44 @@ def find_periodic(
         raise InvalidParameter(f"A point has {len(map_.turns)} finite coordinates here: {', '.join(map_.names)}.")
     if len(places) > 1:
         return _measured(map_, *_converged(map_, places))
-    if period is not None:
-        return _of_period(map_, places[0], period, near)
-    orbit = images_of(map_, places[0], most)
-    for back in np.argsort(_closeness(map_, orbit[1:], orbit[0]), kind="stable")[: 1 if near else _TRIED]:
-        try:
-            return _measured(map_, *_converged(map_, orbit[: back + 1]))
-        except NotConverged:
-            continue
-    raise NotConverged(
-        f"Newton's method finds no periodic orbit up to period {most} from here: start closer to one, "
-        "or give its period."
-    )
-
-
-def _of_period(map_: Map, place: Array, m: int, near: bool) -> PeriodicOrbit:
-    """Return the orbit with least period m, from the point or from where its orbit comes back closest."""
-    orbit = images_of(map_, place, m - 1 if near else _FOLLOWED * m + m)
-    if len(orbit) < m:
-        raise NotConverged(
-            f"From here a motion returns only {len(orbit) - 1} times: start elsewhere for an orbit of period {m}."
-        )
-    later = np.argsort(_closeness(map_, orbit[m:], orbit[:-m]), kind="stable") if len(orbit) > m else np.empty(0, int)
     others: set[int] = set()
-    for first in (0, *later[:_TRIED]):
+    for guess in _guesses(map_, places[0], period, most, near):
         try:
-            found = _measured(map_, *_converged(map_, orbit[first : first + m]))
+            found = _measured(map_, *_converged(map_, guess))
         except NotConverged:
             continue
-        if found.period == m:
+        if period in (None, found.period):
             return found
         others.add(found.period)
+    if period is None:
+        raise NotConverged(
+            f"Newton's method finds no periodic orbit up to period {most} from here: start closer to one, "
+            "or give its period."
+        )
     if others:
         raise NotConverged(
             f"From here Newton's method finds orbits of period {', '.join(map(str, sorted(others)))} "
-            f"but none of period {m}: start closer to one, or choose another period."
+            f"but none of period {period}: start closer to one, or choose another period."
         )
-    raise _not_converged(m)
+    raise _not_converged(period)
+
+
+def _guesses(map_: Map, place: Array, period: int | None, most: int, near: bool) -> Iterator[Array]:
+    """Yield the points (m, d) from which Newton's method starts, the best first, see `find_periodic`."""
+    if period is None:
+        orbit = images_of(map_, place, most)
+        for back in np.argsort(_closeness(map_, orbit[1:], orbit[0]), kind="stable")[: 1 if near else _TRIED]:
+            yield orbit[: back + 1]
+        return
+    orbit = images_of(map_, place, period - 1 if near else (_FOLLOWED + 1) * period)
+    if len(orbit) < period:
+        raise NotConverged(
+            f"From here a motion returns only {len(orbit) - 1} times: start elsewhere for an orbit of period {period}."
+        )
+    # From the point itself, and from where its orbit comes back closest.
+    later = np.argsort(_closeness(map_, orbit[period:], orbit[:-period]), kind="stable")
+    for first in (0, *later[:_TRIED]):
+        yield orbit[first : first + period]
 
 
 def _closeness(map_: Map, a: Array, b: Array) -> Array:

@@ -6,7 +6,7 @@ import math
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -36,10 +36,8 @@ __all__ = [
     "Plane",
     "SectionPoints",
     "Surface",
-    "occupied_cells",
     "section",
     "section_points",
-    "sections",
 ]
 
 MAX_CROSSINGS = 100_000
@@ -309,18 +307,18 @@ class _Search:
         require_finite_states(states[:found])
         return (times[:found].copy(), states[:found].copy()), total, ended
 
-    def measured(self, i: int) -> SectionCrossings:
-        """Return the crossings of orbit i, with an error estimate from a more accurate run with a nearby start."""
+    def measured(self) -> SectionCrossings:
+        """Return the crossings of the first orbit, with an error from a more accurate run with a nearby start."""
         nearby = self.problem.nearby()
         problems = [self.problem, nearby]
 
         def run(level: Level, spent: int) -> tuple[tuple[Array, Array], int]:
             own = problems[level.aside]
-            crossings, steps, ended = self.run(own, own.states[i], self.end, level, spent)
+            crossings, steps, ended = self.run(own, own.states[0], self.end, level, spent)
             if ended is not None:
                 raise ended
             if not level.aside:
-                problems[1] = nearby.rounded(np.vstack((self.problem.states[i], crossings[1])))
+                problems[1] = nearby.rounded(np.vstack((self.problem.states, crossings[1])))
             return crossings, steps
 
         found = measured(self.level, run, self._apart)
@@ -337,7 +335,7 @@ class _Search:
             frozen(states),
             found.status,
             float((difference * scale).max(initial=0.0)) + 2e-16 * max(1.0, nu),
-            drift_of(system, self.starts[i], states, p),
+            drift_of(system, self.starts[0], states, p),
             found.cost,
             system.variables,
             time_error(found.safety, times, other_times) / nu,
@@ -422,76 +420,7 @@ def section(
     True
     """
     start = np.array(start, float)[None]
-    return sections(
-        body, start, plane, duration, accuracy, crossings, threads=1, max_step=max_step, max_steps=max_steps
-    )[0]
-
-
-def sections(
-    body: Body,
-    states: Sequence[Sequence[float]] | Array,
-    plane: Surface,
-    duration: float,
-    accuracy: Accuracy,
-    crossings: int = MAX_CROSSINGS,
-    threads: int = THREADS,
-    max_step: float | None = None,
-    max_steps: int = MAX_STEPS,
-) -> list[SectionCrossings]:
-    """Return the crossings of a surface by several orbits, computed on all cores.
-
-    The fastest orbit sets the unit of time for all of them.
-
-    Parameters
-    ----------
-    body : Body
-        The body.
-    states : array_like, shape (n, d)
-        Initial states at time 0.
-    plane : Plane or Surface
-        The surface.
-    duration : float
-        End of the time span; may be negative.
-    accuracy : str or Level
-        Accuracy level.
-    crossings : int, default 100 000
-        Largest number of crossings per orbit.
-    threads : int, optional
-        Number of threads.  By default one per core, at most eight.
-    max_step : float, optional
-        Longest step, see `solve`.
-    max_steps : int, default 5 000 000
-        Largest number of steps for each orbit.
-
-    Returns
-    -------
-    list of SectionCrossings
-        The crossings of each orbit, as `section` returns them.
-
-    Raises
-    ------
-    InvalidParameter
-        If a number is not finite, or the plane does not fit the states.
-    WorkLimit
-        If an orbit needs too many steps.
-
-    Examples
-    --------
-    >>> from hess_mechanics import Plane, level, sections, systems
-    >>> suslov = systems()["suslov"]
-    >>> body, state = suslov.example_motion
-    >>> len(sections(body, [state], Plane((0.0, 0.0, 0.0, 0.0, 1.0)), 50.0, level("precise"), 5))
-    1
-    """
-    level = as_level(accuracy)
-    search = _Search.of(body, states, plane, duration, level, crossings, max_step, max_steps)
-    found: dict[int, SectionCrossings] = {}
-
-    def one(orbit: int) -> None:
-        found[orbit] = search.measured(orbit)
-
-    share(one, len(search.starts), threads, _SHARE)
-    return [found[i] for i in range(len(search.starts))]
+    return _Search.of(body, start, plane, duration, as_level(accuracy), crossings, max_step, max_steps).measured()
 
 
 @dataclass(frozen=True)
@@ -532,18 +461,22 @@ class SectionPoints(Result):
         Labels
             The variables over the crossings.
         """
-        orbit = np.repeat(np.arange(len(self.states)), [len(one) for one in self.states])
-        points = np.concatenate([np.empty((0, len(self.variables))), *self.states])
-        return Labels(
-            {"orbit": (("crossing",), orbit)},
-            components(self.variables, points, "crossing"),
-            {name: "rad" if name in self.angles else unit_of(name) for name in self.variables},
-            {
-                **{f"drift of {name}": value for name, value in self.drift.items()},
-                "steps": self.cost.steps,
-                **angle_facts(self.angles),
-            },
-        )
+        units = {name: "rad" if name in self.angles else unit_of(name) for name in self.variables}
+        return labels_of_orbits(self.variables, self.states, "crossing", units, self.facts | angle_facts(self.angles))
+
+    @property
+    def facts(self) -> dict[str, float | str]:
+        """The drift of each integral, and the number of steps."""
+        return {**{f"drift of {name}": value for name, value in self.drift.items()}, "steps": self.cost.steps}
+
+
+def labels_of_orbits(
+    names: Sequence[str], orbits: Sequence[Array], dim: str, units: Mapping[str, str], facts: Mapping[str, Any]
+) -> Labels:
+    """Return the named columns of all points (n, k) of some orbits, labelled with the number of the orbit."""
+    number = np.repeat(np.arange(len(orbits)), [len(one) for one in orbits])
+    points = np.concatenate([np.empty((0, len(names))), *orbits])
+    return Labels({"orbit": ((dim,), number)}, components(names, points, dim), units, facts)
 
 
 def section_points(
@@ -655,13 +588,3 @@ def section_points(
         tuple(reasons),
         body.system.angles,
     )
-
-
-def occupied_cells(points: Array, across: int = 32) -> int:
-    """Return the number of across × across equal cells that hold a point: few on a curve, many in a chaotic sea.
-
-    The points (n, 2) are angles in (−π, π] × [0, π], and the cells cover this rectangle.
-    """
-    x = np.floor((points[:, 0] + math.pi) / (2.0 * math.pi) * across).astype(int) % across
-    y = np.minimum((points[:, 1] / math.pi * across).astype(int), across - 1)
-    return int(np.unique(x * across + y).size)

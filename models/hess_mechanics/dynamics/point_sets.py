@@ -33,12 +33,8 @@ def nearest(turns: Sequence[float], a: Array, b: Array) -> Array:
     box = np.array([turn if math.isfinite(turn) else 0.0 for turn in turns])
 
     def wrapped(places: Array) -> Array:
-        found = np.array(places, float)
-        for i, turn in enumerate(turns):
-            if math.isfinite(turn):
-                found[:, i] %= turn
-                found[found[:, i] >= turn, i] = 0.0
-        return found
+        found = np.mod(places, turns, where=np.isfinite(turns), out=np.array(places, float))
+        return np.where(found >= turns, 0.0, found)
 
     return np.asarray(cKDTree(wrapped(b), boxsize=box).query(wrapped(a))[0])
 

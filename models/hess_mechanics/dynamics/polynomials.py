@@ -6,39 +6,29 @@ fields use.
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
-from typing import Any, Self
+from typing import Any
 
 from hess_mechanics.numerics.balls import ArbBall
 
 __all__ = ["Along", "Slope"]
 
 
-class _Number(ABC):
+class _Number:
     """Base class: differences and reflected operations, derived from sums and products."""
 
     __slots__ = ()
 
-    @abstractmethod
-    def __neg__(self) -> Self: ...
+    def __radd__(self: Any, other: Any) -> Any:
+        return self + other
 
-    @abstractmethod
-    def __add__(self, other: Any) -> Self: ...
+    def __sub__(self: Any, other: Any) -> Any:
+        return self + -other
 
-    @abstractmethod
-    def __mul__(self, other: Any) -> Self: ...
+    def __rsub__(self: Any, other: Any) -> Any:
+        return -self + other
 
-    def __radd__(self, other: Any) -> Self:
-        return self.__add__(other)
-
-    def __sub__(self, other: Any) -> Self:
-        return self.__add__(-other)
-
-    def __rsub__(self, other: Any) -> Self:
-        return (-self).__add__(other)
-
-    def __rmul__(self, other: Any) -> Self:
-        return self.__mul__(other)
+    def __rmul__(self: Any, other: Any) -> Any:
+        return self * other
 
 
 class Along(_Number):
@@ -134,7 +124,7 @@ class Along(_Number):
         return Along(q, self.delta, self.terms, (found.most * off / (1 - off)).abs_upper() + arb(0))
 
     def __truediv__(self, other: Any) -> Along:
-        return self.__mul__(other.inverse() if isinstance(other, Along) else 1 / (other + 0 * self.delta))
+        return self * (other.inverse() if isinstance(other, Along) else 1 / (other + 0 * self.delta))
 
     def __rtruediv__(self, other: Any) -> Along:
         return self.inverse().__mul__(other)
@@ -182,7 +172,7 @@ class Slope(_Number):
 
     def __truediv__(self, other: Any) -> Slope:
         if isinstance(other, Slope):
-            return self.__mul__(other.__rtruediv__(1))
+            return self * (1 / other)
         return Slope(self.value / other, [x / other for x in self.slopes])
 
     def __rtruediv__(self, other: Any) -> Slope:

@@ -22,7 +22,7 @@ from enum import IntEnum
 
 import numpy as np
 
-from hess_mechanics.dynamics.birkhoff import bounded_series, irregularity
+from hess_mechanics.dynamics.birkhoff import bounded_series, ensemble_mean, irregularity, volume_sign
 from hess_mechanics.dynamics.ensemble import complete
 from hess_mechanics.dynamics.megno import CHAOTIC, REGULAR, Megno, longest_span, megno
 from hess_mechanics.dynamics.orbit_diagram import SAME, period_of
@@ -30,13 +30,13 @@ from hess_mechanics.dynamics.periodic import apart, find_periodic, place_units
 from hess_mechanics.dynamics.plane_section import section
 from hess_mechanics.dynamics.point_sets import SetDistance, nearest, set_distance
 from hess_mechanics.dynamics.return_map import ReturnMap
-from hess_mechanics.dynamics.spectrum import ensemble_mean, lyapunov_spectrum, volume_sign
+from hess_mechanics.dynamics.spectrum import lyapunov_spectrum
 from hess_mechanics.dynamics.symmetry import sign_symmetries
 from hess_mechanics.dynamics.system import Problem
 from hess_mechanics.dynamics.zero_one import LEAST, zero_one_of_bands
 from hess_mechanics.errors import ModelError, NoReturn, OutsideRegion, WorkLimit
 from hess_mechanics.numerics.accuracy import Status
-from hess_mechanics.numerics.arguments import as_number, as_place, as_whole
+from hess_mechanics.numerics.arguments import as_place, as_whole
 from hess_mechanics.numerics.labelled import Labels, Result, components
 from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array, frozen
@@ -101,17 +101,17 @@ class MotionKind(IntEnum):
         return _WORDS[self]
 
 
-_WORDS = {
-    MotionKind.NO_RETURN: "not seen to return to the section",
-    MotionKind.FIXED_POINT: "fixed point",
-    MotionKind.PERIODIC: "periodic",
-    MotionKind.QUASI_PERIODIC: "quasi-periodic",
-    MotionKind.CHAOTIC: "chaotic",
-    MotionKind.UNDECIDED: "undecided so far",
-    MotionKind.NO_PERIOD: f"regular, no period up to {_LONGEST_PERIOD}",
-    MotionKind.SETTLING: "still settling",
-}
-
+_WORDS = (
+    "not seen to return to the section",
+    "fixed point",
+    "periodic",
+    "quasi-periodic",
+    "chaotic",
+    "undecided so far",
+    f"regular, no period up to {_LONGEST_PERIOD}",
+    "still settling",
+)
+"""Names of the kinds, in their order."""
 
 _ON_ONE_SET = MotionKind.FIXED_POINT, MotionKind.PERIODIC, MotionKind.QUASI_PERIODIC
 """Kinds of motions whose averages are the same forward and backward in time."""
@@ -123,45 +123,36 @@ class Regime(Result):
 
     Attributes
     ----------
-    kind : Kind
+    map_ : ReturnMap
+        Return map of the section.
+    kind : MotionKind
         Kind of the motion.
-    period : int
-        Number of returns after which it repeats; 0 if no period was found.
-    names : tuple of str
-        Names of the coordinates of the section.
     places : Array, shape (n, d)
-        The crossings that were kept.
+        Its crossings after the transient.
     t : float
         Time of MEGNO; for a motion that did not return, the time limit.
+    period : int
+        Number of returns after which it repeats; 0 if no period was found.
     megno : float
         Ȳ after the time t, the median over the ensemble.
     k : float
         K of the 0–1 test, the largest of every crossing, every second, fourth and so on; NaN if there are too few.
     divergence, divergence_error : float
         Mean of div ẏ along the motion and its error, by an ensemble of orbits; three errors are a 99.7 % interval.
-    volume_kept : bool
-        True if the divergence of the field is 0 everywhere.
     measure : str
         Reason why the mean divergence is exactly 0 although the divergence is not; empty if none is known.
-    integrable : str
-        Integrable case to which the body belongs; empty if none is known.
-    level : str
-        The accuracy level.
     """
 
+    map_: ReturnMap
     kind: MotionKind
-    period: int
-    names: tuple[str, ...]
     places: Array
     t: float
-    megno: float
-    k: float
-    divergence: float
-    divergence_error: float
-    volume_kept: bool
-    measure: str
-    integrable: str
-    level: str
+    period: int = 0
+    megno: float = 0.0
+    k: float = math.nan
+    divergence: float = 0.0
+    divergence_error: float = 0.0
+    measure: str = ""
 
     @property
     def volume(self) -> int:
@@ -183,8 +174,8 @@ class Regime(Result):
         """
         return Labels(
             {},
-            components(self.names, self.places, "crossing"),
-            place_units(self.names),
+            components(self.map_.names, self.places, "crossing"),
+            place_units(self.map_.names),
             {
                 "kind": self.kind.words,
                 "period": self.period,
@@ -194,8 +185,8 @@ class Regime(Result):
                 "divergence": self.divergence,
                 "divergence error": self.divergence_error,
                 "measure": self.measure,
-                "integrable": self.integrable,
-                "level": self.level,
+                "integrable": self.map_.section.integrable,
+                "level": self.map_.level,
             },
         )
 
@@ -220,16 +211,6 @@ class _Evidence:
     winds: bool
 
     @property
-    def grows(self) -> bool:
-        """True if neighbours part exponentially, and still do when the time is doubled."""
-        return min(self.early, self.late) > CHAOTIC and self.late > _GROWS * self.early
-
-    @property
-    def bounded(self) -> bool:
-        """True if neighbours do not part exponentially."""
-        return self.late < max(REGULAR, self.early)
-
-    @property
     def attracted(self) -> bool:
         """True if phase volume changes, so that the motion lies on an attractor or repeller."""
         return not self.winds and volume_sign(self.divergence, self.divergence_error) != 0
@@ -247,9 +228,11 @@ class _Evidence:
         """The kind of the motion that this evidence shows."""
         if self.period:
             return MotionKind.FIXED_POINT if self.period == 1 else MotionKind.PERIODIC
-        if self.grows and self.k > _CHAOTIC_SERIES and not self.regular:
+        # Neighbours part exponentially, and still do when the time is doubled.
+        grows = min(self.early, self.late) > CHAOTIC and self.late > _GROWS * self.early
+        if grows and self.k > _CHAOTIC_SERIES and not self.regular:
             return MotionKind.CHAOTIC
-        if not (self.bounded or self.regular):
+        if not (self.late < max(REGULAR, self.early) or self.regular):
             return MotionKind.UNDECIDED
         if not self.settled:
             return MotionKind.SETTLING
@@ -298,7 +281,7 @@ def regime(
     'fixed point'
     """
     transient, kept = as_whole("transient", transient, 0, _MOST_CROSSINGS), as_whole("kept", kept, 1, _MOST_CROSSINGS)
-    start, duration = as_place(map_.names, start), as_number("duration", duration)
+    start = as_place(map_.names, start)
     places = map_.orbit(np.array(start), transient + kept)
     if len(places) < transient + kept:
         return _not_seen(map_, places, start)
@@ -325,50 +308,23 @@ def regime(
         measure = _reversor(map_, places)
     if kind is MotionKind.QUASI_PERIODIC and evidence.attracted and not _has_a_curve(map_, places[-1], span):
         kind = MotionKind.NO_PERIOD
+    divergence = (0.0, 0.0) if measure else (evidence.divergence, evidence.divergence_error)
     return Regime(
-        kind,
-        evidence.period,
-        map_.names,
-        frozen(places.copy()),
-        span,
-        evidence.late,
-        evidence.k,
-        0.0 if measure else evidence.divergence,
-        0.0 if measure else evidence.divergence_error,
-        map_.volume_kept,
-        measure,
-        map_.section.integrable,
-        map_.level,
+        map_, kind, frozen(places.copy()), span, evidence.period, evidence.late, evidence.k, *divergence, measure
     )
 
 
 def _not_seen(map_: ReturnMap, places: Array, start: Sequence[float] | Array) -> Regime:
     last = places[-1] if len(places) else np.array(start, float)
-    return Regime(
-        MotionKind.NO_RETURN,
-        0,
-        map_.names,
-        frozen(places.copy()),
-        map_.wait(last),
-        0.0,
-        math.nan,
-        0.0,
-        0.0,
-        map_.volume_kept,
-        map_.section.measure,
-        map_.section.integrable,
-        map_.level,
-    )
+    measure = map_.section.measure
+    return Regime(map_, MotionKind.NO_RETURN, frozen(places.copy()), map_.wait(last), measure=measure)
 
 
 def _evidence(map_: ReturnMap, places: Array, duration: float) -> _Evidence:
     period, settled = _period(map_, places)
     # A periodic orbit is one whatever its neighbours do; of others an ensemble tells.
-    found = [
-        _indicated(map_, places[-1:] if period else _ensemble(map_, places), time)
-        for time in (duration / 2.0, duration)
-    ]
-    late = found[1]
+    starts = places[-1:] if period else _ensemble(map_, places)
+    early, late = (_indicated(map_, starts, time) for time in (duration / 2.0, duration))
     windows = late.windows
     mean, error = (windows[0, 0], np.ptp(windows)) if len(windows) == 1 else ensemble_mean(windows)
     plane, enough = map_.section, len(places) >= LEAST
@@ -377,7 +333,7 @@ def _evidence(map_: ReturnMap, places: Array, duration: float) -> _Evidence:
         len(places),
         period,
         settled,
-        float(np.median(found[0].values)),
+        float(np.median(early.values)),
         float(np.median(late.values)),
         zero_one_of_bands(bounded_series(map_.turns, places).sum(axis=1)) if enough else math.nan,
         irregularity(map_.turns, places, _PRECISION * map_.promise) if enough else math.inf,
@@ -529,7 +485,7 @@ class Dynamics(Result):
     @property
     def verdict(self) -> str:
         """The verdict: "conservative", "dissipative", "mixed" or "not told apart"."""
-        if self.motion.volume_kept or self.motion.measure:
+        if self.motion.map_.volume_kept or self.motion.measure:
             return "conservative"
         if sum(one.settled for one in self.comparisons) >= _ENOUGH and self.motion.volume < 0:
             if all(one.apart for one in self.settled):
@@ -548,7 +504,7 @@ class Dynamics(Result):
         """
         which = np.repeat(["attractor", "repeller"], [len(self.attractor), len(self.repeller)])
         points = np.concatenate([self.attractor, self.repeller])
-        along, names = ("crossing",), self.motion.names
+        along, names = ("crossing",), self.motion.map_.names
         return Labels(
             {"set": (along, which)},
             components(names, points, *along),
@@ -560,7 +516,7 @@ class Dynamics(Result):
                 "shared": self.shared,
                 "divergence": self.motion.divergence,
                 "divergence error": self.motion.divergence_error,
-                "level": self.motion.level,
+                "level": self.motion.map_.level,
             },
         )
 

@@ -21,11 +21,11 @@ from typing import Protocol
 
 import numpy as np
 
-from hess_mechanics.dynamics.cells import evenly
+from hess_mechanics.dynamics.cells import Window, evenly
 from hess_mechanics.dynamics.orbit import MAX_STEPS, end_of, require_finite_states, require_steps, unfinished
 from hess_mechanics.dynamics.periodic import apart
 from hess_mechanics.dynamics.plane_section import SectionPoints, Surface, section_points
-from hess_mechanics.dynamics.symmetry import Mirror, symmetries
+from hess_mechanics.dynamics.symmetry import Mirror, sign_symmetries
 from hess_mechanics.dynamics.system import Problem, System
 from hess_mechanics.dynamics.variation import onto_surface
 from hess_mechanics.errors import InvalidParameter, NoReturn, OutsideRegion, WorkLimit
@@ -54,7 +54,9 @@ _WEIGHTS = np.array([-1.0, 9.0, -45.0, 45.0, -9.0, 1.0]) / 60.0
 """Weights of the differences of sixth order."""
 _AGREE = 1e-14
 """Round-off of the differences times the step: differences with a step and with a quarter of it agree to this."""
-_TRIED = 100
+_TRIED = (4, 200, 4000)
+"""Points tried for each state of a section: motions may cross it in a small part only."""
+_TURNS = 120.0
 _TOO_LONG = f"This return needs more than {MAX_STEPS} steps: choose another place, or a cheaper level."
 _AT_ONCE = 1e-8
 """A crossing before this time, in units of 1/ν, is the start itself."""
@@ -119,6 +121,27 @@ class PoincareSection(Protocol):
     def states_at(self) -> Callable[..., tuple[Array, Mask]]:
         """Function of coordinates (n,) that returns states (n, d) and a mask (n,) of the points that motions cross."""
 
+    def state_at(self, *place: float) -> tuple[float, ...]:
+        """Return the state (d,) at the coordinates of a point.  Raises `OutsideRegion` if no motion crosses there."""
+        states, there = self.states_at(*np.array(place, float)[:, None])
+        if not there[0]:
+            where = ", ".join(f"{name} = {x:.6g}" for name, x in zip(self.names, place, strict=True))
+            raise OutsideRegion(f"No motion crosses the section at {where}: choose another place, or a larger energy.")
+        return tuple(states[0].tolist())
+
+    def spread(self, count: int, window: Window | None = None) -> tuple[tuple[float, ...], ...]:
+        """Return `count` states, spread evenly over the part of a window that motions cross; fewer if it is tiny.
+
+        window : by default the whole section.
+        """
+        low, high = np.array(self.window).T[..., None] if window is None else np.array(window)[..., None]
+        for tried in _TRIED:
+            shares = evenly(tried * count, 0.5)[: len(self.names)]
+            states, there = self.states_at(*(low + (high - low) * shares))
+            if np.count_nonzero(there) >= count:
+                break
+        return tuple(map(tuple, states[there][:count].tolist()))
+
     def places_of(self, states: Array) -> Array:
         """Return the coordinates (n, k) of states (n, d)."""
 
@@ -129,19 +152,19 @@ class PoincareSection(Protocol):
 
 def section_crossings(
     section: PoincareSection,
-    starts: Array,
+    starts: Sequence[Sequence[float]] | Array,
     crossings: int,
-    turns: float,
     accuracy: Accuracy,
     backward: bool = False,
+    longest: float | None = None,
     **limits: int,
 ) -> SectionPoints:
     """Return the crossings of several orbits, see `section_points`, that follow each other within a time limit.
 
-    turns : the time limit per crossing, in units of 1/ν times the slowness of the section; limits : `threads` and
-    `most_steps`.
+    longest : the time limit per crossing, by default 120/ν times the slowness of the section: few orbits take longer.
+    limits : `threads` and `most_steps`.
     """
-    end = turns * crossings * section.slowness / Problem.of(section, starts).nu
+    end = crossings * (_TURNS * section.slowness / Problem.of(section, starts).nu if longest is None else longest)
     return section_points(section, starts, section.surface, -end if backward else end, accuracy, crossings, **limits)
 
 
@@ -284,12 +307,7 @@ class ReturnMap:
             ways = np.array([*product((0.0, -1.0, 1.0), repeat=len(self.names))])
             around = np.multiply.outer(self.promise * _AROUND, ways).reshape(-1, len(self.names))
             near, inside = self.section.states_at(*(np.atleast_2d(places)[i] + around).T)
-            if inside.any():
-                states[i], there[i] = near[np.argmax(inside)], True
-        if not np.all(there):
-            outside = np.atleast_2d(places)[int(np.argmin(there))]
-            where = ", ".join(f"{name} = {x:.6g}" for name, x in zip(self.names, outside, strict=True))
-            raise OutsideRegion(f"No motion crosses the section at {where}: choose another place, or a larger energy.")
+            states[i] = near[np.argmax(inside)] if inside.any() else self.section.state_at(*np.atleast_2d(places)[i])
         return np.asarray(states if places.ndim > 1 else states[0])
 
     def image(self, place: Array) -> Array:
@@ -646,16 +664,10 @@ class ReturnMap:
     @cached_property
     def mirrors(self) -> tuple[Mirror, ...]:
         """Symmetries that map motions through this section to such motions, and reversors that map it to itself."""
-        for shares in evenly(_TRIED - 1).T:
-            place = np.array(
-                [low + share * (high - low) for share, (low, high) in zip(shares, self.section.window, strict=False)]
-            )
-            try:
-                state = self.state_at(place)
-                known = symmetries(self.section.system, self.section.parameters, state)
-                return tuple(one for one in known if self.mirrored(one, place) is not None)
-            except (OutsideRegion, InvalidParameter):
-                continue
+        for state in self.section.spread(1):
+            place = self.section.places_of(np.array([state]))[0]
+            known = sign_symmetries(self.section.system, self.section.parameters)
+            return tuple(one for one in known if self.mirrored(one, place) is not None)
         return ()
 
     def mirrored(self, mirror: Mirror, place: Array) -> Array | None:

@@ -18,8 +18,6 @@ from hess_mechanics.numerics.results import Array, frozen
 
 __all__ = ["Visits", "visits", "visits_over"]
 
-_TURNS = 60.0
-"""Time limit per crossing, in units of 1/ν times the slowness of the section."""
 _TOGETHER = 8
 """Orbits whose crossings are in memory at the same time."""
 
@@ -67,7 +65,7 @@ def visits(
     starts = np.asarray(starts, float)
     for first in range(0, len(starts), _TOGETHER):
         some = starts[first : first + _TOGETHER]
-        found = complete(section_crossings(section, some, crossings, _TURNS, accuracy, not forward, threads=1))
+        found = complete(section_crossings(section, some, crossings, accuracy, not forward, threads=1))
         for states in found.states:
             places = section.places_of(states[section.is_on(states)])
             within = places[np.all((places >= low) & (places < high), axis=1)]
@@ -110,9 +108,7 @@ def visits_over(
             state, there = section.states_at(*np.array(start)[:, None])
             if not there[0]:
                 continue
-            found = complete(
-                section_crossings(section, state, skipped + crossings, _TURNS, accuracy, not forward, threads=1)
-            )
+            found = complete(section_crossings(section, state, skipped + crossings, accuracy, not forward, threads=1))
         except WorkLimit:
             raise
         except ModelError:

@@ -1,10 +1,11 @@
-"""All Lyapunov exponents of one orbit, from its variational equations (Benettin, Galgani, Giorgilli, Strelcyn 1980).
+"""Lyapunov exponents of one orbit, from its variational equations (Benettin, Galgani, Giorgilli, Strelcyn 1980).
 
-A frame of tangent vectors evolves by V̇ = J V in the orbit's own Taylor steps.  It is orthonormalised whenever its
-condition requires it, so no distance has to be small and no digits are lost to round-off.  ∫ tr J dt is computed along
-with it; its mean is the sum of all exponents, whatever the frame.
+The largest one is the growth rate of a single tangent vector, which starts in a fixed direction that no symmetry
+singles out and is renormalised when it is long.  For all of them a frame of tangent vectors is orthonormalised whenever
+its condition requires it, so no distance has to be small and no digits are lost to round-off.  ∫ tr J dt is computed
+along with it; its mean is the sum of all exponents, whatever the frame.
 
-The first vector of the frame is along the motion.  It equals f(y) at any time and grows as ln |f(y)|, so it is not
+The first vector of a frame is along the motion.  It equals f(y) at any time and grows as ln |f(y)|, so it is not
 integrated until the motion comes to rest.
 """
 
@@ -14,34 +15,28 @@ import math
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
-from numpy.typing import NDArray
 
-from hess_mechanics.dynamics.orbit import MAX_STEPS, checked_span, end_of, require_finite_rates
+from hess_mechanics.dynamics.birkhoff import ERRORS, STRETCHES, batch_error
+from hess_mechanics.dynamics.orbit import MAX_SAMPLES, MAX_STEPS, checked_span, end_of, require_finite_rates
 from hess_mechanics.dynamics.system import Body, Problem
-from hess_mechanics.dynamics.variation import Tangent, frame_ahead, tangent
-from hess_mechanics.numerics.accuracy import PLANS, STANDARD, Accuracy, Kind, Level, Status
+from hess_mechanics.dynamics.variation import LONGEST, frame_ahead, one_direction, tangent
+from hess_mechanics.errors import WorkLimit
+from hess_mechanics.numerics.accuracy import PLANS, STANDARD, Accuracy, Kind, Level, Status, plan
 from hess_mechanics.numerics.arguments import as_level
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array, Cost, frozen
+from hess_mechanics.parameters import plain
 
-__all__ = [
-    "LIMIT",
-    "Spectrum",
-    "batch_error",
-    "ensemble_mean",
-    "kaplan_yorke",
-    "lyapunov_spectrum",
-    "no_chaos",
-    "volume_sign",
-]
+__all__ = ["LIMIT", "Exponent", "Spectrum", "kaplan_yorke", "lyapunov_exponent", "lyapunov_spectrum", "no_chaos"]
 
-_PARTS = 15
-"""Stretches of time: the frame settles in the first three, and the other twelve are measured."""
+_INTERVAL = 2.0
+"""Time between samples of a single vector, in units of 1/ν."""
 _SETTLES = 3
+"""Stretches of time in which the frame settles, before those that are measured."""
 _SAMPLES = 16
 """Samples per stretch."""
 LIMIT = 1e2
@@ -52,9 +47,53 @@ _RESTS, _ESCAPES, _RETURNS = 1e-6, 10.0, 8
 """Largest |f| of a motion that has come to rest, and distance within which it has closed; least growth of the largest
 |y|, at least 1, from the first half of the time to the second of a motion that escapes: linear growth doubles it.  Both
 in units in which states are O(1).  Crossings of the plane across the motion at its start that are compared with it."""
-_ERRORS = 3.0
-_ONE_SIDED = 0.99865
-"""Probability that a normal variable stays below three standard deviations."""
+
+
+@dataclass(frozen=True)
+class Exponent(Result):
+    """Running estimates of the largest Lyapunov exponent.
+
+    Attributes
+    ----------
+    times : ndarray, shape (n,)
+        Times.
+    rates : ndarray, shape (n,)
+        Mean growth rate up to each time; the last one is the estimate.
+    spread : float
+        Range of the rates over the second half of the time.
+    no_chaos : str
+        Why the motion is not chaotic, whatever the estimate is, see `Megno`; empty if there is no such reason.
+    """
+
+    times: Array
+    rates: Array
+    spread: float
+    no_chaos: str = ""
+
+    @property
+    def value(self) -> float:
+        """The estimate, per unit of time."""
+        return float(self.rates[-1])
+
+    def labels(self) -> Labels:
+        """Return the mean growth rates, labelled with time.
+
+        Returns
+        -------
+        Labels
+            The rates over the times.
+        """
+        return Labels(
+            {"t": (("t",), self.times)},
+            {"rate": (("t",), self.rates)},
+            {"t": "T", "rate": "1/T"},
+            {"exponent": self.value, "spread": self.spread, "no chaos": self.no_chaos},
+        )
+
+    @property
+    def is_regular(self) -> bool:
+        """True if the rate is below 2 ln(n)/t, as for a regular motion, whose neighbours part linearly."""
+        return self.value < 2.0 * math.log(max(math.e, self.times.size)) / float(self.times[-1])
 
 
 @dataclass(frozen=True)
@@ -107,7 +146,7 @@ class Spectrum(Result):
     def signs(self) -> tuple[str, ...]:
         """Sign of each exponent: "+", "0" or "-", where "0" means within three errors of 0."""
         return tuple(
-            "0" if abs(value) <= _ERRORS * error else "+" if value > 0.0 else "-"
+            "0" if abs(value) <= ERRORS * error else "+" if value > 0.0 else "-"
             for value, error in zip(self.values.tolist(), self.errors.tolist(), strict=True)
         )
 
@@ -188,7 +227,7 @@ def kaplan_yorke(values: Array, errors: Array, total: float, total_error: float 
         return 0.0, 0.0
     sums = np.cumsum(values)
     last = abs(float(values[-1]))
-    if total >= -_ERRORS * total_error:
+    if total >= -ERRORS * total_error:
         return float(values.size), (abs(total) + total_error) / last if last > 0.0 else 0.0
     if last == 0.0:
         # Volume shrinks, but no exponent is negative: nothing is known.
@@ -200,55 +239,6 @@ def kaplan_yorke(values: Array, errors: Array, total: float, total_error: float 
     before, next_one = float(sums[k - 1]) if k else 0.0, abs(float(values[k]))
     error = math.hypot(float(np.hypot.reduce(errors[:k])) if k else 0.0, before / next_one * float(errors[k]))
     return k + before / next_one, error / next_one
-
-
-def volume_sign(divergence: Array | float, error: Array | float) -> NDArray[np.int_]:
-    """Return −1 where phase volume shrinks, 1 where it grows, and 0 where neither is significant.
-
-    A mean divergence is significant beyond three times its error and the round-off of a zero.
-    """
-    seen = np.abs(divergence) > _ERRORS * np.asarray(error) + 1e-9
-    return np.where(seen, np.sign(divergence), 0.0).astype(int)
-
-
-def batch_error(sums: Array, times: Array) -> tuple[Array, Array]:
-    """Return the mean rates (m,) of sums (n, m) over times (n,), and their errors, see `Spectrum`.
-
-    The first sample is the start of the first of 12 equally long stretches, the last one the end of the last.
-    """
-    length = float(times[-1] - times[0])
-    mean = (sums[-1] - sums[0]) / length
-    count = _PARTS - _SETTLES
-    ends = sums[:: (times.size - 1) // count]
-    scatter = np.std(np.diff(ends, axis=0), axis=0, ddof=1) * count / length / math.sqrt(count)
-    powers = np.column_stack([times, np.log(times), np.ones_like(times)])
-    powers[:, 0] -= times[0]
-    steady = np.linalg.lstsq(powers, sums, rcond=None)[0][0]
-    return mean, np.hypot(scatter, mean - steady)
-
-
-def ensemble_mean(values: Array) -> tuple[float, float]:
-    """Return the mean over an ensemble of orbits and its error, three of which bound it with 99.7 % confidence.
-
-    Parameters
-    ----------
-    values : Array, shape (m, 4)
-        The means along each orbit, m ≥ 2, over all the time and over three halves of it, see `window_rates`.
-
-    Returns
-    -------
-    tuple of float
-        The mean over all the time, and its error: the standard error of the scatter, widened by Student's t for few
-        orbits, and the remainder that all orbits share, which no scatter shows: the difference of the halves.
-    """
-    count = len(values)
-    from scipy.special import stdtrit  # imported here because it takes 0.1 s
-
-    widened = float(stdtrit(count - 1, _ONE_SIDED)) / _ERRORS
-    whole, away = values[:, 0], values[:, 1:] - values[:, :1]
-    shared = away.mean(axis=0) ** 2 - away.var(axis=0, ddof=1) / count
-    scatter = widened * float(np.std(whole, ddof=1)) / math.sqrt(count)
-    return float(whole.mean()), math.hypot(scatter, math.sqrt(float(shared.max(initial=0.0))))
 
 
 def no_chaos(problem: Problem, start: Array, states: Array, duration: float, level: Level, grows: bool) -> str:
@@ -279,6 +269,64 @@ def no_chaos(problem: Problem, start: Array, states: Array, duration: float, lev
         if np.any(away[np.abs(times[: max(number, 0)]) > _RESTS] < _RESTS):
             return "it is periodic"
     return ""
+
+
+def lyapunov_exponent(body: Body, start: Sequence[float], duration: float, accuracy: Accuracy = STANDARD) -> Exponent:
+    """Return the largest Lyapunov exponent of an orbit.
+
+    Parameters
+    ----------
+    body : Body
+        The body.
+    start : array_like, shape (d,)
+        Initial state.
+    duration : float
+        Time span, in units of the problem; negative for backward in time.
+    accuracy : str or Level, default "standard"
+        Accuracy level.  A named level means its `Plan` for exponents.
+
+    Returns
+    -------
+    Exponent
+        The running estimates, per unit of time.
+
+    Raises
+    ------
+    InvalidParameter
+        If a number is not finite.
+    WorkLimit
+        If the time span is too long.
+
+    References
+    ----------
+    G. Benettin, L. Galgani, J.-M. Strelcyn, Kolmogorov entropy and numerical experiments, Phys. Rev. A 14
+    (1976).
+
+    Examples
+    --------
+    >>> from hess_mechanics import lyapunov_exponent, systems
+    >>> suslov = systems()["suslov"]
+    >>> float(lyapunov_exponent(*suslov.example_motion, 50.0).times[-1])
+    50.0
+    """
+    level = plan(Kind.EXPONENT, accuracy).level
+    span = checked_span(duration, "a Lyapunov exponent")
+    problem = Problem.of(body, [start])
+    samples = abs(span) / _INTERVAL * problem.nu
+    if not samples <= MAX_SAMPLES:
+        raise WorkLimit(
+            f"This takes {plain(samples, 3)} samples of the growth, at most {MAX_SAMPLES} are allowed: choose a "
+            "shorter time span."
+        )
+    count = max(1, math.ceil(samples))
+    times = span * np.arange(1, count + 1) / count
+    state = problem.states[0]
+    found = tangent(problem, state, one_direction(state.size), problem.times(times), level, LONGEST)
+    rates = found.lengths[:, 0] / np.abs(times)
+    require_finite_rates(rates)
+    later = rates[count // 2 :]
+    reason = no_chaos(problem, state, found.states, span * problem.nu, level, True)
+    return Exponent(frozen(np.abs(times)), frozen(rates), float(later.max() - later.min()), reason)
 
 
 def lyapunov_spectrum(
@@ -331,35 +379,30 @@ def lyapunov_spectrum(
     # Other columns in general position.
     frame, speed = frame_ahead(problem, np.cos(1.0 + np.arange(d * d).reshape(d, d) ** 2), _SLOW)
     ahead = speed > _SLOW
-    part = end / _PARTS * np.arange(1, _SAMPLES + 1) / _SAMPLES
-    count = _PARTS * _SAMPLES
+    stretches = _SETTLES + STRETCHES
+    part = end / stretches * np.arange(1, _SAMPLES + 1) / _SAMPLES
+    count = stretches * _SAMPLES
     growth, volume = np.zeros((count + 1, d)), np.zeros(count + 1)
-    steps = 0
-
-    def stretch() -> Tangent:
-        nonlocal steps
-        found = tangent(
-            problem, y, frame, part, level, LIMIT, ahead, steps, lambda: end_of(problem, problem.states[0], end)
-        )
-        steps += found.steps
-        return found
-
-    for i in range(0, count, _SAMPLES):
+    steps, i = 0, 0
+    where = partial(end_of, problem, y, end)
+    while i < count:
         go_on()
-        found = stretch()
+        found = tangent(problem, y, frame, part, level, LIMIT, ahead, steps, where)
+        steps += found.steps
         if ahead:
             speeds = speed * np.linalg.norm(found.vectors[:, :, 0], axis=1)
             speed = float(speeds[-1])
             if not speeds.min() > _SLOW:
                 # From here on f is integrated like all other vectors.
                 ahead = False
-                found = stretch()
+                continue
         columns, lengths = np.linalg.qr(found.vectors)
         diagonal = np.abs(np.diagonal(lengths, axis1=1, axis2=2))
         now = slice(i + 1, i + _SAMPLES + 1)
         growth[now] = growth[i] + found.removed + np.log(np.maximum(diagonal, 1e-300))
         volume[now] = volume[i] + found.volume
         y, frame = found.states[-1].copy(), columns[-1]
+        i += _SAMPLES
     times = abs(duration) * np.arange(count + 1) / count
     first = _SETTLES * _SAMPLES
     together = np.column_stack([growth, volume])

@@ -1,4 +1,4 @@
-"""Symmetries and reversors: maps S of the states with S′ f = ±f∘S, changes of sign or declared by a system.
+"""Symmetries and reversors: changes of sign S of the states with S f = ±f∘S.
 
 With the upper sign, S maps motions to motions; with the lower one, to motions backward in time: S is a reversor.
 """
@@ -6,41 +6,30 @@ With the upper sign, S maps motions to motions; with the lower one, to motions b
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import partial
-from operator import mul
 
 import numpy as np
 
 from hess_mechanics.dynamics.system import System
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["Mirror", "sign_symmetries", "symmetries"]
+__all__ = ["Mirror", "sign_symmetries"]
 
 _TRIED = 6
 
 
 @dataclass(frozen=True)
 class Mirror:
-    """A symmetry; `image` maps a state (d,) to a state; `reverses` is True for a reversor."""
+    """A symmetry, by the `signs` (d,) of the variables; `reverses` is True for a reversor."""
 
     name: str
-    image: Callable[[Array], Array]
+    signs: Array
     reverses: bool
 
-
-def symmetries(system: System, parameters: Sequence[float], state: Array) -> tuple[Mirror, ...]:
-    """Return the symmetries of a system at these parameters: changes of sign, and those that it declares.
-
-    A declared symmetry is tested once more, at a state and these parameters.
-    """
-    p = np.array(parameters, np.float64)
-    ways = {name: system.moves(name, state, p) for name in system.symmetries(state.tolist(), p.tolist())}
-    return (
-        *sign_symmetries(system, parameters),
-        *(Mirror(name, partial(system.image, name, p=p), way < 0) for name, way in ways.items() if way),
-    )
+    def image(self, state: Array) -> Array:
+        """Return the mirror image of a state (d,)."""
+        return self.signs * state
 
 
 def sign_symmetries(system: System, parameters: Sequence[float]) -> tuple[Mirror, ...]:
@@ -72,7 +61,5 @@ def sign_symmetries(system: System, parameters: Sequence[float]) -> tuple[Mirror
         for reverses, image in ((False, here), (True, -here)):
             if float(np.abs(there - image).max()) < 1e-13 * size:
                 changed = [name for name, sign in zip(system.variables, choice, strict=True) if sign < 0.0]
-                found.append(
-                    Mirror(f"{', '.join([*changed, *(['t'] if reverses else [])])} → −", partial(mul, signs), reverses)
-                )
+                found.append(Mirror(f"{', '.join([*changed, *(['t'] if reverses else [])])} → −", signs, reverses))
     return tuple(found)

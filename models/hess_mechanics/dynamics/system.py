@@ -41,6 +41,15 @@ from hess_mechanics.parameters import plain
 __all__ = ["Body", "ParametrizedSystem", "Problem", "System", "declared", "in_units_of_time", "systems"]
 
 
+Integrals = Callable[[Sequence[Any], Sequence[Any]], Mapping[str, Any]]
+Frequency = Callable[[Array, Array], Array | float]
+Rescale = Callable[[Array, Array, float], tuple[Array, Array]]
+Unit = Callable[[Array], float]
+Tolerance = Callable[[Array, Array, int, float], float]
+"""Functions of a system, see `System`."""
+Kernel = Callable[..., Any]
+"""A compiled function, see the module that makes it."""
+
 _CANCELS = 64.0 * 2.0**-52
 """Round-off of a rate, relative to the state and the rates, that a moved start does not show."""
 _SAMPLES = 8
@@ -52,11 +61,9 @@ _SEED, _CHECKS, _ROUNDING = 1, 4, 1e-9
 _COMPILE = 3.0, 0.2
 """Seconds that a kernel takes to compile, and those for each product in its source.  Measured on one core: 9 s for an
 orbit in 30 variables with 32 products, 49 s for a spectrum with 213, 268 s for one with 1424."""
-_STEP, _DIFFERENCES = 1e-4, 1e-7
-"""Check of symmetries: step of a difference, for a rate of size 1, and its relative error."""
 
 
-def in_units_of_time(first: int, velocities: int = 2) -> Callable[[Array, Array, float], tuple[Array, Array]]:
+def in_units_of_time(first: int, velocities: int = 2) -> Rescale:
     """Return a `System.rescale` for a state that begins with velocities and parameters that end with a field.
 
     Parameters
@@ -158,14 +165,11 @@ class System:
     angles : str or sequence of str, default none
         Names of variables that are angles in radians: the field is the same after a full turn, and sections count them
         up to full turns.
-    symmetries : callable, optional
-        States by name, symmetries(y, p), to which y can be moved so that motions remain motions, forward or backward in
-        time: {"x → −x, φ + π": (-y[0], -y[1], y[2] + math.pi)}.  Changes of sign alone are found without it.
 
     Raises
     ------
     InvalidParameter
-        If names, example, integrals, angles or symmetries do not fit the field.
+        If names, example, integrals or angles do not fit the field.
     NotTraceable
         If the field cannot be traced.
     WrongScaling
@@ -190,14 +194,13 @@ class System:
     title: str
     source: str
     labels: tuple[str, ...]
-    integrals: Callable[[Sequence[Any], Sequence[Any]], Mapping[str, Any]]
-    frequency: Callable[[Array, Array], Array | float]
-    rescale: Callable[[Array, Array, float], tuple[Array, Array]]
+    integrals: Integrals
+    frequency: Frequency
+    rescale: Rescale
     angular_velocities: int
-    unit: Callable[[Array], float]
-    tolerance: Callable[[Array, Array, int, float], float] | None
+    unit: Unit
+    tolerance: Tolerance | None
     angles: tuple[str, ...]
-    symmetries: Callable[[Sequence[Any], Sequence[Any]], Mapping[str, Any]]
 
     def __init__(
         self,
@@ -209,14 +212,13 @@ class System:
         title: str = "",
         source: str = "",
         labels: Sequence[str] = (),
-        integrals: Callable[[Sequence[Any], Sequence[Any]], Mapping[str, Any]] = _none,
-        frequency: Callable[[Array, Array], Array | float] = _own_unit,
-        rescale: Callable[[Array, Array, float], tuple[Array, Array]] = _as_it_is,
+        integrals: Integrals = _none,
+        frequency: Frequency = _own_unit,
+        rescale: Rescale = _as_it_is,
         angular_velocities: int = 0,
-        unit: Callable[[Array], float] = _plain,
-        tolerance: Callable[[Array, Array, int, float], float] | None = None,
+        unit: Unit = _plain,
+        tolerance: Tolerance | None = None,
         angles: str | Sequence[str] = (),
-        symmetries: Callable[[Sequence[Any], Sequence[Any]], Mapping[str, Any]] = _none,
     ) -> None:
         if not isinstance(name, str) or not name:
             raise InvalidParameter(f'{name!r} is not the name of a system: give a text such as "henon-heiles".')
@@ -235,14 +237,12 @@ class System:
             unit=unit,
             tolerance=tolerance,
             angles=_names(name, "angles", angles),
-            symmetries=symmetries,
         )
         values = tuple(parameters.values()) if isinstance(parameters, Mapping) else (1.0,) * len(self.parameters)
         vars(self).update(example=self._checked_example(example, values))
         self._check_field()
         self._check_scaling()
         self._check_angles()
-        self._check_symmetries()
 
     def __repr__(self) -> str:
         """Return the name; a field has no representation of its own."""
@@ -262,7 +262,7 @@ class System:
         """Record the field with symbols, and compute the integrals of the example."""
         if len({*self.variables, *self.parameters}) < len(self.variables) + len(self.parameters):
             raise InvalidParameter(f"{self.title}: each name may occur once among variables and parameters.")
-        for what in ("field", "integrals", "frequency", "rescale", "unit", "symmetries"):
+        for what in ("field", "integrals", "frequency", "rescale", "unit"):
             if not callable(getattr(self, what)):
                 raise InvalidParameter(f"{self.title}: `{what}` must be a function of y and p.")
         check(self.field, len(self.variables), len(self.parameters))
@@ -278,7 +278,7 @@ class System:
     def _check_scaling(self) -> None:
         """Compare states and rates at random points before and after `rescale`.  Raises `WrongScaling`."""
         d = len(self.variables)
-        if isinstance(self.angular_velocities, bool) or self.angular_velocities not in range(d + 1):
+        if self.angular_velocities not in range(d + 1):
             raise WrongScaling(
                 f"{self.title}: angular_velocities counts the leading variables that scale with 1/time, "
                 f"so it is from 0 to {d}."
@@ -316,88 +316,16 @@ class System:
                 raise InvalidParameter(f"{self.title}: the angle {name} must be a variable that is no velocity.")
             turned = state + 2.0 * math.pi * (np.array(self.variables) == name)
             one, other = self._rates(state, parameters), self._rates(turned, parameters)
-            if one is None or other is None or not np.allclose(one, other, rtol=_ROUNDING, atol=_ROUNDING):
+            if not np.allclose(one, other, rtol=_ROUNDING, atol=_ROUNDING):
                 raise InvalidParameter(f"{self.title}: {name} is no angle: after a full turn the field is another one.")
 
-    def _check_symmetries(self) -> None:
-        """Compare the rates before and after each symmetry at random points.  Raises `InvalidParameter`."""
-        state, parameters = (np.array(values, float) for values in self.example)
-        draw = np.random.default_rng(_SEED)
-        for _ in range(_CHECKS):
-            y = state * draw.uniform(0.5, 2.0, state.size) + draw.uniform(-0.5, 0.5, state.size)
-            try:
-                names = [*self.symmetries(y.tolist(), parameters.tolist())]
-                found = [self.moves(name, y, parameters) for name in names]
-            except (TypeError, ValueError, LookupError, ArithmeticError) as error:
-                raise InvalidParameter(
-                    f'{self.title}: `symmetries` must return a state by name, such as {{"x → −x": (-y[0], -y[1])}}: '
-                    f"{error}."
-                ) from error
-            for name, sign in zip(names, found, strict=True):
-                if sign == 0:
-                    raise InvalidParameter(
-                        f"{self.title}: {name} is no symmetry: it does not take motions to motions, neither forward "
-                        "nor backward in time."
-                    )
-
-    def moves(self, name: str, y: Array, parameters: Sequence[float] | Array) -> int:
-        """Return how a symmetry moves the motion through a state.
-
-        Parameters
-        ----------
-        name : str
-            Name of one of `symmetries`.
-        y : ndarray, shape (d,)
-            The state.
-        parameters : sequence of float, shape (q,)
-            Values of the parameters.
-
-        Returns
-        -------
-        int
-            1 if it becomes a motion, −1 if it becomes one backward in time, 0 if neither.  If the field is not finite
-            there, the answer is 1.
-        """
-        p = np.array(parameters, np.float64)
-        image = self.image(name, y, p)
-        if image.shape != y.shape:
-            raise ValueError(f"{name} has {image.size} components")
-        here, there = self._rates(y, p), self._rates(image, p)
-        if here is None or there is None:
-            return 1
-        size = max(1.0, float(np.abs(here).max()), float(np.abs(there).max()))
-        step = _STEP / size
-        ahead, behind = (self.image(name, y + s * here, p) for s in (step, -step))
-        along = (ahead - behind) / (2.0 * step)
-        return next((sign for sign in (1, -1) if np.abs(along - sign * there).max() <= _DIFFERENCES * size), 0)
-
-    def image(self, name: str, y: Array, p: Array) -> Array:
-        """Return the state to which a symmetry moves a state.
-
-        Parameters
-        ----------
-        name : str
-            Name of one of `symmetries`.
-        y : ndarray, shape (d,)
-            The state.
-        p : ndarray, shape (q,)
-            Values of the parameters.
-
-        Returns
-        -------
-        ndarray, shape (d,)
-            The image.
-        """
-        return np.array(self.symmetries(y.tolist(), p.tolist())[name], dtype=np.float64)
-
     def _compare(self, y: Array, p: Array, scaled: Array, problem: Problem) -> None:
-        rates = self._rates(y, p), self._rates(scaled, problem.parameters)
-        if rates[0] is None or rates[1] is None:
-            return  # tracing the field reports the error
-        expected = np.concatenate([y, rates[0]])
-        found = np.concatenate([problem.scale * scaled, problem.scale * problem.nu * rates[1]])
+        expected = np.concatenate([y, self._rates(y, p)])
+        rates = self._rates(scaled, problem.parameters)
+        found = np.concatenate([problem.scale * scaled, problem.scale * problem.nu * rates])
         names = [*self.variables, *(f"d{name}/dt" for name in self.variables)]
         for name, one, other in zip(names, expected, found, strict=True):
+            # Where a rate is NaN, nothing is compared.
             if abs(one - other) > _ROUNDING * float(np.max(np.abs(expected))):
                 leading = ", ".join(self.variables[: self.angular_velocities]) or "none"
                 raise WrongScaling(
@@ -407,14 +335,14 @@ class System:
                     f"(now: {leading})."
                 )
 
-    def _rates(self, y: Array, p: Array) -> Array | None:
-        """Return the field (d,) in floats; None if it does not have d finite values."""
+    def _rates(self, y: Array, p: Array) -> Array:
+        """Return the field (d,) in floats; NaN where it is not finite, or everywhere if it raises an error."""
         try:
             with np.errstate(all="ignore"):
                 found = np.array(self.field(y.tolist(), p.tolist()), float)
         except (TypeError, ValueError, ArithmeticError, LookupError):
-            return None
-        return found if found.shape == y.shape and np.all(np.isfinite(found)) else None
+            return np.full(y.shape, math.nan)
+        return np.where(np.isfinite(found), found, math.nan)
 
     def rates(self, states: Array, parameters: Sequence[float] | Array) -> Array:
         """Return the field at states.
@@ -562,7 +490,7 @@ class System:
         return self._kernel("orbit", "y, p, times, order, tolerance, longest, max_steps, out", orbit_integrator)
 
     @cached_property
-    def ensemble(self) -> Callable[..., None]:
+    def ensemble(self) -> Kernel:
         """Kernel that integrates many orbits, see `batch_kernels.ensemble_integrator`."""
         arguments = "states, p, times, order, tolerance, longest, max_steps, out, steps, ends"
         if self.recursion.is_quadratic and not self.recursion.functions and self.tolerance is None:
@@ -571,16 +499,16 @@ class System:
         return self._kernel("ensemble", arguments, lambda _: one_by_one(orbit), adjusts=False)
 
     @cached_property
-    def cross(self) -> Callable[..., tuple[int, int]]:
+    def cross(self) -> Kernel:
         """Kernel that finds the crossings of a plane by one orbit, see `events_kernels.crossing_finder`."""
         return self.crosses("cross", plane(len(self.variables)))
 
     @cached_property
-    def cross_angle(self) -> Callable[..., tuple[int, int]]:
+    def cross_angle(self) -> Kernel:
         """Kernel that finds where a variable equals a value up to full turns, see `events_kernels.ANGLE`."""
         return self.crosses("cross_angle", ANGLE)
 
-    def crosses(self, task: str, surface: SurfaceKernels) -> Callable[..., tuple[int, int]]:
+    def crosses(self, task: str, surface: SurfaceKernels) -> Kernel:
         """Return a kernel that finds the crossings of a surface by one orbit.
 
         Each call derives the kernel anew.
@@ -604,7 +532,7 @@ class System:
         )
 
     @cached_property
-    def doubled(self) -> Callable[..., int]:
+    def doubled(self) -> Kernel:
         """Kernel that integrates one orbit with 31 digits, see `doubled_kernels.doubled_integrator`."""
         return self._kernel(
             "doubled", "state, start, p, scale, unit, times, max_steps, out", doubled_integrator, adjusts=False
@@ -616,21 +544,21 @@ class System:
         return variation(self.field, len(self.variables), len(self.parameters))
 
     @cached_property
-    def vary(self) -> Callable[..., int]:
+    def vary(self) -> Kernel:
         """Kernel of one orbit with its full variational equations, see `variation_kernels.variation_integrator`."""
         return self._vary("vary", len(self.variables))
 
     @cached_property
-    def vary_others(self) -> Callable[..., int]:
+    def vary_others(self) -> Kernel:
         """Kernel of one orbit with its variational equations, without the column along the motion."""
         return self._vary("vary_others", len(self.variables) - 1, ahead=True)
 
     @cached_property
-    def vary_one(self) -> Callable[..., int]:
+    def vary_one(self) -> Kernel:
         """Kernel of one orbit with a single column of its variational equations."""
         return self._vary("vary_one", 1)
 
-    def _vary(self, task: str, columns: int, ahead: bool = False) -> Callable[..., int]:
+    def _vary(self, task: str, columns: int, ahead: bool = False) -> Kernel:
         return self._kernel(
             task,
             "y, frame, p, times, order, tolerance, max_steps, limit, states, frames, growth, divergence",
@@ -642,10 +570,10 @@ class System:
         self,
         task: str,
         arguments: str,
-        make: Callable[[Recursion], Callable[..., Any]],
+        make: Callable[[Recursion], Kernel],
         written: int | None = None,
         adjusts: bool = True,
-    ) -> Callable[..., Any]:
+    ) -> Kernel:
         """Return the compiled `make(recursion)`; if `adjusts`, it applies the `tolerance` of the system first.
 
         written : number of products in the source, by default those of the recursion.
@@ -691,17 +619,14 @@ class System:
         InvalidParameter
             If there is no parameter of this name, or a value is not a finite number.
         """
-        found = self.example[1]
-        if parameters is not None:
-            found = _numbers(f"{self.title}: the parameters", self.parameters, parameters)
-        for name, value in values.items():
-            if name not in self.parameters:
+        what, names = f"{self.title}: the parameters", self.parameters
+        given = _numbers(what, names, self.example[1] if parameters is None else parameters)
+        for name in values:
+            if name not in names:
                 raise InvalidParameter(
-                    f"{self.title} has no parameter {name}: choose one of {', '.join(self.parameters) or 'none'}."
+                    f"{self.title} has no parameter {name}: choose one of {', '.join(names) or 'none'}."
                 )
-            new = dict(zip(self.parameters, found, strict=True)) | {name: value}
-            found = _numbers(f"{self.title}: the parameters", self.parameters, new.values())
-        return ParametrizedSystem(self, found)
+        return ParametrizedSystem(self, _numbers(what, names, (dict(zip(names, given, strict=True)) | values).values()))
 
     @property
     def example_motion(self) -> tuple[ParametrizedSystem, tuple[float, ...]]:
@@ -830,13 +755,7 @@ class Problem:
                 "a BallBody or a HeavyBody, or a System with its parameters, system.at(…)."
             )
         system = body.system
-        try:
-            given, p = np.array(states, float, ndmin=2), np.asarray(body.parameters, float)
-        except (TypeError, ValueError, OverflowError):
-            raise InvalidParameter(
-                f"{system.title}: a state consists of {len(system.variables)} numbers, "
-                f"{', '.join(system.variables)}; write them like 1.5 or -2e-3."
-            ) from None
+        given, p = np.array(states, float, ndmin=2), np.asarray(body.parameters, float)
         for shape, names in ((given.shape[1:], system.variables), (p.shape, system.parameters)):
             if shape != (len(names),):
                 raise InvalidParameter(f"{system.title} takes {len(names)} numbers here: {', '.join(names)}.")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from functools import cache
 from typing import Any, Literal, TypeVar
@@ -12,7 +12,7 @@ from typing import Any, Literal, TypeVar
 from hess_mechanics.numerics.accuracy import LEVELS, PLANS, REFERENCE, STANDARD, Kind, Plan
 from hess_mechanics.numerics.patience import go_on
 
-__all__ = ["Alike", "LevelCost", "beyond", "enough", "measure", "measure_until"]
+__all__ = ["Alike", "LevelCost", "beyond", "enough", "measure"]
 
 R = TypeVar("R")
 Alike = Literal["", "share", "cells"]
@@ -51,54 +51,37 @@ def beyond(kind: Kind) -> Plan:
     return replace(finest, level=finest.level.tightened(), **more)
 
 
-def _truths(kind: Kind, run: Callable[[Plan], R], alike: Alike) -> Callable[[Plan], R]:
-    """Return the truth for the result of a plan; plans that are alike share it."""
+def measure(
+    kind: Kind, run: Callable[[Plan], R], error: Callable[[R, R], float], repeats: int = 1, alike: Alike = ""
+) -> Iterator[LevelCost]:
+    """Yield the cost of a computation at each level, cheapest first; a level runs when its cost is taken.
+
+    error(result, truth) : distance of a result from that of the plan `beyond`; repeats : number of runs, of which the
+    fastest counts; alike : as in `Alike`, for results at other points than those of another level.  Raises what `run`
+    raises.
+    """
 
     @cache
     def truth(own: float) -> R:
         same: dict[str, Any] = {alike: own} if alike else {}
         return run(replace(beyond(kind), **same))
 
-    def of(plan: Plan) -> R:
+    def exact(plan: Plan) -> R:
+        """Return the truth for the result of a plan; plans that are alike share it."""
         return truth(getattr(plan, alike) if alike else 1.0)
 
     # The costliest first: it fails if any does.
-    of(PLANS[kind][REFERENCE.name])
-    return of
-
-
-def _sample(
-    plan: Plan, run: Callable[[Plan], R], error: Callable[[R, R], float], truth: Callable[[Plan], R], repeats: int
-) -> LevelCost:
-    exact = truth(plan)
-    best = float("inf")
-    for _ in range(repeats):
-        go_on()
-        start = time.perf_counter()
-        result = run(plan)
-        best = min(best, time.perf_counter() - start)
-    return LevelCost(plan.level.name, 1e3 * best, error(result, exact), plan.share >= 1.0 and plan.cells >= 1.0)
-
-
-def measure(
-    kind: Kind, run: Callable[[Plan], R], error: Callable[[R, R], float], repeats: int = 1, alike: Alike = ""
-) -> tuple[LevelCost, ...]:
-    """Measure a computation at each level, cheapest first.
-
-    error(result, truth) : distance of a result from that of the plan `beyond`; repeats : number of runs, of which the
-    fastest counts; alike : as in `Alike`, for results at other points than those of another level.  Raises what `run`
-    raises.
-    """
-    truth = _truths(kind, run, alike)
-    return tuple(_sample(PLANS[kind][name], run, error, truth, repeats) for name in LEVELS)
-
-
-def measure_until(
-    kind: Kind, run: Callable[[Plan], R], error: Callable[[R, R], float], largest: float, alike: Alike = ""
-) -> str:
-    """Return the level that `enough` would choose, without running the levels above it."""
-    truth = _truths(kind, run, alike)
-    return enough((_sample(PLANS[kind][name], run, error, truth, 1) for name in LEVELS), largest)
+    exact(PLANS[kind][REFERENCE.name])
+    for name in LEVELS:
+        plan, seconds = PLANS[kind][name], []
+        known = exact(plan)
+        for _ in range(repeats):
+            go_on()
+            start = time.perf_counter()
+            result = run(plan)
+            seconds.append(time.perf_counter() - start)
+        complete = plan.share >= 1.0 and plan.cells >= 1.0
+        yield LevelCost(plan.level.name, 1e3 * min(seconds), error(result, known), complete)
 
 
 def enough(samples: Iterable[LevelCost], largest: float) -> str:

@@ -25,7 +25,7 @@ import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import cache
+from functools import cache, cached_property
 from operator import mul
 from typing import Any
 
@@ -36,7 +36,7 @@ from hess_mechanics.dynamics.polynomials import Along, Slope
 from hess_mechanics.dynamics.system import Body, Problem, System
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import Accuracy
-from hess_mechanics.numerics.arguments import as_number, as_whole
+from hess_mechanics.numerics.arguments import as_whole
 from hess_mechanics.numerics.balls import BALL_FUNCTIONS, ArbBall, Enclosure, enclosure, rational, working
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.patience import go_on
@@ -48,10 +48,7 @@ __all__ = [
     "WORK_PER_SECOND",
     "ProvedOrbit",
     "Tube",
-    "error_bounds",
-    "proved_error",
     "proved_orbit",
-    "right_until",
     "tube",
 ]
 
@@ -140,28 +137,68 @@ class Tube(Result):
 class ProvedOrbit(Result):
     """An orbit with proved bounds on its true error.
 
-    Attributes
+    Parameters
     ----------
     orbit : Orbit
         The orbit.
     tube : Tube
-        The intervals that contain the true states.
-    least : float
-        Lower bound on the largest error of any component.
-    largest : float
-        Upper bound on the same error.
-    right_to : float
-        Largest error of a state that counts as right.
-    right_until : float
-        Last time up to which every state is right; 0 if the first one is not.
+        The intervals that contain the true states of the same motion, at the same times.
+    right_to : float, default 1e-6
+        Largest error of a component of a state that counts as right.
+
+    Raises
+    ------
+    InvalidParameter
+        If the orbit and the tube do not belong together.
     """
 
     orbit: Orbit
     tube: Tube
-    least: float
-    largest: float
-    right_to: float
-    right_until: float
+    right_to: float = 1e-6
+
+    def __post_init__(self) -> None:
+        """Check that the orbit and the tube belong together."""
+        times = self.tube.times
+        if self.orbit.system != self.tube.system or not np.array_equal(self.orbit.times[: times.size], times):
+            raise InvalidParameter("The orbit and the tube must have the same system and the same times.")
+
+    @cached_property
+    def _errors(self) -> list[list[tuple[Fraction, Fraction]]]:
+        """Bounds, from below and from above, of the error of each component at each time of the tube."""
+
+        def error(value: float, one: Enclosure) -> tuple[Fraction, Fraction]:
+            above, below = one.high - Fraction(value), Fraction(value) - one.low
+            return max(Fraction(0), -above, -below), max(above, below)
+
+        both = zip(self.orbit.states.tolist(), self.tube.states, strict=False)
+        return [list(map(error, state, intervals)) for state, intervals in both]
+
+    @cached_property
+    def bounds(self) -> Array:
+        """Upper bounds (m, d) of the error of each component at the times of the tube."""
+        found = [[math.nextafter(float(most), math.inf) for _, most in sample] for sample in self._errors]
+        return frozen(np.array(found, float).reshape(len(found), self.orbit.states.shape[1]))
+
+    @property
+    def least(self) -> float:
+        """Lower bound of the largest error of any component at these times; NaN if there is none."""
+        found = max((least for sample in self._errors for least, _ in sample), default=math.nan)
+        return math.nextafter(float(found), 0.0)
+
+    @property
+    def largest(self) -> float:
+        """Upper bound of the largest error of any component at these times; NaN if there is none."""
+        return float(self.bounds.max()) if self.bounds.size else math.nan
+
+    @property
+    def right_until(self) -> float:
+        """Last time up to which every state is right; 0 if the first one is not."""
+        last = 0.0
+        for t, sample in zip(self.tube.times.tolist(), self._errors, strict=True):
+            if max(most for _, most in sample) > Fraction(self.right_to):
+                break
+            last = t
+        return last
 
     def labels(self) -> Labels:
         """Return the orbit, with its proved error among the facts.
@@ -171,14 +208,9 @@ class ProvedOrbit(Result):
         Labels
             The variables over the times.
         """
-        found = self.orbit.labels()
+        known = self.orbit.labels()
         proved = ("least", "largest", "right_to", "right_until")
-        return Labels(
-            found.coords,
-            found.variables,
-            found.units,
-            {**found.facts, **{f"proved {name}": getattr(self, name) for name in proved}},
-        )
+        return replace(known, facts={**known.facts, **{f"proved {name}": getattr(self, name) for name in proved}})
 
 
 def tube(
@@ -514,69 +546,6 @@ def _series(
     return series[: recursion.moving]
 
 
-# ---- an orbit judged by its tube ------------------------------------------------------------------------------------
-
-
-def _errors(orbit: Orbit, found: Tube) -> list[list[tuple[Fraction, Fraction]]]:
-    """Return bounds of the error of each component of each sample."""
-    if orbit.system != found.system or not np.array_equal(orbit.times[: found.times.size], found.times):
-        raise InvalidParameter("The orbit and the tube must have the same system and the same times.")
-
-    def error(value: Fraction, one: Enclosure) -> tuple[Fraction, Fraction]:
-        above, below = one.high - value, value - one.low
-        return max(Fraction(0), -above, -below), max(above, below)
-
-    return [
-        [error(Fraction(x), one) for x, one in zip(state, intervals, strict=True)]
-        for state, intervals in zip(orbit.states.tolist(), found.states, strict=False)
-    ]
-
-
-def error_bounds(orbit: Orbit, found: Tube) -> Array:
-    """Return bounds (m, d) of the true error of each component at the times of the tube.  Raises `InvalidParameter`."""
-    bounds = [[math.nextafter(float(most), math.inf) for _, most in sample] for sample in _errors(orbit, found)]
-    return frozen(np.array(bounds, float).reshape(len(bounds), orbit.states.shape[1]))
-
-
-def proved_error(orbit: Orbit, found: Tube) -> tuple[float, float]:
-    """Return proved bounds of the largest true error of an orbit.
-
-    Parameters
-    ----------
-    orbit : Orbit
-        The orbit.
-    found : Tube
-        A tube of the same motion at the same times.
-
-    Returns
-    -------
-    low : float
-        Lower bound of the largest error of any component, at the times of the tube.
-    high : float
-        Upper bound of the same error.
-
-    Raises
-    ------
-    InvalidParameter
-        If the orbit and the tube do not belong together, or the tube ends before its first time.
-
-    Examples
-    --------
-    >>> from hess_mechanics import level, proved_error, solve, systems, tube
-    >>> motion = systems()["hess"].at((0.75, 1.0)), (0.3, 0.9, 0.6, 0.0, 0.8), [0.5]
-    >>> low, high = proved_error(solve(*motion, level("draft")), tube(*motion))
-    >>> 0.0 <= low <= high < 1e-3
-    True
-    """
-    bounds = [one for sample in _errors(orbit, found) for one in sample]
-    if not bounds:
-        raise InvalidParameter("The tube ends before its first time: allow more work, or choose an earlier time.")
-    return (
-        math.nextafter(float(max(least for least, _ in bounds)), 0.0),
-        math.nextafter(float(max(most for _, most in bounds)), math.inf),
-    )
-
-
 def proved_orbit(
     body: Body,
     start: Sequence[float],
@@ -628,44 +597,4 @@ def proved_orbit(
         raise WorkLimit(
             "No time is enclosed: reduce the digits or the time, or allow more work; or choose less extreme parameters."
         )
-    orbit = solve(body, start, found.times, accuracy)
-    least, largest = proved_error(orbit, found)
-    return ProvedOrbit(orbit, found, least, largest, right_to, right_until(orbit, found, right_to))
-
-
-def right_until(orbit: Orbit, found: Tube, error: float) -> float:
-    """Return the time until which an orbit is proved to be right to a given error.
-
-    Parameters
-    ----------
-    orbit : Orbit
-        The orbit.
-    found : Tube
-        A tube of the same motion at the same times.
-    error : float
-        Largest error of a component.
-
-    Returns
-    -------
-    float
-        The last time up to which every sample is right; 0 if the first one is not.
-
-    Raises
-    ------
-    InvalidParameter
-        If the orbit and the tube do not belong together.
-
-    Examples
-    --------
-    >>> from hess_mechanics import level, right_until, solve, systems, tube
-    >>> motion = systems()["hess"].at((0.75, 1.0)), (0.3, 0.9, 0.6, 0.0, 0.8), [0.25, 0.5]
-    >>> right_until(solve(*motion, level("reference")), tube(*motion), 1e-12)
-    0.5
-    """
-    as_number("error", error)
-    last = 0.0
-    for t, sample in zip(found.times, _errors(orbit, found), strict=True):
-        if max(most for _, most in sample) > Fraction(error):
-            break
-        last = float(t)
-    return last
+    return ProvedOrbit(solve(body, start, found.times, accuracy), found, right_to)

@@ -7,7 +7,7 @@ count up to full turns.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -111,11 +111,6 @@ class VariableSection(PoincareSection):
             return replace(self, body=self.system.at(self.parameters, **{name: value}))
         return replace(self, integrals=tuple((own, value if own == name else x) for own, x in self.integrals))
 
-    @property
-    def states_at(self) -> Callable[..., tuple[Array, Mask]]:
-        """Function of the coordinates (n,) that returns states (n, d) and a mask (n,) of those with motion."""
-        return self._states_at
-
     def places_of(self, states: Array) -> Array:
         """Return the coordinates (n, k) of states (n, d), angles within half a turn of the middle of their range."""
         places = states[:, [self._index(name) for name in self.names]]
@@ -125,7 +120,8 @@ class VariableSection(PoincareSection):
     def _index(self, name: str) -> int:
         return self.system.variables.index(name)
 
-    def _states_at(self, *places: Array) -> tuple[Array, Mask]:
+    def states_at(self, *places: Array) -> tuple[Array, Mask]:
+        """Return states (n, d) at coordinates (n,), and a mask (n,) of those that motions cross."""
         y = np.zeros((len(self.system.variables), np.size(places[0])))
         y[self._index(self.variable)] = self.value
         for name, place in zip(self.names, places, strict=True):

@@ -1,7 +1,7 @@
-"""Variational equations: the derivative ∂y(t)/∂y(0) along an orbit, and derivatives of return maps.
+"""Tangent dynamics: an orbit with tangent vectors, of which exponents, indicators and multipliers are read off.
 
-V̇ = J(y(t)) V with V(0) = 1, where J is the Jacobian of the field.  J comes from differentiating the traced field and
-is integrated in the same Taylor steps as the orbit (`numerics.variation_kernels`), so V exists for every system.
+V̇ = J(y(t)) V, where J is the Jacobian of the field.  J comes from differentiating the traced field and is integrated in
+the same Taylor steps as the orbit (`numerics.variation_kernels`), so V exists for every system.
 
 The column along the motion needs no integration: V f(y(0)) = f(y(t)).  Unless the motion is slow at its start, only the
 d − 1 columns across f are integrated: for five variables four, which fill one vector register instead of two.
@@ -10,176 +10,27 @@ d − 1 columns across f are integrated: for five variables four, which fill one
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
 from hess_mechanics.dynamics.orbit import (
     MAX_STEPS,
-    checked_times,
     end_of,
     require_finite_neighbours,
     require_finite_states,
     require_steps,
 )
-from hess_mechanics.dynamics.plane_section import Surface, section
-from hess_mechanics.dynamics.system import Body, Problem
+from hess_mechanics.dynamics.system import Problem
 from hess_mechanics.errors import InvalidParameter, WorkLimit
-from hess_mechanics.numerics.accuracy import Accuracy, Level, Status
-from hess_mechanics.numerics.arguments import as_level
-from hess_mechanics.numerics.labelled import Labels, Printed, Result
-from hess_mechanics.numerics.measured import measured
-from hess_mechanics.numerics.results import Array, Cost, facts_of, frozen
+from hess_mechanics.numerics.accuracy import Level
+from hess_mechanics.numerics.results import Array
 
-__all__ = [
-    "LONGEST",
-    "Return",
-    "Tangent",
-    "Transition",
-    "frame_ahead",
-    "one_direction",
-    "onto_surface",
-    "return_matrix",
-    "tangent",
-    "transition_matrix",
-]
+__all__ = ["LONGEST", "Tangent", "frame_ahead", "one_direction", "onto_surface", "tangent"]
 
 LONGEST = 1e6
 """Length at which a single vector is normalised."""
-_MOVES = 0.1
-"""Smallest |f(y(0))| for the shortcut, in units in which states are O(1): errors of f(y(t)) are divided by it."""
-
-
-@dataclass(frozen=True)
-class Transition(Result):
-    """The transition matrix ∂y(t)/∂y(0) along an orbit.
-
-    Attributes
-    ----------
-    system : str
-        Name of the system.
-    level : str
-        Name of the accuracy level.
-    times : ndarray, shape (n,)
-        Times.
-    states : ndarray, shape (n, d)
-        States at these times.
-    matrices : ndarray, shape (n, d, d)
-        Row i, column j: ∂y_i(t)/∂y_j(0), in the units of the states.
-    log_volume : ndarray, shape (n,)
-        ∫ tr J dt, computed independently; equals ln det of the matrix.
-    status : Status
-        How the computation ended.
-    error_estimate : float
-        Largest estimated error of a matrix relative to its largest entry, in units in which states are O(1), or of a
-        state.
-    cost : Cost
-        Steps and time.
-    variables : tuple of str
-        Names of the variables.
-    """
-
-    system: str
-    level: str
-    times: Array
-    states: Array
-    matrices: Array
-    log_volume: Array
-    status: Status
-    error_estimate: float
-    cost: Cost
-    variables: tuple[str, ...]
-
-    def labels(self) -> Labels:
-        """Return the matrices, labelled with time and the names of their rows and columns.
-
-        Returns
-        -------
-        Labels
-            The derivatives over time, rows and columns.
-        """
-        of, by = np.array(self.variables), np.array([f"{name}(0)" for name in self.variables])
-        return Labels(
-            {"t": (("t",), self.times), "of": (("of",), of), "by": (("by",), by)},
-            {"derivative": (("t", "of", "by"), self.matrices)},
-            {"t": "T"},
-            {"system": self.system, **facts_of(self)},
-        )
-
-
-def transition_matrix(
-    body: Body, start: Sequence[float] | Array, times: float | Sequence[float] | Array, accuracy: Accuracy
-) -> Transition:
-    """Return the transition matrix ∂y(t)/∂y(0) along an orbit.
-
-    As in `solve`, everything is computed twice, and again if the promise of the level is missed.
-
-    Parameters
-    ----------
-    body : Body
-        The body.
-    start : array_like, shape (d,)
-        Initial state.
-    times : float or array_like, shape (n,)
-        Times, monotonic from 0 forward or backward.
-    accuracy : str or Level
-        Accuracy level.
-
-    Returns
-    -------
-    Transition
-        States and matrices at these times.
-
-    Raises
-    ------
-    InvalidParameter
-        If a number is not finite, or the times are not monotonic.
-    WorkLimit
-        If the orbit needs too many steps, or the matrix overflows.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from hess_mechanics import level, systems, transition_matrix
-    >>> suslov = systems()["suslov"]
-    >>> found = transition_matrix(*suslov.example_motion, 2.0, level("precise"))
-    >>> bool(abs(np.log(np.linalg.det(found.matrices[-1])) - found.log_volume[-1]) < 1e-9)
-    True
-    """
-    level = as_level(accuracy)
-    t = checked_times(np.atleast_1d(np.asarray(times, float)))
-    problem, system = Problem.of(body, [start]), body.system
-    scaled_times = problem.times(t)
-    problems = (problem, problem.nearby())
-
-    def run(level: Level, spent: int) -> tuple[tuple[Array, Array, Array], int]:
-        own = problems[level.aside]
-        basis, speed = frame_ahead(own, np.eye(len(system.variables)), _MOVES)
-        found = tangent(own, own.states[0], basis, scaled_times, level, ahead=speed > _MOVES, spent=spent)
-        return (found.states, found.vectors @ basis.T, found.volume), found.steps
-
-    def apart(one: tuple[Array, Array, Array], other: tuple[Array, Array, Array]) -> float:
-        largest = np.abs(other[1]).max(axis=(1, 2), keepdims=True)
-        return max(float(np.abs(one[0] - other[0]).max()), float((np.abs(one[1] - other[1]) / largest).max()))
-
-    found = measured(level, run, apart)
-    states, frames, volume = found.result
-    with np.errstate(over="ignore"):
-        matrices = problem.scale[:, None] * frames / problem.scale
-    require_finite_neighbours(matrices)
-    return Transition(
-        system.name,
-        level.name,
-        frozen(t),
-        frozen(states * problem.scale),
-        frozen(matrices),
-        frozen(volume),
-        found.status,
-        found.error,
-        found.cost,
-        system.variables,
-    )
 
 
 @dataclass(frozen=True)
@@ -228,7 +79,7 @@ def tangent(
     vectors: Array,
     times: Array,
     level: Level,
-    limit: float = math.inf,
+    limit: float,
     ahead: bool = False,
     spent: int = 0,
     where: Callable[[], WorkLimit | None] | None = None,
@@ -247,7 +98,7 @@ def tangent(
         Times, monotonic from 0.
     level : Level
         Order and tolerance of the steps.
-    limit : float, default ∞
+    limit : float
         Condition of the vectors, or length of a single one, at which they are orthonormalised.
     ahead : bool, default False
         True if the first of d vectors is parallel to f(y), f(y) ≠ 0.  This vector is known and never normalised; at the
@@ -302,76 +153,3 @@ def onto_surface(matrix: Array, rate: Array, gradient: Array) -> Array:
         raise InvalidParameter("The orbit touches the surface here and does not cross it: choose another start.")
     along = gradient[..., None, :] @ matrix / across[..., None, None]
     return np.asarray(matrix - rate[..., :, None] * along)
-
-
-@dataclass(frozen=True)
-class Return(Printed):
-    """A return of an orbit to a surface.
-
-    Attributes
-    ----------
-    time : float
-        Time of the return.
-    state : ndarray, shape (d,)
-        State at the return.
-    matrix : ndarray, shape (d, d)
-        ∂y(return)/∂y(start).  Its columns are tangent to the surface, and it maps the direction of motion to 0.
-    transition : Transition
-        Derivative of the flow at that time, with its error and cost.
-    """
-
-    time: float
-    state: Array
-    matrix: Array
-    transition: Transition
-
-
-def return_matrix(
-    body: Body, start: Sequence[float] | Array, surface: Surface, duration: float, accuracy: Accuracy, returns: int = 1
-) -> Return | None:
-    """Return the n-th return of an orbit to a surface, with its derivative.
-
-    Parameters
-    ----------
-    body : Body
-        The body.
-    start : array_like, shape (d,)
-        Initial state.
-    surface : Plane or Surface
-        The surface.
-    duration : float
-        End of the time span; may be negative.
-    accuracy : str or Level
-        Accuracy level.
-    returns : int, default 1
-        Number n of the return.
-
-    Returns
-    -------
-    Return or None
-        The return; None if the orbit does not return n times before `duration`.
-
-    Raises
-    ------
-    InvalidParameter
-        If a number is not finite, or the orbit is tangent to the surface.
-    WorkLimit
-        If the orbit needs too many steps.
-
-    Examples
-    --------
-    >>> from hess_mechanics import Plane, level, return_matrix, systems
-    >>> suslov = systems()["suslov"]
-    >>> found = return_matrix(*suslov.example_motion, Plane((0.0, 0.0, 0.0, 0.0, 1.0)), 50.0, level("precise"))
-    >>> bool(abs(found.matrix[4]).max() < 1e-9)  # γ3 = 0 at the return
-    True
-    """
-    crossings = section(body, start, surface, duration, accuracy, returns)
-    if len(crossings.times) < returns:
-        return None
-    moment = float(crossings.times[-1])
-    found = transition_matrix(body, start, moment, accuracy)
-    end_state = crossings.states[-1]
-    rate = np.array(body.system.field(end_state.tolist(), list(body.parameters)), float)
-    matrix = onto_surface(found.matrices[0], rate, surface.gradient(end_state))
-    return Return(moment, end_state, frozen(matrix), found)

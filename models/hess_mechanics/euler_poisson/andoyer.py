@@ -18,24 +18,21 @@ f P < 0 and Q < 0; if there are only two, a state is on the second exactly if �
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hess_mechanics import parameters as known
-from hess_mechanics.dynamics.cells import Window, centres, evenly
+from hess_mechanics.dynamics.cells import Window, centres
 from hess_mechanics.dynamics.motions import body_parameters, on_section, usual
-from hess_mechanics.dynamics.plane_section import MAX_STEPS, SectionPoints, section_points
 from hess_mechanics.dynamics.return_map import PoincareSection
 from hess_mechanics.dynamics.system import Problem, System
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.euler_poisson.andoyer_kernels import cross, least_excess, roots_into
 from hess_mechanics.euler_poisson.equations import SYSTEM, HeavyBody, field
-from hess_mechanics.numerics.accuracy import Accuracy
-from hess_mechanics.numerics.parallel import THREADS
 from hess_mechanics.numerics.results import Array, Mask, frozen
 from hess_mechanics.rigid_body.inertia import require_finite
 
@@ -130,13 +127,8 @@ class AndoyerPlane:
 _SCAN = 64
 _ROUGH = 24
 _CELLS = (96, 64)
-_TRIED = (4, 200, 200)
-"""Places tried for each state of a sheet: on the second sheet g rarely increases."""
-_TURNS = 40.0
-"""Time limit per crossing, in units of 1/ν; few orbits take longer."""
 SHEETS = 3
 """Largest possible number of sheets: as a function of α, see the module, the energy has at most two extrema."""
-_ORDINALS = ("largest", "second", "third")
 
 
 def coordinates(states: Array) -> Array:
@@ -209,12 +201,7 @@ class AndoyerSection(PoincareSection):
 
     def moved(self, name: str, value: float) -> AndoyerSection:
         """Return the section with another value of one constant."""
-        if name in ("h", "f"):
-            return replace(self, h=value) if name == "h" else replace(self, f=value)
-        p = tuple(
-            value if one == name else other for one, other in zip(SYSTEM.parameters, self.parameters, strict=True)
-        )
-        return replace(self, body=HeavyBody((p[0], p[1], p[2]), (p[3], p[4], p[5]), p[6]))
+        return _section({**self.constants, "sheet": self.sheet, name: value})
 
     def _factors(self, l: Array, x: Array) -> tuple[Array, Array, Array]:
         """Return K, P, Q of the energy, see the module."""
@@ -252,25 +239,6 @@ class AndoyerSection(PoincareSection):
         growth = 2.0 * np.sum(y[:3] * rates[:3], axis=0) * y[5] + safe * safe * rates[5] - self.f * rates[2]
         return y.T, (G > 0.0) & (growth > 0.0)
 
-    def state_at(self, l: float, x: float) -> tuple[float, ...]:
-        """Return the state (6,) at (l, L/G).
-
-        Raises `InvalidParameter` if this sheet has no real G ≥ |f| of this energy, or g does not increase through π/2.
-        """
-        place = np.array([l], float), np.array([x], float)
-        where = f"At l = {l:.6g}, L/G = {x:.6g}"
-        if not self.roots(*place)[0, self.sheet] > 0.0:
-            raise InvalidParameter(
-                f"{where} there is no {_ORDINALS[self.sheet]} root G ≥ |f| with the energy h = {self.h:.6g}: choose "
-                "the largest one, sheet 0, or another point."
-                if self.sheet
-                else f"{where} no real G ≥ |f| has the energy h = {self.h:.6g}: choose a larger h, or another point."
-            )
-        states, growing = self.states_at(*place)
-        if not growing[0]:
-            raise InvalidParameter(f"{where} the angle g does not grow through π/2: choose another point.")
-        return tuple(map(float, states[0]))
-
     def places_of(self, states: Array) -> Array:
         """Return (l, L/G) (n, 2) of states (n, 6), on any sheet."""
         return coordinates(states)
@@ -295,31 +263,6 @@ class AndoyerSection(PoincareSection):
     def is_on(self, states: Array) -> Mask:
         """Return the mask (n,) of the states (n, 6) of the section that are on this sheet."""
         return np.asarray(self.sheet_of(states) == self.sheet)
-
-    def spread(self, window: Window, count: int) -> tuple[tuple[float, ...], ...]:
-        """Return at most `count` states of this sheet, spread evenly over the possible part of the window."""
-        (l0, x0), (l1, x1) = window
-        shares = evenly(_TRIED[self.sheet] * count, 0.5)
-        states, growing = self.states_at(l0 + (l1 - l0) * shares[0], x0 + (x1 - x0) * shares[1])
-        return tuple(tuple(map(float, state)) for state in states[growing][:count])
-
-    def time_for(self, crossings: int) -> float:
-        """Return a time in which orbits usually cross the plane `crossings` times."""
-        speed = math.sqrt(2.0 * max(self.body.a) * max(self.h + self.body.strength, 1e-300))
-        return crossings * _TURNS * self.slowness / speed
-
-    def points(
-        self,
-        starts: Sequence[Sequence[float]],
-        crossings: int,
-        accuracy: Accuracy,
-        threads: int = THREADS,
-        most_steps: int = MAX_STEPS,
-    ) -> SectionPoints:
-        """Return the first crossings of each orbit, as in `section_points`.  Raises `InvalidParameter`, `WorkLimit`."""
-        return section_points(
-            self.body, starts, self.surface, self.time_for(crossings), accuracy, crossings, threads, most_steps
-        )
 
     def possible(self, l: Array, x: Array) -> Mask:
         """Return the mask (n,) of the (l, L/G) where some G ≥ |f| has an energy of at most h, as exact as a plot."""

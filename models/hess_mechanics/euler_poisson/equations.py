@@ -21,11 +21,12 @@ from hess_mechanics.rigid_body.inertia import MAX_RATIO, BodyCheck, require_fini
 __all__ = ["SYSTEM", "HeavyBody"]
 
 
-def _require_positive(a: Sequence[float]) -> None:
-    for i, value in enumerate(a, 1):
+def _require_positive(symbol: str, moments: Sequence[float]) -> None:
+    for i, value in enumerate(moments, 1):
         if not value > 0:
-            raise NotPositiveDefinite(f"a{i} = {value:g}, but a moment of inertia is positive: choose a{i} > 0.")
-    if max(a) / min(a) > MAX_RATIO:
+            name = f"{symbol}{i}"
+            raise NotPositiveDefinite(f"{name} = {value:g}, but a moment of inertia is positive: choose {name} > 0.")
+    if max(moments) / min(moments) > MAX_RATIO:
         raise InvalidParameter(f"The moments of inertia are too different: choose ratios below {MAX_RATIO:g}.")
 
 
@@ -72,7 +73,7 @@ class HeavyBody:
             if not isinstance(value, tuple) or len(value) != 3:
                 raise InvalidParameter(f"{name} = {value!r} is not a tuple of three numbers: write (1.0, 1.6, 2.7).")
         require_finite(**dict(zip(names, self.parameters, strict=True)))
-        _require_positive(self.a)
+        _require_positive("a", self.a)
 
     @classmethod
     def hess(cls, moments: tuple[float, float, float], strength: float, away: float = 0.0) -> HeavyBody:
@@ -104,9 +105,7 @@ class HeavyBody:
         `gess-*1`.
         """
         require_finite(I1=moments[0], I2=moments[1], I3=moments[2], away=away)
-        for i, value in enumerate(moments, 1):
-            if not value > 0:
-                raise NotPositiveDefinite(f"I{i} = {value:g}, but a moment of inertia is positive: choose I{i} > 0.")
+        _require_positive("I", moments)
         a1, a2, a3 = (1.0 / moment for moment in moments)
         if not (a2 - a1) * (a3 - a2) >= 0.0 or a1 == a3:
             raise InvalidParameter(
@@ -229,7 +228,7 @@ def frequency(y: Array, p: Array) -> Array | float:
     Raises `NotPositiveDefinite`, `InvalidParameter`.
     """
     a = np.asarray(p[:3])
-    _require_positive(a.tolist())
+    _require_positive("a", a.tolist())
     kinetic = (a[0] * y[0] ** 2 + a[1] * y[1] ** 2 + a[2] * y[2] ** 2) / 2
     strength = abs(p[6]) * math.hypot(*p[3:6]) * np.sqrt(y[3] ** 2 + y[4] ** 2 + y[5] ** 2)
     nu: Array | float = np.sqrt(2 * a.max() * (kinetic + 2 * strength))

@@ -25,7 +25,7 @@ from hess_mechanics.rigid_body.inertia import require_finite
 from hess_mechanics.suslov_hess.bifurcation import f_max
 from hess_mechanics.suslov_hess.equations import HessBody
 
-__all__ = ["Bridge", "heavy_body", "hess_body", "largest_area_integral", "largest_distance", "share_of"]
+__all__ = ["Bridge", "largest_area_integral", "largest_distance", "share_of"]
 
 
 def _tilt(body: HeavyBody) -> tuple[float, float]:
@@ -40,42 +40,13 @@ def _tilt(body: HeavyBody) -> tuple[float, float]:
     return body.r[0] / length, body.r[2] / length
 
 
-def hess_body(body: HeavyBody) -> HessBody:
-    """Return the Suslov body, I11 = 1/a1', with the motions of a heavy body on the Hess manifold.
-
-    a = b'/a1' has the sign of r1 r3 (a1 − a3).  Raises `InvalidParameter` outside the Hess case, `NoField` (r = 0).
-    """
-    s, c = _tilt(body)
-    a = s * c * (body.a[0] - body.a[2]) / body.a[1] + 0.0  # no −0.0
-    I22 = 1.0 / (body.a[1] * (1.0 + a * a))
-    b = body.a[1] * body.mu * math.hypot(*body.r)
-    return HessBody(I22, a * I22, -b * I22 * math.hypot(1.0, a))
-
-
-def heavy_body(body: HessBody, share: float = 0.5) -> HeavyBody:
-    """Return a heavy body in the Hess case, a1' = 1/I11, whose motions on the Hess manifold are those of a Suslov body.
-
-    It has r1, r3 ≥ 0, |r| = 1, μ = b/a1', and a1 > a3 for a > 0.  One of its moments is free, as I33 is in the
-    Suslov problem: with a1 = a2 (1 − x), a3 = a2 (1 + a²/x), or a1 and a3 exchanged, it is a rigid body for
-    0 < x ≤ (1 − a²)/2; x is `share` times that bound, or times ½ if |a| ≥ 1.
-    Raises `InvalidParameter` for a share outside (0, 1].
-    """
-    require_finite(share=share)
-    if not 0.0 < share <= 1.0:
-        raise InvalidParameter(f"share = {share:g} is not in (0, 1]: choose 0.5 for the middle.")
-    squared = body.a * body.a
-    x = share * 0.5 * (1.0 - squared if squared < 1.0 else 1.0)
-    moments = body.I11 / (1.0 - x), body.I11, body.I11 / (1.0 + squared / x)
-    return HeavyBody.hess(moments if body.a <= 0.0 else moments[::-1], body.b * body.I11)
-
-
 def share_of(body: HeavyBody) -> float:
-    """Return the share with which `heavy_body` restores the moments of a heavy body in the Hess case.
+    """Return the share with which `Bridge.of_suslov` restores the moments of a heavy body in the Hess case.
 
     Above 1 the body is not rigid and cannot be restored; if r1 r3 < 0 the moments I1 and I3 are exchanged.
     Raises `InvalidParameter` outside the Hess case, `NoField` (r = 0).
     """
-    squared = hess_body(body).a ** 2
+    squared = Bridge.of_heavy(body).hess.a ** 2
     return (1.0 - min(body.a) / body.a[1]) / (0.5 * (1.0 - squared if squared < 1.0 else 1.0))
 
 
@@ -119,7 +90,7 @@ class Bridge:
         Returns
         -------
         Bridge
-            The pair of bodies.
+            The pair of bodies: I11 = 1/a1', and a = b'/a1' has the sign of r1 r3 (a1 − a3).
 
         Raises
         ------
@@ -128,7 +99,11 @@ class Bridge:
         NoField
             If r = 0.
         """
-        return cls(heavy, hess_body(heavy))
+        s, c = _tilt(heavy)
+        a = s * c * (heavy.a[0] - heavy.a[2]) / heavy.a[1] + 0.0  # no −0.0
+        I22 = 1.0 / (heavy.a[1] * (1.0 + a * a))
+        b = heavy.a[1] * heavy.mu * math.hypot(*heavy.r)
+        return cls(heavy, HessBody(I22, a * I22, -b * I22 * math.hypot(1.0, a)))
 
     @classmethod
     def of_suslov(cls, hess: HessBody, share: float = 0.5) -> Bridge:
@@ -152,8 +127,20 @@ class Bridge:
             If share is not in (0, 1].
         NotPositiveDefinite
             If a moment of the heavy body is not positive.
+
+        Notes
+        -----
+        The heavy body has a1' = 1/I11, r1, r3 ≥ 0, |r| = 1, μ = b/a1', and a1 > a3 for a > 0.  One of its moments is
+        free, as I33 is in the Suslov problem: with a1 = a2 (1 − x), a3 = a2 (1 + a²/x), or a1 and a3 exchanged, it is
+        a rigid body for 0 < x ≤ (1 − a²)/2; x is `share` times that bound, or times ½ if |a| ≥ 1.
         """
-        return cls(heavy_body(hess, share), hess)
+        require_finite(share=share)
+        if not 0.0 < share <= 1.0:
+            raise InvalidParameter(f"share = {share:g} is not in (0, 1]: choose 0.5 for the middle.")
+        squared = hess.a * hess.a
+        x = share * 0.5 * (1.0 - squared if squared < 1.0 else 1.0)
+        moments = hess.I11 / (1.0 - x), hess.I11, hess.I11 / (1.0 + squared / x)
+        return cls(HeavyBody.hess(moments if hess.a <= 0.0 else moments[::-1], hess.b * hess.I11), hess)
 
     def to_reduced(self, states: Array) -> Array:
         """Return the reduced states of states of the heavy body.
@@ -191,23 +178,8 @@ class Bridge:
         a = self.heavy.a[1]
         return np.stack([c * w2 / a, w1 / a, -s * w2 / a, s * n3 - c * n2, -n1, c * n3 + s * n2], axis=-1)
 
-    def to_suslov(self, states: Array) -> Array:
-        """Return the states of the Suslov problem of states of the heavy body.
-
-        Parameters
-        ----------
-        states : array_like of float, shape (..., 6)
-            States (M, γ).
-
-        Returns
-        -------
-        ndarray of float, shape (..., 5)
-            States (ω1, ω2, γ1, γ2, γ3).
-        """
-        return self.hess.from_reduced(self.to_reduced(states))
-
     def from_suslov(self, states: Array) -> Array:
-        """Return the states of the heavy body on the Hess manifold; the inverse of `to_suslov`.
+        """Return the states of the heavy body on the Hess manifold.
 
         Parameters
         ----------

@@ -20,7 +20,7 @@ from hess_mechanics.errors import WorkLimit
 from hess_mechanics.euler_poisson.andoyer import coordinates
 from hess_mechanics.euler_poisson.equations import SYSTEM, HeavyBody
 from hess_mechanics.euler_poisson.hess_isomorphism import Bridge
-from hess_mechanics.numerics.accuracy import REFERENCE, Accuracy, Level
+from hess_mechanics.numerics.accuracy import REFERENCE, Accuracy
 from hess_mechanics.numerics.arguments import as_level
 from hess_mechanics.numerics.results import Array, Orbit, frozen
 from hess_mechanics.suslov_hess.circle_map import CircleMap
@@ -34,8 +34,6 @@ __all__ = [
     "difference",
     "exact_growth",
     "exact_motion",
-    "growth_of",
-    "on_manifold",
     "run_free",
 ]
 
@@ -71,44 +69,19 @@ class FreeRun:
         return frozen(coordinates(self.states))
 
 
-def _run(problem: Problem, start: Array, times: Array, level: Level, out: Array) -> int:
-    longest = SYSTEM.longest_step(level, times[-1])
-    steps, _ = SYSTEM.orbit(start, problem.parameters, times, level.order, level.tolerance, longest, MAX_STEPS, out)
-    if steps < 0:
-        raise WorkLimit(f"This motion needs more than {MAX_STEPS} steps: choose a shorter time span.")
-    require_finite_states(out)
-    return steps
-
-
-def _ended(body: HeavyBody, problem: Problem, times: Array, states: Array, level: Level, steps: int) -> FreeRun:
-    states = states * problem.scale
-    drift = drift_of(SYSTEM, states[0], states, np.array(body.parameters))
-    return FreeRun(level.name, times, frozen(states), frozen(_relative(body, states)), steps, drift)
-
-
-def run_free(body: HeavyBody, start: tuple[float, ...], duration: float, count: int, accuracy: Accuracy) -> FreeRun:
-    """Return the Euler–Poisson orbit from a state on the Hess manifold, at `count` even times from 0 to `duration`.
-
-    It is computed once: `solve` would repeat it with smaller tolerances until the leak is that of round-off.
-    Raises `InvalidParameter`, `WorkLimit`.
-    """
-    level = as_level(accuracy)
-    times = frozen(np.linspace(0.0, duration, count))
-    problem = Problem.of(body, [start])
-    out = np.empty((count, 6))
-    steps = _run(problem, problem.states[0], problem.times(times), level, out)
-    return _ended(body, problem, times, out, level, steps)
-
-
 _BEFORE_HELD = 3.0
 """Largest growth of ln |(r, M)| between two projections."""
 _HELD_SAMPLES = 32
 
 
-def on_manifold(body: HeavyBody, start: tuple[float, ...], duration: float, count: int, accuracy: Accuracy) -> FreeRun:
-    """Return `run_free` with M projected onto the Hess manifold so often that the leak cannot grow.
+def run_free(
+    body: HeavyBody, start: tuple[float, ...], duration: float, count: int, accuracy: Accuracy, held: bool = False
+) -> FreeRun:
+    """Return the Euler–Poisson orbit from a state on the Hess manifold, at `count` even times from 0 to `duration`.
 
-    This integrates the restriction to the manifold (`gess05`) in the variables and with the kernel of Euler–Poisson.
+    It is computed once: `solve` would repeat it with smaller tolerances until the leak is that of round-off.
+    held : if true, M is projected onto the manifold so often that the leak cannot grow.  This integrates the
+    restriction to the manifold (`gess05`) in the variables and with the kernel of Euler–Poisson.
     Raises `InvalidParameter`, `WorkLimit`.
     """
     level = as_level(accuracy)
@@ -117,23 +90,33 @@ def on_manifold(body: HeavyBody, start: tuple[float, ...], duration: float, coun
     scaled = problem.times(times)
     axis = np.array(body.r) / math.hypot(*body.r)
     growth = body.hess_a * _fastest(body, start) * duration
-    pieces = math.ceil(max((count - 1) / _HELD_SAMPLES, growth / _BEFORE_HELD))
+    pieces = math.ceil(max((count - 1) / _HELD_SAMPLES, growth / _BEFORE_HELD)) if held else 1
     if pieces > MAX_STEPS:
         raise WorkLimit("The manifold is too unstable to stay on it over this time span: choose a shorter one.")
     edges = np.linspace(0.0, scaled[-1], pieces + 1)
     first = np.searchsorted(scaled, edges)
     out = np.empty((count, 6))
     state = problem.states[0].copy()
-    steps = 0
+    total = 0
     for i in range(pieces):
-        state[:3] -= (state[:3] @ axis) * axis
+        if held:
+            state[:3] -= (state[:3] @ axis) * axis
         piece = np.append(scaled[first[i] : first[i + 1]], edges[i + 1]) - edges[i]
-        states = np.empty((piece.size, 6))
-        steps += _run(problem, state, piece, level, states)
-        out[first[i] : first[i + 1]] = states[:-1]
-        state = states[-1].copy()
+        found = np.empty((piece.size, 6))
+        longest = SYSTEM.longest_step(level, piece[-1])
+        steps, _ = SYSTEM.orbit(
+            state, problem.parameters, piece, level.order, level.tolerance, longest, MAX_STEPS, found
+        )
+        if steps < 0:
+            raise WorkLimit(f"This motion needs more than {MAX_STEPS} steps: choose a shorter time span.")
+        require_finite_states(found)
+        total += steps
+        out[first[i] : first[i + 1]] = found[:-1]
+        state = found[-1].copy()
     out[first[-1] :] = state
-    return _ended(body, problem, times, out, level, steps)
+    states = out * problem.scale
+    drift = drift_of(SYSTEM, states[0], states, np.array(body.parameters))
+    return FreeRun(level.name, times, frozen(states), frozen(_relative(body, states)), total, drift)
 
 
 def _fastest(body: HeavyBody, start: tuple[float, ...]) -> float:
@@ -168,8 +151,8 @@ def difference(bridge: Bridge, start: tuple[float, ...], duration: float, count:
     there = hess.in_units_of_b(hess.to_reduced(orbit.states))
     heavy = tuple(bridge.from_reduced(reduced).tolist())
     held, free = (
-        bridge.distance(run(bridge.heavy, heavy, duration, count, REFERENCE).states, there)
-        for run in (on_manifold, run_free)
+        bridge.distance(run_free(bridge.heavy, heavy, duration, count, REFERENCE, held).states, there)
+        for held in (True, False)
     )
     return SuslovDistance(frozen(times), frozen(held), frozen(free), orbit.error_estimate)
 
@@ -207,8 +190,24 @@ class Leak:
 
     @cached_property
     def growth(self) -> LeakGrowth | None:
-        """The growth of (r, M); None if it is not exponential for long enough."""
-        return growth_of(self.run, self.samples)
+        """The growth of (r, M) while it is exponential; None if that lasts less than two periods.
+
+        It is the slope of ln |(r, M)| against the number of the period, in a least-squares fit of a straight line plus
+        a function of that period.
+        """
+        off, samples = self.run.off, self.samples
+        rows = (off.size - 1) // samples
+        table = np.abs(off[: rows * samples].reshape(rows, samples))
+        low, high = _STRAIGHT
+        over = np.flatnonzero(table.max(axis=1) > high)
+        last = int(over[0]) if over.size else rows
+        begun = np.flatnonzero(table[:last].min(axis=1) < low)
+        first = int(begun[-1]) + 1 if begun.size else 0
+        if last - first < 2:
+            return None
+        count = np.arange(last - first) - 0.5 * (last - first - 1)
+        slope = float(count @ np.log(table[first:last]).mean(axis=1) / (count @ count))
+        return LeakGrowth(slope, first, last - first)
 
     @property
     def side(self) -> tuple[int, bool]:
@@ -233,22 +232,3 @@ class Leak:
 def exact_growth(theta: CircleMap) -> float:
     """Return the growth of ln |(r, M)| in one period of n3 on the stable cycle; 0 without cycles."""
     return abs(theta.fixed_points[0].log_multiplier) if theta.fixed_points else 0.0
-
-
-def growth_of(run: FreeRun, samples: int) -> LeakGrowth | None:
-    """Return the growth of the leak while it is exponential; None if that lasts less than two periods.
-
-    samples : number per period of n3.  The growth is the slope of ln |(r, M)| against the number of the period, in a
-    least-squares fit of a straight line plus a function of that period.
-    """
-    rows = (run.off.size - 1) // samples
-    table = np.abs(run.off[: rows * samples].reshape(rows, samples))
-    low, high = _STRAIGHT
-    over = np.flatnonzero(table.max(axis=1) > high)
-    last = int(over[0]) if over.size else rows
-    begun = np.flatnonzero(table[:last].min(axis=1) < low)
-    first = int(begun[-1]) + 1 if begun.size else 0
-    if last - first < 2:
-        return None
-    count = np.arange(last - first) - 0.5 * (last - first - 1)
-    return LeakGrowth(float(count @ np.log(table[first:last]).mean(axis=1) / (count @ count)), first, last - first)

@@ -16,7 +16,7 @@ import numpy as np
 
 from hess_mechanics.dynamics.manifolds import Manifold, manifold, split
 from hess_mechanics.dynamics.periodic import apart, find_periodic
-from hess_mechanics.dynamics.return_map import ReturnMap
+from hess_mechanics.dynamics.return_map import ReturnMap, section_crossings
 from hess_mechanics.errors import NotConverged, OutsideRegion
 from hess_mechanics.euler_poisson.andoyer import AndoyerSection, hess_curve
 from hess_mechanics.euler_poisson.equations import HeavyBody
@@ -100,7 +100,7 @@ def saddles(torus: HessTorus, accuracy: Accuracy) -> Saddles:
     found = []
     for point in sorted(theta.fixed_points, key=lambda one: one.stable):
         state = bridge.from_reduced(bridge.hess.from_units_of_b(turning.state_at_lower_turn(point.phi)[None]))[0]
-        crossing = AndoyerSection(body, torus.h, torus.f).points([tuple(map(float, state))], 1, REFERENCE, threads=1)
+        crossing = section_crossings(AndoyerSection(body, torus.h, torus.f), state[None], 1, REFERENCE, threads=1)
         if not len(crossing.states[0]):
             raise OutsideRegion(
                 "A limit cycle of the Hess manifold does not cross the section g = π/2 here: choose other h and f."

@@ -17,21 +17,21 @@ solutions of the Euler–Poisson equations depart from it by a factor e^{2πa} p
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
-from hess_mechanics.dynamics.orbit import checked_span
-from hess_mechanics.dynamics.sampling import PIXELS, SAGITTA
+from hess_mechanics.dynamics.orbit import checked_span, solve
+from hess_mechanics.dynamics.sampling import PIXELS, SAGITTA, sample_times
 from hess_mechanics.errors import InvalidParameter, OutsideRegion
 from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.euler_poisson.hess_isomorphism import Bridge
 from hess_mechanics.numerics.accuracy import Accuracy
 from hess_mechanics.numerics.arguments import as_a
 from hess_mechanics.numerics.labelled import Printed
-from hess_mechanics.numerics.results import Array, frozen
-from hess_mechanics.rigid_body.attitude import Attitude, attitude
+from hess_mechanics.numerics.results import Array, Orbit, frozen
+from hess_mechanics.rigid_body.attitude import Attitude, orthonormal
 from hess_mechanics.rigid_body.inertia import require_finite
 from hess_mechanics.suslov_hess.equations import WITH_ATTITUDE
 
@@ -213,7 +213,9 @@ class LoxodromicMotion(Printed):
     times : ndarray of float, shape (n,)
         Times in the units of the body.
     attitude : Attitude
-        The attitude, with axes in principal axes and the orbit in units b = 1.
+        The attitude, with axes in principal axes.
+    orbit : Orbit
+        The orbit of `WITH_ATTITUDE`, in units b = 1.
     centre : ndarray of float, shape (n, 3)
         Direction of the centre of mass in space, along (γ, e, γ × e).
     middle : ndarray of float, shape (n, 3)
@@ -223,6 +225,7 @@ class LoxodromicMotion(Printed):
     pendulum: LoxodromicPendulum
     times: Array
     attitude: Attitude
+    orbit: Orbit
     centre: Array
     middle: Array
 
@@ -298,23 +301,18 @@ def loxodromic_motion(pendulum: LoxodromicPendulum, duration: float, accuracy: A
     (4.0, 0.50954)
     """
     span = checked_span(duration, "a loxodromic motion")
-    radius = 0.5 * PIXELS
-    lying = attitude(
-        WITH_ATTITUDE.at((pendulum.a, 1.0)),
-        pendulum.start,
-        pendulum.length(span),
-        accuracy,
-        (0.0, 0.0, *(radius,) * 6),
-        SAGITTA,
-        _MOST,
-    )
-    axes = lying.axes @ pendulum.principal
-    axes[:, 2] = np.cross(axes[:, 0], axes[:, 1])
-    lying = replace(lying, axes=frozen(axes))
+    system = WITH_ATTITUDE.at((pendulum.a, 1.0))
+    weights = np.array([0.0] * 2 + [0.5 * PIXELS] * 6)
+    times = sample_times(system, pendulum.start, pendulum.length(span), weights, SAGITTA, _MOST)
+    orbit = solve(system, pendulum.start, times, accuracy)
+    principal = pendulum.principal
+    axes, defect = orthonormal(orbit.states[:, 2:5] @ principal, orbit.states[:, 5:] @ principal)
+    lying = Attitude(frozen(orbit.times / pendulum.frequency_unit), frozen(axes), defect)
     return LoxodromicMotion(
         pendulum=pendulum,
-        times=frozen(lying.times / pendulum.frequency_unit),
+        times=lying.times,
         attitude=lying,
+        orbit=orbit,
         centre=frozen(lying.in_space(pendulum.body.r)),
         middle=frozen(lying.in_space((0.0, 1.0, 0.0))),
     )

@@ -7,7 +7,7 @@ or a coarser grid.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from enum import StrEnum
 
@@ -16,6 +16,7 @@ from hess_mechanics.errors import InvalidParameter
 __all__ = [
     "DRAFT",
     "LEVELS",
+    "MEANINGS",
     "PLANS",
     "PRECISE",
     "REFERENCE",
@@ -23,10 +24,12 @@ __all__ = [
     "Accuracy",
     "Kind",
     "Level",
+    "Meaning",
     "Plan",
     "Status",
     "cheapest",
     "level",
+    "levels_table",
     "plan",
 ]
 
@@ -194,32 +197,55 @@ def cheapest(error: float) -> Level:
 
 
 class Kind(StrEnum):
-    """Kinds of computation; each one has its own meaning of the levels and of the promise of a `Plan`."""
+    """Kinds of computation; each one has its own meaning of the levels, see `MEANINGS`."""
 
     ORBIT = "orbit"
-    """Promise: the error, in units in which the state is O(1)."""
     SECTION = "section"
-    """Promise: the number of crossings right to half a pixel if neighbours part e-fold from one to the next."""
     ROTATION = "rotation number"
-    """Promise: the error of the rotation number of a closed curve, in turns."""
     GRID = "grid"
-    """Promise: the error of ρ, in turns, if |trace| is not within 1e-2 of 2."""
     LINE = "line"
-    """Promise: as for a grid."""
     COLOURS = "colours"
-    """Promise: as for a grid; 256 colours resolve 4e-3."""
     MAP = "map"
-    """Promise: the error of θ⁺, in radians."""
     CURVE = "curve"
-    """Promise: the distance from the curve, in pixels, for |a| ≤ 1."""
     BASINS = "basins"
-    """Promise: the fraction of cells that change on a grid twice as fine, if the boundary is a curve."""
     INDICATOR = "indicator"
-    """Promise: as for basins."""
     EXPONENT = "exponent"
-    """Promise: the error of λ relative to the fastest angular velocity ν, for a time of 2000/ν."""
     CLOUD = "cloud"
-    """Promise: the error of ln|s|, of γ, and of ω relative to its largest size."""
+
+
+@dataclass(frozen=True)
+class Meaning:
+    """Words for the numbers of the plans of one kind.
+
+    Attributes
+    ----------
+    promise : str
+        Quantity that `Plan.promise` limits; empty if more cells, not more digits, make the result better.
+    share, cells : str
+        What `Plan.share` and `Plan.cells` count; empty if each level computes all.
+    """
+
+    promise: str
+    share: str = ""
+    cells: str = ""
+
+
+MEANINGS: Mapping[Kind, Meaning] = {
+    Kind.ORBIT: Meaning("error, in units in which the state is O(1)"),
+    Kind.SECTION: Meaning(
+        "crossings right to half a pixel if neighbours part e-fold from one to the next", "crossings"
+    ),
+    Kind.ROTATION: Meaning("error of the rotation number of a closed curve, in turns", "crossings", "orbits"),
+    Kind.GRID: Meaning("error of ρ, in turns, if |trace| is not within 1e-2 of 2", "", "cells along a side"),
+    Kind.LINE: Meaning("as for a grid", "turns", "places"),
+    Kind.COLOURS: Meaning("as for a grid; 256 colours resolve 4e-3", "", "cells along a side"),
+    Kind.MAP: Meaning("error of θ⁺, in radians", "", "phases"),
+    Kind.CURVE: Meaning("distance from the curve, in pixels, for |a| ≤ 1", "", "tori"),
+    Kind.BASINS: Meaning("", "", "cells along a side"),
+    Kind.INDICATOR: Meaning("", "", "cells along a side"),
+    Kind.EXPONENT: Meaning("error of λ relative to the fastest angular velocity ν, for a time of 2000/ν", "time"),
+    Kind.CLOUD: Meaning("error of ln|s|, of γ, and of ω relative to its largest size", "points"),
+}
 
 
 _CROSSED = Level("draft", 1e-3, 1e-6, 12)
@@ -234,7 +260,7 @@ class Plan:
     level : Level
         Order and tolerance of the Taylor steps, under the name of the level.
     promise : float
-        Promise, see `Kind`.
+        Promise, see `MEANINGS`.
     share : float, default 1
         Fraction of the requested crossings, turns, time or points that is computed.
     cells : float, default 1
@@ -317,3 +343,40 @@ def plan(kind: Kind, accuracy: Accuracy) -> Plan:
     if isinstance(accuracy, Level) and LEVELS.get(accuracy.name) != accuracy:
         return Plan(accuracy, accuracy.promise)
     return PLANS[kind][accuracy.name if isinstance(accuracy, Level) else level(accuracy).name]
+
+
+def levels_table() -> tuple[tuple[str, ...], ...]:
+    """Return the table of what each level promises and computes, a row for each kind of computation.
+
+    Returns
+    -------
+    tuple of tuple of str
+        The head, then for each kind its name, a cell for each level, and the quantity that is promised.  A level that
+        changes nothing for a kind refers to the level before.
+
+    Examples
+    --------
+    >>> from hess_mechanics.numerics.accuracy import levels_table
+    >>> levels_table()[2][:3]
+    ('section', '5, 25 % of the crossings', '9')
+    """
+    return ("computation", *LEVELS, "promised"), *(
+        (kind, *_cells(kind), MEANINGS[kind].promise or "nothing: more cells show more") for kind in Kind
+    )
+
+
+def _cells(kind: Kind) -> Iterator[str]:
+    """Yield what each level means for a kind."""
+    meaning = MEANINGS[kind]
+    shown: dict[tuple[float, float, float], str] = {}
+    for each in PLANS[kind].values():
+        before = shown.setdefault((each.promise, each.share, each.cells), each.level.name)
+        if before != each.level.name:
+            yield f"as {before}"
+            continue
+        if kind is Kind.ORBIT and each.level.is_floor:
+            yield "round-off, which may exceed the error of precise"
+            continue
+        parts = ((each.share, meaning.share), (each.cells, meaning.cells))
+        some = [f"{100.0 * part:.0f} % of the {what}" for part, what in parts if part != 1.0]
+        yield ", ".join(([f"{each.promise:g}"] if meaning.promise else []) + some) or f"all {meaning.cells}"

@@ -296,7 +296,7 @@ class Symbol:
         raise NotTraceable(
             "This field cannot be traced: it compares its variables or parameters, or passes them to a function that "
             f"takes floats only, as those of `math` do. {ALLOWED} For a motion with cases, find the event with "
-            "`section(body, state, plane, end, level)` and go on from it with a system for the next case."
+            "`section(body, start, plane, duration)` and go on from it with a system for the next case."
         )
 
     __bool__ = __float__ = __int__ = __index__ = __complex__ = __abs__ = __round__ = _refuse

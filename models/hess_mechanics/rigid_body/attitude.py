@@ -1,68 +1,15 @@
-"""Attitude of a body in space, from a second direction fixed in space that is followed beside the vertical.
-
-Every direction fixed in space obeys the equation of the vertical, ė = e × ω.  So the field of a system whose last
-three variables are the vertical γ is evaluated a second time with e in place of γ.
-"""
+"""Attitude of a body in space, from a second direction e fixed in space: ė = e × ω, as γ̇ = γ × ω for the vertical."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 
-from hess_mechanics.dynamics.orbit import solve
-from hess_mechanics.dynamics.sampling import sample_times
-from hess_mechanics.dynamics.system import Body, System
-from hess_mechanics.numerics.accuracy import Accuracy
-from hess_mechanics.numerics.results import Array, Orbit, frozen
+from hess_mechanics.numerics.results import Array, frozen
 
-__all__ = ["Attitude", "Lying", "across", "attitude", "attitude_along", "travelled", "with_attitude"]
-
-
-def with_attitude(system: System) -> System:
-    """Return the system with the variables e1, e2, e3 added; its last three variables must be the vertical γ.
-
-    Its integrals include e² = 1 and (e, γ) = 0.
-    """
-    n = len(system.variables)
-
-    def field(y: Sequence[Any], p: Sequence[Any]) -> tuple[Any, ...]:
-        return (*system.field(y[:n], p), *system.field((*y[: n - 3], *y[n:]), p)[-3:])
-
-    def integrals(y: Sequence[Any], p: Sequence[Any]) -> Mapping[str, Any]:
-        g, e = y[n - 3 : n], y[n:]
-        return {
-            **system.integrals(y[:n], p),
-            "e²": e[0] ** 2 + e[1] ** 2 + e[2] ** 2,
-            "(e,γ)": e[0] * g[0] + e[1] * g[1] + e[2] * g[2],
-        }
-
-    def frequency(y: Array, p: Array) -> Array | float:
-        return system.frequency(y[:n], p)
-
-    def rescale(y: Array, p: Array, nu: float) -> tuple[Array, Array]:
-        scaled, p = system.rescale(y[:n], p, nu)
-        return np.concatenate([scaled, y[n:]]), p
-
-    state, p = system.example
-    return replace(
-        system,
-        name=f"{system.name}-attitude",
-        title=f"{system.title}, with the attitude",
-        variables=(*system.variables, "e1", "e2", "e3"),
-        field=field,
-        integrals=integrals,
-        frequency=frequency,
-        rescale=rescale,
-        example=((*state, *across(state[-3:])), p),
-    )
-
-
-def across(vertical: Sequence[float] | Array) -> Array:
-    """Return a unit vector (3,) normal to the vertical, as an arbitrary start of e."""
-    return _frames(np.array(vertical, float, ndmin=2))[1][:, 0]
+__all__ = ["Attitude", "attitude_along", "orthonormal", "travelled"]
 
 
 @dataclass(frozen=True)
@@ -76,34 +23,18 @@ class Attitude:
     axes : ndarray of float, shape (n, 3, 3)
         The vertical γ, e and γ × e in the axes of the body, in rows, orthonormal to round-off.
     defect : float
-        Largest deviation of γ and e from orthonormality before that correction.
-    orbit : Orbit
-        The computation.
+        Estimate of their error, see `orthonormal` and `attitude_along`.
     """
 
     times: Array
     axes: Array
     defect: float
-    orbit: Orbit
 
     def in_space(self, vector: Sequence[float] | Array) -> Array:
         """Return the components along γ, e, γ × e (n, 3) of a direction of the body, (3,) or (n, 3)."""
         return np.asarray(np.einsum("nij,nj->ni", self.axes, np.broadcast_to(vector, self.axes.shape[:2])))
 
-
-@dataclass(frozen=True)
-class Lying:
-    """Attitude of a body in space along an orbit, for a plot.
-
-    times : (n,); axes : (n, 3, 3), as in `Attitude`; defect : largest angle, in radians, between a sample of γ and
-    the quadrature from the sample before it.
-    """
-
-    times: Array
-    axes: Array
-    defect: float
-
-    def every_second(self) -> Lying:
+    def every_second(self) -> Attitude:
         """Return the first, every second and the last of the samples, for a preview."""
         kept = [*range(0, len(self.times) - 1, 2), len(self.times) - 1]
         return replace(self, times=frozen(self.times[kept]), axes=frozen(self.axes[kept]))
@@ -115,12 +46,13 @@ MOST_TURNS = 4000
 """Largest number of samples, besides those of the orbit."""
 
 
-def attitude_along(times: Array, omega: Array, gamma: Array) -> Lying:
+def attitude_along(times: Array, omega: Array, gamma: Array) -> Attitude:
     """Return the attitude along an orbit from its samples: times (n,), ω (n, 3) and |γ| = 1 (n, 3) in axes of the body.
 
     The rotation between two samples is that of the Magnus expansion of fourth order, with the derivative of ω from its
     neighbours; only the turn about γ is used, because γ is known.  The result has a sample for every `TURN` of
-    rotation, also between those of the orbit, so that the chord of two neighbours approximates the rotation.
+    rotation, also between those of the orbit, so that the chord of two neighbours approximates the rotation.  Its
+    defect is the largest angle, in radians, between a sample of γ and the quadrature from the sample before it.
     """
     w, step = omega.T, np.diff(times)
     slope = np.gradient(w, times, axis=1) if len(times) > 2 else np.zeros_like(w)
@@ -142,7 +74,7 @@ def attitude_along(times: Array, omega: Array, gamma: Array) -> Lying:
     v, length = share * v[:, i], share * length[i]
     g, e = _turned((g[:, i], e[:, i]), v, length)
     axes = np.stack([g.T, e.T, _cross(g, e).T], axis=1)
-    return Lying(frozen(times[i] + share * step[i]), frozen(axes), defect)
+    return Attitude(frozen(times[i] + share * step[i]), frozen(axes), defect)
 
 
 def travelled(axes: Array, at: Sequence[float] | Array, e: Sequence[float] | Array) -> Array:
@@ -188,27 +120,7 @@ def _turned(several: tuple[Array, ...], v: Array, length: Array) -> tuple[Array,
     return tuple(u + sine * first + cosine * _cross(first, v) for u, first in crossed)
 
 
-def attitude(
-    body: Body,
-    start: Sequence[float] | Array,
-    duration: float,
-    accuracy: Accuracy,
-    weights: Sequence[float],
-    sagitta: float,
-    most: int,
-) -> Attitude:
-    """Return the attitude along the orbit of a body with an extended system from `start`, |γ| = |e| = 1, (e, γ) = 0.
-
-    weights, sagitta, most : as for `sample_times`.  Raises `InvalidParameter`, `WorkLimit`.
-    """
-    state = np.asarray(start, float)
-    times = sample_times(body, state, duration, np.asarray(weights), sagitta, most)
-    orbit = solve(body, state, times, accuracy)
-    axes, defect = _orthonormal(orbit.states[:, -6:-3], orbit.states[:, -3:])
-    return Attitude(orbit.times, frozen(axes), defect, orbit)
-
-
-def _orthonormal(g: Array, e: Array) -> tuple[Array, float]:
+def orthonormal(g: Array, e: Array) -> tuple[Array, float]:
     """Return γ, e and γ × e, rows of (n, 3, 3), and the largest of | |γ|−1 |, | |e|−1 |, |(e, γ)| before."""
     long_g, long_e = np.linalg.norm(g, axis=1), np.linalg.norm(e, axis=1)
     defect = max(np.max(np.abs(x)) for x in (long_g - 1.0, long_e - 1.0, np.sum(g * e, axis=1)))

@@ -115,23 +115,22 @@ def _dot(a: Sequence[Any], b: Sequence[Any]) -> Any:
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
-def _times(I: Sequence[Any], x: Sequence[Any]) -> tuple[Any, Any, Any]:
-    """Return I x for I = (I11, I22, I33, I12, I13, I23)."""
+def _rows(I: Sequence[Any]) -> tuple[Sequence[Any], ...]:
+    """Return the rows of the symmetric matrix I = (I11, I22, I33, I12, I13, I23)."""
     I11, I22, I33, I12, I13, I23 = I
-    return (
-        I11 * x[0] + I12 * x[1] + I13 * x[2],
-        I12 * x[0] + I22 * x[1] + I23 * x[2],
-        I13 * x[0] + I23 * x[1] + I33 * x[2],
-    )
+    return (I11, I12, I13), (I12, I22, I23), (I13, I23, I33)
 
 
-def _inverse(I: Sequence[Any]) -> tuple[Any, ...]:
-    """Return I⁻¹ in the same order, by cofactors."""
-    I11, I22, I33, I12, I13, I23 = I
-    A11, A22, A33 = I22 * I33 - I23 * I23, I11 * I33 - I13 * I13, I11 * I22 - I12 * I12
-    A12, A13, A23 = I13 * I23 - I12 * I33, I12 * I23 - I13 * I22, I12 * I13 - I11 * I23
-    determinant = I11 * A11 + I12 * A12 + I13 * A13
-    return tuple(one / determinant for one in (A11, A22, A33, A12, A13, A23))
+def _times(rows: Sequence[Sequence[Any]], x: Sequence[Any]) -> tuple[Any, ...]:
+    return tuple(_dot(row, x) for row in rows)
+
+
+def _inverse(rows: Sequence[Sequence[Any]]) -> tuple[Sequence[Any], ...]:
+    """Return the rows of the inverse of a symmetric matrix."""
+    first, second, third = rows
+    cofactors = _cross(second, third), _cross(third, first), _cross(first, second)
+    determinant = _dot(first, cofactors[0])
+    return tuple(tuple(one / determinant for one in row) for row in cofactors)
 
 
 Exponents = tuple[tuple[int, int, int], ...]
@@ -147,9 +146,9 @@ def _system(exponents: Exponents, is_constrained: bool, drive: Exponents) -> Sys
     last = len(names)
 
     def split(p: Sequence[Any]) -> tuple[Sequence[Any], ...]:
-        """Return I, k, a, d, Ω and the coefficients of the drive, and those of U."""
+        """Return the rows of I, k, a, d, Ω and the coefficients of the drive, and those of U."""
         first = 12 if is_constrained else 9
-        return p[:6], p[6:9], p[9:12] if is_constrained else _NOTHING, p[first:last], p[last:]
+        return _rows(p[:6]), p[6:9], p[9:12] if is_constrained else _NOTHING, p[first:last], p[last:]
 
     def field(y: Sequence[Any], p: Sequence[Any]) -> tuple[Any, ...]:
         I, k, a, driven, c = split(p)
@@ -268,8 +267,7 @@ class OwnBody:
     @property
     def _moments(self) -> Any:
         """The principal moments of inertia (3,), in increasing order."""
-        I11, I22, I33, I12, I13, I23 = self.inertia
-        return np.linalg.eigvalsh([[I11, I12, I13], [I12, I22, I23], [I13, I23, I33]])
+        return np.linalg.eigvalsh(_rows(self.inertia))
 
     @property
     def check(self) -> BodyCheck:

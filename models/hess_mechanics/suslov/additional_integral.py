@@ -175,8 +175,8 @@ class AdditionalIntegral:
         value: Array = np.sum(self.vector(omega) * np.asarray(gamma, float), axis=-1)
         return value
 
-    def at_fixed_points(self, h: float) -> tuple[float, float]:
-        """Return the values (f^+, f^−) of F2 at ω^(±) with γ^(±) = ±ξ.
+    def at_fixed_points(self, h: float) -> float:
+        """Return the value of F2 at ω^(±) with γ^(±) = ±ξ; γ = ∓ξ has the opposite value.
 
         Parameters
         ----------
@@ -185,8 +185,8 @@ class AdditionalIntegral:
 
         Returns
         -------
-        tuple of two floats
-            The two values, which are equal; γ = ∓ξ has −f^±.
+        float
+            The value f^+ = f^−.
 
         Raises
         ------
@@ -200,42 +200,15 @@ class AdditionalIntegral:
         Examples
         --------
         >>> from hess_mechanics import SuslovBody, additional_integral
-        >>> f, _ = additional_integral(1, SuslovBody(2.0, 1.0, 0.0, 0.5)).at_fixed_points(0.5)
-        >>> round(f, 6)
+        >>> F2 = additional_integral(1, SuslovBody(2.0, 1.0, 0.0, 0.5))
+        >>> round(F2.at_fixed_points(0.5), 6)
         -1.118034
         """
         require_finite(h=h)
         if not h > 0.0:
             raise InvalidParameter(f"E = h = {h:g}, but without a field the energy is positive: choose h > 0.")
         # At ω^(±) V = ∓a_0 |ω|^k ξ for all signs of I13 and I23, as k is odd.
-        f = -float(self.a[0]) * math.sqrt(2.0 * h / self.inertia) ** self.k
-        return f, f
-
-    def cycles(self, h: float, f: float) -> tuple[float, float]:
-        """Return Γ = (ξ, γ) on the two limit cycles C^± of the torus E = h, F2 = f.
-
-        Parameters
-        ----------
-        h : float
-            The energy h > 0.
-        f : float
-            Value of F2, |f| ≤ |f^±|.
-
-        Returns
-        -------
-        tuple of two floats
-            Γ on C^+ and on C^−; they differ in sign.
-
-        Raises
-        ------
-        InvalidParameter
-            If no motion has this h and f.
-        """
-        top, _ = self.at_fixed_points(h)
-        require_finite(f=f)
-        if not abs(f) <= abs(top):
-            raise InvalidParameter(f"No motion with h = {h:g} has F2 = f = {f:g}: choose |f| ≤ {abs(top):.6g}.")
-        return f / top, -f / top
+        return -float(self.a[0]) * math.sqrt(2.0 * h / self.inertia) ** self.k
 
 
 def order(body: SuslovBody) -> int | None:

@@ -20,6 +20,7 @@ long times cost neither steps nor digits.  This rotation is not in the paper: se
 
 from __future__ import annotations
 
+import cmath
 import math
 import time
 from collections.abc import Mapping, Sequence
@@ -45,7 +46,6 @@ from hess_mechanics.suslov.free_kernels import integrate
 __all__ = [
     "Equilibria",
     "FreeMotion",
-    "FreeRotation",
     "Passage",
     "PassageConstants",
     "arcs",
@@ -53,13 +53,13 @@ __all__ = [
     "equilibria_of_unit_rate",
     "free_motion",
     "passage",
-    "propagate",
     "rotation",
     "sample_times",
     "sampled_motion",
     "shape",
     "turned_along_circle",
     "turning",
+    "vertical",
 ]
 
 _MAX_STEPS = 200_000
@@ -94,12 +94,12 @@ class PassageConstants:
 
     def turned(self, u: Array | float, arc: int) -> Array:
         """Return Φ(u) = −K ln cosh u + σc gd u, the angle about ξ of the rotating frame; shape of u."""
-        return -self.K * _log_cosh(u) + arc * self.c * _gd(u)
+        return -self.K * (np.abs(u) + _tail(u) - math.log(2.0)) + arc * self.c * _gd(u)
 
 
-def _log_cosh(u: Array | float) -> Array:
-    size = np.abs(u)
-    return size + np.log1p(np.exp(-2.0 * size)) - math.log(2.0)
+def _tail(u: Array | float) -> Array:
+    """Return ln(2 cosh u) − |u|."""
+    return np.log1p(np.exp(-2.0 * np.abs(u)))
 
 
 def _gd(u: Array | float) -> Array:
@@ -155,13 +155,14 @@ class Equilibria:
 
     def gamma(self, Gamma: float, phi: float) -> tuple[float, float, float]:
         """Return γ = Γξ + √(1−Γ²)(cos φ η + sin φ e3), η = e3 × ξ."""
-        x1, x2, _ = self.xi
-        across = math.sqrt(max(0.0, 1.0 - Gamma * Gamma))
-        return (
-            float(Gamma * x1 - across * math.cos(phi) * x2),
-            float(Gamma * x2 + across * math.cos(phi) * x1),
-            across * math.sin(phi),
-        )
+        g1, g2, g3 = vertical(self.xi, Gamma, cmath.rect(math.sqrt(max(0.0, 1.0 - Gamma * Gamma)), phi)).tolist()
+        return g1, g2, g3
+
+
+def vertical(xi: Array, Gamma: Array | float, z: Complex | complex) -> Array:
+    """Return γ = Γξ + Re z η + Im z e3 with η = e3 × ξ, shape (..., 3); xi : the first components of ξ."""
+    z = np.asarray(z)
+    return np.stack([Gamma * xi[0] - z.real * xi[1], Gamma * xi[1] + z.real * xi[0], z.imag], axis=-1)
 
 
 def _rate(body: SuslovBody, of: PassageConstants, r: float) -> float:
@@ -217,10 +218,6 @@ class Passage:
     rate: float
     speed: float
 
-    def u(self, times: Array) -> Array:
-        """Return u at the times (m,)."""
-        return self.u0 + self.rate * times
-
     def omega(self, u: Array) -> Array:
         """Return ω (m, 2) in closed form (`biz132`)."""
         return self.rate * _omega(self.shape, self.arc, np.tanh(u), _sech(u))
@@ -271,129 +268,65 @@ def _log(x: Fraction) -> float:
     return math.log(float(x / Fraction(2) ** shift)) + shift * math.log(2.0)
 
 
-def propagate(of: PassageConstants, arc: int, u: Array, accuracy: Accuracy) -> tuple[Complex, Complex, int]:
-    """Return A and B at each u (m,), in any order, and the number of Taylor steps.  Raises `WorkLimit`."""
-    level = as_level(accuracy)
-    inside = np.clip(u, -of.end, of.end)
-    start = np.array([0.0, 1.0, arc * of.kappa, 0.0, 1.0, 0.0, 0.0, 0.0])
-    if level.aside:
-        start = nearby(start)
-    p = np.array([of.K, arc * of.c])
-    out = np.empty((u.size, 8))
-    total = 0
-    for side in (inside >= 0.0, inside < 0.0):
-        index = np.flatnonzero(side)
-        if index.size == 0:
-            continue
-        outwards = index[np.argsort(np.abs(inside[index]), kind="stable")]
-        states = np.empty((index.size, 8))
-        longest = level.longest_step(of.end)
-        steps, _ = integrate(start, p, inside[outwards], level.order, level.tolerance, longest, _MAX_STEPS, states)
-        if steps < 0:
-            raise WorkLimit("This passage needs too many steps: choose larger I13, I23, or a cheaper level.")
-        out[outwards] = states
-        total += steps
-    return out[:, 4] + 1j * out[:, 5], out[:, 6] + 1j * out[:, 7], total
-
-
 def turning(of: PassageConstants, arc: int, u: Array, accuracy: Accuracy) -> tuple[Complex, Complex, float, int]:
-    """Return A and B at each u (m,), the estimated error of the rotation between any two, and the steps.
+    """Return A and B of M(u) M(u0)^−1 for u (m,) in any order, u0 = u[0], the estimated error and the steps.
 
-    The error is estimated as in `orbit.solve`.  Raises `WorkLimit`.
+    The error, of the rotation between any two, is estimated as in `orbit.solve`.  Raises `WorkLimit`.
     """
+    level, inside = as_level(accuracy), np.clip(u, -of.end, of.end)
+    first, p = np.array([0.0, 1.0, arc * of.kappa, 0.0, 1.0, 0.0, 0.0, 0.0]), np.array([of.K, arc * of.c])
 
     def run(at: Level, _: int) -> tuple[tuple[Complex, Complex], int]:
-        A, B, steps = propagate(of, arc, u, at)
-        return (A, B), steps
+        start = nearby(first) if at.aside else first
+        out, total = np.empty((u.size, 8)), 0
+        for side in (inside >= 0.0, inside < 0.0):
+            index = np.flatnonzero(side)
+            if index.size == 0:
+                continue
+            outwards = index[np.argsort(np.abs(inside[index]), kind="stable")]
+            states = np.empty((index.size, 8))
+            longest = at.longest_step(of.end)
+            steps, _ = integrate(start, p, inside[outwards], at.order, at.tolerance, longest, _MAX_STEPS, states)
+            if steps < 0:
+                raise WorkLimit("This passage needs too many steps: choose larger I13, I23, or a cheaper level.")
+            out[outwards] = states
+            total += steps
+        return (out[:, 4] + 1j * out[:, 5], out[:, 6] + 1j * out[:, 7]), total
 
     def apart(one: tuple[Complex, Complex], other: tuple[Complex, Complex]) -> float:
         # Factor 4: a rotation is quadratic in A and B, and both its ends have errors.
         return 4.0 * float((np.abs(one[0] - other[0]) + np.abs(one[1] - other[1])).max())
 
-    found = measured(as_level(accuracy), run, apart)
-    return *found.result, found.error + 1e-15 * (1.0 + of.size), found.cost.steps
-
-
-@dataclass(frozen=True)
-class FreeRotation:
-    """Motion of every γ with the same ω(0).
-
-    times : (m,); omega : (m, 2); matrices : (m, 3, 3), γ(t) = matrix · γ(0).
-    limits : (2, 3), the same for Γ at t → −∞ and t → +∞: Γ^∓ = limits · γ(0).
-    error_estimate : absolute error of any component of ω and γ.
-    """
-
-    times: Array
-    omega: Array
-    matrices: Array
-    limits: Array
-    passage: Passage
-    status: Status
-    error_estimate: float
-    cost: Cost
-
-
-def rotation(
-    body: SuslovBody, omega: Sequence[float], times: Sequence[float] | Array, accuracy: Accuracy
-) -> FreeRotation:
-    """Return the rotation along the motion that starts with ω(0), at times as in `orbit.solve`.
-
-    Raises `InvalidParameter` (a field, I13 = I23 = 0, ω = 0 or on the line of equilibria, times out of order),
-    `WorkLimit`.
-    """
-    level = as_level(accuracy)
-    start = time.perf_counter()
-    t = checked_times(times)
-    motion = passage(body, omega)
-    of, arc, u0 = motion.shape, motion.arc, motion.u0
-    with np.errstate(over="ignore"):
-        elapsed = motion.rate * t
-        angle = of.K * elapsed
-    if not np.all(np.isfinite(angle)):
-        raise InvalidParameter("This time is too long for double precision: choose a shorter one.")
-    u = u0 + elapsed
-    A, B, error, steps = turning(of, arc, np.concatenate([[u0, -of.end, of.end], u]), level)
-    # M(u) M(u0)^−1, then the transformation to the frame of the body.
+    found = measured(level, run, apart)
+    A, B = found.result
     A, B = A * A[0].conj() + B.conj() * B[0], B * A[0].conj() - A.conj() * B[0]
+    return A, B, found.error + 1e-15 * (1.0 + of.size), found.cost.steps
+
+
+def rotation(motion: Passage, elapsed: Array, accuracy: Accuracy) -> tuple[Array, Array, float, int]:
+    """Return the matrices (m, 3, 3) with γ = matrix · γ(0) after `elapsed` = ω0 t (m,), the limits, error and steps.
+
+    limits : (2, 3), Γ^∓ = limits · γ(0) for t → ∓∞; the error is that of γ.  Raises `WorkLimit`.
+    """
+    of, arc, u0 = motion.shape, motion.arc, motion.u0
+    u = u0 + elapsed
+    A, B, error, steps = turning(of, arc, np.concatenate([[u0, -of.end, of.end], u]), accuracy)
+    # From the rotating frame to that of the body.
     before = float(of.turned(u0, arc))
     outside = -of.K * (_elapsed_size(u0, u, elapsed) + _tail(u) - _tail(u0)) + arc * of.c * (_gd(u) - _gd(u0))
-    limits = _gamma_row(A[1:3], B[1:3] * np.exp(1j * before)) @ _axes(of).T
+    axes = np.column_stack([of.eta, [0.0, 0.0, 1.0], of.xi])
+    limits = _gamma_row(A[1:3], B[1:3] * np.exp(1j * before)) @ axes.T
     # The factor of A and that of B cancel exactly in Γ, which contains AB, however large the angle.
     half = np.exp(-0.5j * outside)
     A, B = A[3:] * half, B[3:] * half.conj() * np.exp(1j * before)
-    found = _axes(of) @ _matrices(A, B) @ _axes(of).T
-
     # Errors of the data: ω0, K and u0 are known to a few units in the last place.
-    error += 1e-15 * of.K * float(np.max(np.abs(elapsed))) + 3e-16 * abs(u0) * (1.0 + of.size)
-    error = min(error, 2.0)
-    velocity = motion.omega(u)
-    require_finite_states(velocity)
-    wall_ms = (time.perf_counter() - start) * 1e3
-    absolute = error * max(1.0, motion.rate * of.size)
-    return FreeRotation(
-        frozen(t),
-        frozen(velocity),
-        frozen(found),
-        frozen(limits),
-        motion,
-        level.status(error),
-        absolute,
-        Cost(steps, wall_ms),
-    )
-
-
-def _tail(u: Array | float) -> Array:
-    return np.log1p(np.exp(-2.0 * np.abs(u)))
+    error += 1e-15 * of.K * float(np.max(np.abs(elapsed), initial=0.0)) + 3e-16 * abs(u0) * (1.0 + of.size)
+    return axes @ _matrices(A, B) @ axes.T, limits, min(error, 2.0), steps
 
 
 def _elapsed_size(u0: float, u: Array, elapsed: Array) -> Array:
     """Return |u| − |u0|, without cancellation if the signs are equal."""
     return np.where(u * np.sign(u0) >= 0.0, math.copysign(1.0, u0) * elapsed, np.abs(u) - abs(u0))
-
-
-def _axes(of: PassageConstants) -> Array:
-    """Return η, e3, ξ as columns."""
-    return np.column_stack([of.eta, [0.0, 0.0, 1.0], of.xi])
 
 
 def _gamma_row(A: Complex, B: Complex) -> Array:
@@ -427,8 +360,6 @@ class FreeMotion(Result):
         Phase φ of γ about ξ in (−π, π]: γ = Γξ + √(1−Γ²)(cos φ η + sin φ e3).
     limits : tuple of two floats
         Limits of Γ for t → −∞ and t → +∞.
-    passage : Passage
-        The motion of ω in closed form.
     level : str
         Name of the accuracy level.
     status : Status
@@ -449,7 +380,6 @@ class FreeMotion(Result):
     Gamma: Array
     phase: Array
     limits: tuple[float, float]
-    passage: Passage
     level: str
     status: Status
     error_estimate: float
@@ -524,35 +454,40 @@ def free_motion(
     level = as_level(accuracy)
     begun = time.perf_counter()
     unit, note = unit_vector(gamma)
-    turned = rotation(body, omega, times, level)
-    vertical = turned.matrices @ np.array(unit)
-    of = turned.passage.shape
-    states = np.hstack([turned.omega, vertical])
+    t = checked_times(times)
+    motion = passage(body, omega)
+    of = motion.shape
+    with np.errstate(over="ignore"):
+        elapsed = motion.rate * t
+        angle = of.K * elapsed
+    if not np.all(np.isfinite(angle)):
+        raise InvalidParameter("This time is too long for double precision: choose a shorter one.")
+    matrices, limits, error, steps = rotation(motion, elapsed, level)
+    velocity, gammas = motion.omega(motion.u0 + elapsed), matrices @ np.array(unit)
+    require_finite_states(velocity)
     start = np.array([*map(float, omega), *unit])
     with np.errstate(over="ignore", invalid="ignore"):
-        drift = drift_of(SYSTEM, start, states, np.array(body.parameters))
+        drift = drift_of(SYSTEM, start, np.hstack([velocity, gammas]), np.array(body.parameters))
         integral = additional_integral.of_body(body)
         if integral is not None:
             first = integral(start[:2], start[2:])
             size = max(1.0, abs(float(first)))
-            drift["F2"] = float(np.max(np.abs(integral(turned.omega, vertical) - first))) / size
+            drift["F2"] = float(np.max(np.abs(integral(velocity, gammas) - first))) / size
     if not all(math.isfinite(value) for value in drift.values()):
         raise InvalidParameter("The energy exceeds the range of double precision: choose a less extreme ω.")
-    limits = np.clip(turned.limits @ np.array(unit), -1.0, 1.0)
-    cost = Cost(turned.cost.steps, (time.perf_counter() - begun) * 1e3)
+    left, joined = np.clip(limits @ np.array(unit), -1.0, 1.0).tolist()
     return FreeMotion(
-        turned.times,
-        turned.omega,
-        frozen(vertical),
-        frozen(vertical @ of.xi),
-        frozen(np.arctan2(vertical[:, 2], vertical @ of.eta)),
-        (float(limits[0]), float(limits[1])),
-        turned.passage,
+        frozen(t),
+        frozen(velocity),
+        frozen(gammas),
+        frozen(gammas @ of.xi),
+        frozen(np.arctan2(gammas[:, 2], gammas @ of.eta)),
+        (left, joined),
         level.name,
-        turned.status,
-        turned.error_estimate,
+        level.status(error),
+        error * max(1.0, motion.rate * of.size),
         drift,
-        cost,
+        Cost(steps, (time.perf_counter() - begun) * 1e3),
         (note,) if note else (),
     )
 
@@ -609,7 +544,7 @@ def sampled_motion(
     accuracy: Accuracy,
     most: int = MOST_SAMPLES,
 ) -> FreeMotion:
-    """Return the motion over `duration` at the `sample_times` for plots with these weights.  Raises as `rotation`."""
+    """Return the motion over `duration` at the `sample_times` for plots, as `free_motion`, which raises."""
     return free_motion(body, omega, gamma, sample_times(body, omega, duration, weights, SAGITTA, most), accuracy)
 
 
@@ -618,10 +553,10 @@ def turned_along_circle(
 ) -> tuple[float, float, float]:
     """Return γ(0), moved by `turn` radians along the circle of all γ(0) with the same ω(0) and the same limit Γ^(−).
 
-    Raises as `rotation`.
+    Raises as `passage`.
     """
     # Γ^(−) = (n, γ(0)).
-    n = rotation(body, omega, [1.0], accuracy).limits[0]
+    n = rotation(passage(body, omega), np.empty(0), accuracy)[1][0]
     n = n / np.linalg.norm(n)
     g = np.array(gamma, float)
     along = n * (n @ g)

@@ -98,12 +98,12 @@ class PlaneBody(PlaneProblem):
         """The acceleration a (2,) of (γ1, γ2) in the time τ."""
         return np.array([-self.b1 / self.I22, -self.b2 / self.I11])
 
-    def pixels_per_unit(self, h: float) -> tuple[float, ...]:
-        """Return the pixels per unit of each variable in plots that fit the largest ω of the energy h.
+    def pixels_per_unit(self, E: float) -> tuple[float, ...]:
+        """Return the pixels per unit of each variable in plots that fit the largest ω of the energy E.
 
         Parameters
         ----------
-        h : float
+        E : float
             The energy.
 
         Returns
@@ -112,7 +112,7 @@ class PlaneBody(PlaneProblem):
             Pixels per unit of ω1, ω2, γ1, γ2, γ3.
         """
         radius = 0.5 * sampling.PIXELS
-        largest = 2.0 * max(h + math.hypot(self.b1, self.b2), 1e-300)
+        largest = 2.0 * max(E + math.hypot(self.b1, self.b2), 1e-300)
         return (radius * math.sqrt(self.I11 / largest), radius * math.sqrt(self.I22 / largest), radius, radius, radius)
 
 
@@ -298,15 +298,15 @@ def periods_all_round(body: PlaneBody, q: Sequence[float], speed: float) -> Arra
     return frozen(np.column_stack([angle, _solved(np.array(state[2:4]), v0, body.acceleration, state[4])[1]]))
 
 
-def fixed_point_kinds(body: PlaneBody, h: float, count: int = 361) -> tuple[Array, Array]:
-    """Return points q (n, 2) on the boundary, and the kind (n,) of the fixed points with E = h there.
+def fixed_point_kinds(body: PlaneBody, E: float, count: int = 361) -> tuple[Array, Array]:
+    """Return points q (n, 2) on the boundary, and the kind (n,) of the fixed points with this energy there.
 
     1: stable, −1: unstable, 0: none with this energy.  States on the equator with ω ∥ γ are fixed, and near them
     τ̈ = P''τ/2, P'' = −2(|v|² + (u, a)).
     """
     angle = np.linspace(0.0, 2.0 * math.pi, count)
     u = np.column_stack([np.cos(angle), np.sin(angle)])
-    kinetic = h - u @ np.array([body.b1, body.b2])
+    kinetic = E - u @ np.array([body.b1, body.b2])
     squared = 2.0 * kinetic / (body.I11 * u[:, 0] ** 2 + body.I22 * u[:, 1] ** 2)
     kind = np.where(kinetic < 0.0, 0.0, np.where(squared + u @ body.acceleration > 0.0, 1.0, -1.0))
     return frozen(body.place(u)), frozen(kind)
@@ -324,10 +324,10 @@ def equipotentials(body: PlaneBody, levels: Sequence[float]) -> list[Array]:
     return [_segment(body, share, 2) for share in levels] if body.b1 or body.b2 else []
 
 
-def forbidden(body: PlaneBody, h: float) -> list[Array]:
-    """Return the part of the ellipse where V exceeds the energy h, as closed curves q (m, 2), or []."""
+def forbidden(body: PlaneBody, E: float) -> list[Array]:
+    """Return the part of the ellipse where V exceeds the energy E, as closed curves q (m, 2), or []."""
     size = math.hypot(body.b1, body.b2)
-    return [_segment(body, h / size, 91)] if h < size else []
+    return [_segment(body, E / size, 91)] if size > E else []
 
 
 def sampled_orbit(body: PlaneBody, start: Sequence[float], duration: float, accuracy: Accuracy) -> tuple[Orbit, Array]:

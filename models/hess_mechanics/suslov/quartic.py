@@ -1,11 +1,11 @@
 """The Suslov problem with e and the centre of mass on one principal axis, b1 = b2 = 0 (`eqs02`).
 
-At E = h the energy gives γ3 = h/b3 − (b3/2)(q1²/I22 + q2²/I11) with q = (I22 ω2, −I11 ω1)/b3, and p = (γ1, γ2) obeys
+The energy E gives γ3 = E/b3 − (b3/2)(q1²/I22 + q2²/I11) with q = (I22 ω2, −I11 ω1)/b3, and p = (γ1, γ2) obeys
 
     q̇ = −p,  ṗ = ∇V(q),  V = γ3²/2,  H = p²/2 + V = 1/2:
 
 a point in a quartic potential, always at the level ½, with time reversed ({p_i, q_k} = δ_ik).  It moves where |γ3| ≤ 1:
-inside an ellipse for |h| < |b3|, between two ellipses for h > |b3|.  For I11 = I22 the potential is central, and
+inside an ellipse for |E| < |b3|, between two ellipses for E > |b3|.  For I11 = I22 the potential is central, and
 q1 p2 − q2 p1 = I11(ω1γ1 + ω2γ2)/b3 is an integral.  Time is not rescaled.
 """
 
@@ -20,12 +20,11 @@ import numpy as np
 
 from hess_mechanics import parameters as known
 from hess_mechanics.dynamics.motions import on_section, usual
-from hess_mechanics.dynamics.plane_section import Plane, SectionPoints, occupied_cells, section_points
+from hess_mechanics.dynamics.plane_section import Plane
 from hess_mechanics.dynamics.return_map import PoincareSection
 from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.dynamics.system import System
-from hess_mechanics.errors import InvalidParameter, NoField, OutsideRegion, WorkLimit
-from hess_mechanics.numerics.accuracy import Accuracy
+from hess_mechanics.errors import InvalidParameter, NoField, OutsideRegion
 from hess_mechanics.numerics.results import Array, Mask
 from hess_mechanics.parameters import Parameter, plain
 from hess_mechanics.rigid_body.inertia import require_finite
@@ -38,16 +37,10 @@ __all__ = [
     "QuarticSection",
     "angular_momentum",
     "level_error",
-    "quartic_section",
-    "seeds",
     "start_on_section",
     "state_at",
-    "visited",
 ]
 
-_GOLDEN = (math.sqrt(5.0) - 1.0) / 2.0
-_TURNS = 120.0
-"""Time limit per crossing, in units in which ω is at most 1; few orbits take longer."""
 _EDGE = 1e-9
 _INSIDE = 1e-9
 _MIDDLE = 1e-100
@@ -58,7 +51,7 @@ _MOST_SIZE = 1e30
 
 @dataclass(frozen=True)
 class QuarticBody(PlaneProblem):
-    """Body with I13 = I23 = 0 and b = (0, 0, b3), at the energy h.
+    """Body with I13 = I23 = 0 and b = (0, 0, b3), at the energy E.
 
     Parameters
     ----------
@@ -68,15 +61,15 @@ class QuarticBody(PlaneProblem):
         Moment of inertia about the second axis, I22 > 0.
     b3 : float
         Third component of **b** = −mg **r**, with **r** the centre of mass; not 0.
-    h : float
-        The energy, h > −|b3|.
+    E : float
+        The energy, E > −|b3|.
 
     Raises
     ------
     NoField
         If b3 = 0.
     OutsideRegion
-        If h ≤ −|b3|.
+        If E ≤ −|b3|.
     InvalidParameter
         If a parameter is not finite, or the region of motion too large or too small.
     NotPositiveDefinite
@@ -89,27 +82,32 @@ class QuarticBody(PlaneProblem):
     Examples
     --------
     >>> from hess_mechanics import QuarticBody
-    >>> body = QuarticBody(1.3, 0.8, 1.0, h=2.0)
+    >>> body = QuarticBody(1.3, 0.8, 1.0, E=2.0)
     >>> [round(axis, 4) for axis in body.axes]
     [2.1909, 2.7928]
     """
 
     b3: float
-    h: float
+    E: float
 
     def __post_init__(self) -> None:
         super().__post_init__()
         if self.b3 == 0.0:
             raise NoField("b3 = 0: without a field the energy does not determine γ₃. Choose b3 other than 0.")
-        if not self.h > -abs(self.b3):
-            raise OutsideRegion(f"No motion has the energy h = {self.h:g}: choose h above −|b3| = {-abs(self.b3):.6g}.")
+        if not -abs(self.b3) < self.E:
+            raise OutsideRegion(f"No motion has the energy E = {self.E:g}: choose E above −|b3| = {-abs(self.b3):.6g}.")
         smallest, largest = sorted(self.axes)
         if not 1.0 / _MOST_SIZE <= smallest <= largest <= _MOST_SIZE:
             sizes = " and ".join(f"{plain(one, 2)}" if math.isfinite(one) else "beyond 1e308" for one in self.axes)
             raise InvalidParameter(
-                f"The region in the plane has half axes {sizes}, which no picture can show: choose h, b3 and the "
+                f"The region in the plane has half axes {sizes}, which no picture can show: choose E, b3 and the "
                 "moments of inertia less different in size."
             )
+
+    @property
+    def h(self) -> float:
+        """The energy above the lowest, −|b3|."""
+        return self.E + abs(self.b3)
 
     @property
     def parameters(self) -> tuple[float, ...]:
@@ -119,17 +117,17 @@ class QuarticBody(PlaneProblem):
     @property
     def axes(self) -> tuple[float, float]:
         """The semi-axes of the ellipse γ3 b3 = −|b3| that bounds the motion."""
-        size = 2.0 * (self.h + abs(self.b3))
+        size = 2.0 * self.h
         return math.sqrt(size * self.I22) / abs(self.b3), math.sqrt(size * self.I11) / abs(self.b3)
 
     def _size(self, height: Array | float) -> Array:
         """Return the size of the ellipse on which γ3 has a given value, in units of `axes`; 0 if there is none."""
         size = abs(self.b3)
-        return np.sqrt(np.maximum(0.0, self.h - self.b3 * np.asarray(height)) / (self.h + size))
+        return np.sqrt(np.maximum(0.0, self.E - self.b3 * np.asarray(height)) / (self.E + size))
 
     @property
     def hole(self) -> float:
-        """The size of the forbidden inner ellipse in units of `axes`; 0 for h ≤ |b3|."""
+        """The size of the forbidden inner ellipse in units of `axes`; 0 for E ≤ |b3|."""
         return float(self._size(math.copysign(1.0, self.b3)))
 
     @property
@@ -183,7 +181,7 @@ class QuarticBody(PlaneProblem):
     def across(self) -> int:
         """The index of the q that is 0 on the section: the one along the minor axis.
 
-        For h > |b3| an orbit can stay near one end of the major axis forever, but it always crosses that axis.
+        For E > |b3| an orbit can stay near one end of the major axis forever, but it always crosses that axis.
         """
         return 0 if self.I11 > self.I22 else 1
 
@@ -229,7 +227,7 @@ class QuarticBody(PlaneProblem):
         Returns
         -------
         list of ndarray of float, shape (181, 2)
-            One closed curve, or none if h ≤ |b3|.
+            One closed curve, or none if E ≤ |b3|.
         """
         return self.equipotentials([math.copysign(1.0, self.b3)])
 
@@ -253,7 +251,7 @@ class QuarticBody(PlaneProblem):
             Values of γ3.
         """
         q = np.asarray(q, float)
-        return np.asarray(self.h / self.b3 - 0.5 * self.b3 * (q[..., 0] ** 2 / self.I22 + q[..., 1] ** 2 / self.I11))
+        return np.asarray(self.E / self.b3 - 0.5 * self.b3 * (q[..., 0] ** 2 / self.I22 + q[..., 1] ** 2 / self.I11))
 
     def to_plane(self, states: Array) -> tuple[Array, Array]:
         """Return q and p of states.
@@ -294,20 +292,14 @@ class QuarticBody(PlaneProblem):
         Returns
         -------
         list of ndarray of float, shape (n, 2)
-            One closed curve of points (q, p), or two for h ≥ |b3|, the right one first.
+            One closed curve of points (q, p), or two for E ≥ |b3|, the right one first.
         """
         size = abs(self.b3)
-        first = math.acos(self.h / size) if self.h < size else 0.0
+        first = math.acos(self.E / size) if size > self.E else 0.0
         angle = np.linspace(first, 2.0 * math.pi - first, 181)
         right = np.column_stack([self.longest * self._size(math.copysign(1.0, self.b3) * np.cos(angle)), np.sin(angle)])
         left = right * np.array([-1.0, 1.0])
         return [np.vstack([right, left[::-1]])] if first else [right, left]
-
-
-def visited(body: QuarticBody, points: Array, cells: int) -> int:
-    """Return the number of cells, of cells² that divide the rectangle of the section, with points (n, 2)."""
-    x, y = points.T
-    return occupied_cells(np.column_stack([math.pi / body.longest * x, 0.5 * math.pi * (1.0 + y)]), cells)
 
 
 def level_error(body: QuarticBody, states: Array) -> float:
@@ -333,60 +325,16 @@ def state_at(body: QuarticBody, q: Sequence[float], direction: float) -> tuple[f
     return (*body.omega(q), -size * math.cos(direction), -size * math.sin(direction), g3)
 
 
-def _on_axis(body: QuarticBody, x: float) -> tuple[tuple[float, float], float]:
-    """Return the point q of the major axis at x, and 1 − γ3² there."""
-    q = (x, 0.0) if body.across else (0.0, x)
-    g3 = float(body.height(np.array(q)))
-    return q, (1.0 - g3) * (1.0 + g3)
-
-
 def start_on_section(body: QuarticBody, x: float, y: float) -> tuple[float, float, float]:
     """Return q1, q2 and the direction of q̇ for `state_at` at (x, y) of the section.  Raises `OutsideRegion`."""
-    q, room = _on_axis(body, x)
-    left = room - y * y
-    if left < -_EDGE:
-        raise OutsideRegion("p² + γ₃² would exceed 1 there: choose a place that is not grey.")
-    # The q that is 0 increases.
-    rate = math.sqrt(max(0.0, left))
-    return (*q, math.atan2(rate, -y) if body.across else math.atan2(-y, rate))
+    p = QuarticSection(body).state_at(x, y)[2:4]
+    return (*((x, 0.0) if body.across else (0.0, x)), math.atan2(-p[1], -p[0]))
 
 
 def angular_momentum(body: QuarticBody, states: Array) -> Array:
     """Return q1 p2 − q2 p1 (m,) of states (m, 5): an integral for I11 = I22."""
     q, p = body.to_plane(states)
     return np.asarray(q[:, 0] * p[:, 1] - q[:, 1] * p[:, 0])
-
-
-def seeds(body: QuarticBody, count: int) -> list[tuple[float, ...]]:
-    """Return states of the section, spread over the part that the energy allows."""
-    found, inner = [], body.hole**2
-    for i in range(count):
-        # Uniform in q² from the hole to the edge, and in p for this q.
-        x = body.longest * math.sqrt(inner + (1.0 - inner) * (0.002 + 0.996 * (i + 0.5) / count))
-        size = math.sqrt(max(0.0, _on_axis(body, x)[1]))
-        *q, beta = start_on_section(body, x if i % 2 else -x, 0.98 * size * (2.0 * (i * _GOLDEN % 1.0) - 1.0))
-        found.append(state_at(body, q, beta))
-    return found
-
-
-def quartic_section(
-    body: QuarticBody, starts: Sequence[Sequence[float]], crossings: int, accuracy: Accuracy, most_steps: int
-) -> SectionPoints:
-    """Return the first crossings of `body.plane` by each orbit, states as in `section_points`.
-
-    most_steps : limit of steps per orbit.  Raises `InvalidParameter`, `WorkLimit`.
-    """
-    speed = math.sqrt(2.0 * (body.h + abs(body.b3)) / max(body.I11, body.I22))
-    end = crossings * _TURNS / speed
-    if not math.isfinite(end):
-        raise InvalidParameter("The motion is too slow for double precision: choose less extreme parameters.")
-    try:
-        return section_points(body, starts, body.plane, end, accuracy, crossings, most_steps=most_steps)
-    except WorkLimit:
-        raise WorkLimit(
-            f"{crossings} crossings take an orbit more than {most_steps} steps here: choose fewer of them, "
-            "a smaller h, or I11 and I22 less different."
-        ) from None
 
 
 @dataclass(frozen=True)
@@ -424,7 +372,7 @@ class QuarticSection(PoincareSection):
 
     @property
     def constants(self) -> Mapping[str, float]:
-        """The moments of inertia, b3 and h."""
+        """The moments of inertia, b3 and E."""
         return vars(self.body)
 
     @property

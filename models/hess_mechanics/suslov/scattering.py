@@ -33,11 +33,11 @@ from hess_mechanics.errors import InvalidParameter, ModelError
 from hess_mechanics.numerics.accuracy import Accuracy, Status
 from hess_mechanics.numerics.arguments import as_level
 from hess_mechanics.numerics.labelled import Labels, Result
-from hess_mechanics.numerics.results import Array, Complex, Cost, facts_of, frozen
+from hess_mechanics.numerics.results import Array, Cost, facts_of, frozen
 from hess_mechanics.rigid_body.inertia import require_finite
 from hess_mechanics.suslov.additional_integral import I11_at
 from hess_mechanics.suslov.equations import SuslovBody
-from hess_mechanics.suslov.free import PassageConstants, equilibria, shape, turning
+from hess_mechanics.suslov.free import PassageConstants, equilibria, shape, turning, vertical
 
 __all__ = ["Scattering", "cos_chi", "cos_chi_over", "scattering", "start", "theta_plus_grid"]
 
@@ -48,10 +48,6 @@ class Scattering(Result):
 
     Attributes
     ----------
-    arc : int
-        The arc σ = ±1.
-    distance : float or None
-        Distance of the start from the unstable point, in units of |ω⁻|; None for asymptotic phases.
     level : str
         Name of the accuracy level.
     A : complex
@@ -76,8 +72,6 @@ class Scattering(Result):
     cos θ⁺ = cos χ cos θ⁻ + sin χ sin θ⁻ cos(φ − φ*).
     """
 
-    arc: int
-    distance: float | None
     level: str
     A: complex
     B: complex
@@ -125,17 +119,11 @@ class Scattering(Result):
         >>> round(float(scattering(SuslovBody(4.0, 1.0, 0.0, 0.75), "precise").theta_plus(1.0, 0.5)), 6)
         2.317184
         """
-        Gamma, y = _spherical(theta, phi)
-        A, B = self.A, self.B
+        theta, phi, A, B = np.asarray(theta, float), np.asarray(phi, float), self.A, self.B
+        Gamma, y = np.cos(theta), np.sin(theta) * np.exp(1j * phi)
         image = 2.0 * A * B.conjugate() * Gamma + A * A * y - B.conjugate() ** 2 * y.conj()
         # The arc cosine would lose half the digits at 0 and π.
         return np.asarray(np.arctan2(np.abs(image), self.cos_chi * Gamma - 2.0 * np.real(A * B * y)), float)
-
-
-def _spherical(theta: Array | float, phi: Array | Sequence[float] | float) -> tuple[Array, Complex]:
-    """Return Γ = cos θ and y = sin θ e^{iφ}."""
-    theta, phi = np.asarray(theta, float), np.asarray(phi, float)
-    return np.cos(theta), np.sin(theta) * np.exp(1j * phi)
 
 
 def _u_at(of: PassageConstants, distance: float) -> float:
@@ -209,18 +197,15 @@ def scattering(body: SuslovBody, accuracy: Accuracy, arc: int = 1, distance: flo
     of = shape(body)
     first = -of.end if distance is None else _u_at(of, float(distance))
     A, B, error, steps = turning(of, arc, np.array([first, of.end]), level)
-    # M(∞) M(u0)^−1, with the azimuth at the start transformed to the rotating frame.
+    # The azimuth at the start, transformed to the rotating frame.
     before = 0.0 if distance is None else float(of.turned(first, arc))
     half = cmath.exp(0.5j * before)
-    alpha = complex(A[1] * A[0].conj() + B[1].conj() * B[0]) * half
-    beta = complex(B[1] * A[0].conj() - A[1].conj() * B[0]) * half
+    alpha, beta = complex(A[1]) * half, complex(B[1]) * half
     error += 3e-16 * abs(before)
     cosine, sine = abs(alpha) ** 2 - abs(beta) ** 2, 2.0 * abs(alpha) * abs(beta)
     phi_star = cmath.phase(-(alpha * beta).conjugate()) if sine > 0.0 else 0.0
     wall_ms = (time.perf_counter() - begun) * 1e3
     return Scattering(
-        arc,
-        distance,
         level.name,
         alpha,
         beta,
@@ -308,6 +293,5 @@ def start(
     u = _u_at(of, float(distance))
     sech, tanh = of.K / of.kappa * distance, math.tanh(u)
     omega = line.rate * ((arc * of.c * sech - of.K * tanh) * of.xi + arc * of.kappa * sech * of.eta)
-    across = math.cos(phi) * of.eta + math.sin(phi) * np.array([0.0, 0.0, 1.0])
-    gamma = math.cos(theta) * of.xi + math.sin(theta) * across
-    return (float(omega[0]), float(omega[1])), (float(gamma[0]), float(gamma[1]), float(gamma[2]))
+    g1, g2, g3 = vertical(of.xi, math.cos(theta), cmath.rect(math.sin(theta), phi)).tolist()
+    return (float(omega[0]), float(omega[1])), (g1, g2, g3)

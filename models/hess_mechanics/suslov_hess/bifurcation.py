@@ -19,7 +19,6 @@ from hess_mechanics.rigid_body.inertia import require_finite
 from hess_mechanics.suslov_hess.bifurcation_kernels import f_max_and_roots, largest_f_into
 
 __all__ = [
-    "SPECIAL_POINTS",
     "TurningPoints",
     "curve",
     "curve_point",
@@ -29,9 +28,6 @@ __all__ = [
     "reach",
     "turning_points",
 ]
-
-SPECIAL_POINTS: tuple[tuple[float, float], ...] = ((1.0, 0.0), (-1.0, 0.0))
-"""(h, f) of the upper and the lower equilibrium (`Geq4`)."""
 
 
 @dataclass(frozen=True)

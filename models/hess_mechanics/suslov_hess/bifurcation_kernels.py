@@ -77,30 +77,21 @@ def roots(h, f):
         one_minus = min(2.0, 1.0 + h)
         n1 = -min(1.0, h)
     elif min(w1 / k, u1) < 0.1:
-        # Near the pole or the circle |w| = 0 the smaller of h+n1 and 1+n1 has lost digits.  With v = 1−n1 it
-        # solves x² ± (1−h)x = f²/2v; Newton's method on p refines it.  The bifurcation curve, where p has a double
-        # root, is far away.
-        v = one_minus
-        x = f * f / v
-        root = math.sqrt((1.0 - h) * (1.0 - h) + 2.0 * x)
-        if w1 < u1:
-            w1 = x / ((1.0 - h) + root) if h < 1.0 else 0.5 * ((h - 1.0) + root)
-            for _ in range(2):
-                u = (1.0 - h) + w1
-                v = (1.0 + h) - w1
-                w1 -= (2.0 * w1 * u * v - f * f) / (2.0 * (u * v + w1 * v - w1 * u))
-            u1 = (1.0 - h) + w1
-            one_minus = (1.0 + h) - w1
-            n1 = w1 - h
-        else:
-            u1 = x / ((h - 1.0) + root) if h > 1.0 else 0.5 * ((1.0 - h) + root)
-            for _ in range(2):
-                w = (h - 1.0) + u1
-                v = 2.0 - u1
-                u1 -= (2.0 * w * u1 * v - f * f) / (2.0 * (u1 * v + w * v - w * u1))
-            w1 = (h - 1.0) + u1
-            one_minus = 2.0 - u1
-            n1 = u1 - 1.0
+        # Near the pole or the circle |w| = 0 the smaller of h+n1 and 1+n1, x, has lost digits.  With v = 1−n1 and
+        # the larger one, y = d+x, it solves x² + dx = f²/2v; Newton's method on p = 2xyv − f² refines it.  The
+        # bifurcation curve, where p has a double root, is far away.
+        lower = w1 < u1
+        d, e = (1.0 - h, 1.0 + h) if lower else (h - 1.0, 2.0)
+        x = f * f / one_minus
+        root = math.sqrt(d * d + 2.0 * x)
+        x = x / (d + root) if d > 0.0 else 0.5 * (root - d)
+        for _ in range(2):
+            y = d + x
+            v = e - x
+            x -= (2.0 * x * y * v - f * f) / (2.0 * (y * v + x * v - x * y))
+        w1, u1 = (x, d + x) if lower else (d + x, x)
+        one_minus = e - x
+        n1 = x - h if lower else x - 1.0
     v1 = u1 * one_minus
     return n1 - g10, n1, n2, g10, g21, g20, w1, v1
 

@@ -48,14 +48,14 @@ MAX_A = 1e6
 _MAX_STEPS = 200_000
 
 
-def matrices(h: Array, f: Array, a: float, accuracy: Accuracy) -> Array:
-    """Return the rows (Re α, Im α, Im β, L, ζ, steps) of the tori (h[i], f[i]), shape (n, 6); see `monodromy`.
+def matrices(a: Array | float, h: Array, f: Array, accuracy: Accuracy) -> Array:
+    """Return the rows (Re α, Im α, Im β, L, ζ, steps) of tori (a, h, f), each (n,); shape (n, 6), see `monodromy`.
 
-    Every (h[i], f[i]) must satisfy |f| ≤ f_max(h).  Raises `WorkLimit`.
+    Every torus must satisfy |f| ≤ f_max(h).  Raises `WorkLimit`.
     """
     level = as_level(accuracy)
     out = np.empty((h.size, 6))
-    if not matrices_into(h, f, float(a), level.order, level.tolerance, _MAX_STEPS, out):
+    if not matrices_into(np.full(h.size, a, float), h, f, level.order, level.tolerance, _MAX_STEPS, out):
         raise WorkLimit("These tori need too many steps: choose smaller a, or (h, f) farther from (1, 0).")
     return out
 
@@ -363,7 +363,7 @@ def circle_map(a: float, h: float, f: float, accuracy: Accuracy) -> CircleMap:
 
     def run(at: Level, _: int) -> tuple[Array, int]:
         energies, fs = tori[at.aside]
-        row: Array = matrices(energies, fs, a, at)[0]
+        row: Array = matrices(a, energies, fs, at)[0]
         return row, int(row[5])
 
     found = measured(level, run, lambda one, other: _difference(one, other) + _rounding(one))

@@ -100,11 +100,11 @@ def monodromy(h, f, a, order, tolerance, max_steps):
 
 
 @kernel
-def matrices_into(h, f, a, order, tolerance, max_steps, out):
-    """Store `monodromy` of each torus (h[i], f[i]) in out[i]; return False if one reached the step limit."""
+def matrices_into(a, h, f, order, tolerance, max_steps, out):
+    """Store `monodromy` of each torus (a[i], h[i], f[i]) in out[i]; return False if one reached the step limit."""
     complete = True
     for i in range(h.size):
-        row = monodromy(h[i], f[i], a, order, tolerance, max_steps)
+        row = monodromy(h[i], f[i], a[i], order, tolerance, max_steps)
         for j in range(6):
             out[i, j] = row[j]
         complete &= row[5] >= 0.0

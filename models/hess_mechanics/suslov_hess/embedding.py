@@ -26,7 +26,7 @@ from hess_mechanics.numerics.accuracy import Accuracy
 from hess_mechanics.numerics.results import Array, Complex, frozen
 from hess_mechanics.suslov_hess.bifurcation import TurningPoints, turning_points
 from hess_mechanics.suslov_hess.circle_map import CircleMap
-from hess_mechanics.suslov_hess.invariant_measure import wide_enough
+from hess_mechanics.suslov_hess.invariant_measure import zeta_at
 
 __all__ = ["CrossSection", "cross_section", "density_along", "embedded"]
 
@@ -86,6 +86,6 @@ def _times(n0: float, n1: float, n2: float, theta: Array) -> Array:
 
 
 def density_along(theta: CircleMap, count: int, accuracy: Accuracy) -> Complex:
-    """Return the points ζ_s (count,) of the invariant density along the cross-section; raises as `wide_enough`."""
+    """Return the points ζ_s (count,) of the invariant density along the cross-section; raises as `zeta_at`."""
     times = cross_section(theta.h, turning_points(theta.h, theta.f), count).times
-    return wide_enough(theta, times, accuracy).zeta
+    return zeta_at(theta, times, accuracy)

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -20,7 +20,6 @@ import numpy as np
 from hess_mechanics.dynamics.system import System, in_units_of_time
 from hess_mechanics.errors import InvalidParameter, NoField
 from hess_mechanics.numerics.results import Array
-from hess_mechanics.rigid_body.attitude import with_attitude
 from hess_mechanics.rigid_body.inertia import BodyCheck, body_check, require_finite, require_positive_definite
 from hess_mechanics.suslov.equations import SuslovBody
 
@@ -282,5 +281,24 @@ SYSTEM = System(
     example=((0.3, 0.9, 0.6, 0.0, 0.8), (0.75, 1.0)),
 )
 
-WITH_ATTITUDE = with_attitude(SYSTEM)
+
+def _field_with_attitude(y: Sequence[Any], p: Sequence[Any]) -> tuple[Any, ...]:
+    # Every direction fixed in space obeys the equation of the vertical.
+    return (*field(y[:5], p), *field((*y[:2], *y[5:]), p)[2:])
+
+
+def _integrals_with_attitude(y: Sequence[Any], p: Sequence[Any]) -> Mapping[str, Any]:
+    *_, n1, n2, n3, e1, e2, e3 = y
+    return {**integrals(y[:5], p), "e²": e1**2 + e2**2 + e3**2, "(e,γ)": e1 * n1 + e2 * n2 + e3 * n3}
+
+
+WITH_ATTITUDE = replace(
+    SYSTEM,
+    name="hess-attitude",
+    title="Suslov–Hess case, reduced, with the attitude",
+    variables=(*SYSTEM.variables, "e1", "e2", "e3"),
+    field=_field_with_attitude,
+    integrals=_integrals_with_attitude,
+    example=((0.3, 0.9, 0.6, 0.0, 0.8, 0.0, 1.0, 0.0), (0.75, 1.0)),
+)
 """`eq01` with ω = (w1, w2, −a w2) and e: state (w1, w2, n1, n2, n3, e1, e2, e3)."""

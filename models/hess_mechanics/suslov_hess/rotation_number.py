@@ -15,12 +15,13 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from typing import Any
 
 import numpy as np
 
 from hess_mechanics.dynamics.cells import Window, centres
-from hess_mechanics.errors import InvalidParameter, ModelError, WorkLimit
-from hess_mechanics.numerics.accuracy import Accuracy, Level
+from hess_mechanics.errors import InvalidParameter, WorkLimit
+from hess_mechanics.numerics.accuracy import Accuracy
 from hess_mechanics.numerics.arguments import as_level
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.measured import SAFETY
@@ -28,7 +29,6 @@ from hess_mechanics.numerics.results import Array, Mask, frozen
 from hess_mechanics.rigid_body.inertia import require_finite
 from hess_mechanics.suslov_hess.bifurcation import f_max, f_max_each, h_min
 from hess_mechanics.suslov_hess.circle_map import (
-    MAX_A,
     check_a,
     circle_map,
     discriminants,
@@ -36,7 +36,7 @@ from hess_mechanics.suslov_hess.circle_map import (
     neighbours,
     rotation_numbers_of,
 )
-from hess_mechanics.suslov_hess.mode_locking import critical_a, lock_boundary
+from hess_mechanics.suslov_hess.mode_locking import critical_each, lock_boundary
 
 __all__ = [
     "PLANES",
@@ -107,6 +107,10 @@ class ParameterLine:
         """Return equidistant values of the parameter (count,), both ends included."""
         return np.linspace(self.low, self.high, count)
 
+    def tori(self, values: Array | float) -> dict[str, Any]:
+        """Return a, h and f by name, with these values of the parameter."""
+        return {**vars(self.torus), self.name: values}
+
 
 def possible_part(line: ParameterLine, margin: float = 0.03) -> ParameterLine:
     """Return the line cut to the values with motion, plus a share `margin` at each end; uncut if there is none."""
@@ -159,15 +163,6 @@ class PeriodicTorus:
     defect: float
 
 
-def _matrices(a: Array, h: Array, f: Array, level: Level) -> Array:
-    """Return the rows of `matrices` for tori (a, h, |f|), each (n,)."""
-    rows = np.zeros((a.size, 6))
-    for value in np.unique(a):
-        own = a == value
-        rows[own] = matrices(h[own], np.abs(f[own]), float(value), level)
-    return rows
-
-
 def _together(*numbers: Array | float) -> Iterator[Array]:
     """Yield the arguments broadcast to arrays of equal shape."""
     try:
@@ -189,7 +184,7 @@ def values_at(a: Array | float, h: Array | float, f: Array | float, accuracy: Ac
     edge = np.where(energies > -1.0, f_max_each(np.maximum(energies, -1.0)), -1.0)[back]
     possible = (np.abs(f) <= edge) & (np.hypot(h - 1.0, f) > _NEAR_SEPARATRIX)
     rows = np.zeros((a.size, 6))
-    rows[possible] = _matrices(a[possible], h[possible], f[possible], level)
+    rows[possible] = matrices(a[possible], h[possible], np.abs(f[possible]), level)
     discriminant = discriminants(rows)
     rho = np.where(possible, np.where(f < 0.0, -1.0, 1.0) * rotation_numbers_of(rows), np.nan)
     with np.errstate(over="ignore"):
@@ -217,14 +212,10 @@ def lock_curve(plane: str, torus: Torus, window: Sequence[float], accuracy: Accu
     x0, x1 = window[:2]
     if plane == "h, f":
         return lock_boundary(torus.a, accuracy, points)
-    found = []
-    for x in _abscissas(plane, torus, x0, x1, points):
-        try:
-            h, f = (x, torus.f) if plane == "h, a" else (torus.h, x)
-            found.append((x, critical_a(float(h), abs(float(f)), accuracy, 20.0)))
-        except ModelError:
-            continue
-    return frozen(np.array(found).reshape(-1, 2))
+    x = _abscissas(plane, torus, x0, x1, points)
+    h, f = np.broadcast_arrays(x, torus.f) if plane == "h, a" else np.broadcast_arrays(torus.h, x)
+    curve = np.column_stack([x, critical_each(h, np.abs(f), accuracy, 20.0)])
+    return frozen(curve[np.isfinite(curve[:, 1])])
 
 
 def _abscissas(plane: str, torus: Torus, x0: float, x1: float, points: int) -> Array:
@@ -254,7 +245,7 @@ def perturbed_rotation(
         )
     a, h, f = _together(a, h, f)
     sign = np.where(f < 0.0, -1.0, 1.0)
-    re, im, im_beta, _, zeta, _ = _matrices(a, h, f, level).T
+    re, im, im_beta, _, zeta, _ = matrices(a, h, np.abs(f), level).T
     ratio = 1j * im_beta / (re + 1j * im)
     phi = np.zeros(re.size)
     t = (np.arange(count) + 0.5) / count
@@ -269,10 +260,9 @@ def perturbed_rotation(
     return frozen(sign * total / (2.0 * math.pi))
 
 
-def place_of(rho: float, name: str, torus: Torus, low: float, high: float, accuracy: Accuracy) -> float | None:
-    """Return a value of the parameter `name` ("a", "h", "f") between `low` and `high` with this ρ, or None."""
-    x = np.linspace(low, high, 121)
-    values = values_at(**{**vars(torus), name: x}, accuracy=accuracy)
+def place_of(rho: float, line: ParameterLine, accuracy: Accuracy) -> float | None:
+    """Return a value of the parameter of a line with this ρ, or None."""
+    x, values = line.places(121), along(line, 121, accuracy)
     excess = values.rho - rho
     both = values.possible[1:] & values.possible[:-1]
     # The jump of ρ from −½ to ½ is not a root.
@@ -282,22 +272,18 @@ def place_of(rho: float, name: str, torus: Torus, low: float, high: float, accur
     from scipy.optimize import brentq  # imported here because it takes 0.3 s
 
     i = int(changes[0])
+    first, last = x[i : i + 2].tolist()
 
     def difference(value: float) -> float:
-        return float(values_at(**{**vars(torus), name: value}, accuracy=accuracy).rho[0]) - rho
+        return float(values_at(**line.tori(value), accuracy=accuracy).rho[0]) - rho
 
-    if difference(float(x[i])) * difference(float(x[i + 1])) > 0.0:
+    if difference(first) * difference(last) > 0.0:
         return None
-    return float(brentq(difference, float(x[i]), float(x[i + 1]), xtol=1e-15, rtol=1e-15))
+    return float(brentq(difference, first, last, xtol=1e-15, rtol=1e-15))
 
 
 def closed_after(torus: Torus, q: int, accuracy: Accuracy) -> float:
-    """Return max |Θ^q(φ) − φ| over 64 phases, in radians: round-off if every orbit closes after q returns.
-
-    Raises `InvalidParameter` for q < 1 or q > 1000.
-    """
-    if not (abs(torus.a) <= MAX_A and 1 <= q <= 1000):
-        raise InvalidParameter("The number of returns q must be between 1 and 1000.")
+    """Return max |Θ^q(φ) − φ| over 64 phases, in radians: round-off if every orbit closes after q returns."""
     theta = circle_map(torus.a, torus.h, torus.f, accuracy)
     phi = np.linspace(-math.pi, math.pi, 64, endpoint=False)
     image = phi
@@ -343,7 +329,7 @@ def together(parts: Sequence[TorusValues]) -> TorusValues:
 
 def along(line: ParameterLine, count: int, accuracy: Accuracy) -> TorusValues:
     """Return `values_at` equidistant points of a line."""
-    return values_at(**{**vars(line.torus), line.name: line.places(count)}, accuracy=accuracy)
+    return values_at(**line.tori(line.places(count)), accuracy=accuracy)
 
 
 def perturbed_along(line: ParameterLine, count: int, epsilon: float, accuracy: Accuracy, turns: int = TURNS) -> Array:
@@ -351,17 +337,16 @@ def perturbed_along(line: ParameterLine, count: int, epsilon: float, accuracy: A
     x, possible = line.places(count), along(line, count, accuracy).possible
     out = np.full(count, np.nan)
     if possible.any():
-        tori = {**vars(line.torus), line.name: x[possible]}
-        out[possible] = perturbed_rotation(**tori, epsilon=epsilon, accuracy=accuracy, count=turns)
+        out[possible] = perturbed_rotation(**line.tori(x[possible]), epsilon=epsilon, accuracy=accuracy, count=turns)
     return frozen(out)
 
 
 def periodic_torus(rho: Fraction, line: ParameterLine, accuracy: Accuracy) -> PeriodicTorus | None:
     """Return the torus of a line with this ρ, or None if none is found."""
-    place = place_of(float(rho), line.name, line.torus, line.low, line.high, accuracy)
+    place = place_of(float(rho), line, accuracy)
     if place is None:
         return None
-    found = line.torus.at(**{line.name: place})
+    found = Torus(**line.tori(place))
     return PeriodicTorus(found, closed_after(found, rho.denominator, accuracy))
 
 

@@ -13,8 +13,7 @@ import numpy as np
 from hess_mechanics.dynamics.orbit import solve
 from hess_mechanics.dynamics.sampling import PIXELS, SAGITTA, sample_times
 from hess_mechanics.errors import Separatrix
-from hess_mechanics.numerics.accuracy import Accuracy, Level
-from hess_mechanics.numerics.arguments import as_level
+from hess_mechanics.numerics.accuracy import Accuracy
 from hess_mechanics.numerics.results import Array, Orbit, frozen
 from hess_mechanics.rigid_body.inertia import require_finite
 from hess_mechanics.suslov_hess.bifurcation import TurningPoints, turning_points
@@ -75,10 +74,6 @@ def _in_body_units(body: HessBody, orbit: Orbit) -> Track:
     )
 
 
-def _solve_reduced(body: HessBody, start: Array, times: Array, level: Level) -> Track:
-    return _in_body_units(body, solve(SYSTEM.at((body.a, 1.0)), start, times, level))
-
-
 def start_of_track(body: HessBody, h: float, f: float, phi0: float, duration: float) -> tuple[Array, float]:
     """Return the initial state (5,) and the time span, in units b = 1, of the orbit that `track` follows.
 
@@ -112,9 +107,9 @@ def track(
 
     Raises `OutsideRegion`, `NoField`, `InvalidParameter`.
     """
-    level = as_level(accuracy)
     start, length = start_of_track(body, h, f, phi0, duration)
-    return _solve_reduced(body, start, _times(body, start, length, half_width), level)
+    times = _times(body, start, length, half_width)
+    return _in_body_units(body, solve(SYSTEM.at((body.a, 1.0)), start, times, accuracy))
 
 
 def _times(body: HessBody, start: Array, length: float, half_width: float) -> Array:

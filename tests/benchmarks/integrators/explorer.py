@@ -88,7 +88,7 @@ def _circle_map(work, order, tolerance, threads):
 
     def run():
         # As `circle_map` does: numbers of Python, which a kernel takes faster than those of NumPy.
-        re, im, im_beta = matrices(*torus, work.a, level)[0, :3].tolist()
+        re, im, im_beta = matrices(work.a, *torus, level)[0, :3].tolist()
         theta_of(re, im, im_beta, work.phi, cos, sin, theta)
         return theta
 

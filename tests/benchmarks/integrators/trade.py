@@ -8,27 +8,10 @@ from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.trial import bare
 from hess_explorer.views.text import digits
 from hess_mechanics.catalogue import find
-from hess_mechanics.catalogue.trade import trade as of_catalogue
 from hess_mechanics.dynamics.trade import LevelCost, enough, measure
 from hess_mechanics.errors import InvalidParameter, ModelError
-from hess_mechanics.numerics.accuracy import DRAFT, LEVELS, PLANS, REFERENCE, Kind
+from hess_mechanics.numerics.accuracy import DRAFT, LEVELS, MEANINGS, PLANS, REFERENCE, Kind
 from support.measured import line, table
-
-_COUNTED = {
-    Kind.ORBIT: ("", ""),
-    Kind.SECTION: ("crossings", ""),
-    Kind.ROTATION: ("crossings", "orbits"),
-    Kind.GRID: ("", "cells along a side"),
-    Kind.LINE: ("turns", "places"),
-    Kind.COLOURS: ("", "cells along a side"),
-    Kind.MAP: ("", "phases"),
-    Kind.CURVE: ("", "tori"),
-    Kind.BASINS: ("", "cells along a side"),
-    Kind.INDICATOR: ("", "cells along a side"),
-    Kind.EXPONENT: ("time", ""),
-    Kind.CLOUD: ("points", ""),
-}
-"""What `Plan.share` and `Plan.cells` are a part of."""
 
 
 @dataclass(frozen=True)
@@ -86,12 +69,14 @@ def _example(scene, trial):
 def _row(name, scene, trial, repeats):
     try:
         state = _example(scene, trial)
-        samples = measure(
-            trial.kind,
-            lambda plan: trial.run(state, plan),
-            lambda *both: trial.error(state, *both),
-            repeats,
-            trial.alike,
+        samples = tuple(
+            measure(
+                trial.kind,
+                lambda plan: trial.run(state, plan),
+                lambda *both: trial.error(state, *both),
+                repeats,
+                trial.alike,
+            )
         )
     except ModelError as error:
         return Failed(name, str(trial.kind), str(error))
@@ -114,7 +99,7 @@ def trade_of_catalogue(keys, repeats, progress):
         progress(key)
         of = find(key)
         try:
-            yield Row(key, str(of.kind), of.unit, of_catalogue(of, repeats=repeats), "–")
+            yield Row(key, str(of.kind), of.unit, of.trade(repeats=repeats), "–")
         except ModelError as error:
             yield Failed(key, str(of.kind), str(error))
 
@@ -171,7 +156,8 @@ def by_kind(rows):
 
 def _draft_computes(kind):
     draft, last = PLANS[kind][DRAFT.name], PLANS[kind][REFERENCE.name]
-    parts = zip((draft.share, draft.cells), (last.share, last.cells), _COUNTED[kind], strict=True)
+    counted = MEANINGS[kind].share, MEANINGS[kind].cells
+    parts = zip((draft.share, draft.cells), (last.share, last.cells), counted, strict=True)
     return (
         " and ".join(f"{100.0 * one / other:.0f} % of the {what}" for one, other, what in parts if one < other)
         or "as much"

@@ -1,24 +1,19 @@
 """The section of the ball with a field: its coordinates, its points, and the claims of the scene's examples."""
 
-from math import cos, hypot, inf, nan, pi, remainder, sin
+from math import cos, hypot, nan, pi, remainder, sin
 
 import numpy as np
 from pytest import approx, mark, raises
 
 from hess_explorer.scenes import scenes
 from hess_mechanics import lyapunov_spectrum
-from hess_mechanics.chaplygin_ball.ball_section import (
-    BallSection,
-    ball_section,
-    forbidden_band,
-    seeds,
-    state_at,
-)
+from hess_mechanics.chaplygin_ball.ball_section import BallSection
 from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody
+from hess_mechanics.dynamics.cells import occupied_cells
 from hess_mechanics.dynamics.ensemble import ensemble
-from hess_mechanics.dynamics.lyapunov import lyapunov_exponent
-from hess_mechanics.dynamics.plane_section import occupied_cells
-from hess_mechanics.errors import InvalidParameter, OutsideRegion, WorkLimit
+from hess_mechanics.dynamics.return_map import section_crossings
+from hess_mechanics.dynamics.spectrum import lyapunov_exponent
+from hess_mechanics.errors import OutsideRegion, WorkLimit
 from support.ball import divergence, first_returns, occupied
 from support.deviations import deviations
 from support.refusals import refused
@@ -57,10 +52,10 @@ def places_of(body, states):
 def test_a_state_of_the_section_has_its_energy_and_its_coordinates(body):
     random = np.random.default_rng(1)
     for _ in range(50):
-        h = random.uniform(0.1, 3.0) + hypot(body.b1, body.b2)
+        E = random.uniform(0.1, 3.0) + hypot(body.b1, body.b2)
         psi, delta = random.uniform(-pi, pi), random.uniform(1e-6, pi - 1e-6)
-        state = state_at(body, h, psi, delta)
-        assert SYSTEM.integrals(state, body.parameters) == approx({"E": h, "F1": 1.0}, rel=1e-13)
+        state = BallSection(body, E).state_at(psi, delta)
+        assert SYSTEM.integrals(state, body.parameters) == approx({"E": E, "F1": 1.0}, rel=1e-13)
         w1, w2, g1, g2, g3 = state
         assert (g1, g2, g3) == approx((cos(psi), sin(psi), 0.0), abs=1e-15)
         # γ̇3 = γ1ω2 − γ2ω1 = |ω| sin δ.
@@ -70,50 +65,55 @@ def test_a_state_of_the_section_has_its_energy_and_its_coordinates(body):
 
 
 test_what_is_no_point_of_the_section_is_refused = refused(
-    (lambda: state_at(PLAIN, 2.0, 0.0, pi), "between 0 and π"),
-    (lambda: state_at(PLAIN, 2.0, nan, 1.0), "psi"),
-    (lambda: state_at(PLAIN, 2.0, 0.0, inf), "delta"),
+    *(
+        (
+            lambda place=place: BallSection(PLAIN, 2.0).state_at(*place),
+            "No motion crosses the section",
+            OutsideRegion,
+        )
+        for place in ((0.0, pi), (nan, 1.0))
+    ),
 )
 
 
 @mark.parametrize(("angle", "share"), [(0.0, -0.999), (2.0, -0.5), (-3.0, 0.999)])
 def test_the_forbidden_band_is_where_the_potential_exceeds_the_energy(angle, share):
     body = BallBody(1.0, 2.0, 0.3, 0.1, 1.0, 0.8 * cos(angle), 0.8 * sin(angle), -0.4)
-    h = 0.8 * share
-    middle, half = forbidden_band(body, h)
+    section = BallSection(body, 0.8 * share)
+    middle, half = section.forbidden
     for psi in np.linspace(-pi, pi, 500):
-        forbidden = body.b1 * cos(psi) + body.b2 * sin(psi) > h
+        forbidden = body.b1 * cos(psi) + body.b2 * sin(psi) > section.E
         away = abs(remainder(psi - middle, 2.0 * pi))
         assert forbidden == (away < half) or abs(away - half) < 1e-9
-    with raises(OutsideRegion, match="choose h above"):
-        state_at(body, h, middle, 1.0)
-    assert state_at(body, h, middle + half + 1e-3, 1.0)
+    with raises(OutsideRegion, match="a larger energy"):
+        section.state_at(middle, 1.0)
+    assert section.state_at(middle + half + 1e-3, 1.0)
 
 
 def test_an_energy_that_forbids_nothing_or_all():
-    assert forbidden_band(PLAIN, 0.51) is None
-    assert forbidden_band(BallBody(1.0, 2.0, 0.3, 0.1, 1.0, 0.0, 0.0, 1.0), 0.1) is None
-    for h in (-0.5, -0.7):
-        with raises(InvalidParameter, match=r"choose h above -0\.5"):
-            forbidden_band(PLAIN, h)
-    with raises(InvalidParameter, match="never reaches the plane"):
-        seeds(BallBody(1.0, 2.0, 0.3, 0.1, 1.0, 0.0, 0.0, 1.0), 0.0, 3)
+    along_e = BallBody(1.0, 2.0, 0.3, 0.1, 1.0, 0.0, 0.0, 1.0)
+    assert BallSection(PLAIN, 0.51).forbidden is None
+    assert BallSection(along_e, 0.1).forbidden is None
+    for E in (-0.5, -0.7):
+        with raises(OutsideRegion, match=r"choose E above -0\.5"):
+            _ = BallSection(PLAIN, E).forbidden
+    assert BallSection(along_e, 0.0).spread(3) == ()
 
 
-@mark.parametrize("h", [-0.49, 0.0, 0.499, 0.6, 5.0])
-def test_seeds_cover_what_the_energy_allows(h):
-    found = np.array(seeds(PLAIN, h, 200))
-    assert SYSTEM.integrals(found.T, PLAIN.parameters)["E"] == approx(h, abs=1e-13)
-    psi, delta = places_of(PLAIN, found).T
-    band = forbidden_band(PLAIN, h)
-    half = 0.0 if band is None else band[1]
+@mark.parametrize("E", [-0.49, 0.0, 0.499, 0.6, 5.0])
+def test_starts_cover_what_the_energy_allows(E):
+    section = BallSection(PLAIN, E)
+    found = np.array(section.spread(200))
+    assert SYSTEM.integrals(found.T, PLAIN.parameters)["E"] == approx(E, abs=1e-13)
+    psi, delta = section.places_of(found).T
+    half = 0.0 if section.forbidden is None else section.forbidden[1]
     # PLAIN's b points to ψ = 0: so does the middle of the band.
     from_middle = np.sort(np.mod(psi, 2.0 * pi))
     assert from_middle[0] >= half
     assert from_middle[-1] <= 2.0 * pi - half
     gaps = np.diff(np.concatenate([[half], from_middle, [2.0 * pi - half]]))
     assert gaps.max() <= 4.0 * (2.0 * pi - 2.0 * half) / 200
-    assert np.diff(np.sort(np.cos(delta))).max() <= 2.0 / 200 + 1e-9
+    assert np.diff(np.sort(delta)).max() <= 4.0 * pi / 200
 
 
 # ---- points -----------------------------------------------------------------------------------------------------
@@ -121,33 +121,32 @@ def test_seeds_cover_what_the_energy_allows(h):
 
 @bodies
 def test_the_first_crossings_are_those_of_another_integrator(body):
-    (start,) = seeds(body, 1.5, 1)
-    points = ball_section(body, 1.5, [start], 4, "precise").states[0]
+    section = BallSection(body, 1.5)
+    (start,) = section.spread(1)
+    points = section_crossings(section, [start], 4, "precise").states[0]
     assert np.max(np.abs(points - first_returns(vars(body), start, 4))) <= 1e-7
 
 
 def test_cells_are_counted_as_those_of_a_histogram():
-    points = np.random.default_rng(2).uniform(size=(3000, 2)) * [2.0 * pi, pi] - [pi, 0.0]
-    assert occupied_cells(points) == len(occupied(points))
-    assert occupied_cells(points, 7) == len(occupied(points, 7))
-    assert occupied_cells(np.array([[pi, pi], [-pi, 0.0]])) == 2
-    assert occupied_cells(np.empty((0, 2))) == 0
+    points, ranges = np.random.default_rng(2).uniform(size=(3000, 2)) * [2.0 * pi, pi] - [pi, 0.0], BallSection.window
+    assert occupied_cells(points, ranges) == len(occupied(points))
+    assert occupied_cells(points, ranges, 7) == len(occupied(points, 7))
+    assert occupied_cells(np.array([[pi, pi], [-pi, 0.0]]), ranges) == 2
+    assert occupied_cells(np.empty((0, 2)), ranges) == 0
 
 
 def test_more_steps_than_allowed_are_refused_in_a_sentence():
-    for crossings, words in (
-        (40, "40 crossings take an orbit more than 60 steps here: choose fewer of them"),
-        (10**7, "choose fewer of them, or smaller I13 and I23"),
-    ):
-        with raises(WorkLimit, match=words):
-            ball_section(PLAIN, 1.5, seeds(PLAIN, 1.5, 9), crossings, "draft", most_steps=60)
-    assert [len(one) for one in ball_section(PLAIN, 1.5, seeds(PLAIN, 1.5, 9), 40, "draft").states] == [40] * 9
+    section = BallSection(PLAIN, 1.5)
+    with raises(WorkLimit, match="more than 60 steps"):
+        section_crossings(section, section.spread(9), 40, "draft", most_steps=60)
+    assert [len(one) for one in section_crossings(section, section.spread(9), 40, "draft").states] == [40] * 9
 
 
 def test_an_orbit_that_stops_crossing_is_not_followed_to_the_end():
     # Without a field ω comes to rest along the line, and γ turns about it: those with γ3 = 0 for ever cross no more.
     body = BallBody(1.0, 1.5, 0.7, 1.2, 1.0, 0.0, 0.0, 0.0)
-    many = ball_section(body, 1.0, seeds(body, 1.0, 9), 200, "standard")
+    section = BallSection(body, 1.0)
+    many = section_crossings(section, section.spread(9), 200, "standard")
     assert [len(one) for one in many.states] == [200] * 9
 
 
@@ -156,9 +155,9 @@ def test_an_orbit_that_stops_crossing_is_not_followed_to_the_end():
 
 @mark.chaotic
 def test_mixed_some_orbits_lie_on_curves_and_others_fill_a_sea():
-    body, h = example("Mixed")
-    starts = seeds(body, h, 80)
-    points = ball_section(body, h, starts, 1200, "standard")
+    section = BallSection(*example("Mixed"))
+    body, starts = section.body, section.spread(80)
+    points = section_crossings(section, starts, 1200, "standard")
     assert max(points.drift.values()) <= 1e-4
     assert all(len(states) == 1200 for states in points.states)
     # A curve once round passes 32 cells or a few more.  An orbit of the sea may stay beside an island until the end.
@@ -174,8 +173,8 @@ def test_mixed_some_orbits_lie_on_curves_and_others_fill_a_sea():
 @mark.chaotic
 @mark.parametrize("name", sample(["Strange attractor", "A wider one"], 1))
 def test_on_an_attractor_neighbours_part_and_volume_shrinks(name):
-    body, h = example(name)
-    starts = ball_section(body, h, seeds(body, h, 32), 200, "standard").states
+    section = BallSection(*example(name))
+    body, starts = section.body, section_crossings(section, section.spread(32), 200, "standard").states
     states = np.array([one[-1] for one in starts])
     along = ensemble(body, states, np.linspace(0.0, 1500.0, 6001)[1:], "draft").states
     # Both by far more than they scatter from start to start.

@@ -6,8 +6,7 @@ import numpy as np
 from pytest import approx, mark
 
 from hess_mechanics import HeavyBody, System, lyapunov_exponent, megno
-from hess_mechanics.dynamics.birkhoff import irregularity, window_rates
-from hess_mechanics.dynamics.spectrum import ensemble_mean
+from hess_mechanics.dynamics.birkhoff import ensemble_mean, irregularity, window_rates
 from hess_mechanics.dynamics.zero_one import zero_one_of_bands, zero_one_test
 from support.thorough import examples
 

@@ -3,8 +3,8 @@
 import numpy as np
 from pytest import approx, mark, raises
 
-from hess_mechanics.dynamics.lyapunov import Exponent, lyapunov_exponent
 from hess_mechanics.dynamics.orbit import MAX_SAMPLES
+from hess_mechanics.dynamics.spectrum import Exponent, lyapunov_exponent
 from hess_mechanics.errors import WorkLimit
 from hess_mechanics.euler_poisson.andoyer import AndoyerSection
 from hess_mechanics.euler_poisson.equations import SYSTEM, HeavyBody

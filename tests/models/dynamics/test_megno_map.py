@@ -44,7 +44,7 @@ def test_integrable_bodies_are_regular_all_over_and_a_sea_is_chaotic():
     integrable = {
         # I11 = I22 with b along e: `QuarticBody.integrable`; and, of a ball, `integrable_cases.has_area_integral`.
         "quartic": return_map(QuarticBody(1.0, 1.0, 1.0, 0.6), accuracy="standard"),
-        "ball": return_map(BallBody(1.0, 1.0, 0.0, 0.0, 3.0, 0.0, 0.0, 1.0), h=1.5, accuracy="standard"),
+        "ball": return_map(BallBody(1.0, 1.0, 0.0, 0.0, 3.0, 0.0, 0.0, 1.0), E=1.5, accuracy="standard"),
         # r along the axis of symmetry: Lagrange's top.
         "euler-poisson": return_map(
             HeavyBody((1.0, 1.0, 0.5), (0.0, 0.0, 1.0), 1.0), h=1.0, f=0.5, accuracy="standard"
@@ -66,7 +66,7 @@ def test_where_volume_shrinks_cells_are_attracted():
     assert 0.2 * w1 - 0.6 * w2 < -0.1
     assert (megno_map(return_map(body, E=E, accuracy="draft"), cells=(6, 4), duration=400.0).kind == 2).all()
     # Volume that is kept never shrinks.
-    kept = return_map(BallBody(1.0, 3.0, 0.0, 0.0, 5.0, 0.5, 0.2, 0.8), h=2.0, accuracy="draft")
+    kept = return_map(BallBody(1.0, 3.0, 0.0, 0.0, 5.0, 0.5, 0.2, 0.8), E=2.0, accuracy="draft")
     assert (megno_map(kept, cells=(4, 3), duration=100.0).kind < 2).all()
 
 

@@ -48,7 +48,7 @@ def test_where_volume_is_kept_dynamics_are_conservative_and_curves_stay_curves()
     curve = regime(return_map(SuslovBody(1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0), E=0.4), (0.3, 1.2), duration=300.0)
     # I11 = I22 with b along e: integrable (`QuarticBody.integrable`).
     assert (curve.kind, curve.volume) == (MotionKind.QUASI_PERIODIC, 0)
-    assert curve.integrable == "the integrable case I₁₁ = I₂₂, b along e"
+    assert curve.map_.section.integrable == "the integrable case I₁₁ = I₂₂, b along e"
 
 
 @mark.chaotic
@@ -84,7 +84,6 @@ def test_orbits_on_their_way_tell_nothing_and_the_others_must_agree(settled, apa
         regime(return_map(STRANGE, E=1.0), (1.0, 1.0), transient=50),
         divergence=-0.1,
         divergence_error=0.01,
-        volume_kept=False,
     )
     kinds = [SetDistance(3.0, 0.01, 0.01, 0.0, True)] * apart + [SetDistance(0.5, 0.01, 0.01, 0.1, True)] * touching
     kinds += [SetDistance(1.0, 0.2, 0.9, 0.0, False)] * (8 - settled)
@@ -133,7 +132,7 @@ def test_what_is_not_seen_to_return_does_not_within_the_time_waited():
 )
 def test_integrable_cases_are_named_and_never_chaotic(body, h, f, place, case):
     found = regime(return_map(body, h=h, f=f), place)
-    assert case in found.integrable
+    assert case in found.map_.section.integrable
     assert found.kind in (MotionKind.FIXED_POINT, MotionKind.PERIODIC, MotionKind.QUASI_PERIODIC)
     # A body next to it is in no such case.
     assert HeavyBody((1.0, 0.99, 3.0), (0.6, 0.0, 0.8), 1.0).integrable_at(0.0) == ""
@@ -222,7 +221,7 @@ def test_a_reversor_that_takes_a_motion_to_itself_is_named():
     body = SuslovBody(1.5, 1.7, 0.03, -0.05, -0.3, 0.2, 2.0)
     found = regime(return_map(body, E=0.5), (2.66, 1.58))
     assert found.kind is MotionKind.QUASI_PERIODIC
-    assert not found.volume_kept
+    assert not found.map_.volume_kept
     assert "the reversor ω1, ω2, t → −" in found.measure
     # Attractors are mirrored to repellers.
     assert regime(return_map(REVERSAL, E=REVERSAL_E), (1.0, 1.0)).measure == ""

@@ -18,7 +18,6 @@ from hess_mechanics import (
 from hess_mechanics.dynamics.periodic import find_periodic, shoot
 from hess_mechanics.errors import InvalidParameter, NotConverged, OutsideRegion
 from hess_mechanics.numerics.patience import limited_by
-from hess_mechanics.suslov.suslov_section import SuslovSection
 from support.mechanics import differences
 
 HEAVY = HeavyBody.hess((1.0, 1.6, 4.0), 1.0)
@@ -49,13 +48,13 @@ def test_the_derivative_is_that_of_the_map_and_the_inverse_undoes_it(body, const
 
 
 def test_where_an_area_is_kept_the_determinant_says_so():
-    body = SuslovBody(1.5, 1.0, 0.0, 0.0, 0.3, -0.5, 1.0)
-    P = return_map(body, E=1.842)
+    # The flow keeps dω dγ = dE/K dα dγ_k dψ, α the angle of ω = |ω|u, K = I11u1² + I22u2², and γ̇3 = |ω| sin δ.
+    P = return_map(SuslovBody(1.5, 1.0, 0.0, 0.0, 0.3, -0.5, 1.0), E=1.842)
     image, DP = P.with_derivative(np.array([0.3, 1.2]))
-    before, after = (
-        SuslovSection(body, 1.842, 3).invariant_density(*np.array(one)[:, None])[0] for one in ((0.3, 1.2), image)
-    )
-    assert np.linalg.det(DP) == approx(before / after, rel=1e-9)
+    states = P.state_at(np.array([(0.3, 1.2), image]))
+    square = np.sum(states[:, :2] ** 2, axis=1)
+    density = square**1.5 * np.sin([1.2, image[1]]) / (1.5 * states[:, 0] ** 2 + states[:, 1] ** 2)
+    assert np.linalg.det(DP) == approx(density[0] / density[1], rel=1e-9)
     # The Andoyer section is of a Hamiltonian system, in canonical coordinates (l, L) with dL = G dx + x dG.
     P = return_map(HEAVY, h=1.5, f=-0.7)
     orbit = periodic_orbit(P, (-2.84, 0.288), 1)
@@ -64,7 +63,7 @@ def test_where_an_area_is_kept_the_determinant_says_so():
 
 def test_where_every_orbit_closes_each_place_is_one_of_a_family():
     # b3 = 0, I13 = I23 = 0: γ3, t → − brings every motion back, and the return map is the identity.
-    P = return_map(BallBody(1.0, 2.0, 0.0, 0.0, 1.0, 1.0, 0.5, 0.0), h=1.5)
+    P = return_map(BallBody(1.0, 2.0, 0.0, 0.0, 1.0, 1.0, 0.5, 0.0), E=1.5)
     for near in (False, True):
         orbit = find_periodic(P, (0.5, 1.5), 1, near=near)
         assert orbit.kind == "parabolic"
@@ -86,13 +85,16 @@ def test_what_a_body_does_not_have_is_refused():
     body = CASES[0][0]
     with raises(InvalidParameter, match="give E"):
         return_map(body)
-    with raises(InvalidParameter, match="no h"):
+    with raises(InvalidParameter, match="takes h and no E"):
         return_map(body, E=1.8, h=1.0)
     with raises(InvalidParameter, match="its own energy and no h"):
         return_map(QuarticBody(2.0, 1.0, 1.0, 0.8), h=1.0)
     with raises(OutsideRegion, match="choose E above"):
         return_map(body, E=-5.0)
     P = return_map(body, E=1.842)
+    # h is the energy above the lowest one, −|b|.
+    assert P.section == return_map(body, h=1.842 + math.hypot(body.b1, body.b2, body.b3)).section
+    assert approx(2.092, abs=1e-14) == P.moved("h", P.section.h + 0.25).section.E
     with raises(InvalidParameter, match="There is no mass"):
         continued_orbit(P, periodic_orbit(return_map(tori(0.5), h=1.5, f=0.6), (-2.0,)), "mass", 2.0)
     with raises(OutsideRegion, match=r"ψ = 0\.3, δ = 4"):

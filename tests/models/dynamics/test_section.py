@@ -8,7 +8,7 @@ import numpy as np
 from pytest import approx, mark, raises
 from scipy.optimize import brentq
 
-from hess_mechanics import LEVELS, Level, Plane, Status, level, section, sections, solve
+from hess_mechanics import LEVELS, Level, Plane, Status, level, section, solve
 from hess_mechanics.dynamics.plane_section import MAX_CROSSINGS
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from support.mechanics import EQUILIBRIA, SYSTEMS, every_level, every_system, scipy_crossings
@@ -249,30 +249,6 @@ def test_a_run_that_finds_other_crossings_than_the_more_exact_one_is_replaced_by
                 differing += 1
                 assert result.cost.steps > steps + other_steps, (component, turning, depth)
     assert differing > 3
-
-
-@some_systems
-def test_sections_of_many_orbits_are_those_of_each(system):
-    state, parameters = system.example
-    body = system.at(parameters)
-    states = np.array(state) * np.random.default_rng(7).uniform(0.7, 1.3, (9, len(state)))
-    plane, _ = example_section(system, sense=1)
-    for name in ("draft", "precise"):
-        alone = [section(body, start, plane, 20.0, name) for start in states]
-        assert len({one.times.size for one in alone}) > 1, "they differ"
-        for threads in (1, 2):
-            together = sections(body, states, plane, 20.0, name, threads=threads)
-            # Together they are computed in the unit of time of the fastest: other steps, within the errors.
-            for one, other in zip(together, alone, strict=True):
-                assert one.times.shape == other.times.shape
-                errors = 10 * (one.error_estimate + other.error_estimate)
-                assert np.max(np.abs(one.states - other.states), initial=0.0) <= errors
-                assert one.status == other.status
-    assert all(one.times.size <= 1 for one in sections(body, states, plane, 20.0, "draft", crossings=1))
-    assert sections(body, np.empty((0, len(state))), plane, 20.0, "draft") == []
-    for threads in (1, 2):
-        with raises(InvalidParameter, match="finite number"):
-            sections(body, [state, (np.nan, *state[1:])], plane, 1.0, "draft", threads=threads)
 
 
 test_a_plane_that_is_none_raises_a_sentence = refused(

@@ -5,7 +5,7 @@ import math
 import numpy as np
 from pytest import approx, mark, raises
 
-from hess_mechanics import System, lyapunov_exponent, lyapunov_spectrum, megno, systems, transition_matrix
+from hess_mechanics import System, lyapunov_exponent, lyapunov_spectrum, megno, systems
 from hess_mechanics.dynamics.basins import mean_divergence
 from hess_mechanics.dynamics.ensemble import complete
 from hess_mechanics.dynamics.spectrum import kaplan_yorke
@@ -200,7 +200,6 @@ EXTREME = {
         lyapunov_exponent,
         lambda *given: lyapunov_spectrum(*given, DRAFT),
         lambda body, y, t: complete(megno(body, [y], t, DRAFT, 1)),
-        lambda *given: transition_matrix(*given, DRAFT),
     ],
 )
 def test_of_a_motion_beyond_double_range_there_is_a_sentence_and_no_number(find, name):

@@ -91,6 +91,7 @@ def test_the_kernels_taylor_series_is_that_of_the_plain_field(system, data):
 
 WITHOUT_JIT = """
 import json, sys
+import numpy as np
 import hess_mechanics
 from hess_mechanics import level
 results = {}
@@ -116,8 +117,8 @@ for a, h, f in ((0.5, 1.5, 0.6), (0.7, -0.9, 0.05), (60.0, 1.0, 0.9)):
     m = hess_mechanics.circle_map(a, h, f, level("precise"))
     values = [*m.matrix, m.log_scale, m.rotation_number, m.period]
     results[f"circle map {a} {h} {f}"] = [float(x) for x in values]
-grid = hess_mechanics.rotation_number_grid(0.5, [0.1, 0.6], [0.05, 0.3], level("standard"))
-results["grid"] = [float(x) for x in grid.ravel().tolist()]
+found = hess_mechanics.rotation_numbers(0.5, np.array([0.1, 0.6]), np.array([0.05, 0.3]), level("standard"))
+results["rotation numbers"] = [float(x) for x in found.rho.tolist()]
 boundary = hess_mechanics.lock_boundary(0.5, level("draft"), 5)
 results["lock boundary"] = [float(x) for x in boundary.ravel().tolist()]
 json.dump(results, sys.stdout)

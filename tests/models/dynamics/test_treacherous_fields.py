@@ -12,7 +12,9 @@ import pytest
 from scipy.integrate import quad, solve_ivp
 from scipy.special import gammaln, sici
 
-from hess_mechanics import LEVELS, Plane, System, ensemble, section, solve, transition_matrix
+from hess_mechanics import LEVELS, Plane, System, ensemble, section, solve
+from hess_mechanics.dynamics.system import Problem
+from hess_mechanics.dynamics.variation import tangent
 from hess_mechanics.errors import InvalidParameter, ModelError, MotionEnds, WorkLimit
 from hess_mechanics.numerics import functions as f
 
@@ -233,9 +235,9 @@ def test_neighbours_see_a_pulse_as_the_orbit_does():
     def field(y, p):
         return y[0] * (f.exp(-(((y[1] - 1) / 0.005) ** 2)) / (0.005 * sqrt(pi)) - 1), 1
 
-    narrow = System("growth", field, "u tau")
-    found = transition_matrix(narrow.at(), (1.0, 0.0), 2.0, "precise")
-    np.testing.assert_allclose([found.states[0, 0], found.matrices[0, 0, 0]], exp(-1.0), rtol=1e-8)
+    problem = Problem.of(System("growth", field, "u tau").at(), [(1.0, 0.0)])
+    found = tangent(problem, problem.states[0], np.eye(2), np.array([2.0]), LEVELS["precise"], inf)
+    np.testing.assert_allclose([found.states[0, 0], found.vectors[0, 0, 0]], exp(-1.0), rtol=1e-8)
 
 
 def test_the_runs_of_an_estimate_take_different_steps(monkeypatch):

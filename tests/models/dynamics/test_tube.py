@@ -9,9 +9,8 @@ import numpy as np
 from pytest import approx, mark, raises
 
 import oracle
-from hess_mechanics import proved_error, right_until, solve, systems, tube
+from hess_mechanics import ProvedOrbit, solve, systems, tube
 from hess_mechanics.dynamics.system import System
-from hess_mechanics.dynamics.tube import error_bounds
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics import functions as f
 from support.thorough import sample
@@ -62,21 +61,21 @@ def test_an_orbit_is_judged():
     fine, rough = (solve(system.at(parameters), state, times, name) for name in ("reference", "draft"))
     truth = np.array([[float((one.low + one.high) / 2) for one in row] for row in found.states])
     for orbit in (fine, rough):
-        low, high = proved_error(orbit, found)
+        proved = ProvedOrbit(orbit, found)
         known = np.max(np.abs(orbit.states - truth))
-        assert low <= known + 1e-15
-        assert known <= high + 1e-15
-        assert low <= orbit.error_estimate
-    assert right_until(fine, found, 1e-12) == 3.0
-    bounds, away = error_bounds(rough, found), np.abs(rough.states - truth)
+        assert proved.least <= known + 1e-15
+        assert known <= proved.largest + 1e-15
+        assert proved.least <= orbit.error_estimate
+    assert ProvedOrbit(fine, found, 1e-12).right_until == 3.0
+    bounds, away = ProvedOrbit(rough, found).bounds, np.abs(rough.states - truth)
     assert np.all(away <= bounds + 1e-15)
     assert np.all(bounds <= away + 1e-15)
     # A sample moved by 1e-6: right before it, and not after.
     moved = fine.states.copy()
     moved[4, 2] += 1e-6
-    wrong = replace(fine, states=moved)
-    assert right_until(wrong, found, 1e-7) == times[3]
-    assert proved_error(wrong, found) == approx((1e-6, 1e-6), rel=1e-6)
+    wrong = ProvedOrbit(replace(fine, states=moved), found, 1e-7)
+    assert wrong.right_until == times[3]
+    assert (wrong.least, wrong.largest) == approx((1e-6, 1e-6), rel=1e-6)
 
 
 def test_a_tube_ends_where_the_work_does():
@@ -87,11 +86,10 @@ def test_a_tube_ends_where_the_work_does():
     assert len(found.states) == 2
     # Before the first of its times: nothing is proved.
     none = tube(*system.example_motion, [50.0], most_work=1e3)
-    orbit = solve(*system.example_motion, [50.0], "draft")
-    assert error_bounds(orbit, none).shape == (0, 5)
-    assert right_until(orbit, none, 1.0) == 0.0
-    with raises(InvalidParameter, match="allow more work"):
-        proved_error(orbit, none)
+    judged = ProvedOrbit(solve(*system.example_motion, [50.0], "draft"), none, 1.0)
+    assert judged.bounds.shape == (0, 5)
+    assert judged.right_until == 0.0
+    assert np.isnan([judged.least, judged.largest]).all()
 
 
 def test_work_is_counted_and_more_of_it_goes_farther():
@@ -166,7 +164,7 @@ def test_what_has_no_tube_is_refused():
     other = systems()["suslov"]
     orbit = solve(*other.example_motion, [0.1], "draft")
     with raises(InvalidParameter, match="same system"):
-        proved_error(orbit, tube(*system.example_motion, [0.1]))
+        ProvedOrbit(orbit, tube(*system.example_motion, [0.1]))
 
 
 @mark.parametrize("t", [0.0, 5e-324])

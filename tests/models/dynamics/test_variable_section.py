@@ -18,7 +18,6 @@ from hess_mechanics import (
     return_map,
     section,
     section_points,
-    transition_matrix,
 )  # fmt: skip
 from hess_mechanics.dynamics.ensemble import complete
 from hess_mechanics.dynamics.megno_map import ENDED, NOWHERE
@@ -155,7 +154,7 @@ def test_what_makes_no_section_is_refused(given, words):
         return_map(SYSTEM.at(), **given)
 
 
-# Around the orbit x = A sin φ, u = x − A sin φ obeys u̇ = μu − u³: a pitchfork at μ = 0 that breaks x → −x, φ → φ + π.
+# Around the orbit x = A sin φ, u = x − A sin φ obeys u̇ = μu − u³: a pitchfork at μ = 0.
 AROUND = {
     "field": lambda y, p: (
         p[0] * (y[0] - p[1] * np.sin(y[1])) - (y[0] - p[1] * np.sin(y[1])) ** 3 + p[1] * p[2] * np.cos(y[1]),
@@ -166,47 +165,17 @@ AROUND = {
     "example": (0.1, 0.3),
     "angles": "φ",
 }
-HALF_A_TURN = "x → −x, φ → φ + π"
 
 
-def turned(y, p):
-    return {HALF_A_TURN: (-y[0], y[1] + np.pi)}
-
-
-@mark.parametrize(("given", "kind"), [({"symmetries": turned}, "pitchfork"), ({}, "branch point")])
-def test_a_declared_symmetry_that_shifts_a_phase_makes_a_pitchfork(given, kind):
-    strobe = return_map(System("around", **AROUND, **given).at(), surface=("φ", 0.5))
+def test_a_branch_point_of_a_strobe_is_located():
+    """A symmetry that shifts the phase is not sought, so that it is no pitchfork."""
+    strobe = return_map(System("around", **AROUND).at(), surface=("φ", 0.5))
     orbit = periodic_orbit(strobe, (0.3,), 1)
     assert orbit.places[0] == approx([0.7 * np.sin(0.5)], abs=1e-9)
     assert orbit.multipliers[0] == approx(np.exp(-0.2 * 2 * np.pi), rel=1e-8)
-    assert orbit.symmetric == ((HALF_A_TURN,) if given else ())
     (found,) = continued_orbit(strobe, orbit, "mu", 0.2).bifurcations
     # The equations are singular there: how far the bracket closes, and so the error, depends on roundings.
-    assert found.kind == kind and abs(found.value) <= found.error < 0.05 and abs(found.value) < 1e-6
-
-
-def test_a_symmetry_that_holds_at_other_parameters_only_is_not_used():
-    """A constant force breaks it."""
-    pushed = System(
-        "pushed", lambda y, p: (AROUND["field"](y, p)[0] + p[3], p[2]), "x φ", {**AROUND["parameters"], "push": 0.0},
-        example=(0.1, 0.3), angles="φ", symmetries=turned,
-    )  # fmt: skip
-    assert [one.name for one in return_map(pushed.at(), surface=("φ", 0.5)).mirrors] == [HALF_A_TURN]
-    assert return_map(pushed.at(push=0.1), surface=("φ", 0.5)).mirrors == ()
-
-
-@mark.parametrize(
-    ("symmetries", "words"),
-    [
-        (lambda y, p: {"x → −x": (-y[0], y[1])}, "x → −x is no symmetry"),
-        (lambda y, p: {"short": (-y[0],)}, "must return a state by name"),
-        (lambda y, p: (-y[0], y[1]), "must return a state by name"),
-        (3, "`symmetries` must be a function"),
-    ],
-)
-def test_what_is_no_symmetry_is_refused(symmetries, words):
-    with raises(InvalidParameter, match=words):
-        System("around", **AROUND, symmetries=symmetries)
+    assert found.kind == "branch point" and abs(found.value) <= found.error < 0.05 and abs(found.value) < 1e-6
 
 
 def test_periods_have_their_time():
@@ -303,7 +272,6 @@ def test_a_motion_that_escapes_keeps_what_comes_before_and_loses_no_other():
     for ends in (
         lambda: lyapunov_exponent(SYSTEM.at(), start, 100.0),
         lambda: lyapunov_spectrum(SYSTEM.at(), start, 100.0),
-        lambda: transition_matrix(SYSTEM.at(), start, 100.0, STANDARD),
         lambda: complete(megno(SYSTEM.at(), [start], 100.0)),
         lambda: ReturnMap(here, STANDARD).orbit(place, 100),
     ):

@@ -1,4 +1,4 @@
-"""Derivatives of the flow and of return maps, against differences with more digits and a matrix exponential."""
+"""Derivatives of the flow, against differences with more digits and a matrix exponential."""
 
 import math
 
@@ -6,11 +6,10 @@ import numpy as np
 from pytest import approx, mark, raises
 from scipy.linalg import expm
 
-from hess_mechanics import Plane, SuslovBody, level, return_matrix, systems, transition_matrix
-from hess_mechanics.dynamics.plane_section import section
-from hess_mechanics.dynamics.variation import onto_surface
+from hess_mechanics import SuslovBody, level, systems
+from hess_mechanics.dynamics.system import Problem
+from hess_mechanics.dynamics.variation import onto_surface, tangent
 from hess_mechanics.errors import InvalidParameter, WorkLimit
-from hess_mechanics.rigid_body.reversal import Reversal
 from oracle.orbits import taylor
 from support.mechanics import differences
 from support.suslov import permanent_rotations
@@ -18,7 +17,6 @@ from support.thorough import sample
 
 PRECISE, REFERENCE = level("precise"), level("reference")
 SUSLOV = systems()["suslov"]
-GAMMA3 = Plane((0.0, 0.0, 0.0, 0.0, 1.0))
 
 
 def by_differences(system, state, p, span):
@@ -40,65 +38,54 @@ def by_differences(system, state, p, span):
     return (ends.reshape(size, size, 4) @ weights).astype(float)
 
 
+def flow(body, start, times, accuracy):
+    """States, ∂y(t)/∂y(0) and ln of its determinant at times, in the units of the problem."""
+    problem = Problem.of(body, [start])
+    scale, times = problem.scale, problem.times(np.atleast_1d(times))
+    found = tangent(problem, problem.states[0], np.eye(scale.size), times, accuracy, math.inf)
+    return found.states * scale, scale[:, None] * found.vectors / scale, found.volume
+
+
 # The compiler takes ten seconds for the variation of a system.
 some_systems = mark.parametrize("system", sample(systems().values(), 2), ids=lambda system: system.name)
 
 
 @some_systems
 def test_the_matrix_is_that_of_differences_with_more_digits(system):
-    found = transition_matrix(*system.example_motion, 3.0, REFERENCE)
+    (matrix,) = flow(*system.example_motion, 3.0, REFERENCE)[1]
     exact = by_differences(system, *system.example, 3.0)
-    assert np.abs(found.matrices[0] - exact).max() < 1e-12 * np.abs(exact).max()
-    assert found.error_estimate < 1e-12
+    assert np.abs(matrix - exact).max() < 1e-12 * np.abs(exact).max()
 
 
 @some_systems
 def test_for_every_system_flows_compose_and_turn_back(system):
     state, p = system.example
-    whole = transition_matrix(system.at(p), state, [2.0, 5.0], PRECISE)
-    first, both = whole.matrices
-    rest = transition_matrix(system.at(p), whole.states[0], 3.0, PRECISE).matrices[0]
+    states, matrices, volume = flow(system.at(p), state, [2.0, 5.0], PRECISE)
+    first, both = matrices
+    (rest,) = flow(system.at(p), states[0], 3.0, PRECISE)[1]
     size = np.abs(both).max()
     assert rest @ first == approx(both, abs=1e-8 * size)
-    back = transition_matrix(system.at(p), whole.states[1], -5.0, PRECISE).matrices[0]
+    (back,) = flow(system.at(p), states[1], -5.0, PRECISE)[1]
     assert back @ both == approx(np.eye(len(state)), abs=1e-7 * size)
-    assert np.log(np.linalg.det(whole.matrices)) == approx(whole.log_volume, abs=1e-8 * size)
+    assert np.log(np.linalg.det(matrices)) == approx(volume, abs=1e-8 * size)
     # The rate is carried along.
-    rates = [np.array(system.field(y, p)) for y in (state, whole.states[1].tolist())]
+    rates = [np.array(system.field(y, p)) for y in (state, states[1].tolist())]
     assert both @ rates[0] == approx(rates[1], abs=1e-8 * size)
 
 
 def test_what_cannot_be_is_refused_in_a_sentence():
-    with raises(InvalidParameter, match="times must be"):
-        transition_matrix(*SUSLOV.example_motion, math.nan, PRECISE)
     with raises(WorkLimit, match="choose a shorter"):
-        transition_matrix(*SUSLOV.example_motion, 1e9, PRECISE)
+        flow(*SUSLOV.example_motion, 1e9, PRECISE)
     # Beside the upper equilibrium neighbours part as e^t.
     with raises(WorkLimit, match="separate beyond the range of double precision: choose a shorter time span"):
-        transition_matrix(SUSLOV.at((1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0)), (0.0, 0.0, 0.0, 0.0, 1.0), 800.0, PRECISE)
+        flow(SUSLOV.at((1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0)), (0.0, 0.0, 0.0, 0.0, 1.0), 800.0, PRECISE)
     with raises(InvalidParameter, match="touches the surface"):
         onto_surface(np.eye(2), np.array([1.0, 0.0]), np.array([0.0, 1.0]))
-
-
-# ---- return maps ------------------------------------------------------------------------------------------------
-
-
-@mark.parametrize("surface", [GAMMA3, Reversal()], ids=["a plane", "a curved surface"])
-def test_the_derivative_of_a_return_is_that_of_differences(surface):
-    state, p = SUSLOV.example
-    found = return_matrix(SUSLOV.at(p), state, surface, 60.0, REFERENCE, returns=2)
-    exact = differences(lambda y: section(SUSLOV.at(p), y, surface, 60.0, REFERENCE, 2).states[1], state, 1e-5)
-    assert found.matrix == approx(exact, abs=1e-7 * np.abs(found.matrix).max())
-    assert found.matrix @ SUSLOV.field(state, p) == approx(np.zeros(5), abs=1e-10)
-
-
-def test_without_a_return_there_is_none():
-    assert return_matrix(*SUSLOV.example_motion, GAMMA3, 0.1, PRECISE) is None
 
 
 def test_at_rest_the_matrix_is_an_exponential():
     # A permanent rotation, where f = 0: V = e^{Jt}, with J by differences.
     p = (1.0, 3.0, 0.6, 0.6, 1.0, 0.7, 0.3)
     rest = next(permanent_rotations(SuslovBody(*p), 1.743))
-    found = transition_matrix(SUSLOV.at(p), rest, 2.0, PRECISE).matrices[0]
+    (found,) = flow(SUSLOV.at(p), rest, 2.0, PRECISE)[1]
     assert np.abs(found - expm(2.0 * differences(lambda y: SUSLOV.field(y, p), rest))).max() < 1e-8

@@ -11,7 +11,8 @@ from pytest import approx, mark, raises
 from scipy.optimize import brentq
 
 from hess_mechanics import section, solve, systems
-from hess_mechanics.errors import WorkLimit
+from hess_mechanics.dynamics.return_map import section_crossings
+from hess_mechanics.errors import OutsideRegion, WorkLimit
 from hess_mechanics.euler_poisson.andoyer import SHEETS, AndoyerPlane, AndoyerSection, coordinates, relation
 from hess_mechanics.euler_poisson.equations import SYSTEM, HeavyBody
 from hess_mechanics.numerics.accuracy import PRECISE, STANDARD
@@ -23,7 +24,6 @@ from support.thorough import sample
 
 SLANTING = HeavyBody((1.0, 1.6, 2.1), (0.3, -0.5, 0.7), 2.0)
 """No Hess case, and r2 ≠ 0."""
-WHOLE = ((-pi, -1.0), (pi, 1.0))
 
 
 def states_at(body, h, f, l, x, sheet=0):
@@ -79,7 +79,7 @@ def test_a_state_of_the_section_has_g_h_f_and_its_place(body, h, f):
 
 def test_seeds_are_in_their_window_spread_evenly_and_on_the_section():
     window = ((-1.0, -0.6), (2.0, 0.4))
-    found = AndoyerSection(GESS1, 50.0, 5.0).spread(window, 64)
+    found = AndoyerSection(GESS1, 50.0, 5.0).spread(64, window)
     assert len(found) == 64
     l, x = coordinates(np.array(found)).T
     assert -1.0 < l.min() < -0.9 < 1.9 < l.max() < 2.0
@@ -87,7 +87,7 @@ def test_seeds_are_in_their_window_spread_evenly_and_on_the_section():
     cells = set(zip(((l + 1.0) / 3.0 * 4).astype(int), ((x + 0.6) * 4).astype(int), strict=True))
     assert len(cells) == 16
     # Fewer than asked for where most of the window is impossible, and none beyond it.
-    few = AndoyerSection(RIS, -0.5, 0.0).spread(WHOLE, 50)
+    few = AndoyerSection(RIS, -0.5, 0.0).spread(50)
     assert 0 < len(few) <= 50
     assert np.all(AndoyerSection(RIS, -0.5, 0.0).possible(*coordinates(np.array(few)).T))
 
@@ -172,7 +172,7 @@ def test_a_state_is_on_the_sheet_that_it_was_asked_for_on(body, h, f):
 @every_case
 def test_crossings_are_those_that_scipy_finds_from_the_angle(body, h, f):
     found = 0
-    for start in AndoyerSection(body, h, f).spread(WHOLE, 3):
+    for start in AndoyerSection(body, h, f).spread(3):
         end = 6.0 / sqrt(2.0 * max(body.a) * (h + body.strength)) * 4.0
         times, states = crossings_by_scipy(body, start, end)
         result = section(body, start, AndoyerPlane(f), end, "precise")
@@ -198,7 +198,7 @@ def test_no_orbit_of_gess1_changes_the_sign_of_r_M_in_10000_crossings():
     states, _, growing = states_at(GESS1, 50.0, 5.0, l, x)
     starts = np.array(sample(states[growing][:50], 6))
     # Orbits come as close to the Hess manifold as 1e-5, far beyond the error of this level.
-    points = AndoyerSection(GESS1, 50.0, 5.0).points(starts, 10_000, PRECISE)
+    points = section_crossings(AndoyerSection(GESS1, 50.0, 5.0), starts, 10_000, PRECISE)
     assert [len(states) for states in points.states] == [10_000] * len(starts)
     signs = np.sign(3.0 * starts[:, 0] + 4.0 * starts[:, 2])
     assert 0.2 < np.mean(signs > 0) < 0.8
@@ -210,8 +210,8 @@ def test_no_orbit_of_gess1_changes_the_sign_of_r_M_in_10000_crossings():
 @mark.chaotic
 def test_away_from_hess_the_same_orbits_do_change_it():
     away = HeavyBody.hess((1.0, 0.625, 0.375), 9.975, 0.02)
-    starts = AndoyerSection(away, 50.0, 5.0).spread(WHOLE, 20)
-    points = AndoyerSection(away, 50.0, 5.0).points(starts, 1000, STANDARD)
+    starts = AndoyerSection(away, 50.0, 5.0).spread(20)
+    points = section_crossings(AndoyerSection(away, 50.0, 5.0), starts, 1000, STANDARD)
     changed = [np.ptp(np.sign(relation(away, states))) > 0 for states in points.states]
     assert deviations(np.array(changed), 0.1) > 5.0
 
@@ -219,9 +219,9 @@ def test_away_from_hess_the_same_orbits_do_change_it():
 def test_points_of_a_picture_are_the_crossings_of_the_orbit_one_after_the_other():
     """Points are computed in parts; no point is missing or repeated where two parts meet."""
     section_ = AndoyerSection(RIS, 0.0, 0.0)
-    start = section_.spread(WHOLE, 1)
-    points = section_.points(start, 100, PRECISE).states[0]
-    exact = section(RIS, start[0], AndoyerPlane(0.0), section_.time_for(100), PRECISE, 100)
+    start = section_.spread(1)
+    points = section_crossings(section_, start, 100, PRECISE).states[0]
+    exact = section(RIS, start[0], AndoyerPlane(0.0), 1e4, PRECISE, 100)
     assert len(points) == len(exact.times) == 100
     assert np.max(np.abs(points - exact.states)) < 1e-5
     assert min(np.linalg.norm(b - a) for a, b in pairwise(points)) > 1e-4
@@ -233,11 +233,13 @@ def test_points_of_a_picture_are_the_crossings_of_the_orbit_one_after_the_other(
 test_a_request_that_means_nothing_is_refused_in_a_sentence = refused(
     (
         lambda: AndoyerSection(GESS1, -9.9, 5.0).state_at(0.0, 0.2),
-        "no real G ≥ .f. has the energy h = -9.9: choose a larger h",
+        "No motion crosses the section at l = 0, L/G = 0.2: choose another place, or a larger energy",
+        OutsideRegion,
     ),
     (
         lambda: AndoyerSection(GESS1, 50.0, 5.0, sheet=1).state_at(0.0, 0.2),
-        "there is no second root G ≥ .f.*choose the largest one",
+        "No motion crosses the section at l = 0",
+        OutsideRegion,
     ),
     (lambda: AndoyerSection(GESS1, 50.0, 5.0, sheet=3).state_at(0.0, 0.2), "at most 3 sheets: choose one from 0 to 2"),
     (lambda: AndoyerSection(GESS1, 50.0, 5.0).state_at(0.0, 1.5), "lies between −1 and 1"),
@@ -252,6 +254,6 @@ test_a_request_that_means_nothing_is_refused_in_a_sentence = refused(
 def test_too_much_work_is_refused():
     start = [AndoyerSection(GESS1, 50.0, 5.0).state_at(0.0, 0.2)]
     with raises(WorkLimit, match="shorter time span"):
-        AndoyerSection(GESS1, 50.0, 5.0).points(start, 1000, STANDARD, most_steps=50)
+        section_crossings(AndoyerSection(GESS1, 50.0, 5.0), start, 1000, STANDARD, most_steps=50)
     with raises(WorkLimit, match="between 1 and 100000"):
-        AndoyerSection(GESS1, 50.0, 5.0).points(start, 10**6, STANDARD)
+        section_crossings(AndoyerSection(GESS1, 50.0, 5.0), start, 10**6, STANDARD)

@@ -5,6 +5,7 @@ from math import pi, sqrt
 import numpy as np
 from pytest import approx, mark
 
+from hess_mechanics.dynamics.return_map import section_crossings
 from hess_mechanics.euler_poisson.andoyer import AndoyerSection, coordinates
 from hess_mechanics.euler_poisson.rotation import RESOLVED, on_line, rotation_along
 from hess_mechanics.numerics.accuracy import STANDARD
@@ -73,7 +74,7 @@ def test_in_gess_ris1_a_and_b_the_curves_through_the_line_do_not_go_round(h, f):
     section = AndoyerSection(RIS, h, f)
     line = ((2.8, -1.0), (2.8, 1.0))
     starts = on_line(section, line, 24)
-    orbits = AndoyerSection(RIS, h, f).points([state for _, state in starts], 1000, STANDARD).states
+    orbits = section_crossings(section, [state for _, state in starts], 1000, STANDARD).states
     places = [coordinates(states) for states in orbits]
     found = rotation_along(line, [share for share, _ in starts], places, about_first=False, count=24)
     assert found.standing.size >= 8

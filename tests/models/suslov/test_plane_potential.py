@@ -8,7 +8,7 @@ from pytest import approx, mark
 
 from hess_mechanics import section, systems
 from hess_mechanics.chaplygin_ball.ball_section import EQUATOR
-from hess_mechanics.dynamics.lyapunov import lyapunov_exponent
+from hess_mechanics.dynamics.spectrum import lyapunov_exponent
 from hess_mechanics.errors import NotPositiveDefinite
 from hess_mechanics.suslov.plane_potential import (
     POTENTIALS,

@@ -5,11 +5,9 @@ import sympy
 from pytest import approx, mark
 from scipy.integrate import solve_ivp
 
-from hess_mechanics import SuslovBody, level, section, systems
+from hess_mechanics import SuslovBody, level, systems
 from hess_mechanics.errors import WorkLimit
 from hess_mechanics.suslov.principal_axis import conformal, divergence, energy_gradient, poisson_matrix
-from hess_mechanics.suslov.suslov_section import SuslovSection
-from support.mechanics import differences
 from support.refusals import refused
 
 SUSLOV = systems()["suslov"]
@@ -91,27 +89,8 @@ def test_tau_is_the_integral_of_gamma3(span):
     assert found.turns == np.count_nonzero(g3[1:] * g3[:-1] < 0.0)
 
 
-@mark.parametrize("k", [1, 2, 3])
-def test_the_return_map_keeps_its_density(k):
-    at = SuslovSection(GENERAL, 1.5, k)
-
-    def image(place):
-        return at.places_of(section(GENERAL, at.state_at(*place), at.surface, 100.0, FLOOR, 1).states)[0]
-
-    for place in ((0.3, 1.2), (-1.7, 0.8), (2.4, 2.0)):
-        determinant = np.linalg.det((4.0 * differences(image, place, 1e-5) - differences(image, place, 2e-5)) / 3.0)
-        before, after = at.invariant_density(*np.transpose([place, image(place)]))
-        assert after * abs(determinant) == approx(before, rel=1e-5)
-        # The area dψ dδ alone is not kept.
-        assert abs(abs(determinant) - 1.0) > 1e-3
-
-
 test_other_bodies_and_spans_are_refused = refused(
     (lambda: conformal(SuslovBody(1.5, 1.0, 0.1, 0.0), START, 1.0, FLOOR), "I13 = I23 = 0"),
     (lambda: conformal(GENERAL, START, 0.0, FLOOR), "other than 0"),
     (lambda: conformal(GENERAL, START, 1e6, FLOOR), "choose a shorter time span", WorkLimit),
-    (
-        lambda: SuslovSection(SuslovBody(1.5, 1.0, 0.1, 0.0), 1.0, 3).invariant_density(np.zeros(1), np.ones(1)),
-        "I13 = I23 = 0",
-    ),
 )

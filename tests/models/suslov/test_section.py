@@ -11,7 +11,8 @@ from pytest import approx, mark, raises
 from hess_mechanics import SuslovBody, ensemble
 from hess_mechanics.dynamics.attraction import arrivals
 from hess_mechanics.dynamics.basins import SectionOrbits, attractors
-from hess_mechanics.errors import InvalidParameter, WorkLimit
+from hess_mechanics.dynamics.return_map import section_crossings
+from hess_mechanics.errors import OutsideRegion, WorkLimit
 from hess_mechanics.numerics.accuracy import DRAFT, PRECISE
 from hess_mechanics.suslov.suslov_section import SuslovSection
 from support.deviations import deviations
@@ -62,16 +63,16 @@ def test_below_the_lowest_energy_nothing_is_possible_and_above_it_something(k):
     assert lowest == approx(np.min(np.array([BODY.b1, BODY.b2, BODY.b3]) @ gamma), abs=1e-8)
     assert not SuslovSection(BODY, lowest - 1e-9, k).possible(psi).any()
     assert SuslovSection(BODY, lowest + 1e-6, k).possible(psi).any()
-    assert SuslovSection(BODY, lowest, k).spread(WHOLE, 5) == ()
-    with raises(InvalidParameter, match="choose a larger energy, or another point"):
+    assert SuslovSection(BODY, lowest, k).spread(5) == ()
+    with raises(OutsideRegion, match="choose another place, or a larger energy"):
         SuslovSection(BODY, lowest - 1e-9, k).state_at(0.0, 1.0)
 
 
 test_what_is_no_point_or_too_much_is_refused = refused(
-    *((lambda delta=delta: SEEN.state_at(0.5, delta), "0 < δ < π") for delta in (0.0, pi)),
+    *((lambda delta=delta: SEEN.state_at(0.5, delta), "at ψ = 0.5, δ = ", OutsideRegion) for delta in (0.0, pi)),
     *((lambda k=k: SuslovSection(BODY, 1.0, k), "choose 1, 2 or 3") for k in (0, 4)),
-    (lambda: SEEN.points(SEEN.spread(WHOLE, 2), 1000, True, PRECISE, most_steps=500), "a shorter", WorkLimit),
-    (lambda: SEEN.points(SEEN.spread(WHOLE, 2), 10**7, True, PRECISE), "number of crossings", WorkLimit),
+    (lambda: section_crossings(SEEN, SEEN.spread(2), 1000, PRECISE, most_steps=500), "a shorter", WorkLimit),
+    (lambda: section_crossings(SEEN, SEEN.spread(2), 10**7, PRECISE), "number of crossings", WorkLimit),
 )
 
 
@@ -89,7 +90,7 @@ test_what_is_no_point_or_too_much_is_refused = refused(
 )
 def test_seeds_are_as_many_as_asked_for_wherever_the_energy_allows_any(k, above, window):
     E = SuslovSection(BODY, 0.0, k).lowest_energy + above
-    found = np.array(SuslovSection(BODY, E, k).spread(window, 25)).reshape(-1, 5)
+    found = np.array(SuslovSection(BODY, E, k).spread(25, window)).reshape(-1, 5)
     (psi0, delta0), (psi1, delta1) = window
     if not SuslovSection(BODY, E, k).possible(np.linspace(psi0, psi1, 200_001)).any():
         assert len(found) == 0
@@ -111,7 +112,7 @@ def test_seeds_are_as_many_as_asked_for_wherever_the_energy_allows_any(k, above,
 def test_the_first_points_are_those_of_scipy(k, forward, count):
     body = SEA[0]
     start = SuslovSection(body, 0.4, k).state_at(-0.3, 0.9)
-    found = SuslovSection(body, 0.0, k).points([start], 8, forward, PRECISE).states[0][:count]
+    found = section_crossings(SuslovSection(body, 0.4, k), [start], 8, PRECISE, not forward).states[0][:count]
     # Along a backward run γ_k falls where it grows in t.
     sense = 1 if forward else -1
     _, exact = scipy_crossings(lambda y: field(body, y), start, lambda y: y[k + 1], 120.0 * sense, sense)
@@ -146,7 +147,7 @@ def test_the_chaotic_seas_of_the_scenes_keep_no_volume():
 def test_the_basins_of_the_example_are_those_that_scipy_finds():
     body, E = TWO
     orbits = SectionOrbits(SuslovSection(body, E, 3), DRAFT)
-    starts = orbits.section.spread(WHOLE, 6)
+    starts = orbits.section.spread(6)
     which = arrivals(
         orbits, attractors(orbits.section, 1000.0, DRAFT).sets, *orbits.section.places_of(np.array(starts)).T
     )

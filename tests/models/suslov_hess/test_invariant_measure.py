@@ -3,15 +3,14 @@
 from math import atan2, pi, remainder
 
 import numpy as np
-from pytest import approx, mark, raises
+from pytest import approx, mark
 from scipy.integrate import quad
 
 from hess_mechanics import circle_map, level, solve, systems, turning_points
-from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.suslov_hess.invariant_measure import (
     density_on_torus,
     invariant_measure,
-    on_torus,
+    zeta_at,
 )
 from support.mechanics import angle_between
 from support.refusals import refused
@@ -26,6 +25,12 @@ ELLIPTIC = [
 ]
 every_torus = mark.parametrize(("a", "h", "f"), ELLIPTIC)
 PHASES = np.linspace(-3.1, 3.1, 41)
+
+
+def seen_from(phi, zeta):
+    """The hyperbolic direction ψ of the angle φ of the circle from a point ζ of the disk."""
+    z = np.exp(1j * np.asarray(phi))
+    return np.angle((z - zeta) / (1.0 - np.conj(zeta) * z))
 
 
 # ---- on the circle ----------------------------------------------------------------------------------------------
@@ -47,11 +52,12 @@ def test_the_density_is_invariant_under_the_circle_map(a, h, f):
 def test_in_the_angle_of_the_measure_the_map_is_a_rotation(a, h, f):
     theta = circle_map(a, h, f, REFERENCE)
     measure = invariant_measure(theta)
-    turned = measure.angle(theta.theta(PHASES)) - measure.angle(PHASES)
+    turned = seen_from(theta.theta(PHASES), measure.zeta) - seen_from(PHASES, measure.zeta)
     assert angle_between(turned, 2.0 * pi * theta.rotation_number) <= 1e-10
     # The density is the slope of that angle.
     step = 1e-5
-    slope = np.angle(np.exp(1j * (measure.angle(PHASES + step) - measure.angle(PHASES - step)))) / (2.0 * step)
+    around = (seen_from(PHASES + sign * step, measure.zeta) for sign in (1, -1))
+    slope = np.angle(np.exp(1j * np.subtract(*around))) / (2.0 * step)
     assert slope / (2.0 * pi) == approx(measure.density(PHASES), rel=1e-7)
 
 
@@ -78,17 +84,20 @@ test_where_there_are_limit_cycles_there_is_none = refused(
 
 @every_torus
 def test_in_its_angles_the_flow_is_linear(a, h, f):
-    measure = invariant_measure(circle_map(a, h, f, REFERENCE))
+    theta = circle_map(a, h, f, REFERENCE)
     turning = turning_points(h, f)
-    times = np.linspace(0.0, 1.7 * turning.period, 60)
-    found = on_torus(measure, times, REFERENCE)
+    times = np.append(np.linspace(0.0, 1.7 * turning.period, 60), 2.0 * turning.period)
+    zeta = zeta_at(theta, times, REFERENCE)
+    assert zeta[[0, -1]] == approx(np.full(2, invariant_measure(theta).zeta), abs=1e-10)
+    turned = []
     for phi0 in (-2.5, 0.4, 1.9):
         states = solve(HESS.at((a, 1.0)), turning.state_at_lower_turn(phi0), times, REFERENCE).states
-        phi = np.arctan2(states[:, 0], states[:, 1])
-        assert angle_between(found.angle(phi), float(measure.angle([phi0])[0])) <= 1e-9
-    once = on_torus(measure, [0.0, turning.period], REFERENCE)
-    assert once.zeta == approx(np.full(2, measure.zeta), abs=1e-10)
-    assert angle_between(once.turned, [0.0, 2.0 * pi * measure.rotation_number]) <= 1e-9
+        psi = seen_from(np.arctan2(states[:, 0], states[:, 1]), zeta)
+        turned.append(psi - psi[0])
+    # All orbits turn through one angle δ(s), which is 2πρ after each return.
+    assert angle_between(turned[1], turned[0]) <= 1e-9
+    assert angle_between(turned[2], turned[0]) <= 1e-9
+    assert angle_between(turned[0][-1], 4.0 * pi * theta.rotation_number) <= 1e-9
 
 
 @every_torus
@@ -123,14 +132,8 @@ test_where_nothing_can_be_drawn_it_is_said_why = refused(
     (lambda: density_on_torus(circle_map(0.5, 0.3, 0.0, REFERENCE), REFERENCE), "Choose another f"),
     # w underflows.
     (
-        lambda: on_torus(invariant_measure(circle_map(0.0, 0.0, 5e-324, REFERENCE)), [0.0, 1.0], REFERENCE),
+        lambda: zeta_at(circle_map(0.0, 0.0, 5e-324, REFERENCE), [0.0, 1.0], REFERENCE),
         "Choose another f",
     ),
     (lambda: density_on_torus(circle_map(4.0, 0.9, 0.0, REFERENCE), REFERENCE), "choose a smaller .a."),
 )
-
-
-def test_at_f_0_the_angle_jumps_and_is_refused():
-    measure = invariant_measure(circle_map(0.5, 0.3, 0.0, REFERENCE))
-    with raises(InvalidParameter, match="Choose another f"):
-        on_torus(measure, [0.0, 1.0], REFERENCE)

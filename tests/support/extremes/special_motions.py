@@ -8,7 +8,7 @@ import numpy as np
 from hess_mechanics import HessBody, f_max, solve, systems, turning_points
 from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.euler_poisson.hess_isomorphism import Bridge
-from hess_mechanics.euler_poisson.hess_manifold import on_manifold
+from hess_mechanics.euler_poisson.hess_manifold import run_free
 from hess_mechanics.euler_poisson.loxodromic_pendulum import LoxodromicPendulum, loxodromic_motion
 from hess_mechanics.suslov import kharlamova, quartic
 from hess_mechanics.suslov.kharlamova import PlaneBody
@@ -33,12 +33,15 @@ def bridge_row(Row, name, bridge, h, share=0.3, periods=20, samples=801):
     @cache
     def truth():
         other = solve(
-            bridge.hess.suslov, bridge.to_suslov(np.array(start)), np.linspace(0.0, end, samples), "reference"
+            bridge.hess.suslov,
+            bridge.hess.from_reduced(bridge.to_reduced(start)),
+            np.linspace(0.0, end, samples),
+            "reference",
         )
         return bridge.hess.in_units_of_b(bridge.hess.to_reduced(other.states))
 
     def error(grade):
-        run = on_manifold(bridge.heavy, start, end, samples, grade)
+        run = run_free(bridge.heavy, start, end, samples, grade, held=True)
         # Off the manifold the two have no state in common.
         return (
             inf
@@ -62,11 +65,11 @@ def pendulum_row(Row, name, span, moments=(1.0, 1.5, 2.0), h=1.5, l=0.4, mu=0.7,
         axes = found.attitude.axes
         if np.max(np.abs(axes @ axes.transpose(0, 2, 1) - np.eye(3))) >= 1e-14:
             return inf
-        centre, middle = closed_form(one, found.attitude.times)
+        centre, middle = closed_form(one, found.orbit.times)
         return float(max(np.max(np.abs(found.centre - centre)), np.max(np.abs(found.middle - middle)))) / scale
 
     def admitted(grade):
-        return error(grade) <= motion(grade).attitude.orbit.error_estimate
+        return error(grade) <= motion(grade).orbit.error_estimate
 
     return Row(f"loxodrome: {name}", "Jacobi's functions", error, because=because, admitted=admitted)
 
@@ -90,7 +93,7 @@ def quartic_row(Row, name, body, q):
     """γ² = 1, with γ1 and γ2 from the momenta, and γ3 against the height of the place, relative to h/b3."""
     start = quartic.state_at(body, q, 0.5)
     times = np.linspace(0.0, 5.0 * sqrt(body.I11 / abs(body.b3)), 60)
-    ratio = abs(body.h / body.b3)
+    ratio = abs(body.E / body.b3)
 
     def error(grade):
         states = solve(body, start, times, grade).states

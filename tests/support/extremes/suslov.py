@@ -12,8 +12,6 @@ from hess_mechanics.suslov.equations import SYSTEM
 from hess_mechanics.suslov.suslov_section import SuslovSection
 from hess_mechanics.suslov_hess.rotation_number import values_at
 
-WHOLE = ((-pi, 0.0), (pi, pi))
-
 
 def body_of(I11=1.5, I22=3.0, I13=0.4, I23=0.4):
     return SuslovBody(I11, I22, I13, I23, -0.5, -0.5, 0.7)
@@ -21,7 +19,7 @@ def body_of(I11=1.5, I22=3.0, I13=0.4, I23=0.4):
 
 def crossings(Row, name, body, k, E, count=3, sense=1, **options):
     """Return a row for the first crossings: distance from a Taylor series, and of the series from the plane."""
-    start = SuslovSection(body, E, k).spread(WHOLE, 1)[0]
+    start = SuslovSection(body, E, k).spread(1)[0]
     nu = float(SYSTEM.frequency(np.array(start), np.array(body.parameters)))
     truth = oracle.Along(SYSTEM, start, body.parameters, 30)
 

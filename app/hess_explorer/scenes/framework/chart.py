@@ -18,7 +18,7 @@ from hess_explorer.compute.cache import Task
 from hess_explorer.compute.cells import Outcome
 from hess_explorer.protocol.specs import Choice, Number, Places, Spec, Values
 from hess_explorer.scenes.framework.cells import COARSE, found_by_rows
-from hess_explorer.scenes.framework.chart_cells import STORED, Cells, Side, chart_row, swept
+from hess_explorer.scenes.framework.chart_cells import STORED, Cells, Side, chart_row
 from hess_explorer.scenes.framework.charted import Charts, Numbers
 from hess_explorer.scenes.framework.part import Part, part
 from hess_explorer.scenes.framework.sliders import declared, specs_of
@@ -29,7 +29,6 @@ from hess_explorer.views.layers import CellGrid, Positions
 from hess_explorer.views.picture import Corners
 from hess_explorer.views.text import digits, ranging, with_error
 from hess_mechanics import catalogue
-from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.accuracy import level
 from hess_mechanics.numerics.results import Array
 
@@ -71,17 +70,6 @@ class _Chart(Part[Any]):
         return charted.computation.number(number)
 
     @cached_property
-    def reason(self) -> str:
-        """The reason why there is no chart; an empty string if there is one."""
-        (charted, _), (x, y) = self.numbers[self.host.chart], self.axes
-        of: Any = type(self.host)
-        over = swept(of, charted, tuple(self.sides.values()))
-        for one in (x, y):
-            if one.symbol not in over:
-                return f"{self.host.chart} does not depend on {one.symbol}: choose among {', '.join(over)}."
-        return f"Both axes are {x.symbol}: choose two different parameters." if x == y else ""
-
-    @cached_property
     def key(self) -> Cells:
         """The cells; the values of both sides in this state belong to the ring and not to them."""
         x, y = self.axes
@@ -101,8 +89,6 @@ class _Chart(Part[Any]):
         if self.key in STORED:
             cells, window = STORED[self.key]
             return cells, 0, window
-        if self.reason:
-            return None
         # The number of this state comes first.
         _ = self.own
         more = self.key.charted.computation.many is not None
@@ -114,8 +100,6 @@ class _Chart(Part[Any]):
     @cached_property
     def own(self) -> Array | None:
         """Value, error and status (3, 1) in this state; None until known."""
-        if self.reason:
-            return None
         return self.work.need(Task(chart_row, self.key, (self.place, self.place), 1, 0), preview=None)
 
     @cached_property
@@ -140,8 +124,6 @@ class _Chart(Part[Any]):
 
     def choose(self, x: float, y: float) -> Values:
         """Return the parameters at a place.  Raises `ModelError` if no number is possible there."""
-        if self.reason:
-            raise InvalidParameter(self.reason)
         across, up = self.axes
         state = up.put(across.put(self.host, x), y)
         self.key.charted.values(state)
@@ -175,7 +157,7 @@ class _Chart(Part[Any]):
         """The number in this state, and what is known of the cells."""
         verdict = "" if self.own is None else self._says(*self.own[:, 0])
         if self._found is None or self.cells is None:
-            return Caption(verdict, self.reason or self.work.awaited("The chart is"))
+            return Caption(verdict, self.work.awaited("The chart is"))
         cells, coarse, _ = self._found
         rows, _, columns = cells.shape
         said = [f"{columns} × {rows} cells" + f", {rows - coarse} rows known" * (coarse > 0)]

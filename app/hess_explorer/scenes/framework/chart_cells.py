@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cache
 from typing import Any
 
 import numpy as np
@@ -11,15 +11,14 @@ import numpy as np
 from hess_explorer.compute.cache import Task
 from hess_explorer.compute.cells import evaluate, refused
 from hess_explorer.protocol.specs import places, written
-from hess_explorer.scenes.framework.charted import Arguments, Charted
+from hess_explorer.scenes.framework.charted import Charted
 from hess_explorer.scenes.framework.windows import Window
 from hess_explorer.views.layers import Range
 from hess_mechanics.dynamics.cells import centres
-from hess_mechanics.errors import ModelError
 from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.results import Array, frozen
 
-__all__ = ["STORED", "Cells", "Side", "chart_row", "swept"]
+__all__ = ["STORED", "Cells", "Side", "chart_row"]
 
 
 @dataclass(frozen=True)
@@ -60,7 +59,7 @@ class Cells:
     state: Any
     level: Level
 
-    def arguments(self, x: float, y: float) -> Arguments:
+    def arguments(self, x: float, y: float) -> Mapping[str, Any]:
         """Return the arguments at a place.  Raises `ModelError`."""
         return self.charted.values(self.y.put(self.x.put(self.state, x), y))
 
@@ -91,18 +90,3 @@ def chart_row(cells: Cells, window: Window, count: int, row: int) -> Array:
 
 STORED: dict[Cells, tuple[Array, Window]] = {}
 """Values, errors and status (n, 3, m) of stored sweeps on show, and their windows."""
-
-
-@cache
-def swept(of: Any, charted: Charted, sides: tuple[Side, ...]) -> tuple[str, ...]:
-    """Return the symbols of the parameters that change the arguments, by trial."""
-
-    def tried(state: Any) -> object:
-        try:
-            return charted.arguments(state)
-        except ModelError as error:
-            return str(error)
-
-    state = of()
-    before = tried(state)
-    return tuple(one.symbol for one in sides if any(tried(one.put(state, end)) != before for end in one.ends))

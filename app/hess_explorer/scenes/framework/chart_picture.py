@@ -30,7 +30,6 @@ def chart_picture(charts: Charts) -> Plot[Any]:
         x=lambda s: tuple(corner[0] for corner in s.charting.window),
         y=lambda s: tuple(corner[1] for corner in s.charting.window),
         first=Axes((0.0, 1.0), (0.0, 1.0)),
-        message=lambda s: s.charting.reason,
         on_click=lambda s, x, y: s.charting.choose(x, y),
         on_drag="here",
         on_box=lambda s, corners: s.charting.look_closer(corners),

@@ -42,10 +42,9 @@ class Charted:
         """The computation."""
         return self.known[self.key] if self.known else catalogue.find(self.key)
 
-    def values(self, state: Any) -> Arguments:
-        """Return the arguments of a state, within their bounds.  Raises `ModelError`."""
-        what = self.computation
-        return {name: what.parameter(name).check(value) for name, value in self.arguments(state).items()}
+    def values(self, state: Any) -> Mapping[str, Any]:
+        """Return all arguments of a state, within their bounds.  Raises `ModelError`."""
+        return self.computation.values(self.arguments(state))
 
 
 @dataclass(frozen=True)
@@ -73,7 +72,9 @@ class Charts:
         """Compute every number once over a short time, which compiles or loads its kernels.  Raises `ModelError`."""
         for one in self.charted:
             values = one.values(state)
-            short = {name: np.array([min(value, _SHORT) if name == "t" else value]) for name, value in values.items()}
+            short = {
+                name: np.array([min(value, _SHORT) if name == "duration" else value]) for name, value in values.items()
+            }
             evaluate(one.computation, one.numbers, short, DRAFT)
 
 
@@ -112,7 +113,7 @@ def of_motion(
         return {**parameters_of(s.body), **dict(zip(system.arguments, start(s), strict=True))}
 
     def averaged(s: Any) -> Arguments:
-        return motion(s) if time is None else {**motion(s), "t": time(s)}
+        return motion(s) if time is None else {**motion(s), "duration": time(s)}
 
     spectrum = (*(f"exponent-{i + 1}" for i in range(len(system.variables))), "dimension", "divergence")
     return (

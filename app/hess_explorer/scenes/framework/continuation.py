@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 import math
+from abc import abstractmethod
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from operator import itemgetter
-from typing import Protocol
+from typing import TypeVar
 
 import numpy as np
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.families import Begin
-from hess_explorer.scenes.framework.part import Host, Part
+from hess_explorer.scenes.framework.part import Part, Sectioned
 from hess_explorer.scenes.framework.periodic_search import Closed, NotFound, Place
 from hess_explorer.scenes.framework.windows import Window
 from hess_explorer.views.caption import Caption
@@ -25,6 +26,7 @@ from hess_mechanics.dynamics.periodic import apart, find_periodic
 from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.errors import ModelError
 from hess_mechanics.numerics.patience import go_on
+from hess_mechanics.numerics.results import Array
 
 __all__ = ["Continuation"]
 
@@ -46,44 +48,37 @@ _Nearest = tuple[float, mechanics.Branch, int, float, int]
 """Distance in pixels of a point of a branch, the branch, its segment, the position there, its place on the orbit."""
 
 
-class _Host(Host, Protocol):
+H_co = TypeVar("H_co", bound=Sectioned, covariant=True)
+
+
+@dataclass(frozen=True, eq=False)
+class Continuation(Part[H_co]):
+    """The known pieces of a branch; no more are computed while a slider is held."""
+
     @property
+    @abstractmethod
     def begin(self) -> Begin | None:
         """The start of the branch; None if no branch is requested."""
 
     @property
+    @abstractmethod
     def side(self) -> int:
         """Index of the coordinate drawn upwards."""
 
     @property
-    def seen(self) -> Window | None:
-        """The visible window; None while the picture is empty."""
-
-
-@dataclass(frozen=True, eq=False)
-class Continuation(Part[_Host]):
-    """The known pieces of a branch; no more are computed while a slider is held."""
+    @abstractmethod
+    def seen(self) -> Window:
+        """The visible window."""
 
     @property
-    def _symbol(self) -> str:
-        return self._begin.family.symbol
-
-    @property
-    def turns(self) -> tuple[float, ...]:
-        """The period of each coordinate, ∞ if it is not an angle.  Raises `ModelError`."""
-        return self._begin.map.turns
-
-    @property
-    def _begin(self) -> Begin:
-        assert self.host.begin is not None, "there is a branch"
-        return self.host.begin
+    def turn(self) -> float:
+        """The period of the coordinate drawn upwards, ∞ if it is not an angle.  Raises `ModelError`."""
+        return self.host.poincare.turns[self.side]
 
     @cached_property
     def _found(self) -> Closed | NotFound | None:
         """The orbit that is continued, or why there is none; None until known."""
-        if self.host.begin is None:
-            return None
-        return self.work.need(self.host.begin.search, preview=None)
+        return None if self.begin is None else self.work.need(self.begin.search, preview=None)
 
     @property
     def closed(self) -> Closed | None:
@@ -96,9 +91,10 @@ class Continuation(Part[_Host]):
         found: list[mechanics.Branch] = []
         failed: list[str] = []
         whole = True
-        if self.closed is None:
+        begin = self.begin
+        if begin is None or self.closed is None:
             return found, failed, False
-        begin = self._begin
+        low, high = begin.ends
         for upwards in (True, False):
             if begin.value == begin.ends[upwards]:
                 continue
@@ -109,14 +105,11 @@ class Continuation(Part[_Host]):
                     whole = whole and one is not None
                     break
                 found.append(one)
-                if one.heading is None or self._creeps(one):
+                advance = max(float(np.ptp(one.values)) / (high - low), float(np.ptp(one.places, axis=0).max()))
+                # Pieces hardly advance near a tangency with the section.
+                if one.heading is None or advance < _CREEPING:
                     break
         return found, failed, whole
-
-    def _creeps(self, part: mechanics.Branch) -> bool:
-        """Return whether a piece hardly advances, as near a tangency with the section."""
-        low, high = self._begin.ends
-        return max(float(np.ptp(part.values)) / (high - low), float(np.ptp(part.places, axis=0).max())) < _CREEPING
 
     @property
     def branches(self) -> list[mechanics.Branch]:
@@ -125,23 +118,19 @@ class Continuation(Part[_Host]):
 
     # ---- the mouse ----------------------------------------------------------------------------------------------
 
-    @property
-    def turn(self) -> float:
-        """The period of the coordinate drawn upwards."""
-        return self.turns[self.host.side]
+    def _pixels(self, values: Array, places: Array, x: float, y: float) -> Array:
+        """Return the pixels (n, 2) from (x, y) to places (n, d) at values (n,) of the parameter."""
+        (x0, y0), (x1, y1) = self.seen
+        up = apart((self.turn,), places[:, self.side, None], np.array([y]))[:, 0]
+        return np.column_stack([values - x, up]) * (PIXELS / (x1 - x0), PIXELS / (y1 - y0))
 
     def _nearest(self, x: float, y: float) -> _Nearest | None:
-        if self.closed is None or self.host.seen is None:
-            return None
-        (x0, y0), (x1, y1) = self.host.seen
-        scale = PIXELS / (x1 - x0), PIXELS / (y1 - y0)
         found: list[_Nearest] = []
         for branch in self.branches:
             if len(branch.values) < 2:
                 continue
             for j in range(branch.period):
-                across = apart((self.turn,), branch.places[:, j, self.host.side, None], np.array([y]))[:, 0]
-                at = np.column_stack([(branch.values - x) * scale[0], across * scale[1]])
+                at = self._pixels(branch.values, branch.places[:, j], x, y)
                 along = np.diff(at, axis=0)
                 length2 = np.maximum(np.sum(along**2, axis=1), 1e-300)
                 share = np.clip(-np.sum(at[:-1] * along, axis=1) / length2, 0.0, 1.0)
@@ -154,14 +143,15 @@ class Continuation(Part[_Host]):
     def chosen(self, x: float, y: float) -> tuple[float, Place, int] | None:
         """Return parameter, place and period of the branch's orbit at (x, y); None away from the branch."""
         near = self._nearest(x, y)
-        if near is None:
+        if near is None or self.begin is None:
             return None
         _, branch, i, share, j = near
+        turns = self.host.poincare.turns
         (a, b), (first, second), m = branch.places[i : i + 2], branch.values[i : i + 2], branch.period
-        between = np.roll(a + share * apart(self.turns, b, a), -j, axis=0)
+        between = np.roll(a + share * apart(turns, b, a), -j, axis=0)
         value = float(first + share * (second - first))
         try:
-            place = find_periodic(self._begin.family.map_at(value), between, m).places[0]
+            place = find_periodic(self.begin.family.map_at(value), between, m).places[0]
         except ModelError:
             go_on()
             value, place = float(first), a[j]
@@ -170,19 +160,15 @@ class Continuation(Part[_Host]):
             value,
             tuple(
                 float(one) if math.isinf(turn) else math.remainder(float(one), turn)
-                for one, turn in zip(place, self.turns, strict=True)
+                for one, turn in zip(place, turns, strict=True)
             ),
             m,
         )
 
     def about(self, x: float, y: float) -> str:
         """Return a line on the bifurcation, or the orbit of the branch, under the mouse."""
-        if self.closed is None or self.host.seen is None:
-            return ""
-        (x0, y0), (x1, y1) = self.host.seen
         for one in bifurcations(self.branches):
-            up = apart((self.turn,), one.places[:, self.host.side, None], np.array([y]))
-            if math.hypot((one.value - x) * PIXELS / (x1 - x0), float(np.abs(up).min()) * PIXELS / (y1 - y0)) <= _NEAR:
+            if np.hypot(*self._pixels(np.full(len(one.places), one.value), one.places, x, y).T).min() <= _NEAR:
                 return self._named(one)
         near = self._nearest(x, y)
         if near is None:
@@ -191,7 +177,7 @@ class Continuation(Part[_Host]):
         i = before + round(share)
         multipliers = ", ".join(conjugates(complex(one)) for one in branch.multipliers[i])
         return (
-            f"{self._symbol} = {digits(float(branch.values[i]))}: period {branch.period}, "
+            f"{branch.parameter} = {digits(float(branch.values[i]))}: period {branch.period}, "
             f"{branch.kinds[i]}, μ = {multipliers}"
         )
 
@@ -199,15 +185,15 @@ class Continuation(Part[_Host]):
 
     def _named(self, one: Bifurcation) -> str:
         value = f"{digits(one.value, 8)} ± {digits(one.error, 1)}"
-        return f"{one.kind} of period {len(one.places)} at {self._symbol} = {value}"
+        return f"{one.kind} of period {len(one.places)} at {self.branches[0].parameter} = {value}"
 
     @property
-    def caption(self) -> Caption | None:
-        """The caption of the branch; None until the orbit itself is known."""
-        if self._found is None:
-            return None
-        if self.closed is None:
+    def caption(self) -> Caption:
+        """The caption of the branch."""
+        if self.begin is None or isinstance(self._found, NotFound):
             return Caption("No periodic orbit found from here.")
+        if self.closed is None:
+            return Caption(self.work.awaited("A periodic orbit is"))
         found, _, whole = self._known
         orbit = self.closed.orbit
         known = bifurcations(found)
@@ -237,15 +223,12 @@ class Continuation(Part[_Host]):
             return
         if isinstance(self._found, NotFound):
             yield self._found.reason
-        if self.closed is None:
+        if self.begin is None or self.closed is None:
             return
         found, failed, whole = self._known
         yield from failed
-        if (
-            whole
-            and not failed
-            and sum(one.heading is None for one in found) < 2 - (self._begin.value in self._begin.ends)
-        ):
+        open_ends = 2 - (self.begin.value in self.begin.ends)
+        if whole and not failed and sum(one.heading is None for one in found) < open_ends:
             yield "The branch goes on: no more of it is computed."
         ended = [one.ended for one in found if one.heading is None and "the end of the range" not in one.ended]
         yield from (f"The branch ends. {why}" for why in ended)
@@ -253,7 +236,7 @@ class Continuation(Part[_Host]):
 
 def _part(begin: Begin, upwards: bool, k: int) -> mechanics.Branch | NotFound:
     """Return piece k of the branch, towards larger values of the parameter (`upwards`) or smaller ones."""
-    found = begin.orbit()
+    found = begin.search.get()
     if isinstance(found, NotFound):
         return found
     family, end, edge = begin.family, begin.ends[upwards], begin.ends[not upwards]

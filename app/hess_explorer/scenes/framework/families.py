@@ -52,15 +52,6 @@ class Begin:
     ends: tuple[float, float]
 
     @property
-    def map(self) -> ReturnMap:
-        """The return map at the start.  Raises `ModelError`."""
-        return self.family.map_at(self.value)
-
-    @property
     def search(self) -> Task[Closed | NotFound]:
         """The computation that searches for the orbit at the start.  Raises `ModelError`."""
-        return Task(sought, self.map, self.place, self.period, False)
-
-    def orbit(self) -> Closed | NotFound:
-        """Return the orbit at the start, or the reason why there is none.  Raises `ModelError`."""
-        return self.search.get()
+        return Task(sought, self.family.map_at(self.value), self.place, self.period, False)

@@ -114,10 +114,9 @@ class State:
 
     def parts(self) -> tuple[Part[Host], ...]:
         """Return the parts declared with `@part`, in the order of their declarations."""
-        declared = (
-            name for base in reversed(type(self).__mro__) for name, one in vars(base).items() if isinstance(one, part)
-        )
-        return tuple(getattr(self, name) for name in declared)
+        bases = reversed(type(self).__mro__)
+        names = dict.fromkeys(name for base in bases for name, one in vars(base).items() if isinstance(one, part))
+        return tuple(getattr(self, name) for name in names)
 
     def changed(self, values: Values) -> Self:
         """Return the state with other values of some parameters."""
@@ -307,9 +306,10 @@ class Scene(Generic[S]):
         return {spec.name: spec.default for spec in self.specs}
 
     def example(self, preset: Preset) -> dict[str, Value]:
-        """Return all numbers and places of a preset; choices such as the accuracy are left out unless it sets them."""
-        numbers = {spec.name: spec.default for spec in self.specs if not isinstance(spec, Choice)}
-        return {**numbers, **preset.values}
+        """Return all numbers and places of a preset, and the choices that any preset sets: not the accuracy."""
+        given = {name for one in self.presets for name in one.values}
+        plain = {one.name: one.default for one in self.specs if not isinstance(one, Choice) or one.name in given}
+        return {**plain, **preset.values}
 
     def of(self, values: Values, seen: Collection[str] = (), dragging: bool = False) -> S:
         """Return the state of these values, without computing anything."""

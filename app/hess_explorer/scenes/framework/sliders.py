@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import field, fields, replace
+from inspect import get_annotations
 from typing import Any
 
 from hess_explorer.protocol.specs import Choice, Formula, Number, Places, Spec, Value
@@ -83,9 +84,9 @@ def choice(label: str, options: tuple[str, ...], default: str, *, doc: str, grou
     return declared(Choice("", label, options, default, doc, group))
 
 
-def formula(label: str, default: str, reads: Callable[[str], object], *, doc: str) -> Any:
+def formula(label: str, default: str, reads: Callable[[str], object], *, doc: str, group: Group = "Body") -> Any:
     """Declare a formula; reads : raises `InvalidParameter` for texts that are none."""
-    return declared(Formula("", label, default, doc, reads=reads))
+    return declared(Formula("", label, default, doc, group, reads))
 
 
 def places(label: str, most: int, low: tuple[float, float], high: tuple[float, float], default: str = "") -> Any:
@@ -162,5 +163,11 @@ def slider_within(largest: float) -> Slider:
 
 
 def specs_of(state: type[Any]) -> tuple[Spec, ...]:
-    """Return the specifications of all parameters of a state, in the order of their declarations."""
-    return tuple(replace(one.metadata[_SPEC], name=one.name) for one in fields(state) if _SPEC in one.metadata)
+    """Return the specifications of all parameters of a state: its own, those of its bases, the choices of a chart.
+
+    A parameter that is declared again keeps its place.
+    """
+    level = {name: i for i, one in enumerate(state.__mro__) for name in get_annotations(one)}
+    declared = [one for one in fields(state) if _SPEC in one.metadata]
+    declared.sort(key=lambda one: (not one.compare, level[one.name]))
+    return tuple(replace(one.metadata[_SPEC], name=one.name) for one in declared)

@@ -22,7 +22,7 @@ from hess_explorer.views.text import digits
 from hess_mechanics.dynamics.system import Body
 from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.numerics.results import Array, Orbit
-from hess_mechanics.rigid_body.attitude import Lying, attitude_along
+from hess_mechanics.rigid_body.attitude import Attitude, attitude_along
 from hess_mechanics.rigid_body.inertia import BodyCheck, check_body
 from hess_mechanics.suslov.free import FreeMotion
 from hess_mechanics.suslov_hess.equations import HessBody
@@ -40,7 +40,7 @@ __all__ = [
 ]
 
 _LOST = 0.02
-"""Largest `Lying.defect` of a motion that is drawn, in radians."""
+"""Largest `Attitude.defect` of a motion that is drawn, in radians."""
 _TOO_LONG = Caption("Not drawn: the motion is too long.", "Its samples are too far apart to follow the rotation.")
 _WHEEL = (math.sqrt(0.5), math.sqrt(0.5), 0.0)
 """Direction of a wheel's contact, normal to e; off the axes of ω1 and ω2, about which it would pivot, not roll."""
@@ -67,12 +67,12 @@ class Solid:
     drawn: bool = True
 
     @cached_property
-    def lying(self) -> Lying:
+    def lying(self) -> Attitude:
         """The attitude along the orbit."""
         omega = self.omega if self.omega.shape[1] == 3 else np.column_stack([self.omega, np.zeros(len(self.times))])
         return attitude_along(self.times, omega, self.gamma)
 
-    def in_space(self, held: bool = False) -> tuple[Lying, Array] | None:
+    def in_space(self, held: bool = False) -> tuple[Attitude, Array] | None:
         """Return attitude and times, every second sample while a slider is held; None if nothing is drawn."""
         if not self.drawn or self.lying.defect > _LOST:
             return None

@@ -15,7 +15,7 @@ from hess_explorer.views.layers import Axes
 from hess_mechanics.dynamics.orbit import solve
 from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.dynamics.shadowing import HALF_A_PIXEL, away_from, errors_in_pixels, torn_away
-from hess_mechanics.dynamics.trade import Alike, LevelCost, measure, measure_until
+from hess_mechanics.dynamics.trade import Alike, LevelCost, enough, measure
 from hess_mechanics.dynamics.work_precision import longest_span
 from hess_mechanics.dynamics.work_precision import truth as exactly
 from hess_mechanics.errors import ModelError
@@ -97,7 +97,7 @@ def bare(state: S) -> S:
 def measured(trial: Trial[S], state: S) -> tuple[LevelCost, ...] | Refused:
     """Return time and error of each level, for a `bare` state.  Raises `OverBudget`."""
     try:
-        return measure(*_of(trial, state), alike=trial.alike)
+        return tuple(measure(*_of(trial, state), alike=trial.alike))
     except OverBudget:
         # A later attempt may succeed.
         raise
@@ -108,7 +108,7 @@ def measured(trial: Trial[S], state: S) -> tuple[LevelCost, ...] | Refused:
 def needed(trial: Trial[S], state: S) -> str:
     """Return the cheapest level with an invisible error; `standard` if it cannot be computed.  Raises `OverBudget`."""
     try:
-        return measure_until(*_of(trial, state), trial.seen, trial.alike)
+        return enough(measure(*_of(trial, state), alike=trial.alike), trial.seen)
     except OverBudget:
         raise
     except ModelError:

@@ -6,8 +6,9 @@ from collections.abc import Sequence
 
 from hess_explorer.protocol.specs import Value, Values, places, written
 from hess_mechanics.dynamics.cells import Window
+from hess_mechanics.dynamics.sampling import PIXELS
 
-__all__ = ["Window", "boxed", "inside", "tidy_window", "window_of"]
+__all__ = ["Window", "boxed", "inside", "pixels_in", "tidy_window", "window_of"]
 
 
 def tidy_window(text: Value) -> str:
@@ -23,6 +24,11 @@ def window_of(text: Value, full: Window) -> Window:
     """Return the window of an admitted text; `full` if the text is empty."""
     corners = places(text)
     return (corners[0], corners[1]) if len(corners) == 2 else full
+
+
+def pixels_in(window: Window) -> tuple[float, ...]:
+    """Return the pixels per unit of each coordinate in a picture of the window."""
+    return tuple(PIXELS / (high - low) for low, high in zip(*window, strict=True))
 
 
 def inside(points: Sequence[tuple[float, float]], window: Window) -> list[tuple[float, float]]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import TypeVar
+from typing import Protocol, TypeVar
 
 import numpy as np
 
@@ -13,68 +13,79 @@ from hess_explorer.views.plane.periodic import seen, sign_of, within
 from hess_mechanics.dynamics.continuation import Bifurcation, Branch
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["bifurcations", "layers", "strands"]
+__all__ = ["bifurcations", "layers"]
 
 S = TypeVar("S")
 _SHORT = {"Neimark–Sacker": "N–S"}
+_LOOKS = (
+    ("attracts", theme.STABLE, "solid", "branch of a stable periodic orbit", "stable"),
+    ("neither", theme.SHEET, "solid", "branch of an elliptic or parabolic one", "elliptic"),
+    ("repels", theme.UNSTABLE, "dashed", "branch of an unstable one", "unstable"),
+)
+"""Colour, dash, label and tag of each sign of `sign_of`."""
 
 
-def strands(branch: Branch, side: int, sign: str) -> list[Array]:
+def _strands(branch: Branch, side: int, sign: str) -> list[Array]:
     """Return the parts (n, 2) of a branch with one sign of `sign_of`: the parameter and one coordinate of each place.
 
     At a change of sign the parts reach to the bifurcation.
     """
     signs = [sign_of(kind) for kind in branch.kinds]
-    found: list[Array] = []
+    runs: list[list[tuple[float, float]]] = []
     for j in range(branch.period):
         run: list[tuple[float, float]] = []
         for i, (value, places) in enumerate(zip(branch.values, branch.places, strict=True)):
-            here = (float(value), float(places[j, side]))
             between = sorted(
                 (one for one in branch.bifurcations if one.after == i - 1),
                 key=lambda one: float(np.abs(one.places - branch.places[max(0, i - 1)]).max()),
             )
             for one in between:
                 met = (one.value, float(one.places[j, side]))
-                run = _ended(found, [*run, met] if run else [])
+                runs.append([*run, met] if run else [])
                 run = [met] if signs[i] == sign else []
             # Without a bifurcation between them, a point of neither sign belongs to the previous part.
             if signs[i] == sign or (run and signs[i] == "neither"):
-                run.append(here)
+                run.append((float(value), float(places[j, side])))
             else:
-                run = _ended(found, run)
-        _ended(found, run)
-    return found
+                runs.append(run)
+                run = []
+        runs.append(run)
+    return [np.array(run) for run in runs if len(run) > 1]
 
 
-def _ended(found: list[Array], run: list[tuple[float, float]]) -> list[tuple[float, float]]:
-    if len(run) > 1:
-        found.append(np.array(run))
-    return []
+class Branched(Protocol):
+    """Branches with the coordinate that is drawn upwards: its index, and its period or ∞."""
+
+    @property
+    def branches(self) -> Sequence[Branch]: ...
+
+    @property
+    def side(self) -> int: ...
+
+    @property
+    def turn(self) -> float: ...
 
 
-def layers(
-    branches: Callable[[S], Sequence[Branch]], side: Callable[[S], int], turn: Callable[[S], float]
-) -> Layers[S]:
-    """Return the branches over the parameter: one coordinate of all places, with period `turn` or ∞."""
+def layers(of: Callable[[S], Branched]) -> Layers[S]:
+    """Return the branches of a state over the parameter: one coordinate of all places."""
 
     def parts(sign: str) -> Callable[[S, Axes], list[Array]]:
-        def of(state: S, axes: Axes) -> list[Array]:
-            up = Axes(axes.y, axes.x)
+        def drawn(state: S, axes: Axes) -> list[Array]:
+            shown, up = of(state), Axes(axes.y, axes.x)
             return [
                 part[:, ::-1]
-                for one in branches(state)
-                for strand in strands(one, side(state), sign)
-                for part in within(strand[:, ::-1], turn(state), up)
+                for one in shown.branches
+                for strand in _strands(one, shown.side, sign)
+                for part in within(strand[:, ::-1], shown.turn, up)
             ]
 
-        return of
+        return drawn
 
     def marked(state: S, axes: Axes) -> list[tuple[float, float, str]]:
-        up, found = Axes(axes.y, axes.x), []
-        for one in bifurcations(branches(state)):
-            y = one.places[:, side(state)]
-            there = seen(np.column_stack([y, np.full(len(y), one.value)]), turn(state), up)
+        shown, up, found = of(state), Axes(axes.y, axes.x), []
+        for one in bifurcations(shown.branches):
+            y = one.places[:, shown.side]
+            there = seen(np.column_stack([y, np.full(len(y), one.value)]), shown.turn, up)
             inside = [(float(x), float(height)) for height, x in there if axes.x[0] <= x <= axes.x[1]]
             # Only the highest place carries the name, as names at all places would overlap.
             found += [
@@ -88,30 +99,9 @@ def layers(
         return np.array(found).T if found else None
 
     return (
-        curves(
-            "branch-attracts",
-            within=parts("attracts"),
-            color=theme.STABLE,
-            width=3.0,
-            label="branch of a stable periodic orbit",
-            tag="stable",
-        ),
-        curves(
-            "branch-neither",
-            within=parts("neither"),
-            color=theme.SHEET,
-            width=3.0,
-            label="branch of an elliptic or parabolic one",
-            tag="elliptic",
-        ),
-        curves(
-            "branch-repels",
-            within=parts("repels"),
-            color=theme.UNSTABLE,
-            width=3.0,
-            dash="dashed",
-            label="branch of an unstable one",
-            tag="unstable",
+        *(
+            curves(f"branch-{sign}", within=parts(sign), color=color, width=3.0, dash=dash, label=label, tag=tag)
+            for sign, color, dash, label, tag in _LOOKS
         ),
         points(
             "bifurcations",

@@ -11,7 +11,7 @@ import numpy as np
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.graphs.graph import ANGLE, ANGLE_TICKS
-from hess_explorer.views.layers import Layers, curves, line, mapped, points
+from hess_explorer.views.layers import curves, line, mapped, points
 from hess_explorer.views.picture import Values
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits
@@ -65,7 +65,11 @@ def picture(
     dot: tuple[str, str] | None = None,
     on_click: Click[S] | None = None,
 ) -> Plot[S]:
-    """Return the plot of a circle map (None on the separatrix), with fixed points or density and a cobweb."""
+    """Return the plot of a circle map (None on the separatrix), with fixed points or density and a cobweb.
+
+    Stable fixed points are filled, unstable ones hollow.
+    """
+    here = ("phi", "theta")
     return Plot(
         name="circle",
         title=title,
@@ -78,50 +82,44 @@ def picture(
         message=lambda s: "" if map(s) is not None else "Separatrix: no return",
         on_click=on_click,
         starts=on_click is not None,
-        layers=_layers(map, iterates),
-    )
-
-
-def _layers(map: Callable[[S], CircleMap | None], iterates: Callable[[S], Array | None]) -> Layers[S]:
-    """Return the layers: diagonal, Θ, stable (filled) and unstable (hollow) fixed points or density, cobweb."""
-    here = ("phi", "theta")
-    return (
-        line(
-            "diagonal",
-            mapped(map, lambda theta: (ANGLE, ANGLE)),
-            columns=here,
-            color=theme.MUTED,
-            dash="dotted",
-            width=1.5,
-            tag="diagonal",
-        ),
-        curves("density", mapped(map, _density), color=theme.STABLE, width=1.5, label="density", tag="density"),
-        line(
-            "cobweb",
-            mapped(iterates, lambda found: cobweb(found[: _COBWEB + 1])),
-            columns=here,
-            color=theme.ORBIT,
-            width=1,
-        ),
-        curves("map", mapped(map, _copies), color=theme.MAP, width=2.5, label="Θ", tag="Θ"),
-        points(
-            "stable",
-            mapped(map, lambda theta: _fixed(theta, True)),
-            columns=here,
-            size=12,
-            edge_width=3,
-            color=theme.STABLE,
-            tag="stable",
-        ),
-        points(
-            "unstable",
-            mapped(map, lambda theta: _fixed(theta, False)),
-            columns=here,
-            size=12,
-            edge_width=3,
-            hollow=True,
-            color=theme.UNSTABLE,
-            tag="unstable",
+        layers=(
+            line(
+                "diagonal",
+                mapped(map, lambda theta: (ANGLE, ANGLE)),
+                columns=here,
+                color=theme.MUTED,
+                dash="dotted",
+                width=1.5,
+                tag="diagonal",
+            ),
+            curves("density", mapped(map, _density), color=theme.STABLE, width=1.5, label="density", tag="density"),
+            line(
+                "cobweb",
+                mapped(iterates, lambda found: cobweb(found[: _COBWEB + 1])),
+                columns=here,
+                color=theme.ORBIT,
+                width=1,
+            ),
+            curves("map", mapped(map, _copies), color=theme.MAP, width=2.5, label="Θ", tag="Θ"),
+            points(
+                "stable",
+                mapped(map, lambda theta: _fixed(theta, True)),
+                columns=here,
+                size=12,
+                edge_width=3,
+                color=theme.STABLE,
+                tag="stable",
+            ),
+            points(
+                "unstable",
+                mapped(map, lambda theta: _fixed(theta, False)),
+                columns=here,
+                size=12,
+                edge_width=3,
+                hollow=True,
+                color=theme.UNSTABLE,
+                tag="unstable",
+            ),
         ),
     )
 

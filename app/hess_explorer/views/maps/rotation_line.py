@@ -3,84 +3,80 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from typing import TypeVar
 
 import numpy as np
 
 from hess_explorer.views import theme
 from hess_explorer.views.graphs.graph import pieces
-from hess_explorer.views.layers import Axes, Layer, Layers, curves, levels, ring
+from hess_explorer.views.layers import Axes, Layers, curves, levels, ring
 from hess_mechanics.numerics.results import Array
-from hess_mechanics.suslov_hess.rotation_number import ParameterLine, TorusValues
+from hess_mechanics.suslov_hess.rotation_number import TorusValues
 
-__all__ = ["JUMP", "RHO", "TRACE", "rho_layers", "trace_layers"]
+__all__ = ["RHO", "TRACE", "Tori", "rho_layers", "trace_layers"]
 
 S = TypeVar("S")
-LineOf = Callable[[S], ParameterLine]
-ValuesOf = Callable[[S], TorusValues]
-
 RHO, TRACE = (-0.52, 0.52), (0.0, 6.0)
 """Vertical axes."""
-JUMP = 0.3
+_JUMP = 0.3
 """Points whose ρ differs by more are not joined, as ρ jumps from −½ to ½."""
 _DRAWN_TRACE = 50.0
 """Larger traces are clipped to this height beyond the frame."""
 
 
-def _curve(line: ParameterLine, values: TorusValues, y: Array, jump: float) -> list[Array]:
-    return pieces(np.column_stack([line.places(len(y)), y]), values.possible, jump)
+@dataclass(frozen=True)
+class Tori:
+    """Tori along a line of parameters.
 
+    x : (n,) the parameter; values : ρ and trace of each torus; here : the parameter of the torus on show.
+    """
 
-def _here(line: LineOf[S], place: Callable[[S], float], curve: Callable[[S], Array]) -> tuple[Layer[S]]:
-    """Return a ring on a curve at the torus on show, if it is in the frame."""
+    x: Array
+    values: TorusValues
+    here: float
 
-    def chosen(state: S, axes: Axes) -> list[tuple[float, float]]:
-        x, heights = place(state), curve(state)
-        there = np.isfinite(heights)
+    def curve(self, y: Array, jump: float = math.inf) -> list[Array]:
+        """Return the parts of a graph over the possible tori, cut at jumps."""
+        return pieces(np.column_stack([self.x, y]), self.values.possible, jump)
+
+    @property
+    def trace(self) -> Array:
+        """|t|, clipped beyond the frame."""
+        return np.minimum(self.values.trace, _DRAWN_TRACE)
+
+    def ring(self, y: Array, axes: Axes) -> list[tuple[float, float]]:
+        """Return the place of the torus on show on a graph, if it is in the frame."""
+        there = np.isfinite(y)
         if not there.any():
             return []
-        y = float(np.interp(x, line(state).places(len(heights))[there], heights[there]))
-        return [(x, y)] if axes.x[0] <= x <= axes.x[1] and axes.y[0] <= y <= axes.y[1] else []
-
-    return (ring("chosen", within=chosen, size=18),)
+        height = float(np.interp(self.here, self.x[there], y[there]))
+        inside = axes.x[0] <= self.here <= axes.x[1] and axes.y[0] <= height <= axes.y[1]
+        return [(self.here, height)] if inside else []
 
 
 def rho_layers(
-    line: LineOf[S],
-    values: ValuesOf[S],
-    perturbed: Callable[[S], Array | None],
-    rational: Callable[[S], float | None],
-    place: Callable[[S], float],
+    tori: Callable[[S], Tori], perturbed: Callable[[S], Array | None], rational: Callable[[S], Sequence[float]]
 ) -> Layers[S]:
-    """Return the layers: ρ along a line, ρ of another family, and the rational ρ, if a torus has it."""
+    """Return the layers: ρ along a line, ρ of another family if known, and the rational ρ that a torus has."""
 
     def other(state: S) -> list[Array]:
         found = perturbed(state)
-        return [] if found is None else _curve(line(state), values(state), found, JUMP)
-
-    def sought(state: S) -> list[float]:
-        height = rational(state)
-        return [] if height is None else [height]
+        return [] if found is None else tori(state).curve(found, _JUMP)
 
     return (
-        levels("levels", sought),
+        levels("levels", rational),
         curves("other", other, color=theme.MAP, dash="dashed", label="ρ of Θ(φ + ε sin 3φ)", tag="Θ(φ + ε sin 3φ)"),
-        curves(
-            "rho", lambda s: _curve(line(s), values(s), values(s).rho, JUMP), color=theme.ORBIT, label="ρ, trace of Θ"
-        ),
-        *_here(line, place, lambda s: values(s).rho),
+        curves("rho", lambda s: tori(s).curve(tori(s).values.rho, _JUMP), color=theme.ORBIT, label="ρ, trace of Θ"),
+        ring("chosen", within=lambda s, axes: tori(s).ring(tori(s).values.rho, axes), size=18),
     )
 
 
-def trace_layers(line: LineOf[S], values: ValuesOf[S], place: Callable[[S], float]) -> Layers[S]:
+def trace_layers(tori: Callable[[S], Tori]) -> Layers[S]:
     """Return the layers of |t| along a line; tori with |t| > 2 are locked."""
-
-    def trace(state: S) -> Array:
-        return np.minimum(values(state).trace, _DRAWN_TRACE)
-
     return (
         levels("levels", lambda s: [2.0]),
-        curves("t", lambda s: _curve(line(s), values(s), trace(s), math.inf), color=theme.ORBIT),
-        *_here(line, place, trace),
+        curves("t", lambda s: tori(s).curve(tori(s).trace), color=theme.ORBIT),
+        ring("chosen", within=lambda s, axes: tori(s).ring(tori(s).trace, axes), size=18),
     )

@@ -49,24 +49,19 @@ def over_square(
         y_ticks=POLAR_TICKS,
         on_click=lambda s, x, y: {"phi": x, "theta": y},
         on_drag="here",
-        layers=_layers(theta_plus, here),
-    )
-
-
-def _layers(theta_plus: Callable[[S], Array], here: Callable[[S], tuple[float, float]]) -> Layers[S]:
-    """Return the layers: θ⁺ at the centres of cells (rows of equal θ⁻), a line at θ⁻ and a ring at (φ, θ⁻)."""
-    return (
-        image(
-            "theta",
-            lambda s: CellGrid(theta_plus(s), ANGLE, POLAR),
-            palette=theme.NUMBER_MAP,
-            low=0.0,
-            high=math.pi,
-            smooth=True,
-            legend=(Sign("θ⁺ from 0 to π", "box rho", f"background: {theme.gradient(Cividis256)}"),),
+        layers=(
+            image(
+                "theta",
+                lambda s: CellGrid(theta_plus(s), ANGLE, POLAR),
+                palette=theme.NUMBER_MAP,
+                low=0.0,
+                high=math.pi,
+                smooth=True,
+                legend=(Sign("θ⁺ from 0 to π", "box rho", f"background: {theme.gradient(Cividis256)}"),),
+            ),
+            line("line", lambda s: (ANGLE, (here(s)[1],) * 2), color="white", dash="dashed"),
+            *target("here", lambda s: [here(s)], size=19.0),
         ),
-        line("line", lambda s: (ANGLE, (here(s)[1],) * 2), color="white", dash="dashed"),
-        *target("here", lambda s: [here(s)], size=19.0),
     )
 
 

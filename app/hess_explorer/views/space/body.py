@@ -14,7 +14,7 @@ from hess_explorer.views.layers import Sign, Sources, column
 from hess_explorer.views.picture import Picture
 from hess_explorer.views.space.poisson_sphere import Circle, Direction, Mark, drawn
 from hess_mechanics.numerics.results import Array
-from hess_mechanics.rigid_body.attitude import Attitude, Lying, travelled
+from hess_mechanics.rigid_body.attitude import Attitude, travelled
 from hess_mechanics.rigid_body.inertia import paired_weights
 
 __all__ = ["BodyInSpace", "Curve", "Rod", "Shape", "Trail", "Wheels", "seen_in_space"]
@@ -150,7 +150,7 @@ class BodyInSpace(Picture[S]):
     """
 
     shape: Callable[[S], Shape | None] = lambda state: None
-    motion: Callable[[S], tuple[Attitude | Lying, Array] | None] | None = None
+    motion: Callable[[S], tuple[Attitude, Array] | None] | None = None
     wheels: Wheels | None = None
     trail: Callable[[S], Trail | None] = lambda state: None
     mass: Callable[[S], Array | None] = lambda state: None

@@ -5,19 +5,19 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import ClassVar, Protocol
+from typing import ClassVar
 
 import numpy as np
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.families import Family
-from hess_explorer.scenes.framework.part import Host, Part
+from hess_explorer.scenes.framework.part import Part
 from hess_explorer.scenes.framework.periodic_search import Place
 from hess_explorer.scenes.framework.points import stages_of
-from hess_explorer.scenes.framework.windows import Window
 from hess_explorer.scenes.framework.work import drift_status
+from hess_explorer.scenes.parts.diagrams.controls import BACKWARD, FALLING, RISING
+from hess_explorer.scenes.parts.diagrams.growing_diagram import OrbitDiagram
 from hess_explorer.views.plane import density as view
-from hess_mechanics.dynamics.orbit_diagram import Diagram
 from hess_mechanics.dynamics.section_density import Visits, visits_over
 from hess_mechanics.numerics.accuracy import Accuracy, Kind, cheapest, plan
 from hess_mechanics.numerics.results import Array
@@ -40,26 +40,8 @@ _NEAR = 3
 """Rows within which the way back counts as the same as the way there."""
 
 
-class _Host(Host, Protocol):
-    @property
-    def family(self) -> Family: ...
-
-    @property
-    def frame(self) -> Window: ...
-
-    @property
-    def side(self) -> int: ...
-
-    @property
-    def along_values(self) -> Array: ...
-
-    @property
-    def branches(self) -> Mapping[str, Sequence[Diagram]]:
-        """The known pieces of each way."""
-
-
 @dataclass(frozen=True, eq=False)
-class DiagramDensity(Part[_Host]):
+class DiagramDensity(Part[OrbitDiagram]):
     """Points of the orbits of a diagram, counted in the pixels of the window.
 
     The diagram gives the place to which the orbit settles at each of its values.  Between two values there are further
@@ -68,15 +50,15 @@ class DiagramDensity(Part[_Host]):
     forward : direction of time of each way: backward in time, back, and there, in this order.
     """
 
-    forward: ClassVar[Mapping[str, bool]] = {"backward": False, "falling": True, "rising": True}
+    forward: ClassVar[Mapping[str, bool]] = {BACKWARD: False, FALLING: True, RISING: True}
 
     @cached_property
     def _ends(self) -> dict[str, Array]:
         """The last place at each value, in rising order, by way; only of ways that are complete."""
         return {
-            way: np.concatenate([one.ends for one in parts])[:: -1 if way == "falling" else 1]
-            for way, parts in self.host.branches.items()
-            if sum(len(one.values) for one in parts) == self.host.along_values.size
+            way: np.concatenate([one.ends for one in parts])[:: -1 if way == FALLING else 1]
+            for way, parts in self.host.pieces.items()
+            if self.host.progress[way] == self.host.along_values.size
         }
 
     @property
@@ -91,7 +73,7 @@ class DiagramDensity(Part[_Host]):
         values = x0 + shares * (x1 - x0)
         starts = ends[np.rint(shares * (len(ends) - 1)).astype(int)]
         points, stages = stages_of(_FIRST, _STAGES[self.work.chosen], _GROWTH)
-        first = max(1, points // (len(self.host.branches) * self._columns))
+        first = max(1, points // (len(self.host.pieces) * self._columns))
         level = plan(Kind.SECTION, cheapest(_ERRORS * (y1 - y0) / _ROWS)).level
         groups = (
             _Columns(
@@ -109,33 +91,29 @@ class DiagramDensity(Part[_Host]):
         return [[Task(_stage, one, number) for number in range(stages)] for one in groups]
 
     @cached_property
-    def _found(self) -> dict[str, list[Visits | None]]:
-        """The newest known visits of each group of columns, by way; none while a slider is held."""
+    def _found(self) -> list[tuple[str, Visits | None]]:
+        """Way and newest known visits of each group of columns; none while a slider is held."""
         if self.work.dragging:
-            return {}
-        chains = {way: self._chains(way) for way in self.forward if way in self._ends}
-        found = iter(self.work.newest([one for way in chains.values() for one in way], last=True))
-        return {way: [next(found) for _ in groups] for way, groups in chains.items()}
-
-    @property
-    def _visits(self) -> list[Visits]:
-        return [one for groups in self._found.values() for one in groups if one is not None]
+            return []
+        chains = [(way, chain) for way in self.forward if way in self._ends for chain in self._chains(way)]
+        found = self.work.newest([chain for _, chain in chains], last=True)
+        return [(way, one) for (way, _), one in zip(chains, found, strict=True)]
 
     @property
     def points(self) -> int:
         """The number of known points in the window."""
-        return sum(one.points for one in self._visits)
+        return sum(one.points for _, one in self._found if one is not None)
 
     @property
     def _complete(self) -> bool:
         """True if all ways are known in all columns."""
-        return set(self._found) == set(self.host.branches) and all(
-            one is not None for groups in self._found.values() for one in groups
+        return {way for way, one in self._found if one is not None} == set(self.host.pieces) and all(
+            one is not None for _, one in self._found
         )
 
     def counts(self, way: str) -> Array:
         """Return the points (n, m) of a way in each pixel."""
-        groups = [one.counts for one in self._found.get(way, ()) if one is not None]
+        groups = [one.counts for name, one in self._found if one is not None and name == way]
         return np.concatenate(groups, axis=1) if groups else np.zeros((_ROWS, self._columns), np.uint32)
 
     @cached_property
@@ -159,7 +137,7 @@ class DiagramDensity(Part[_Host]):
         """Yield the size and drift of the density."""
         if self.asked("_found") and self.points:
             yield f"density {self.points} points"
-            yield from drift_status(one.drift for one in self._visits)
+            yield from drift_status(one.drift for _, one in self._found if one is not None)
 
 
 @dataclass(frozen=True)

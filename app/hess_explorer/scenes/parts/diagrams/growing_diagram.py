@@ -1,133 +1,55 @@
-"""An orbit diagram of a section over one parameter, computed piece by piece."""
+"""An orbit diagram of a section over one parameter, computed piece by piece, and a branch over it."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import product
-from typing import Protocol
 
 import numpy as np
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.specs import Values, written
 from hess_explorer.protocol.specs import places as points_of
+from hess_explorer.scenes.framework.continuation import Continuation
 from hess_explorer.scenes.framework.families import Begin, Family
-from hess_explorer.scenes.framework.part import Part, Sectioned, Start
+from hess_explorer.scenes.framework.part import Part, Start
 from hess_explorer.scenes.framework.periodic_search import NONE, PERIODS
-from hess_explorer.scenes.framework.sliders import TURN, choice, specs_of
+from hess_explorer.scenes.framework.sliders import specs_of
 from hess_explorer.scenes.framework.windows import Window, tidy_window, window_of
+from hess_explorer.scenes.parts.diagrams.controls import (
+    BACKWARD,
+    COORDINATES,
+    FALLING,
+    FARTHEST,
+    FOLLOWED,
+    RISING,
+    WAYS,
+    DiagramControls,
+)
+from hess_explorer.scenes.parts.diagrams.courses import Course, cropped, doublings, piece
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import Range
 from hess_explorer.views.plane.section_plane import joined
 from hess_explorer.views.text import digits
 from hess_mechanics.chaplygin_ball.ball_section import BallSection
 from hess_mechanics.dynamics.orbit_diagram import Cascade, Diagram, doubling_seen
-from hess_mechanics.dynamics.parameter_diagram import diagram, doublings, nearest_place
 from hess_mechanics.errors import OutsideRegion
-from hess_mechanics.numerics.accuracy import Accuracy, Kind, plan
+from hess_mechanics.numerics.accuracy import Kind, plan
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov.suslov_section import SuslovSection
 
-__all__ = [
-    "ANEW",
-    "BACKWARD",
-    "BOUNDS",
-    "COORDINATES",
-    "FALLING",
-    "FARTHEST",
-    "FOLLOWED",
-    "RISING",
-    "WAYS",
-    "OrbitDiagram",
-    "parameter_of_diagram",
-]
+__all__ = ["DiagramBranch", "OrbitDiagram"]
 
-COORDINATES = ("ψ", "δ")
-RISING, FALLING, BACKWARD = "rising", "falling", "backward"
-WAYS = {
-    "there and back, and backward in time": (RISING, FALLING, BACKWARD),
-    "there and back": (RISING, FALLING),
-    "there, and backward in time": (RISING, BACKWARD),
-}
-FOLLOWED, ANEW = "where it was at the value before", "at the chosen place"
-FARTHEST = (-1e3, 1e3)
-BOUNDS = ((FARTHEST[0], -TURN), (FARTHEST[1], TURN))
-_TOGETHER = 30
-"""Values of the parameter computed at once: few enough that points arrive soon."""
 _FEW = 30
 """Largest number of values while a slider is held."""
-_DOUBLINGS = 4
 _GLANCES = 12
 """Values of the parameter from which the vertical range is taken."""
-_BOTH = 2.5
-"""Largest height of attractor and repeller together, in heights of the attractor, at which both are in sight."""
-_FEW_FAR = 0.05
-"""Share of these values that do not count."""
-_ROOM, _LEAST = 0.1, 0.01
-"""Room above and below, in heights of what is there, and at least in those of the section."""
-
-
-def parameter_of_diagram(symbols: tuple[str, ...], default: str) -> str:
-    """Declare the control that selects the parameter of the diagram."""
-    declared: str = choice(
-        "Parameter of the diagram",
-        symbols,
-        default,
-        doc="Parameter on the horizontal axis; all others keep their values.",
-    )
-    return declared
-
-
-class _Host(Sectioned, Protocol):
-    @property
-    def poincare(self) -> SuslovSection | BallSection:
-        """The section γ3 = 0.  Raises `ModelError`."""
-
-    @property
-    def symbols(self) -> Mapping[str, str]:
-        """The symbol of each parameter of the section → its name."""
-
-    @property
-    def along(self) -> str: ...
-
-    @property
-    def first(self) -> float: ...
-
-    @property
-    def last(self) -> float: ...
-
-    @property
-    def shown(self) -> str: ...
-
-    @property
-    def ways(self) -> str: ...
-
-    @property
-    def begins(self) -> str: ...
-
-    @property
-    def steps(self) -> float: ...
-
-    @property
-    def transient(self) -> float: ...
-
-    @property
-    def count(self) -> float: ...
-
-    @property
-    def window(self) -> str: ...
-
-    @property
-    def branch(self) -> str: ...
-
-    @property
-    def chosen(self) -> str: ...
 
 
 @dataclass(frozen=True, eq=False)
-class OrbitDiagram(Part[_Host]):
+class OrbitDiagram(Part[DiagramControls]):
     """The points to which the orbits of a section settle, over one of its parameters."""
 
     def admitted(self, notes: list[str]) -> Values:
@@ -158,40 +80,23 @@ class OrbitDiagram(Part[_Host]):
         Raises `OutsideRegion`.
         """
         (chosen,) = points_of(self.host.chosen)[-1:]
-        if self.host.poincare.states_at(*np.array(chosen)[:, None])[1][0]:
+        if self.poincare.states_at(*np.array(chosen)[:, None])[1][0]:
             return chosen
-        other = self.host.poincare.somewhere()
-        if other is None:
+        others = self.poincare.spread(1)
+        if not others:
             raise OutsideRegion("No motion of this energy crosses γ₃ = 0: choose a larger h.")
-        x, y = self.host.poincare.places_of(np.array([other]))[0]
+        x, y = self.poincare.places_of(np.array(others))[0]
         return float(x), float(y)
 
     @property
     def start(self) -> Start:
         """The initial state of the orbit on show."""
-        return tuple(map(float, self.host.poincare.states_at(*np.array(self.place)[:, None])[0][0]))
-
-    @property
-    def begin(self) -> Begin | None:
-        """The start of the branch of a periodic orbit: the requested one, or the one that doubles first, if any."""
-        at, place, period = self.at, self.place, PERIODS.get(self.host.branch)
-        if self.host.branch == NONE:
-            if self._doubling is None:
-                return None
-            at, places, _ = self._doubling
-            place, period = tuple(places[0].tolist()), len(places)
-        (low, _), (high, _) = self.frame
-        return Begin(self.family, at, place, period, (min(low, at), max(high, at)))
-
-    @property
-    def seen(self) -> Window | None:
-        """The visible window, for the branch; None while it is unknown."""
-        return self.frame if self.height else None
+        return tuple(map(float, self.poincare.states_at(*np.array(self.place)[:, None])[0][0]))
 
     @cached_property
     def _window(self) -> Window:
         """The chosen window, or the whole diagram."""
-        low, high = self.host.poincare.window[self.side]
+        low, high = self.poincare.window[self.side]
         return window_of(self.host.window, ((self.host.first, low), (self.host.last, high)))
 
     @cached_property
@@ -200,8 +105,9 @@ class OrbitDiagram(Part[_Host]):
         (left, low), (right, high) = self._window
         if self.host.window:
             return low, high
-        cropped = Task(_cropped, self.family, (left, right), self.place, self.side, (low, high))
-        return self.work.need(cropped, preview=None)
+        values = tuple(np.linspace(left, right, _GLANCES).tolist())
+        glance = Course(self.family, values, self.place, 200, 30, True, plan(Kind.SECTION, "draft").level)
+        return self.work.need(Task(cropped, glance, self.side, (low, high)), preview=None)
 
     @cached_property
     def frame(self) -> Window:
@@ -238,12 +144,12 @@ class OrbitDiagram(Part[_Host]):
         return np.linspace(self.frame[0][0], self.frame[1][0], steps)
 
     @cached_property
-    def _courses(self) -> dict[str, _Course]:
+    def _courses(self) -> dict[str, Course]:
         """The course of each requested way."""
         level = self.work.plan(Kind.SECTION).level
         left, shown = (40, 20) if self.work.dragging else (int(self.host.transient), int(self.host.count))
-        values, follow = tuple(self.along_values.tolist()), self.host.begins == FOLLOWED
-        rising = _Course(self.family, values, self.place, left, shown, follow, False, level)
+        values = tuple(self.along_values.tolist())
+        rising = Course(self.family, values, self.place, left, shown, self.host.begins == FOLLOWED, level)
         courses = {
             RISING: rising,
             FALLING: replace(rising, values=values[::-1], before=rising),
@@ -252,21 +158,27 @@ class OrbitDiagram(Part[_Host]):
         return {way: courses[way] for way in WAYS[self.host.ways]}
 
     @cached_property
-    def branches(self) -> dict[str, list[Diagram]]:
+    def pieces(self) -> dict[str, list[Diagram]]:
         """The known pieces of each way, in order."""
-        found: dict[str, list[Diagram | None]] = {way: [] for way in self._courses}
-        pieces = product(self._courses, range(self._courses[RISING].pieces))
+        found: dict[str, list[Diagram]] = {way: [] for way in self._courses}
         # The way back comes last, because it starts where the way there ends.
-        for way, i in sorted(pieces, key=lambda one: (one[0] == FALLING, one[1])):
-            task = Task(_piece, self._courses[way], i)
-            found[way].append(self.work.need(task, preview=task if self.work.dragging else None))
-        return {way: [one for one in parts if one is not None] for way, parts in found.items()}
+        numbers = product(self._courses, self._courses[RISING].pieces)
+        for way, i in sorted(numbers, key=lambda one: (one[0] == FALLING, one[1])):
+            task = Task(piece, self._courses[way], i)
+            known = self.work.need(task, preview=task if self.work.dragging else None)
+            found[way] += [] if known is None else [known]
+        return found
+
+    @property
+    def progress(self) -> dict[str, int]:
+        """The number of known values of each way."""
+        return {way: sum(len(one.values) for one in some) for way, some in self.pieces.items()}
 
     def points(self, way: str) -> Array | None:
         """Return the drawn points (2, n) of a way."""
         parts = [
             np.column_stack([np.full(len(some), value), some[:, self.side]])
-            for one in self.branches.get(way, ())
+            for one in self.pieces.get(way, ())
             for value, some in zip(one.values, one.places, strict=True)
             if len(some)
         ]
@@ -278,16 +190,15 @@ class OrbitDiagram(Part[_Host]):
         return not self.work.dragging and self.work.level.name != "draft"
 
     @cached_property
-    def _doubling(self) -> tuple[float, Array, float] | None:
+    def doubling(self) -> tuple[float, Array, float] | None:
         """The first doubling seen, see `doubling_seen`; None if unknown or none is seen."""
-        known = self.branches[RISING]
-        missing = sum(len(one.values) for one in known) < self.along_values.size
-        return doubling_seen(known) if self._locates and not missing else None
+        whole = self._locates and self.progress[RISING] == self.along_values.size
+        return doubling_seen(self.pieces[RISING]) if whole else None
 
     @cached_property
     def cascade(self) -> Cascade | str | None:
         """The period doublings from the first one seen, or why none was located; None if unknown or none is seen."""
-        return (self.work.need(Task(_cascade, self._courses[RISING]), preview=None) or None) if self._locates else None
+        return (self.work.need(Task(doublings, self._courses[RISING]), preview=None) or None) if self._locates else None
 
     @property
     def flips(self) -> Array:
@@ -295,34 +206,41 @@ class OrbitDiagram(Part[_Host]):
         return self.cascade.values if isinstance(self.cascade, Cascade) else np.empty(0)
 
     def choose(self, x: float, y: float) -> Values:
-        """Return the parameter value and the place that a click at (x, y) selects."""
-        found = nearest_place([one for way in self.branches.values() for one in way], self.side, x, y)
-        if found is None:
-            return {self.name: x}
-        value, place = found
-        return {self.name: value, "chosen": written([place])}
+        """Return the parameter value and the place that a click at (x, y) selects: of the nearest value with points."""
+        # The values of there and back are the same but for round-off.
+        near = min(
+            (
+                (round(abs(value - x), 12), abs(place[self.side] - y), value, tuple(place))
+                for some in self.pieces.values()
+                for one in some
+                for value, places in zip(one.values.tolist(), one.places, strict=True)
+                for place in places.tolist()
+            ),
+            default=None,
+        )
+        return {self.name: x} if near is None else {self.name: near[2], "chosen": written([near[3]])}
 
     def caption(self, points: str = "") -> Caption:
         """Return the caption: progress, doublings, periods; points : their number in words."""
-        known = sum(len(one.values) for way in self.branches.values() for one in way)
-        asked = self.along_values.size * len(WAYS[self.host.ways])
+        known, asked = sum(self.progress.values()), self.along_values.size * len(self._courses)
         if known < asked:
             return Caption(self.work.awaited(), f"{known} of {asked} values are known.")
-        if all(one.conservative.all() for one in self.branches[RISING]):
+        if all(one.conservative.all() for one in self.pieces[RISING]):
             return Caption("Volume is preserved: no attractors.", f"{points}One orbit for each value.")
-        if isinstance(self.cascade, Cascade) and self.flips.size:
-            ratios = self.cascade.ratios
+        found = self.cascade
+        if isinstance(found, Cascade) and self.flips.size:
             ratio = (
-                f"; ratio {digits(ratios[-1], 4)} ± {digits(self.cascade.ratio_errors[-1], 1)}" if ratios.size else ""
+                f"; ratio {digits(found.ratios[-1], 4)} ± {digits(found.ratio_errors[-1], 1)}"
+                if found.ratios.size
+                else ""
             )
-            many = (
-                f"{self.flips.size} period doublings located."
-                if self.flips.size > 1
-                else "One period doubling located."
+            many = f"{self.flips.size} period doublings" if self.flips.size > 1 else "One period doubling"
+            place = digits(self.flips[0])
+            return Caption(
+                f"{many} located.",
+                f"{points}The first of period {found.periods[0]} at {self.host.along} = {place}{ratio}.",
             )
-            period, place = self.cascade.periods[0], digits(self.flips[0])
-            return Caption(many, f"{points}The first of period {period} at {self.host.along} = {place}{ratio}.")
-        periods = sorted({int(m) for one in self.branches[RISING] for m in one.periods if m})
+        periods = sorted({int(m) for one in self.pieces[RISING] for m in one.periods if m})
         if not periods:
             return Caption("No periodic orbit is seen.", points.rstrip())
         return Caption(numbers=f"{points}Periods seen: {', '.join(map(str, periods[:8]))}.")
@@ -338,82 +256,34 @@ class OrbitDiagram(Part[_Host]):
             yield f"The doubling that is seen was not located: {self.cascade}"
 
 
-@dataclass(frozen=True)
-class _Course:
-    """An orbit followed through the values of the parameter, in pieces.
+@dataclass(frozen=True, eq=False)
+class DiagramBranch(Continuation[OrbitDiagram]):
+    """The branch of a periodic orbit over the parameter of the diagram: of the requested one, or of that which doubles.
 
-    before : the course at whose end this one starts; without it, it starts at `place`.
+    period : one of `PERIODS`, or `NONE`.
     """
 
-    family: Family
-    values: tuple[float, ...]
-    place: tuple[float, ...]
-    transient: int
-    kept: int
-    follow: bool
-    backward: bool
-    level: Accuracy
-    before: _Course | None = None
+    period: str
 
     @property
-    def pieces(self) -> int:
-        """The number of pieces."""
-        return -(-len(self.values) // _TOGETHER)
+    def begin(self) -> Begin | None:
+        """The start of the branch; None if no orbit is requested and none is seen to double."""
+        host = self.host
+        at, place, period = host.at, host.place, PERIODS.get(self.period)
+        if self.period == NONE:
+            if host.doubling is None:
+                return None
+            at, places, _ = host.doubling
+            place, period = tuple(places[0].tolist()), len(places)
+        (low, _), (high, _) = host.frame
+        return Begin(host.family, at, place, period, (min(low, at), max(high, at)))
 
+    @property
+    def side(self) -> int:
+        """Index of the coordinate drawn upwards."""
+        return self.host.side
 
-def _piece(course: _Course, number: int) -> Diagram:
-    """Return a piece of a course, which needs the pieces before it."""
-    return diagram(
-        course.family,
-        course.family.name,
-        course.values[number * _TOGETHER : (number + 1) * _TOGETHER],
-        _reached(course, number),
-        course.place,
-        course.transient,
-        course.kept,
-        course.follow,
-        course.backward,
-        course.level,
-    )
-
-
-def _reached(course: _Course, number: int) -> tuple[float, ...]:
-    """Return the last place of the orbit on the section before a piece."""
-    if number == 0:
-        return course.place if course.before is None else _reached(course.before, course.before.pieces)
-    before: Diagram = Task(_piece, course, number - 1).get()
-    ends = before.ends[np.isfinite(before.ends).all(axis=1)]
-    return tuple(ends[-1].tolist()) if len(ends) else _reached(course, number - 1)
-
-
-def _cascade(course: _Course) -> Cascade | str:
-    """Return the doublings from the first one seen on a course, or why none was located; "" if none is seen."""
-    seen = doubling_seen([Task(_piece, course, number).get() for number in range(course.pieces)])
-    if seen is None:
-        return ""
-    value, places, end = seen
-    return doublings(course.family, course.family.name, value, tuple(map(tuple, places.tolist())), end, _DOUBLINGS)
-
-
-def _cropped(family: Family, ends: Range, place: tuple[float, float], side: int, whole: Range) -> tuple[float, float]:
-    """Return the range of a coordinate with the attractor over the parameter, and the repeller if it is near."""
-    values, level = tuple(np.linspace(*ends, _GLANCES).tolist()), plan(Kind.SECTION, "draft").level
-    attractor, repeller = (
-        [
-            one[:, side]
-            for one in diagram(family, family.name, values, place, place, 200, 30, True, backward, level).places
-        ]
-        for backward in (False, True)
-    )
-    if not any(map(len, attractor)):
-        return whole
-    alone, both = _range(attractor), _range(attractor + repeller)
-    low, high = both if both[1] - both[0] < _BOTH * (alone[1] - alone[0]) else alone
-    room = max(_ROOM * (high - low), _LEAST * (whole[1] - whole[0]))
-    return max(whole[0], low - room), min(whole[1], high + room)
-
-
-def _range(parts: Sequence[Array]) -> tuple[float, float]:
-    """Return the range of the points at most values: at a few of them a motion may go far away for a moment."""
-    lows, highs = zip(*((one.min(), one.max()) for one in parts if len(one)), strict=True)
-    return float(np.quantile(lows, _FEW_FAR)), float(np.quantile(highs, 1.0 - _FEW_FAR))
+    @property
+    def seen(self) -> Window:
+        """The visible window."""
+        return self.host.frame

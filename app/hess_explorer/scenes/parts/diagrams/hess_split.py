@@ -14,7 +14,7 @@ from hess_explorer.scenes.framework.periodic_search import NotFound
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.graphs.graph import about_0
-from hess_explorer.views.layers import Axes, curves, levels, points, ring
+from hess_explorer.views.layers import Axes, curves, levels, mapped, points, ring
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits, with_error
 from hess_mechanics.errors import ModelError
@@ -48,36 +48,45 @@ class HessSplit(Part[Host]):
         return abs(self.away) or _WIDE
 
     @cached_property
-    def _splits(self) -> list[Split | NotFound] | None:
-        """The splits at the values of ε of the graph and of the slope; None until all are known."""
-        asked = dict.fromkeys([*(self.reach * _QUARTERS).tolist(), *_CLOSE])
+    def _found(self) -> dict[float, Split | NotFound] | None:
+        """The splits at the values of ε of the graph and of the slope, by ε; None until all are known."""
         # Without separatrices at ε = 0 nothing can split.
         first = self.work.need(Task(_split, self.torus, 0.0), preview=None)
-        if first is None or isinstance(first, NotFound):
-            return None if first is None else [first]
-        found = [self.work.need(Task(_split, self.torus, value), preview=None) for value in asked]
-        known = [one for one in found if one is not None]
+        if not isinstance(first, Split):
+            return None if first is None else {0.0: first}
+        asked = sorted({*(self.reach * _QUARTERS).tolist(), *_CLOSE})
+        found = {value: self.work.need(Task(_split, self.torus, value), preview=None) for value in asked}
+        known = {value: one for value, one in found.items() if one is not None}
         return known if len(known) == len(found) else None
 
+    def _split_at(self, value: float) -> Split | None:
+        found = (self._found or {}).get(value)
+        return found if isinstance(found, Split) else None
+
+    @property
     def splits(self) -> list[Split]:
-        """Return the known splits within the graph, sorted by ε."""
-        found = [one for one in self._splits or () if isinstance(one, Split) and abs(one.away) <= self.reach]
-        return sorted(found, key=lambda one: one.away)
+        """The known splits within the graph, sorted by ε."""
+        return [one for value in self._found or () if abs(value) <= self.reach and (one := self._split_at(value))]
 
     @property
     def split(self) -> Split | None:
         """The split of this state; None if unknown."""
-        return next((one for one in self.splits() if one.away == self.away), None)
+        return self._split_at(self.away)
 
     @property
     def slope(self) -> tuple[float, float] | None:
         """The slope of the split at ε = 0 and its error; None if unknown."""
-        close = {one.away: one for one in self._splits or () if isinstance(one, Split) and one.away in _CLOSE}
-        return slope_of([close[value] for value in _CLOSE]) if len(close) == len(_CLOSE) else None
+        close = [one for value in _CLOSE if (one := self._split_at(value))]
+        return slope_of(close) if len(close) == len(_CLOSE) else None
+
+    @property
+    def _reasons(self) -> list[str]:
+        """The reasons why splits are missing."""
+        return sorted({one.reason for one in (self._found or {}).values() if isinstance(one, NotFound)})
 
     def caption(self) -> Caption:
         """Return the caption of the picture."""
-        if self._splits is None:
+        if self._found is None:
             return Caption(self.work.awaited())
         if self.split is None or self.slope is None:
             return Caption("No separatrices are found here.")
@@ -89,21 +98,20 @@ class HessSplit(Part[Host]):
             return Caption("The separatrices are not split.", f"Less than {digits(error, 1)} {place}")
         return Caption("The separatrices are split.", f"By {digits(value)} ± {digits(error, 1)} {place}")
 
+    @property
     def message(self) -> str:
-        """Return the reason why the graph is empty; an empty string if it is not."""
-        reasons = [one.reason for one in self._splits or () if isinstance(one, NotFound)]
-        return reasons[0] if reasons and not self.splits() else ""
+        """The reason why the graph is empty; an empty string if it is not."""
+        return "" if self.splits else next(iter(self._reasons), "")
 
     def derived(self) -> Iterator[str]:
         """Yield the slope of the split at ε = 0."""
-        if self.asked("_splits") and self.slope is not None:
+        if self.asked("_found") and self.slope is not None:
             yield f"split/ε → {with_error(*self.slope)}"
 
     def notes(self) -> Iterator[str]:
         """Yield the reasons why splits on the graph are missing."""
-        if self.asked("_splits") and self.splits():
-            reasons = {one.reason for one in self._splits or () if isinstance(one, NotFound)}
-            yield from (f"Some splits are not known. {reason}" for reason in sorted(reasons))
+        if self.asked("_found") and self.splits:
+            yield from (f"Some splits are not known. {reason}" for reason in self._reasons)
 
 
 def _split(torus: HessTorus, away: float) -> Split | NotFound:
@@ -114,8 +122,8 @@ def _split(torus: HessTorus, away: float) -> Split | NotFound:
         return NotFound(str(error))
 
 
-def _values(found: HessSplit) -> Array:
-    return np.array([(one.away, one.value) for one in found.splits()]).reshape(-1, 2).T
+def _values(found: HessSplit) -> Array | None:
+    return np.array([(one.away, one.value) for one in found.splits]).T if found.splits else None
 
 
 def _line(found: HessSplit, axes: Axes) -> list[Array]:
@@ -129,16 +137,16 @@ split_picture = Plot[HessSplit](
     folded="Show the split of the separatrices",
     axes=("ε", "split in L/G"),
     first=Axes((-_WIDE, _WIDE), (-1.0, 1.0)),
-    message=HessSplit.message,
+    message=lambda s: s.message,
     on_click=lambda s, x, y: {"away": x},
     x=lambda s: (-1.1 * s.reach, 1.1 * s.reach),
-    y=lambda s: about_0(_values(s)[1], 1e-12) if s.splits() else None,
+    y=mapped(_values, lambda found: about_0(found[1], 1e-12)),
     layers=(
-        levels("levels", lambda s: [0.0] if s.splits() else []),
+        levels("levels", lambda s: [0.0] if s.splits else []),
         curves("slope", within=_line, color=theme.MUTED, dash="dashed", label="linear, with the slope at ε = 0"),
         points(
             "splits",
-            lambda s: _values(s) if s.splits() else None,
+            _values,
             color=theme.UNSTABLE,
             size=10,
             label="distance of the separatrices",

@@ -44,10 +44,7 @@ class Costs:
     @cached_property
     def found(self) -> dict[Trial[Any], tuple[LevelCost, ...] | Refused | None]:
         """The samples of each trial, one per level, or the reason why there are none; None until known."""
-        return {
-            trial: (None if self.work.dragging else self.work.need(Task(measured, trial, self.shown), preview=None))
-            for trial in self.trials
-        }
+        return {trial: self.work.need(Task(measured, trial, self.shown), preview=None) for trial in self.trials}
 
     @cached_property
     def samples(self) -> dict[Trial[Any], tuple[LevelCost, ...]]:
@@ -63,26 +60,24 @@ class Costs:
         """The first level of each trial whose error is invisible."""
         return {trial: enough(samples, trial.seen) for trial, samples in self.samples.items()}
 
-    def curve(self, trial: Trial[Any]) -> tuple[Array, Array] | None:
-        """Return the errors, in units of the largest invisible error, and the milliseconds of the measured levels."""
-        samples = self.samples.get(trial)
-        return (
-            None
-            if samples is None
-            else (
+    @cached_property
+    def curves(self) -> dict[Trial[Any], tuple[Array, Array]]:
+        """Errors, in units of the largest invisible error, and milliseconds of the measured levels, by trial."""
+        return {
+            trial: (
                 np.clip([one.error / trial.seen for one in samples], *_ERRORS),
                 np.array([max(one.ms, _MS[0]) for one in samples]),
             )
-        )
+            for trial, samples in self.samples.items()
+        }
 
     def _at(self, levels: dict[Trial[Any], str]) -> list[tuple[float, float]]:
         """Return the point of each trial's curve at its level."""
         return [
-            (float(xy[0][i]), float(xy[1][i]))
-            for trial, name in levels.items()
-            if (xy := self.curve(trial)) is not None
-            for i, one in enumerate(self.samples[trial])
-            if one.level == name
+            (float(x), float(y))
+            for trial, samples in self.samples.items()
+            for one, x, y in zip(samples, *self.curves[trial], strict=True)
+            if one.level == levels[trial]
         ]
 
     def level(self, name: str) -> Sequence[Sequence[float]] | None:
@@ -100,15 +95,12 @@ class Costs:
         known = [found for found in self.found.values() if found is not None]
         if len(known) < len(self.found):
             return Caption("Being measured.", f"{len(known)} of {len(self.found)} so far.")
-        sentences = [
-            f"{trial.kind} cannot be measured: {found.reason}"
-            for trial, found in self.found.items()
-            if isinstance(found, Refused)
-        ] + [
-            f"{trial.kind} has no error to measure: all of it is chaotic, or there is nothing."
-            for trial, found in self.found.items()
-            if isinstance(found, tuple) and trial not in self.samples
-        ]
+        sentences = []
+        for trial, found in self.found.items():
+            if isinstance(found, Refused):
+                sentences.append(f"{trial.kind} cannot be measured: {found.reason}")
+            elif trial not in self.samples:
+                sentences.append(f"{trial.kind} has no error to measure: all of it is chaotic, or there is nothing.")
         if self.enough:
             least = ", ".join(f"{trial.kind} {name}" for trial, name in self.enough.items())
             sentences.insert(0, f"Cheapest levels without a visible error: {least}.")
@@ -131,7 +123,7 @@ def costs_picture(trials: Sequence[Trial[Any]], folded: bool) -> Plot[Costs]:
     def kind(trial: Trial[Any], dash: str, width: float) -> Layer[Costs]:
         name = str(trial.kind)
         return line(
-            name.replace(" ", "-"), lambda s: s.curve(trial), color=theme.MUTED, dash=dash, width=width, label=name
+            name.replace(" ", "-"), lambda s: s.curves.get(trial), color=theme.MUTED, dash=dash, width=width, label=name
         )
 
     def at(name: str) -> Layer[Costs]:

@@ -17,11 +17,10 @@ from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.graphs.graph import over_time, thinned, with_room
 from hess_explorer.views.layers import Axes, Range
-from hess_explorer.views.picture import Picture
 from hess_explorer.views.plane.velocity_plane import nice_above
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits, with_error
-from hess_mechanics.dynamics import lyapunov
+from hess_mechanics.dynamics import spectrum
 from hess_mechanics.dynamics.system import Body
 from hess_mechanics.errors import MotionEnds
 from hess_mechanics.numerics.accuracy import Kind, Level, Plan
@@ -66,7 +65,7 @@ class Exponent(Part[_Host]):
         return self.work.dragging or self.host.periodic_orbit.looking or self.growth is not None
 
     @cached_property
-    def _answer(self) -> lyapunov.Exponent | NotFound | None:
+    def _answer(self) -> spectrum.Exponent | NotFound | None:
         if self.later:
             return None
         plan = self.work.plan(Kind.EXPONENT)
@@ -75,13 +74,13 @@ class Exponent(Part[_Host]):
         )
 
     @property
-    def found(self) -> lyapunov.Exponent | None:
+    def found(self) -> spectrum.Exponent | None:
         """The exponent of an orbit that is not periodic; None until known, and if the motion ends early."""
         return None if isinstance(self._answer, NotFound) else self._answer
 
-    def at(self, plan: Plan) -> lyapunov.Exponent:
+    def at(self, plan: Plan) -> spectrum.Exponent:
         """Return the exponent, computed at once."""
-        return lyapunov.lyapunov_exponent(self.host.body, self.host.start, plan.share * self.host.long, plan.level)
+        return spectrum.lyapunov_exponent(self.host.body, self.host.start, plan.share * self.host.long, plan.level)
 
     @property
     def rates(self) -> tuple[Array, Array] | None:
@@ -121,15 +120,15 @@ class Exponent(Part[_Host]):
             yield self._answer.reason
 
 
-def _exponent(body: Body, start: Start, duration: float, level: Level) -> lyapunov.Exponent | NotFound:
+def _exponent(body: Body, start: Start, duration: float, level: Level) -> spectrum.Exponent | NotFound:
     """Return the exponent, or the reason why the motion ends early: other tasks go on."""
     try:
-        return lyapunov.lyapunov_exponent(body, start, duration, level)
+        return spectrum.lyapunov_exponent(body, start, duration, level)
     except MotionEnds as error:
         return NotFound(str(error))
 
 
-def exponent_picture(folded: str = "") -> Picture[Any]:
+def exponent_picture(folded: str = "") -> Plot[Any]:
     """Return the picture of the mean growth rate over time."""
     return Plot(
         name="exponent",

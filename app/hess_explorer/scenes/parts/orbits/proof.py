@@ -15,7 +15,7 @@ from hess_explorer.scenes.framework.scene import Motion
 from hess_explorer.scenes.framework.sliders import HIDDEN, SHOWN, proved_error_shown
 from hess_explorer.views.space.poisson_sphere import Circle
 from hess_explorer.views.text import digits
-from hess_mechanics.dynamics.tube import error_bounds, proved_error, tube
+from hess_mechanics.dynamics.tube import ProvedOrbit, tube
 from hess_mechanics.errors import ModelError
 from hess_mechanics.numerics.balls import has_flint
 from hess_mechanics.numerics.results import Array, Orbit
@@ -99,7 +99,8 @@ def judged(finding: Task[Orbit | Track], motion: Motion, units: tuple[float, flo
         true = tube(motion, motion.state, orbit.times, _DIGITS, _MOST_WORK)
     except ModelError as error:
         return ProvedError(f"not proved: {error}")
-    errors = error_bounds(orbit, true)
+    proved = ProvedOrbit(orbit, true)
+    errors = proved.bounds
     if len(errors) < 2:
         return ProvedError("not proved: that would take too long")
     first, pixels = motion.system.angular_velocities, errors * np.array(motion.weights)
@@ -116,9 +117,8 @@ def judged(finding: Task[Orbit | Track], motion: Motion, units: tuple[float, flo
         )
     )
     sentence = f"proved error ≤ {errors[: last + 1].max():.1e}, certainly right to ½ pixel {until}"
-    least = proved_error(orbit, true)[0]
-    if least > orbit.error_estimate:
-        sentence += f"; the estimate is too small, as the error reaches {least:.1e}"
+    if proved.least > orbit.error_estimate:
+        sentence += f"; the estimate is too small, as the error reaches {proved.least:.1e}"
     band, around = [], []
     if first == 2 and motion.weights[0] > 0.0:
         band = _band(omega[: len(errors)], errors[:, :2] * np.array(units), sizes[0])

@@ -10,16 +10,20 @@ import numpy as np
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.part import Part, Sectioned
+from hess_explorer.scenes.framework.periodic_search import Place
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.text import digits
-from hess_mechanics.dynamics.parameter_diagram import Sets, at_state, sets_of
-from hess_mechanics.dynamics.regime import Dynamics
+from hess_mechanics.dynamics.regime import Dynamics, compared, regime
+from hess_mechanics.dynamics.return_map import ReturnMap
+from hess_mechanics.errors import NoReturn
 from hess_mechanics.numerics.accuracy import Kind
-from hess_mechanics.numerics.results import Array
+from hess_mechanics.numerics.results import Array, frozen
 
-__all__ = ["Regime"]
+__all__ = ["Regime", "few", "sets_of"]
 
 _NOTHING = np.empty((0, 2))
+_LONG = 500, 1500
+"""Crossings left out of a set and kept for it."""
 _MANY = 24
 """Largest number of places drawn as large marks: so few dots would be hard to see."""
 
@@ -39,30 +43,24 @@ class Regime(Part[_Host]):
 
     long: float
 
+    @property
+    def _map(self) -> ReturnMap:
+        return ReturnMap(self.host.poincare, self.work.plan(Kind.SECTION).level)
+
     @cached_property
-    def sets(self) -> Sets | None:
-        """Attractor and repeller; None until known."""
-        few = (60, 120) if self.work.dragging else (500, 1500)
-        task = Task(sets_of, self.host.poincare, self.host.place, *few, self.work.plan(Kind.SECTION).level)
-        return self.work.need(task, preview=task if self.work.dragging else None)
-
-    @property
-    def attractor(self) -> Array:
-        """Places (n, 2) of the attractor."""
-        return _NOTHING if self.sets is None else self.sets.attractor
-
-    @property
-    def repeller(self) -> Array:
-        """Places (n, 2) of the repeller."""
-        return _NOTHING if self.sets is None else self.sets.repeller
+    def sets(self) -> tuple[Array, Array]:
+        """Places (n, 2) of attractor and repeller; empty until known."""
+        few = (60, 120) if self.work.dragging else _LONG
+        task = Task(sets_of, self._map, self.host.place, *few)
+        return self.work.need(task, preview=task if self.work.dragging else None) or (_NOTHING, _NOTHING)
 
     @cached_property
     def kind(self) -> Dynamics | None:
         """The kind of motion and of dynamics; None until known."""
         if self.work.dragging:
             return None
-        t, level = self.work.plan(Kind.EXPONENT).share * self.long, self.work.plan(Kind.SECTION).level
-        task = Task(at_state, self.host.poincare, self.host.place, 500, 1500, t, level)
+        duration = self.work.plan(Kind.EXPONENT).share * self.long
+        task = Task(_dynamics, self._map, self.host.place, *_LONG, duration)
         # It takes as long as the diagram, whose orbits and doublings come first.
         return self.work.newest([[task]], last=True)[0]
 
@@ -80,7 +78,7 @@ class Regime(Part[_Host]):
             return Caption(
                 f"{kind}.", f"Attractor and repeller not distinguished; |mean div| < {digits(motion.bound, 1)}."
             )
-        if motion.volume_kept:
+        if motion.map_.volume_kept:
             return Caption(f"{kind}. Conservative: volume is preserved.")
         if motion.measure:
             return Caption(f"{kind}. Conservative: mean div = 0.", f"{motion.measure[0].upper()}{motion.measure[1:]}.")
@@ -88,6 +86,26 @@ class Regime(Part[_Host]):
         away = f"{digits(found.distance, 2)} ± {digits(found.distance_error, 1)} away"
         # Short enough for four lines in a small cell.
         return Caption(f"{kind}. Looks {found.verdict}.", f"{div}; repeller {away}.")
+
+
+def sets_of(map_: ReturnMap, start: Place, transient: int, kept: int) -> tuple[Array, Array]:
+    """Return the attractor and repeller (n, d) that the orbits from `start` reach; empty if they do not return.
+
+    Raises `OutsideRegion`, `WorkLimit`.
+    """
+    attractor, repeller = (
+        frozen(one.orbit(np.array(start), transient + kept)[transient:].copy()) for one in (map_, map_.inverse())
+    )
+    return attractor, repeller
+
+
+def _dynamics(map_: ReturnMap, start: Place, transient: int, kept: int, duration: float) -> Dynamics:
+    """Classify the orbit from `start`; without comparisons if it does not return."""
+    motion = regime(map_, start, transient, min(kept, 400), duration)
+    try:
+        return compared(map_, motion, start, transient, kept)
+    except NoReturn:
+        return Dynamics(motion, motion.places[:0], motion.places[:0], ())
 
 
 def few(found: Array) -> Array | None:

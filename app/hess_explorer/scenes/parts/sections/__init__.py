@@ -1,4 +1,4 @@
-"""Sections: their orbits, and what is found out about them."""
+"""Sections: their orbits, and the results on them."""
 
 from hess_explorer.scenes.parts.sections.branch import (
     Branch,
@@ -14,17 +14,23 @@ from hess_explorer.scenes.parts.sections.periodic_orbit import (
     PeriodicOrbit,
     length_of_manifolds,
     periodic_layers,
-    plain,
     which,
 )
 from hess_explorer.scenes.parts.sections.pictures import filled_picture, section_layers, section_picture, section_trials
-from hess_explorer.scenes.parts.sections.section import Section, crossings_of_each, first_place, start_on
-from hess_explorer.scenes.parts.sections.workbench import SectionState, shown_in_section
+from hess_explorer.scenes.parts.sections.section import (
+    Section,
+    crossings_of_each,
+    first_place,
+    start_on,
+)
+from hess_explorer.scenes.parts.sections.workbench import PLAIN, FilledState, SectionState
 
 __all__ = [
     "MEGNO",
+    "PLAIN",
     "Branch",
     "Clicks",
+    "FilledState",
     "Indicator",
     "Orbit",
     "PeriodicOrbit",
@@ -43,12 +49,10 @@ __all__ = [
     "orbits_spread",
     "parameter_of_branch",
     "periodic_layers",
-    "plain",
     "points_of_each",
     "section_layers",
     "section_picture",
     "section_trials",
-    "shown_in_section",
     "start_on",
     "which",
 ]

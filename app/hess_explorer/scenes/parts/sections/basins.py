@@ -13,7 +13,7 @@ from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.part import Host, Part
 from hess_explorer.scenes.framework.periodic_search import Closed, Search, branch_of, sought
 from hess_explorer.scenes.framework.trial import Trial
-from hess_explorer.scenes.framework.windows import Window
+from hess_explorer.scenes.framework.windows import Window, pixels_in
 from hess_explorer.scenes.parts.sections.section import Section
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.text import digits
@@ -167,7 +167,7 @@ class Basins(Part[_Host]):
         """The known branches of the stable manifolds of the saddles."""
         if not self.host.reach:
             return []
-        pixel = 1.0 / max(self.section.pixels)
+        pixel = 1.0 / max(pixels_in(self.section.frame))
         found = [
             self.work.need(Task(branch_of, search, (place, True, side), self.host.reach, pixel), preview=None)
             for search in self._searches

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Protocol, Self
@@ -12,7 +12,7 @@ import numpy as np
 from hess_explorer.protocol.specs import Number, Values
 from hess_explorer.scenes.framework.continuation import Continuation
 from hess_explorer.scenes.framework.families import Begin, Family
-from hess_explorer.scenes.framework.part import Part, Sectioned
+from hess_explorer.scenes.framework.part import Sectioned
 from hess_explorer.scenes.framework.periodic_search import PERIODS
 from hess_explorer.scenes.framework.sliders import Slider, choice, number, specs_of
 from hess_explorer.scenes.framework.windows import Window
@@ -98,7 +98,7 @@ class _Section(Sectioned, Protocol):
 
 
 @dataclass(frozen=True, eq=False)
-class Branch(Part[_Section]):
+class Branch(Continuation[_Section]):
     """The branch of the periodic orbit of a section over a parameter.
 
     along : symbols of the section's parameters → their names; besides : choices that the section also depends on.
@@ -149,41 +149,41 @@ class Branch(Part[_Section]):
             family, self.at, self.orbit.host.aim, PERIODS[self.orbit.period], (min(low, self.at), max(high, self.at))
         )
 
-    @cached_property
-    def continuation(self) -> Continuation:
-        """The branch as far as it is known."""
-        return Continuation(self)
-
     @property
     def here(self) -> Array | None:
         """The places (2, m) of the orbit on show in the picture; None without one."""
         closed = self.orbit.closed
         return None if closed is None else np.array([(self.at, place[self.side]) for place in closed.orbit.places]).T
 
+    @property
+    def _whole(self) -> Range:
+        """The range of the coordinate drawn upwards."""
+        return self.host.poincare.window[self.side]
+
     @cached_property
-    def upwards_range(self) -> tuple[float, float] | None:
-        """The vertical range that fits the known branch; None before any piece is known."""
-        branches = self.continuation.branches
-        if not branches:
+    def upwards_range(self) -> Range | None:
+        """The vertical range: it fits the known branch; None before any piece is known, the whole one without any."""
+        if self.message:
+            return self._whole
+        if not self.branches:
             return None
-        found = np.concatenate([one.places[:, :, self.side].ravel() for one in branches])
-        low, high = self.host.poincare.window[self.side]
-        if found.max() - found.min() >= self.continuation.turn:
+        found = np.concatenate([one.places[:, :, self.side].ravel() for one in self.branches])
+        low, high = self._whole
+        if found.max() - found.min() >= self.turn:
             return low, high
         middle = 0.5 * float(found.min() + found.max())
         half = (0.5 + _ROOM) * max(float(found.max() - found.min()), _LEAST * (high - low))
         return middle - half, middle + half
 
     @property
-    def seen(self) -> Window | None:
-        """The visible window; None while the picture is empty."""
-        if self.upwards_range is None:
-            return None
-        return (self.ends[0], self.upwards_range[0]), (self.ends[1], self.upwards_range[1])
+    def seen(self) -> Window:
+        """The visible window."""
+        low, high = self.upwards_range or self._whole
+        return (self.ends[0], low), (self.ends[1], high)
 
     def choose(self, x: float, y: float) -> Values:
         """Return the parameter values that show the branch's orbit at (x, y) and keep the visible range."""
-        found = self.continuation.chosen(x, y)
+        found = self.chosen(x, y)
         if found is None:
             return {}
         value, place, period = found
@@ -200,7 +200,7 @@ class Branch(Part[_Section]):
     def boxed(self, corners: Corners) -> Values:
         """Return the range that a box selects."""
         x0, _, x1, _ = corners
-        return {} if x0 == x1 or not self.continuation.branches else {"low": min(x0, x1), "high": max(x0, x1)}
+        return {} if x0 == x1 or not self.branches else {"low": min(x0, x1), "high": max(x0, x1)}
 
     # ---- words --------------------------------------------------------------------------------------------------
 
@@ -209,10 +209,7 @@ class Branch(Part[_Section]):
         """The caption of the picture."""
         if not self.orbit.closing:
             return Caption("No periodic orbit is chosen.", "Choose one; then a click on its branch shows that orbit.")
-        found = self.continuation.caption if self.begin is not None else None
-        if self.orbit.looking or (self.begin is not None and found is None):
-            return Caption(self.work.awaited("A periodic orbit is"))
-        return found or Caption("No periodic orbit found from here.")
+        return Caption(self.work.awaited("A periodic orbit is")) if self.orbit.looking else super().caption
 
     @property
     def message(self) -> str:
@@ -224,10 +221,7 @@ class Branch(Part[_Section]):
 
     def means(self) -> Mapping[str, str]:
         """Return the meanings of the choices of the branch: each scene has its own."""
-        own = type(self.host).__name__
-        return {
-            name: f"{name} of the branch of {own} over {self.host.over}" for name in ("over", "low", "high", "upwards")
-        }
+        return dict.fromkeys(("over", "low", "high", "upwards"), f"branch of {type(self.host).__name__}")
 
     def idle(self) -> Mapping[str, float]:
         """Return the ends of the range if there is no branch."""
@@ -237,53 +231,37 @@ class Branch(Part[_Section]):
         """Return the default range after a change of the parameter."""
         return {} if self.host.over == before.host.over else {"low": 0.0, "high": 0.0}
 
-    def derived(self) -> Iterator[str]:
-        """Yield the bifurcations."""
-        return self.continuation.derived()
-
-    def status(self) -> Iterator[str]:
-        """Yield the size and the error of the branch."""
-        return self.continuation.status()
-
-    def notes(self) -> Iterator[str]:
-        """Yield the reasons why the branch ends within the range."""
-        return self.continuation.notes()
-
 
 def branch_picture() -> Picture[Any]:
     """Return the picture of the branch over its parameter."""
 
-    def at_the_value(s: Any, axes: Axes) -> list[Array]:
-        return [] if s.branch.upwards_range is None else [np.array([[s.branch.at, y] for y in axes.y])]
+    def itself(s: Branch) -> Branch:
+        return s
 
-    def shown(s: Any, axes: Axes) -> Array | None:
-        here = s.branch.here
-        return None if here is None else seen(here[::-1].T, s.branch.continuation.turn, Axes(axes.y, axes.x))[:, ::-1].T
+    def at_the_value(s: Branch, axes: Axes) -> list[Array]:
+        return [np.array([[s.at, y] for y in axes.y])] if s.branches else []
 
-    def upwards(s: Any) -> Range | None:
-        # Without a branch the axes are not those of an earlier one.
-        one: Branch = s.branch
-        return one.host.poincare.window[one.side] if one.message else one.upwards_range
+    def shown(s: Branch, axes: Axes) -> Array | None:
+        here = s.here
+        return None if here is None else seen(here[::-1].T, s.turn, Axes(axes.y, axes.x))[:, ::-1].T
 
-    return Plot(
+    return Plot[Branch](
         name="branch",
         title="Branch of the periodic orbit",
-        caption=lambda s: s.branch.caption,
+        caption=lambda s: s.caption,
         folded="Show the branch of the periodic orbit",
-        axes=lambda s: (s.branch.host.over, s.branch.host.upwards),
-        message=lambda s: s.branch.message,
-        on_click=lambda s, x, y: s.branch.choose(x, y),
-        on_box=lambda s, corners: s.branch.boxed(corners),
-        on_hover=lambda s, x, y: s.branch.continuation.about(x, y),
-        x=lambda s: s.branch.ends,
-        y=upwards,
+        axes=lambda s: (s.host.over, s.host.upwards),
+        message=lambda s: s.message,
+        on_click=Branch.choose,
+        on_box=Branch.boxed,
+        on_hover=Branch.about,
+        x=lambda s: s.ends,
+        y=lambda s: s.upwards_range,
         layers=(
             curves(
                 "value", within=at_the_value, color=theme.INK, width=1.5, label="state on show", tag="state on show"
             ),
-            *view.layers(
-                lambda s: s.branch.continuation.branches, lambda s: s.branch.side, lambda s: s.branch.continuation.turn
-            ),
+            *view.layers(itself),
             points(
                 "shown",
                 within=shown,
@@ -294,4 +272,4 @@ def branch_picture() -> Picture[Any]:
                 label="the periodic orbit on show",
             ),
         ),
-    )
+    ).of(lambda s: s.branch)

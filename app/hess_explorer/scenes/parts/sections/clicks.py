@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Protocol
@@ -10,21 +10,19 @@ from typing import Any, Protocol
 import numpy as np
 
 from hess_explorer.compute.cache import Task
-from hess_explorer.protocol.specs import Values, places, written
-from hess_explorer.scenes.framework.orbit_batches import OrbitBatch, in_batches
+from hess_explorer.protocol.specs import Places, Values, places, written
+from hess_explorer.scenes.framework.orbit_batches import in_batches
 from hess_explorer.scenes.framework.part import Host, Part, Start
+from hess_explorer.scenes.framework.periodic_search import Closed
 from hess_explorer.scenes.framework.sliders import number, specs_of
-from hess_explorer.scenes.framework.windows import Window
+from hess_explorer.scenes.framework.windows import Window, boxed
 from hess_explorer.scenes.parts.sections.section import Section
 from hess_explorer.views.text import digits
 from hess_mechanics.dynamics.return_map import PoincareSection
-from hess_mechanics.errors import InvalidParameter, OutsideRegion
+from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.results import Array
 
 __all__ = ["Clicks", "filled", "orbits_spread", "points_of_each"]
-
-_FEWEST, _HELD = 20, 40
-"""Least number of crossings of each orbit at any level, and largest while a slider is held."""
 
 Place = tuple[float, float]
 
@@ -58,9 +56,6 @@ def points_of_each(default: float) -> Any:
 
 
 class _Filled(PoincareSection, Protocol):
-    def spread(self, window: Window, count: int) -> tuple[Start, ...]:
-        """Return at most `count` states, spread over the possible part of the window."""
-
     def impossible(self, window: Window) -> Array:
         """Return cells (m, n) over the window: 1 if no motion is possible."""
 
@@ -79,8 +74,8 @@ class _Host(Host, Protocol):
         """The places of the chosen orbits."""
 
     @property
-    def impossible_here(self) -> str:
-        """The message if no motion is possible in the window."""
+    def closed(self) -> Closed | None:
+        """The periodic orbit, if known."""
 
 
 @dataclass(frozen=True)
@@ -99,16 +94,20 @@ class _Chosen:
 class Clicks(Part[_Host]):
     """The places at which clicks in a section start orbits.
 
-    excuse : the reason why some places have no orbit; bounds : the whole section, as places in a link are written.
+    excuse : the reason why some places have no orbit; remedy : the choices that give all of them one.
     """
 
     excuse: str
-    bounds: Window
+    remedy: str = "a larger h"
+
+    @property
+    def _spec(self) -> Places:
+        """The parameter of the places."""
+        return next(one for one in specs_of(type(self.host)) if isinstance(one, Places) and one.name == "starts")
 
     def admitted(self, notes: list[str]) -> Values:
         """Return at least one start."""
-        default = next(spec.default for spec in specs_of(type(self.host)) if spec.name == "starts")
-        return {"starts": self.host.starts or default}
+        return {"starts": self.host.starts or self._spec.default}
 
     @cached_property
     def picked(self) -> _Chosen:
@@ -124,28 +123,21 @@ class Clicks(Part[_Host]):
         others = [start for some in self.host.section.seeds(self.host.section) for start in some]
         others = others or [*_spread(self.host, 1)]
         if not others:
-            raise InvalidParameter(self.host.impossible_here)
+            raise InvalidParameter(
+                f"In this window {self.excuse}: choose {self.remedy}, or press Clear for the whole section."
+            )
         return _Chosen([_place(self.host.poincare.places_of(np.array(others))[0])], [others[0]], chosen[-1])
-
-    @property
-    def asked_start(self) -> Start:
-        """The state at the last chosen place.  Raises `OutsideRegion` if no motion is possible there."""
-        place = places(self.host.starts)[-1]
-        states, possible = self.host.poincare.states_at(*np.array([place]).T)
-        if not possible[0]:
-            raise OutsideRegion(f"At {self._at(place)} {self.excuse}: choose another point.")
-        return tuple(map(float, states[0]))
 
     @property
     def rings(self) -> list[Place]:
         """The places where the orbits on show start."""
-        closed = self.host.section.periodic().closed
+        closed = self.host.closed
         return [*self.picked.places] if closed is None else [*self.picked.places[:-1], _place(closed.orbit.places[0])]
 
     @cached_property
     def impossible(self) -> Array:
         """Cells (m, n) over the window: 1 if no motion is possible."""
-        return self.work.need(Task(_impossible, self.host.poincare, self.host.section.frame))
+        return self.work.need(Task(type(self.host.poincare).impossible, self.host.poincare, self.host.section.frame))
 
     def add(self, x: float, y: float) -> Values:
         """Return the starts with another orbit added at (x, y)."""
@@ -155,18 +147,21 @@ class Clicks(Part[_Host]):
         """Return the starts with the orbit on show moved to (x, y)."""
         return {"starts": written([*places(self.host.starts)[:-1], self._inside(x, y)])}
 
+    def look_closer(self, corners: tuple[float, float, float, float]) -> Values:
+        """Return the window that a box selects."""
+        return boxed(corners, (self._spec.low, self._spec.high))
+
     def _inside(self, x: float, y: float) -> Place:
-        (x0, y0), (x1, y1) = self.bounds
+        (x0, y0), (x1, y1) = self._spec.low, self._spec.high
         return min(max(x, x0), x1), min(max(y, y0), y1)
 
     def _at(self, place: Place) -> str:
         names = self.host.poincare.names
         return ", ".join(f"{name} = {digits(value)}" for name, value in zip(names, place, strict=True))
 
-    @property
-    def sentence(self) -> str:
-        """The place where the orbit on show starts, in words."""
-        return f"chosen: {self._at(self.rings[-1])}"
+    def derived(self) -> Iterator[str]:
+        """Yield the place where the orbit on show starts."""
+        yield f"chosen: {self._at(self.rings[-1])}"
 
     def notes(self) -> Iterator[str]:
         """Yield a note if no motion is possible at the chosen start."""
@@ -177,10 +172,10 @@ class Clicks(Part[_Host]):
             )
 
 
-def filled(state: Any, held: int, compute: Callable[..., OrbitBatch], **more: Any) -> Section:
+def filled(state: Any, held: int, **more: Any) -> Section:
     """Return the section of a state whose `orbits` fill its `window`, among those of its `clicks`.
 
-    held : the largest number of orbits while a slider is held; compute, more : as of `Section`.
+    held : the largest number of orbits while a slider is held; more : as of `Section`.
     """
 
     def seeds(section: Section) -> list[tuple[Start, ...]]:
@@ -190,27 +185,14 @@ def filled(state: Any, held: int, compute: Callable[..., OrbitBatch], **more: An
     return Section(
         state,
         lambda: state.clicks.picked.states,
-        compute,
-        seeds,
-        lambda: state.periodic_orbit,
-        zoom=state.window,
-        fewest=_FEWEST,
-        held=_HELD,
+        seeds=seeds,
         at_once=False,
         **more,
     )
 
 
 def _spread(state: _Host, count: int) -> tuple[Start, ...]:
-    return state.work.need(Task(_seeds, state.poincare, state.section.frame, count))
-
-
-def _seeds(section: _Filled, window: Window, count: int) -> tuple[Start, ...]:
-    return section.spread(window, count)
-
-
-def _impossible(section: _Filled, window: Window) -> Array:
-    return section.impossible(window)
+    return state.work.need(Task(type(state.poincare).spread, state.poincare, count, state.section.frame))
 
 
 def _place(found: Array) -> Place:

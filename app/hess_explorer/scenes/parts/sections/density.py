@@ -15,7 +15,6 @@ from hess_explorer.scenes.framework.windows import Window
 from hess_explorer.scenes.framework.work import drift_status
 from hess_explorer.scenes.parts.sections.section import Section
 from hess_explorer.views.plane import density as view
-from hess_mechanics.dynamics.cells import evenly
 from hess_mechanics.dynamics.return_map import PoincareSection
 from hess_mechanics.dynamics.section_density import Visits, visits
 from hess_mechanics.numerics.accuracy import Kind, plan
@@ -24,8 +23,8 @@ from hess_mechanics.numerics.results import Array
 __all__ = ["Density"]
 
 _PIXELS = (512, 512)
-_ORBITS, _TRIED = 128, 1024
-"""Orbits, and places tried to find their starts.  More orbits would cover the gaps between the curves of islands."""
+_ORBITS = 128
+"""More orbits would cover the gaps between the curves of islands."""
 _FIRST = 32
 """Crossings of each orbit in the first stage; each further stage has twice as many."""
 _STAGES = {"draft": 6, "standard": 8, "precise": 9, "reference": 10}
@@ -118,9 +117,7 @@ class Density(Part[Section]):
 
 def _starts(section: PoincareSection, window: Window) -> tuple[Start, ...]:
     """Return starts spread evenly over the places of the window that motions cross."""
-    low, high = np.array(window)
-    states, there = section.states_at(*(low + evenly(_TRIED).T * (high - low)).T)
-    return tuple(map(tuple, states[there][:_ORBITS].tolist()))
+    return section.spread(_ORBITS, window)
 
 
 def _stage(

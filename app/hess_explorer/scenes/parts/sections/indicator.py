@@ -73,7 +73,7 @@ class Indicator(Part[Section]):
             return None
         plan = self.work.plan(Kind.INDICATOR)
         return found_by_rows(
-            self.work, row_of_cells, (self.rows(plan, COARSE), self.rows(plan)), lambda: self.host.batches
+            self.work, row_of_cells, (self.rows(plan, COARSE), self.rows(plan)), lambda: self.host.known
         )
 
     @property

@@ -10,8 +10,6 @@ from typing import Any, Protocol, TypeVar
 import numpy as np
 
 from hess_explorer.compute.cache import Task
-from hess_explorer.protocol.specs import Value
-from hess_explorer.scenes.framework.cells import DENSITY
 from hess_explorer.scenes.framework.part import Part
 from hess_explorer.scenes.framework.periodic_search import (
     ANY,
@@ -28,8 +26,8 @@ from hess_explorer.scenes.framework.periodic_search import (
     crossings_between,
     sought,
 )
-from hess_explorer.scenes.framework.scene import Preset
 from hess_explorer.scenes.framework.sliders import choice, number
+from hess_explorer.scenes.framework.windows import pixels_in
 from hess_explorer.scenes.parts.sections.section import Section
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import Layers
@@ -40,7 +38,7 @@ from hess_mechanics.dynamics.manifolds import Intersection, Manifold
 from hess_mechanics.dynamics.return_map import ReturnMap
 from hess_mechanics.numerics.accuracy import PRECISE, Status
 
-__all__ = ["NONE", "PeriodicOrbit", "length_of_manifolds", "periodic_layers", "plain", "which"]
+__all__ = ["NONE", "PeriodicOrbit", "length_of_manifolds", "periodic_layers", "which"]
 
 T = TypeVar("T")
 
@@ -74,23 +72,15 @@ def length_of_manifolds() -> Any:
     )
 
 
-def plain(preset: Preset) -> Preset:
-    """Return the preset with the density and without a periodic orbit, whatever the state before."""
-    values: dict[str, Value] = {"periodic": NONE, "indicator": DENSITY, **preset.values}
-    return Preset(preset.name, **values)
-
-
 @dataclass(frozen=True, eq=False)
 class PeriodicOrbit(Part[Section]):
     """A periodic orbit shown in place of the chosen orbit of a section.
 
-    period : one of `PERIODS`, or `NONE`; reach : the length of the manifolds of a saddle; span : the time span of the
-    chosen orbit.
+    period : one of `PERIODS`, or `NONE`; reach : the length of the manifolds of a saddle.
     """
 
     period: str
     reach: float
-    span: float
 
     @property
     def closing(self) -> bool:
@@ -125,16 +115,6 @@ class PeriodicOrbit(Part[Section]):
         return self._result if isinstance(self._result, Closed) else None
 
     @property
-    def start(self) -> tuple[float, ...]:
-        """The initial state of the orbit on show.  Raises `ModelError`."""
-        return self.host.given if self.closed is None else self.closed.state
-
-    @property
-    def lasts(self) -> float:
-        """The time span of the orbit on show: one period of a periodic orbit."""
-        return self.span if self.closed is None else self.closed.time
-
-    @property
     def _drawn(self) -> tuple[Search, list[BranchChoice], float] | None:
         """Cache key of a saddle's manifolds: the search, the branches, a pixel; None for any other orbit."""
         orbit = self._saddle
@@ -144,7 +124,7 @@ class PeriodicOrbit(Part[Section]):
         return (
             self._search,
             [(place, stable, side) for place in places for stable in (True, False) for side in (1, -1)],
-            1.0 / max(self.host.pixels),
+            1.0 / max(pixels_in(self.host.frame)),
         )
 
     @cached_property

@@ -7,11 +7,11 @@ from typing import Any
 
 import numpy as np
 
-from hess_explorer.protocol.specs import written
 from hess_explorer.scenes.framework.trial import Trial, section_error
-from hess_explorer.scenes.framework.windows import Window, inside
+from hess_explorer.scenes.framework.windows import Window, inside, pixels_in
 from hess_explorer.scenes.parts.sections.indicator import indicator_layer, indicator_trial
 from hess_explorer.scenes.parts.sections.periodic_orbit import periodic_layers
+from hess_explorer.scenes.parts.sections.section import about_section
 from hess_explorer.views import theme
 from hess_explorer.views.layers import Axes, Layers
 from hess_explorer.views.plane import density, layered_section, section_plane
@@ -32,8 +32,10 @@ def _density(labels: tuple[str, ...], colors: tuple[str, ...]) -> Layers[Any]:
 def section_layers(*parts: str, **more: Any) -> Layers[Any]:
     """Return the layers of a section with one kind of orbits.
 
-    parts : names of the parts of the state that it shows besides; more : other arguments of `section_plane.layers`.
+    parts : names of the parts of the state that it shows besides, by default all; more : other arguments of
+    `section_plane.layers`.
     """
+    parts = parts or ("megno", "density", "periodic_orbit")
 
     def others(s: Any) -> Array | None:
         return None if "density" in parts and s.density.tones else s.section.points()
@@ -46,23 +48,20 @@ def section_layers(*parts: str, **more: Any) -> Layers[Any]:
     )
 
 
-def section_picture(start: str = "", **more: Any) -> Plot[Any]:
-    """Return the picture of a section, in which a click sets the start of the orbit.
-
-    start : the name of the parameter that holds its place, see `places`; more : other arguments of `Plot`.
-    """
+def section_picture(**more: Any) -> Plot[Any]:
+    """Return the picture of a section, in which a click starts the orbit; more : other arguments of `Plot`."""
 
     def side(axis: int) -> Callable[[Any], tuple[float, float]]:
         return lambda s: tuple(corner[axis] for corner in s.section.frame)
 
     usual: dict[str, Any] = {
         "title": "Poincaré section",
-        "caption": lambda s: s.section.caption,
+        "caption": lambda s: s.special or about_section(s.section),
         "axes": lambda s: s.section.poincare.names,
         "x": side(0),
         "y": side(1),
-        "message": lambda s: s.section.reason,
-        "on_click": lambda s, x, y: {start: written([(x, y)])},
+        "message": lambda s: s.section.known.reason,
+        "on_click": lambda s, x, y: s.start_at(x, y),
         "layers": section_layers(ended=lambda s: s.section.points(ends=True)),
     }
     return Plot(name="section", starts=True, **{**usual, **more})
@@ -102,10 +101,10 @@ def filled_picture(
         return lambda s: np.empty((0, 2)) if s.density.tones else s.section.points(first)
 
     return section_picture(
-        message=lambda s: s.section.reason or _unseen(s),
+        message=lambda s: s.section.known.reason or _unseen(s),
         first=Axes((x0, x1), (y0, y1)),
         on_click=lambda s, x, y: s.clicks.add(x, y),
-        on_box=lambda s, corners: s.section.look_closer(corners),
+        on_box=lambda s, corners: s.clicks.look_closer(corners),
         layers=(
             *under,
             indicator_layer(),
@@ -136,7 +135,7 @@ def section_trials(**most: float) -> tuple[Trial[Any], Trial[Any]]:
             Kind.SECTION,
             ("section",),
             lambda s, plan: s.section.orbits_at(plan),
-            lambda s, orbits, truth: section_error(orbits, truth, s.section.pixels, s.section.poincare.turns),
+            lambda s, orbits, truth: section_error(orbits, truth, pixels_in(s.section.frame), s.section.poincare.turns),
             most=(*most.items(), ("count", _MOST_COMPARED)),
         ),
         indicator_trial(),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Protocol
@@ -10,7 +10,7 @@ from typing import Any, Protocol
 import numpy as np
 
 from hess_explorer.compute.cache import Task
-from hess_explorer.scenes.framework.orbit_batches import in_batches
+from hess_explorer.scenes.framework.orbit_batches import OrbitBatch, in_batches
 from hess_explorer.scenes.framework.part import Host, Part
 from hess_explorer.scenes.framework.trial import Trial
 from hess_explorer.scenes.framework.windows import Window
@@ -75,61 +75,59 @@ class RotationAcross(Part[_Host]):
         middle = 0.5 * (x0 + x1)
         return (0.5 * (l0 + l1), middle), (l1, middle)
 
-    @cached_property
-    def _orbits_on_line(self) -> tuple[list[tuple[float, Array]], bool]:
-        """The known orbits with the positions of their starts along the line, and whether they are complete."""
-        plan = self.work.plan(Kind.ROTATION)
-        count, crossings = _HELD[:2] if self.work.dragging else (plan.side(_ACROSS), self._crossings_on_line(plan))
-        starts = self.work.need(Task(on_line, self.host.poincare, self.ends, count))
-        found: list[tuple[float, Array]] = []
-        for some in in_batches(starts):
-            task = self.section.batch(tuple(state for _, state in some), True, crossings, plan.level)
-            piece = self.work.need(task, preview=task if self.work.dragging else None)
-            if piece is not None:
-                found += zip((share for share, _ in some), piece.orbits, strict=True)
-        return found, len(found) == len(starts)
+    def _pieces(self, plan: Plan) -> list[tuple[list[float], Task[OrbitBatch]]]:
+        """Return the positions of all starts along the line, some together, and the computation of their orbits."""
+        crossings = max(self.work.plan(Kind.SECTION).part(self.host.count), plan.part(_ON_LINE))
+        starts = self.work.need(Task(on_line, self.host.poincare, self.ends, self._count(plan)))
+        return [
+            (
+                [share for share, _ in some],
+                self.section.batch(
+                    tuple(state for _, state in some), True, _HELD[1] if self.work.dragging else crossings, plan.level
+                ),
+            )
+            for some in in_batches(starts)
+        ]
 
-    def _crossings_on_line(self, plan: Plan) -> int:
-        return max(self.work.plan(Kind.SECTION).part(self.host.count), plan.part(_ON_LINE))
+    def _count(self, plan: Plan) -> int:
+        return _HELD[0] if self.work.dragging else plan.side(_ACROSS)
+
+    @cached_property
+    def _known(self) -> list[tuple[list[float], OrbitBatch | None]]:
+        held, pieces = self.work.dragging, self._pieces(self.work.plan(Kind.ROTATION))
+        return [(shares, self.work.need(task, preview=task if held else None)) for shares, task in pieces]
+
+    @property
+    def _complete(self) -> bool:
+        return all(batch is not None for _, batch in self._known)
 
     @cached_property
     def found(self) -> RotationProfile:
         """The known rotation numbers along the line; of few, short orbits while a slider is held."""
-        count = _HELD[0] if self.work.dragging else self.work.plan(Kind.ROTATION).side(_ACROSS)
-        return self._rotation_of(self._orbits_on_line[0], count)
+        return self._profile(self._known, self.work.plan(Kind.ROTATION))
 
     @property
     def _resolved(self) -> float:
         return _HELD[2] if self.work.dragging else RESOLVED
 
-    def _rotation_of(self, found: list[tuple[float, Array]], count: int) -> RotationProfile:
+    def _profile(self, pieces: Sequence[tuple[list[float], OrbitBatch | None]], plan: Plan) -> RotationProfile:
+        known = [(shares, batch.orbits) for shares, batch in pieces if batch is not None]
         return rotation_along(
             self.ends,
-            [share for share, _ in found],
-            [orbit for _, orbit in found],
+            [share for shares, _ in known for share in shares],
+            [orbit for _, orbits in known for orbit in orbits],
             self.about_middle,
-            count,
+            self._count(plan),
             self._resolved,
         )
 
     def at(self, plan: Plan) -> RotationProfile:
         """Return the rotation numbers along the line, computed at once."""
-        count = plan.side(_ACROSS)
-        starts = on_line(self.host.poincare, self.ends, count)
-        orbits = [
-            orbit
-            for some in in_batches(starts)
-            for orbit in self.section.batch(
-                tuple(state for _, state in some), True, self._crossings_on_line(plan), plan.level
-            )
-            .now()
-            .orbits
-        ]
-        return self._rotation_of([(share, orbit) for (share, _), orbit in zip(starts, orbits, strict=True)], count)
+        return self._profile([(shares, task.now()) for shares, task in self._pieces(plan)], plan)
 
     def message(self) -> str:
         """Return the reason why the picture is empty; an empty string if it is not, or until all is known."""
-        if self.found.numbers.size or not self._orbits_on_line[1]:
+        if self.found.numbers.size or not self._complete:
             return ""
         return (
             "No closed curve here makes a turn"
@@ -155,7 +153,7 @@ class RotationAcross(Part[_Host]):
     def caption(self) -> Caption:
         """Return the caption of the picture."""
         if not self.found.numbers.size:
-            return Caption(self.message() + "." if self._orbits_on_line[1] else self.work.awaited())
+            return Caption(self.message() + "." if self._complete else self.work.awaited())
         rho = self.found.numbers
         # A line across the whole section meets orbits of many kinds: ρ is no single function of the place.
         turning = self.found.extremum if self.about_middle else None

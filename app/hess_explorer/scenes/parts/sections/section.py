@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
-from itertools import product
 from typing import Any, Protocol
 
 import numpy as np
@@ -14,30 +13,26 @@ from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.specs import Values, places
 from hess_explorer.scenes.framework.orbit_batches import OrbitBatch, batch_of
 from hess_explorer.scenes.framework.part import Part, Sectioned, Start
-from hess_explorer.scenes.framework.periodic_search import NotPeriodic, Periodic, Place
+from hess_explorer.scenes.framework.periodic_search import Periodic, Place
 from hess_explorer.scenes.framework.sliders import number
-from hess_explorer.scenes.framework.windows import Window, boxed, tidy_window, window_of
+from hess_explorer.scenes.framework.windows import Window, pixels_in, tidy_window, window_of
 from hess_explorer.scenes.framework.work import drift_status, kept_status
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.plane.section_plane import joined
-from hess_mechanics.dynamics.cells import evenly
 from hess_mechanics.dynamics.return_map import PoincareSection, section_crossings
-from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.dynamics.shadowing import right_crossings, typical
 from hess_mechanics.errors import OutsideRegion, WorkLimit
 from hess_mechanics.numerics.accuracy import STANDARD, Kind, Level, Plan
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["Section", "Seeds", "crossings_of_each", "first_place", "start_on"]
+__all__ = ["Known", "Section", "Seeds", "about_section", "crossings_of_each", "first_place", "start_on"]
 
-_FEW = 30
-"""Crossings of each orbit while a slider is dragged, and until all are known."""
+_FEW, _LEAST = 30, 20
+"""Crossings of each orbit while a slider is dragged, and until all are known; and their least number at any level."""
 _ON = 1e-9
 """Largest relative distance of a start that counts as on the section."""
 _ORBITS, _MOST_STEPS = 20, 100_000
-"""Default section: number of other orbits, and largest number of Taylor steps of each."""
-_TURNS = 60.0
-"""Time limit per crossing, in units of 1/ν times the slowness of the section."""
+"""Defaults: number of other orbits, and largest number of Taylor steps of each."""
 _COMPARED = 3
 """Batches that are computed twice for an error estimate, in addition to the orbit on show."""
 
@@ -66,21 +61,22 @@ def start_on(section: PoincareSection, text: str) -> Start:
 
 
 def crossings_from(
-    section: PoincareSection, starts: tuple[Start, ...], crossings: int, forward: bool, level: Level
+    section: PoincareSection,
+    starts: tuple[Start, ...],
+    crossings: int,
+    forward: bool,
+    level: Level,
+    most_steps: int = _MOST_STEPS,
 ) -> OrbitBatch:
-    """Return so many crossings of the orbits from some states."""
-    return batch_of(
-        section,
-        section_crossings(section, np.array(starts), crossings, _TURNS, level, not forward, most_steps=_MOST_STEPS),
-    )
+    """Return so many crossings of the orbits from some states; their kinds are their directions of time."""
+    found = section_crossings(section, starts, crossings, level, not forward, most_steps=most_steps)
+    return batch_of(section, found, forward)
 
 
 def _all_over(section: Section) -> list[tuple[Start, ...]]:
     """Return starts spread over the visible window, where motions cross it: one batch."""
-    ways = evenly(8 * _ORBITS - 1).T
-    low, high = np.array(section.frame)
-    states, there = section.poincare.states_at(*(low + ways * (high - low)).T)
-    return [tuple(map(tuple, states[there][:_ORBITS].tolist()))]
+    starts = section.poincare.spread(_ORBITS, section.frame)
+    return [starts] if starts else []
 
 
 Seeds = Callable[["Section"], list[tuple[Start, ...]]]
@@ -92,12 +88,25 @@ class _Host(Sectioned, Protocol):
     def count(self) -> float:
         """The number of crossings of each orbit."""
 
+    @property
+    def window(self) -> str:
+        """The visible window, as in a link; empty for the whole."""
+
+    @property
+    def given(self) -> Start:
+        """The chosen initial state.  Raises `ModelError`."""
+
+    @property
+    def periodic_orbit(self) -> Periodic:
+        """The periodic orbit in place of the chosen one."""
+
 
 @dataclass(frozen=True)
-class _Known:
-    """The batches of the chosen orbits and of the others, None if not known yet.
+class Known:
+    """The orbits of a section as far as they are known.
 
-    few : fewer crossings of the others, until all are known; reason : why all of it is left out.
+    own, others : batches of the chosen orbits and of the others, None if not known yet; few : fewer crossings of the
+    others, until all are known; reason : why all of it is left out, else an empty string.
     """
 
     own: list[OrbitBatch | None]
@@ -105,33 +114,38 @@ class _Known:
     few: list[OrbitBatch] | None = None
     reason: str = ""
 
+    @property
+    def chosen(self) -> list[OrbitBatch]:
+        """The known batches of the chosen orbits."""
+        return [batch for batch in self.own if batch is not None]
+
+    @property
+    def batches(self) -> list[OrbitBatch]:
+        """The known batches of the other orbits."""
+        return self.few or [batch for batch in self.others if batch is not None]
+
 
 @dataclass(frozen=True, eq=False)
 class Section(Part[_Host]):
     """A section with chosen orbits among others, computed in batches.
 
-    starts() : the states from which the chosen orbits start; the last one is on show.  Raises `ModelError`.
-    compute(section, starts, crossings, forward, level) : the `OrbitBatch` of these starts; seeds : the starts of the
-    others; ways : their directions of time, True is forward.
-    periodic() : the periodic orbit in place of the last chosen one; later : draw only the later half of the crossings.
-    whole() : the window of the whole picture, by default that of the section; bounds : the largest window, for links;
-    zoom : the visible one, as in a link; empty for the whole.
-    fewest, held : the least number of crossings at any level, and the largest while a slider is held.
+    chosen() : the states from which the chosen orbits start, by default the given one; the last one is on show.
+    compute(section, starts, crossings, forward, level, most_steps) : the `OrbitBatch` of these starts.
+    most_steps : largest number of Taylor steps of each orbit.
+    seeds : the starts of the others; ways : their directions of time, True is forward.
+    later : draw only the later half of the crossings.
+    whole() : the window of the whole picture, by default that of the section.
     at_once : compute the chosen orbits, and a few crossings of the others, before anything is shown.
     alone : whether nothing else is shown in the window, such as basins.
     """
 
-    starts: Callable[[], Sequence[Start]]
+    chosen: Callable[[], Sequence[Start]] | None = None
     compute: Callable[..., OrbitBatch] = crossings_from
     seeds: Seeds = _all_over
-    periodic: Callable[[], Periodic] = NotPeriodic
+    most_steps: int = _MOST_STEPS
     ways: tuple[bool, ...] = (True,)
     later: bool = False
     whole: Callable[[], Window] | None = None
-    bounds: Window | None = None
-    zoom: str = ""
-    fewest: int = _FEW
-    held: int = _FEW
     at_once: bool = True
     alone: bool = True
 
@@ -140,52 +154,39 @@ class Section(Part[_Host]):
         """The section in its coordinates.  Raises `ModelError`."""
         return self.host.poincare
 
-    # ---- the window ---------------------------------------------------------------------------------------------
-
-    @property
-    def _whole(self) -> Window:
-        (x0, x1), (y0, y1) = self.poincare.window
-        return ((x0, y0), (x1, y1)) if self.whole is None else self.whole()
-
     @property
     def frame(self) -> Window:
         """The visible window."""
-        return window_of(self.zoom, self._whole)
-
-    def look_closer(self, corners: tuple[float, float, float, float]) -> Values:
-        """Return the window that a box selects."""
-        return boxed(corners, self.bounds or self._whole)
+        (x0, x1), (y0, y1) = self.poincare.window
+        return window_of(self.host.window, ((x0, y0), (x1, y1)) if self.whole is None else self.whole())
 
     def admitted(self, notes: list[str]) -> Values:
         """Return a valid window."""
-        return {"window": tidy_window(self.zoom)} if self.zoom else {}
+        return {"window": tidy_window(self.host.window)} if self.host.window else {}
 
     @property
-    def pixels(self) -> tuple[float, ...]:
-        """Pixels per unit of each coordinate."""
-        return tuple(PIXELS / (high - low) for low, high in zip(*self.frame, strict=True))
-
-    # ---- what is computed ---------------------------------------------------------------------------------------
-
-    @property
-    def given(self) -> Start:
-        """The initial state of the last chosen orbit.  Raises `ModelError`."""
-        return self.starts()[-1]
+    def starts(self) -> Sequence[Start]:
+        """The states from which the chosen orbits start; the last one is on show.  Raises `ModelError`."""
+        return (self.host.given,) if self.chosen is None else self.chosen()
 
     @cached_property
     def aim(self) -> Place | None:
         """The place where the last chosen orbit starts, or else first crosses the section; None without one."""
+        start = self.starts[-1]
         try:
-            return _first_place(self.poincare, self.given, lambda: self.work.need(self.batch((self.given,))))
+            return _first_place(self.poincare, start, lambda: self.work.need(self.batch((start,))))
         except WorkLimit:
             return None
+
+    # ---- the orbits ---------------------------------------------------------------------------------------------
 
     def batch(
         self, starts: tuple[Start, ...], forward: bool = True, crossings: int = 0, level: Level | None = None
     ) -> Task[OrbitBatch]:
         """Return the computation of the orbits from some states, by default as they are shown."""
         plan = self.work.plan(Kind.SECTION)
-        return Task(self.compute, self.poincare, starts, crossings or self._count, forward, level or plan.level)
+        how = crossings or self._count, forward, level or plan.level, self.most_steps
+        return Task(self.compute, self.poincare, starts, *how)
 
     def _filling(self, crossings: int = 0, level: Level | None = None) -> list[Task[OrbitBatch]]:
         return [self.batch(starts, way, crossings, level) for starts in self.seeds(self) for way in self.ways]
@@ -194,91 +195,74 @@ class Section(Part[_Host]):
     def _count(self) -> int:
         """The number of crossings of each orbit."""
         crossings = self.host.count
-        return int(min(crossings, self.held)) if self.work.dragging else self._at(self.work.plan(Kind.SECTION))
-
-    def _at(self, plan: Plan) -> int:
-        return plan.part(self.host.count, self.fewest)
+        return int(min(crossings, _FEW)) if self.work.dragging else self.work.plan(Kind.SECTION).part(crossings, _LEAST)
 
     @cached_property
-    def _known(self) -> _Known:
-        states = self.starts() if self.periodic().closed is None else self.starts()[:-1]
+    def known(self) -> Known:
+        """The orbits as far as they are known."""
+        states = self.starts if self.host.periodic_orbit.closed is None else self.starts[:-1]
         held = self.work.dragging
         try:
             own = [self.batch((state,)) for state in states]
             others = self._filling()
-            known = _Known(
+            known = Known(
                 [self.work.need(task, preview=task if held or self.at_once else None) for task in own],
                 [self.work.need(task, preview=task if held else None) for task in others],
             )
             if self.at_once and None in known.others:
                 few = [self.work.need(task) for task in self._filling(min(self._count, _FEW))]
-                known = _Known(known.own, known.others, few)
+                known = replace(known, few=few)
         except WorkLimit as error:
-            return _Known([], [], reason=f"The section is left out: {error}")
+            return Known([], [], reason=f"The section is left out: {error}")
         return known
-
-    @property
-    def batches(self) -> list[OrbitBatch]:
-        """The known batches of the other orbits."""
-        return self._known.few or [batch for batch in self._known.others if batch is not None]
-
-    @property
-    def reason(self) -> str:
-        """The reason why the section is left out; an empty string if it is not."""
-        return self._known.reason
-
-    @property
-    def chosen(self) -> list[OrbitBatch]:
-        """The known batches of the chosen orbits."""
-        return [batch for batch in self._known.own if batch is not None]
 
     @cached_property
     def own(self) -> Array:
         """The drawn points (n, 2) of the chosen orbits."""
-        return joined(self._shown(orbit) for batch in self.chosen for orbit in batch.orbits)
+        return joined(self._shown(orbit) for batch in self.known.chosen for orbit in batch.orbits)
 
-    def kind(self, first: bool = True, ends: bool = False) -> list[Array]:
-        """Return the other orbits of one kind with all their points: those that end early or the others."""
-        return [
-            orbit
-            for batch in self.batches
-            for orbit, is_first, reason in zip(batch.orbits, batch.firsts, batch.reasons, strict=True)
-            if (is_first, reason != "") == (first, ends)
-        ]
+    def _shown(self, orbit: Array, later: bool = False) -> Array:
+        return orbit[len(orbit) // 2 :] if self.later or later else orbit
 
-    def points(self, first: bool = True, ends: bool = False) -> Array:
-        """Return the drawn points (n, 2) of the other orbits of one kind."""
-        return self._points[first, ends]
+    def points(self, first: bool = True, ends: bool = False, later: bool = False) -> Array:
+        """Return the drawn points (n, 2) of the other orbits of one kind, those that end early or the rest.
+
+        later : the later half of their crossings, whatever is drawn.
+        """
+        if (first, ends, later) not in self._points:
+            self._points[first, ends, later] = joined(
+                self._shown(orbit, later)
+                for batch in self.known.batches
+                for orbit, is_first, reason in zip(batch.orbits, batch.firsts, batch.reasons, strict=True)
+                if (is_first, reason != "") == (first, ends)
+            )
+        return self._points[first, ends, later]
 
     @cached_property
-    def _points(self) -> dict[tuple[bool, bool], Array]:
-        kinds = product((True, False), repeat=2)
-        return {(first, ends): joined(map(self._shown, self.kind(first, ends))) for first, ends in kinds}
-
-    def _shown(self, orbit: Array) -> Array:
-        return orbit[len(orbit) // 2 :] if self.later else orbit
+    def _points(self) -> dict[tuple[bool, bool, bool], Array]:
+        return {}
 
     def orbits_at(self, plan: Plan) -> list[Array]:
         """Return all orbits of the section (n, 2), the chosen ones first; computed at once."""
-        how = self._at(plan), plan.level
-        tasks = [*(self.batch((state,), True, *how) for state in self.starts()), *self._filling(*how)]
+        how = plan.part(self.host.count, _LEAST), plan.level
+        tasks = [*(self.batch((state,), True, *how) for state in self.starts), *self._filling(*how)]
         return [orbit for task in tasks for orbit in task.now().orbits]
 
     @cached_property
-    def _kept(self) -> tuple[int, int | None] | None:
+    def _right(self) -> tuple[int, int | None] | None:
         """The last crossing right to half a pixel: of the orbit on show, and the median of some others, if any.
 
         Compares with a second run at a hundredth of the tolerance; None until it is known, and while a slider is held.
         """
-        periodic, own = self.periodic(), self._known.own
+        periodic, own = self.host.periodic_orbit, self.known.own
         if self.work.dragging or periodic.looking or periodic.closed is not None or not own:
             return None
         level, step = self.work.plan(Kind.SECTION).level.tightened(), len(self.ways)
-        tasks = [self.batch((self.given,), level=level), *self._filling(level=level)[::step][:_COMPARED]]
+        tasks = [self.batch((self.starts[-1],), level=level), *self._filling(level=level)[::step][:_COMPARED]]
         fine: list[OrbitBatch | None] = [self.work.need(task, preview=None) for task in tasks]
         counts = [
-            right_crossings(one.orbits, other.orbits, self.pixels, self.poincare.turns)
-            for one, other in zip([own[-1], *self._known.others[::step]], fine, strict=False)
+            right_crossings(one.orbits, other.orbits, pixels_in(self.frame), self.poincare.turns)
+            for one, other in zip([own[-1], *self.known.others[::step]], fine, strict=False)
             if one is not None and other is not None
         ]
         if len(counts) < len(fine):
@@ -287,36 +271,33 @@ class Section(Part[_Host]):
 
     # ---- words --------------------------------------------------------------------------------------------------
 
-    @property
-    def caption(self) -> Caption:
-        """The caption: the number of crossings, or the reason why the section is left out."""
-        if self.reason:
-            return Caption(numbers=self.reason)
-        reasons = [reason for batch in self.batches for reason in batch.reasons]
-        count = sum(map(bool, reasons))
-        ends = f" {count} of {len(reasons)} others end early." if count else ""
-        return Caption(
-            "The chosen orbit ends early." if any(self._own_reasons) else "",
-            f"{len(self.own)} crossings of the chosen orbit, {len(self.points())} of others.{ends}",
-        )
-
-    @property
-    def _own_reasons(self) -> list[str]:
-        return [reason for batch in self.chosen for reason in batch.reasons if reason]
-
     def status(self) -> Iterator[str]:
         """Yield the size, cost and drift of the section, and the accuracy of the orbit on show."""
-        if self.asked("_known") and not self.reason:
-            known = [*self.chosen, *self.batches]
+        if self.asked("known") and not self.known.reason:
+            known = [*self.known.chosen, *self.known.batches]
             points = len(self.own) + len(self.points()) + len(self.points(False))
             yield f"section {points} points, {sum(batch.steps for batch in known)} Taylor steps"
             yield from drift_status(batch.drift for batch in known)
-            yield from kept_status(self._kept, self._count)
+            yield from kept_status(self._right, self._count)
 
     def notes(self) -> Iterator[str]:
         """Yield the reason why the section is left out, or why a chosen orbit ends early."""
-        if self.asked("_known"):
-            yield from filter(None, (self.reason, *self._own_reasons))
+        if self.asked("known"):
+            reasons = (reason for batch in self.known.chosen for reason in batch.reasons)
+            yield from filter(None, (self.known.reason, *reasons))
+
+
+def about_section(section: Section) -> Caption:
+    """Return the caption of a section: the number of crossings, or the reason why it is left out."""
+    if section.known.reason:
+        return Caption(numbers=section.known.reason)
+    reasons = [reason for batch in section.known.batches for reason in batch.reasons]
+    count = sum(map(bool, reasons))
+    ends = f" {count} of {len(reasons)} others end early." if count else ""
+    return Caption(
+        "The chosen orbit ends early." if any(reason for one in section.known.chosen for reason in one.reasons) else "",
+        f"{len(section.own)} crossings of the chosen orbit, {len(section.points())} of others.{ends}",
+    )
 
 
 def _first_place(section: PoincareSection, state: Start, crossed: Callable[[], OrbitBatch]) -> Place | None:
@@ -331,4 +312,6 @@ def _first_place(section: PoincareSection, state: Start, crossed: Callable[[], O
 
 def first_place(section: PoincareSection, state: Start) -> Place | None:
     """Return the place where the motion of a state starts, or else first crosses the section; None if it does not."""
-    return _first_place(section, state, lambda: crossings_from(section, (state,), 1, True, STANDARD))
+    return _first_place(
+        section, state, lambda: crossings_from(section, (state,), 1, True, STANDARD, Section.most_steps)
+    )

@@ -1,29 +1,79 @@
-"""States of a scene with a section: what they show of it, and the orbit that starts there."""
+"""The section workbench: states with a section, its orbits, and the results on them."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from functools import partial
-from typing import Any
+from dataclasses import dataclass
+from functools import cached_property
 
+from hess_explorer.protocol.specs import Value, Values, written
 from hess_explorer.scenes.framework.cells import DENSITY
 from hess_explorer.scenes.framework.part import Start, part
 from hess_explorer.scenes.framework.periodic_search import Closed
 from hess_explorer.scenes.framework.scene import Motion, State
+from hess_explorer.scenes.framework.sliders import accuracy_level, exponent_time, proved_error_shown, time_span
+from hess_explorer.scenes.framework.solid_body import Solid, constrained_solid
+from hess_explorer.scenes.parts.orbits.exponent import Exponent
+from hess_explorer.scenes.parts.orbits.proof import Proof
+from hess_explorer.scenes.parts.sections.clicks import orbits_spread, points_of_each
 from hess_explorer.scenes.parts.sections.density import Density
-from hess_explorer.scenes.parts.sections.indicator import MEGNO, Indicator
+from hess_explorer.scenes.parts.sections.indicator import MEGNO, Indicator, colouring
 from hess_explorer.scenes.parts.sections.orbit import Orbit
-from hess_explorer.scenes.parts.sections.periodic_orbit import PeriodicOrbit
-from hess_mechanics.numerics.results import Array
+from hess_explorer.scenes.parts.sections.periodic_orbit import NONE, PeriodicOrbit, length_of_manifolds, which
+from hess_explorer.scenes.parts.sections.section import Section, crossings_of_each, start_on
+from hess_explorer.views.caption import Caption
+from hess_mechanics.dynamics.return_map import PoincareSection
+from hess_mechanics.dynamics.system import Body
 
-__all__ = ["SectionState", "shown_in_section"]
+__all__ = ["PLAIN", "FilledState", "SectionState"]
+
+PLAIN: dict[str, Value] = {"periodic": NONE, "indicator": DENSITY}
+"""Of the first preset: the others then set these choices too, see `Scene.example`."""
 
 
+@dataclass(frozen=True)
 class SectionState(State):
-    """A state with an orbit from its section, or with the periodic orbit in place of it."""
+    """A state with an orbit from its section, or the periodic orbit in place of it, among others.
 
-    periodic_orbit: part[PeriodicOrbit]
-    orbit: part[Orbit]
+    A scene adds its parameters, its `poincare`, its `body` if that is not the section, and the `weights` of the
+    variables, in pixels per unit.  Its orbit starts at the `place`, a parameter of places, or at another `given`.
+    """
+
+    periodic: str = which()
+    indicator: str = colouring()
+    count: float = crossings_of_each()
+    reach: float = length_of_manifolds()
+    span: float = time_span(40.0, 200.0, what="the chosen orbit")
+    certain: str = proved_error_shown()
+    accuracy: str = accuracy_level()
+    place: str = ""
+    window: str = ""
+
+    @property
+    def poincare(self) -> PoincareSection:
+        """The section in its coordinates.  Raises `ModelError`."""
+        raise NotImplementedError
+
+    @property
+    def body(self) -> Body:
+        """The equations and their parameters.  Raises `ModelError`."""
+        return self.poincare
+
+    @property
+    def given(self) -> Start:
+        """The chosen initial state.  Raises `ModelError`."""
+        return start_on(self.poincare, self.place)
+
+    section = part(Section)
+    density = part(lambda s: Density(s.section, s.dense))
+    megno = part(lambda s: Indicator(s.section, s.indicator == MEGNO and s.section.alone))
+    periodic_orbit = part(lambda s: PeriodicOrbit(s.section, s.periodic, s.reach))
+    orbit = part(Orbit)
+    proof = part(lambda s: Proof(s.orbit, s.certain))
+
+    @property
+    def dense(self) -> bool:
+        """True if the density is shown."""
+        return self.indicator == DENSITY and self.section.alone
 
     @property
     def closed(self) -> Closed | None:
@@ -33,31 +83,44 @@ class SectionState(State):
     @property
     def start(self) -> Start:
         """The initial state of the orbit on show."""
-        return self.periodic_orbit.start
+        return self.given if self.closed is None else self.closed.state
 
     @property
     def lasts(self) -> float:
         """The length of the orbit in time."""
-        return self.periodic_orbit.lasts
+        return self.span if self.closed is None else self.closed.time
+
+    @cached_property
+    def solid(self) -> Solid:
+        """The body along the orbit, of the Suslov problem unless a scene has another one."""
+        return constrained_solid(self.work, self.body, self.orbit.path)
 
     def motion(self) -> Motion | None:
         """Return the orbit on show."""
         return self.orbit.motion()
 
+    def start_at(self, x: float, y: float) -> Values:
+        """Return the parameters of an orbit that starts at a place of the section."""
+        return {"place": written([(x, y)])}
 
-def shown_in_section(
-    kinds: int = 0, kind_of: Callable[[Any, Array], Array] | None = None
-) -> tuple[part[Density], part[Indicator], part[PeriodicOrbit]]:
-    """Return the density, the cells of MEGNO and the periodic orbit of the `section` of a state.
+    @property
+    def special(self) -> Caption | None:
+        """The caption of a section with a periodic orbit or MEGNO; None without them."""
+        return self.periodic_orbit.caption or self.megno.caption
 
-    kinds, kind_of(state, states) : as of `Density`.
-    """
-    return (
-        part(
-            lambda s: Density(
-                s.section, s.indicator == DENSITY and s.section.alone, kinds, kind_of and partial(kind_of, s)
-            )
-        ),
-        part(lambda s: Indicator(s.section, s.indicator == MEGNO and s.section.alone)),
-        part(lambda s: PeriodicOrbit(s.section, s.periodic, s.reach, s.span)),
-    )
+
+@dataclass(frozen=True)
+class FilledState(SectionState):
+    """A state with a section whose window is filled with orbits; clicks start others there."""
+
+    orbits: float = orbits_spread(40.0, 120.0, 300.0)
+    count: float = points_of_each(200.0)
+    long: float = exponent_time(1000.0, 5000.0, 2e4, "the Lyapunov exponent and the divergence are")
+    starts: str = ""
+
+    exponent = part(Exponent)
+
+    @property
+    def given(self) -> Start:
+        """The last chosen initial state.  Raises `ModelError`."""
+        return self.section.starts[-1]

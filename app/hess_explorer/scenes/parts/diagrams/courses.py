@@ -1,0 +1,117 @@
+"""Orbits followed through the values of a parameter, in pieces, and what is read off them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from hess_explorer.compute.cache import Task
+from hess_explorer.scenes.framework.families import Family
+from hess_explorer.scenes.framework.periodic_search import Place
+from hess_explorer.views.layers import Range
+from hess_mechanics.dynamics.orbit_diagram import Cascade, Diagram, cascade, diagram_over, doubling_seen
+from hess_mechanics.dynamics.periodic import find_periodic
+from hess_mechanics.dynamics.return_map import ReturnMap
+from hess_mechanics.errors import ModelError, WorkLimit
+from hess_mechanics.numerics.accuracy import Level
+from hess_mechanics.numerics.results import Array
+
+__all__ = ["Course", "cropped", "doublings", "piece"]
+
+_TOGETHER = 30
+"""Values of the parameter computed at once: few enough that points arrive soon."""
+_DOUBLINGS = 4
+_BOTH = 2.5
+"""Largest height of attractor and repeller together, in heights of the attractor, at which both are in sight."""
+_FEW_FAR = 0.05
+"""Share of the values that do not count: at a few of them a motion may go far away for a moment."""
+_ROOM, _LEAST = 0.1, 0.01
+"""Room above and below, in heights of what is there, and at least in those of the section."""
+
+
+@dataclass(frozen=True)
+class Course:
+    """An orbit followed through the values of the parameter, in pieces; parameters as of `diagram_over`.
+
+    before : the course at whose end this one starts; without it, it starts at `place`.
+    """
+
+    family: Family
+    values: tuple[float, ...]
+    place: Place
+    transient: int
+    kept: int
+    follow: bool
+    level: Level
+    backward: bool = False
+    before: Course | None = None
+
+    @property
+    def pieces(self) -> range:
+        """The numbers of the pieces."""
+        return range(-(-len(self.values) // _TOGETHER))
+
+    def over(self, values: Sequence[float], start: Place) -> Diagram:
+        """Return the orbit diagram over some of the values, from a place."""
+        return diagram_over(
+            lambda value: ReturnMap(self.family(value), self.level, self.backward),
+            self.family.name,
+            values,
+            start,
+            self.transient,
+            self.kept,
+            self.follow,
+            self.place,
+        )
+
+
+def piece(course: Course, number: int) -> Diagram:
+    """Return a piece of a course, which needs the pieces before it."""
+    return course.over(course.values[number * _TOGETHER : (number + 1) * _TOGETHER], _reached(course, number))
+
+
+def _reached(course: Course, number: int) -> Place:
+    """Return the last place of the orbit on the section before a piece."""
+    if number == 0:
+        return course.place if course.before is None else _reached(course.before, len(course.before.pieces))
+    before: Diagram = Task(piece, course, number - 1).get()
+    ends = before.ends[np.isfinite(before.ends).all(axis=1)]
+    return tuple(ends[-1].tolist()) if len(ends) else _reached(course, number - 1)
+
+
+def doublings(course: Course) -> Cascade | str:
+    """Return the doublings from the first one seen on a course, or why none was located; "" if none is seen."""
+    seen = doubling_seen([Task(piece, course, number).get() for number in course.pieces])
+    if seen is None:
+        return ""
+    value, places, end = seen
+    family = course.family
+    try:
+        orbit = find_periodic(family.map_at(value), places, len(places))
+        return cascade(family.map_at, family.name, orbit, value, end, _DOUBLINGS)
+    except WorkLimit:
+        raise
+    except ModelError as error:
+        return str(error)
+
+
+def cropped(course: Course, side: int, whole: Range) -> Range:
+    """Return the range of a coordinate with the attractor over the parameter, and the repeller if it is near."""
+    attractor, repeller = (
+        [some[:, side] for some in way.over(way.values, way.place).places]
+        for way in (course, replace(course, backward=True))
+    )
+    if not any(map(len, attractor)):
+        return whole
+    alone, both = _range(attractor), _range(attractor + repeller)
+    low, high = both if both[1] - both[0] < _BOTH * (alone[1] - alone[0]) else alone
+    room = max(_ROOM * (high - low), _LEAST * (whole[1] - whole[0]))
+    return max(whole[0], low - room), min(whole[1], high + room)
+
+
+def _range(parts: Sequence[Array]) -> Range:
+    """Return the range of the points at most values."""
+    lows, highs = zip(*((one.min(), one.max()) for one in parts if len(one)), strict=True)
+    return float(np.quantile(lows, _FEW_FAR)), float(np.quantile(highs, 1.0 - _FEW_FAR))

@@ -1,0 +1,240 @@
+"""The rotation number of the Suslov–Hess torus over two of its parameters."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from hess_explorer.compute.cache import Task
+from hess_explorer.protocol.specs import Values
+from hess_explorer.scenes.framework.part import Host, Part
+from hess_explorer.scenes.framework.sliders import places
+from hess_explorer.scenes.framework.windows import Window, boxed, inside, window_of
+from hess_explorer.views import theme
+from hess_explorer.views.caption import Caption
+from hess_explorer.views.layers import (
+    TURNS,
+    Axes,
+    CellGrid,
+    Range,
+    Regions,
+    Sign,
+    curves,
+    image,
+    rectangle,
+    region,
+    target,
+)
+from hess_explorer.views.maps.bifurcation_diagram import impossible
+from hess_explorer.views.picture import Corners
+from hess_explorer.views.plot import Plot
+from hess_mechanics.numerics.accuracy import Kind, Plan
+from hess_mechanics.numerics.results import Array
+from hess_mechanics.suslov_hess import rotation_number as mechanics
+from hess_mechanics.suslov_hess.bifurcation import f_max, f_max_each, h_min
+from hess_mechanics.suslov_hess.rotation_number import Torus, TorusValues
+
+__all__ = ["BOUNDS", "FULL", "RotationMap", "rotation_map", "window_over"]
+
+_COARSE, _FINE = (75, 50), (300, 200)
+_ROWS = 25  # of the fine map in one task
+_ON_CURVE = 48  # points of the boundary of the lock zone
+_ON_EDGE = 300
+FULL = {"h": (-1.0, 4.0), "f": (-3.0, 3.0), "a": (0.0, 2.0)}
+BOUNDS = {"h": (-1.0, 1e6), "f": (-1e4, 1e4), "a": (-100.0, 100.0)}
+
+
+def _corners(plane: str, ranges: Mapping[str, Range]) -> Window:
+    """Return the lower left and upper right corners of the map over a plane."""
+    x, y = (ranges[name] for name in plane.split(", "))
+    return (x[0], y[0]), (x[1], y[1])
+
+
+def window_over(plane: str) -> Any:
+    """Declare the window of the map over a plane."""
+    return places(f"The window of the map over {plane}", 2, *_corners(plane, BOUNDS))
+
+
+@dataclass(frozen=True, eq=False)
+class RotationMap(Part[Host]):
+    """The rotation number over a plane of `PLANES`, coarse first, and a line through the torus on show.
+
+    line : the parameter that changes along the line; text : the window in a link.
+    """
+
+    plane: str
+    torus: Torus
+    line: str
+    text: str
+
+    @property
+    def sides(self) -> tuple[str, str]:
+        """The parameters on the axes, the horizontal one first."""
+        across, up = self.plane.split(", ")
+        return across, up
+
+    @cached_property
+    def window(self) -> tuple[Range, Range]:
+        """The ranges of the horizontal and the vertical axis."""
+        (x0, y0), (x1, y1) = window_of(self.text, _corners(self.plane, FULL))
+        return (x0, x1), (y0, y1)
+
+    @property
+    def _beside(self) -> Torus:
+        """The torus with the map's own parameters set to 0: a cache key that is constant within the plane."""
+        return self.torus.at(**dict.fromkeys(self.sides, 0.0))
+
+    def rows(self, plan: Plan, part: slice = slice(None)) -> Task[TorusValues]:
+        """Return the computation of some rows of the fine map."""
+        cells = plan.grid(_FINE)
+        first, last, _ = part.indices(cells[1])
+        return Task(mechanics.rows, self.plane, self._beside, self.window, cells, first, last, plan.level)
+
+    @cached_property
+    def grid(self) -> tuple[TorusValues, tuple[int, int]]:
+        """The map and its cells (m, n), coarse first."""
+        plan = self.work.plan(Kind.GRID)
+        fine = plan.grid(_FINE)
+        if not self.work.dragging:
+            parts = [
+                self.work.need(self.rows(plan, slice(first, first + _ROWS)), preview=None)
+                for first in range(0, fine[1], _ROWS)
+            ]
+            known = [part for part in parts if part is not None]
+            if len(known) == len(parts):
+                return mechanics.together(known), fine
+        coarse = Task(mechanics.rows, self.plane, self._beside, self.window, _COARSE, 0, _COARSE[1], plan.level)
+        return self.work.need(coarse), _COARSE
+
+    @cached_property
+    def _grids(self) -> tuple[CellGrid, CellGrid]:
+        """ρ and ln(|t|/2), positive in lock zones, over the window; cells without a torus continue the nearest one.
+
+        So both can be interpolated up to the edge.
+        """
+        from scipy.ndimage import distance_transform_edt  # slow import
+
+        values, (m, n) = self.grid
+        outside = ~values.possible.reshape(n, m)
+        nearest = tuple(distance_transform_edt(outside, return_distances=False, return_indices=True))
+        with np.errstate(divide="ignore", invalid="ignore"):
+            height = np.clip(np.log(0.5 * values.trace), -1.0, 1.0)
+        rho, zones = (
+            CellGrid(np.zeros((n, m)) if outside.all() else one.reshape(n, m)[nearest], *self.window)
+            for one in (values.rho, height)
+        )
+        return rho, zones
+
+    def lock(self, plan: Plan) -> Task[Array]:
+        """Return the computation of |t| = 2 in the map, (n, 2)."""
+        window = *self.window[0], *self.window[1]
+        return Task(mechanics.lock_curve, self.plane, self._beside, window, plan.level, plan.side(_ON_CURVE))
+
+    def _boundary(self) -> list[Array]:
+        """Return |t| = 2 in the map, once known."""
+        found = None if self.work.dragging else self.work.need(self.lock(self.work.plan(Kind.CURVE)), preview=None)
+        if found is None or not len(found):
+            return []
+        return [found, found * np.array([1.0, -1.0])] if self.sides[1] == "f" else [found]
+
+    @property
+    def _place(self) -> tuple[float, float]:
+        """The coordinates of the torus in the plane."""
+        across, up = (vars(self.torus)[name] for name in self.sides)
+        return across, up
+
+    def _here(self) -> list[tuple[float, float]]:
+        """Return the torus on show if the window contains it."""
+        (x0, x1), (y0, y1) = self.window
+        return inside([self._place], ((x0, y0), (x1, y1)))
+
+    def _across(self) -> list[Array]:
+        """Return the line within the window, if it lies in the plane."""
+        if self.line not in self.sides:
+            return []
+        fixed = 1 - self.sides.index(self.line)
+        at, (low, high) = self._place[fixed], self.window[fixed]
+        ends = np.array([[one, at] for one in self.window[1 - fixed]])
+        return [ends if fixed else ends[:, ::-1]] if low <= at <= high else []
+
+    @cached_property
+    def _upper(self) -> Array:
+        """The bifurcation curve (n, 2) with f ≥ 0 within the window; it is independent of a."""
+        low, high = self.window[0]
+        energies = np.linspace(max(low, -1.0), high, _ON_EDGE)
+        return np.column_stack([energies, f_max_each(energies)])
+
+    def _ends(self) -> Range:
+        """Return the ends of the possible tori along the horizontal axis, if a is on the vertical one."""
+        if self.plane == "h, a":
+            return h_min(self.torus.f), math.inf
+        top = f_max(self.torus.h) if self.torus.h > -1.0 else 0.0
+        return -top, top
+
+    def _edges(self) -> list[Array]:
+        """Return the boundary curves (n, 2) of the possible tori."""
+        (x0, x1), y = self.window
+        if self.plane == "h, f":
+            return [self._upper, self._upper * (1.0, -1.0)] if x1 > -1.0 else []
+        return [np.array([[end, one] for one in y]) for end in self._ends() if x0 < end < x1]
+
+    def _impossible(self) -> Regions:
+        """Return the part of the window without tori."""
+        (x0, x1), (y0, y1) = x, y = self.window
+        if self.plane == "h, f":
+            return impossible(self._upper, Axes(x, (min(y0, -y1), max(y1, -y0)))) if x1 > -1.0 else [[rectangle(x, y)]]
+        first, last = self._ends()
+        parts = [(x0, min(x1, first)), (max(x0, last), x1)]
+        return [[rectangle(part, y)] for part in parts if part[0] < part[1]]
+
+    def choose(self, x: float, y: float) -> Values:
+        """Return the parameters of the torus at a place of the map."""
+        return dict(zip(self.sides, (x, y), strict=True))
+
+    def boxed(self, corners: Corners) -> Values:
+        """Return the window that a box selects."""
+        return boxed(corners, _corners(self.plane, BOUNDS), "part_" + "".join(self.sides))
+
+    def status(self) -> Iterator[str]:
+        """Yield the size and the error of the map."""
+        if self.asked("grid"):
+            m, n = self.grid[1]
+            task = Task(mechanics.rows_error, self.plane, self._beside, self.window, self.work.plan(Kind.GRID).level)
+            error = None if self.work.dragging else self.work.need(task, preview=None)
+            yield f"map {m} × {n}" + (f", ρ to {error:.1e} (99 of 100 cells)" if error is not None else "")
+
+
+rotation_map = Plot[RotationMap](
+    name="map",
+    title=lambda s: f"Rotation number ρ over ({s.plane})",
+    axes=lambda s: s.sides,
+    caption=lambda s: Caption("ρ locks at 0 only."),
+    x=lambda s: s.window[0],
+    y=lambda s: s.window[1],
+    on_click=RotationMap.choose,
+    on_box=RotationMap.boxed,
+    layers=(
+        image("rho", lambda s: s._grids[0], palette=theme.TURN_MAP, low=-0.5, high=0.5, cyclic=True, legend=(TURNS,)),
+        image(
+            "zones",
+            lambda s: s._grids[1],
+            palette=(theme.LOCKED + "00", theme.LOCKED),
+            low=-1.0,
+            high=1.0,
+            smooth=True,
+            legend=(Sign("locked, two limit cycles", "box", f"background: {theme.LOCKED}"),),
+        ),
+        curves("boundary", RotationMap._boundary, moving=False, color=theme.INK, label="its boundary, |trace| = 2"),
+        region("forbidden", RotationMap._impossible, label="impossible", tag="impossible"),
+        curves("edge", RotationMap._edges, moving=False, color=theme.INK, width=1.5),
+        curves("across-under", RotationMap._across, color=theme.PAPER, width=4, alpha=0.7),
+        curves("across", RotationMap._across, color=theme.INK, dash="dashed", label="line of ρ", tag="line of ρ"),
+        *target("here", RotationMap._here),
+    ),
+).of
+"""The picture of the map."""
