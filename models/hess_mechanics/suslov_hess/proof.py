@@ -238,7 +238,8 @@ def prove(
     if at[2] == 0 and at[1] < 1:
         with working(FIRST_BITS):
             return _oscillation(*at, begun)
-    bits, found = FIRST_BITS, None
+    bits = FIRST_BITS
+    found: Proof | None = None
     while True:
         with working(bits):
             turns = _turns(at[1], at[2], bits)
@@ -246,13 +247,13 @@ def prove(
             for step in _plan(at[0], at[2], turns, bits):
                 plan.append(step)
                 work += step[2] ** 2
-                if work > most_work and found is None:
+                if work > most_work:
+                    if found is not None:
+                        return found
                     raise WorkLimit(
                         f"This proof needs more than {len(plan)} steps: choose smaller |a|, or (h, f) "
                         "farther from (1, 0)."
                     )
-                if work > most_work:
-                    return found
             found = _proof(at, turns, plan, bits, begun)
         known = found.trace.precision < 10.0**-digits and found.rotation_number is not None
         if (known and found.statement != UNDECIDED) or 2 * bits > most_bits:
