@@ -14,13 +14,6 @@ from hess_explorer.commands.command import Command, Options
 __all__ = ["main", "parsed"]
 
 
-def _version() -> str:
-    try:
-        return metadata.version("hess-explorer")
-    except metadata.PackageNotFoundError:
-        return "run from its source folder, not installed"
-
-
 def _with_command(words: list[str]) -> list[str]:
     """Prepend `serve` when the arguments name no command."""
     if words and (not words[0].startswith("-") or words[0] in ("-h", "--help", "--version")):
@@ -56,7 +49,7 @@ def parsed(words: Sequence[str]) -> Options:
         "An interactive explorer of the Suslov problem, its Hess case and their relatives.  Without a command: serve.  "
         "COMMAND --help shows the options of a command.",
     )
-    parser.add_argument("--version", action="version", version=f"hess-explorer {_version()}")
+    parser.add_argument("--version", action="version", version=f"hess-explorer {metadata.version('hess-explorer')}")
     for heading in HEADINGS:
         by_hand = {name: purpose for name, (of, purpose) in COMMANDS.items() if of == heading}
         parser.list_words(heading, {**by_hand, **compute.titles(heading)})

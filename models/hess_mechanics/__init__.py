@@ -7,7 +7,7 @@ Functions that are imported from this package check their arguments against thei
 Examples
 --------
 >>> from hess_mechanics import circle_map, level
->>> circle_map(a=0.5, h=1.5, f=0.6, level=level("reference")).kind
+>>> circle_map(a=0.5, h=1.5, f=0.6, accuracy=level("reference")).kind
 'hyperbolic'
 """
 

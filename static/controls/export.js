@@ -135,7 +135,7 @@ export function exportDialog(files) {
   async function fetched(what, signal) {
     if (what.format === "png" && isOfBrowser(what)) return drawn(what)
     const isSlow = isOfBrowser(what) || "vary" in what
-    const query = new URLSearchParams({ ...what })
+    const query = new URLSearchParams(what)
     try {
       const answer = await fetch(new URL(`export?${state()}&${query}`, document.baseURI), { signal })
       if (!answer.ok) return { why: await answer.text() }

@@ -36,10 +36,6 @@ export function movingPointsPainter(layers, source) {
   }
 }
 
-// Side of a square with the area of Bokeh's marker "dot", whose diameter is a quarter of `size`.
-/** @param {number} size */
-const sideOf = (size) => (size / 8) * Math.sqrt(Math.PI)
-
 /**
  * Return the painter of layers of dots, see `frameCanvas`.
  * @param {{source: string, x: string, y: string, size: number, color: string, alpha: number}[]} layers x and y are columns
@@ -50,7 +46,8 @@ export function dotsPainter(layers, source) {
   return (ctx, xScale, yScale, larger) => {
     for (const { source: name, x, y, size, color, alpha } of layers) {
       const { [x]: xs = [], [y]: ys = [] } = source(name).data
-      const side = larger * sideOf(size)
+      // The area of Bokeh's marker "dot", whose diameter is a quarter of `size`.
+      const side = larger * size * Math.sqrt(Math.PI) / 8
       const [left, top] = [xScale.v_compute(xs), yScale.v_compute(ys)]
       ctx.globalAlpha = alpha
       ctx.fillStyle = shade(color)

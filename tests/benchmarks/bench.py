@@ -10,7 +10,6 @@ if __name__ == "__main__":
     sys.path[:0] = [str(Path(__file__).parents[1])]
 
 from hess_explorer.commands import CommandError
-from hess_explorer.commands.arguments import shown
 from hess_explorer.commands.command import Command, flag, option
 from hess_explorer.commands.output import show, write_file
 
@@ -23,7 +22,7 @@ def _works(text):
     names = tuple(text.split(","))
     for name in names:
         if name not in WORKS:
-            raise argparse.ArgumentTypeError(f"{shown(name)} is not a work; choose from {','.join(WORKS)}")
+            raise argparse.ArgumentTypeError(f"{name!r} is not a work; choose from {','.join(WORKS)}")
     return tuple(name for name in WORKS if name in names)
 
 
@@ -46,14 +45,14 @@ def _computations(text):
 def _targets(text):
     targets = {float(part) for part in text.split(",")}
     if min(targets) <= 0.0:
-        raise argparse.ArgumentTypeError(f"{shown(text)} has an error that is not positive; write it like 1e-6,1e-9")
+        raise argparse.ArgumentTypeError(f"{text!r} has an error that is not positive; write it like 1e-6,1e-9")
     return tuple(sorted(targets, reverse=True))
 
 
 def _picture(text):
     path = Path(text)
     if path.suffix not in _PICTURES:
-        raise argparse.ArgumentTypeError(f"{shown(text)} is not a picture; end the name in {' or '.join(_PICTURES)}")
+        raise argparse.ArgumentTypeError(f"{text!r} is not a picture; end the name in {' or '.join(_PICTURES)}")
     return path
 
 

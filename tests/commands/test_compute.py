@@ -187,7 +187,6 @@ def test_nothing_is_imported_that_is_not_used(script):
         (replaced(SUSLOV, "--duration", "1e9"), "shorter"),
         # Abbreviated, this was `--help`.
         ([*SUSLOV, "--he", "1"], "unrecognized arguments: --he 1"),
-        ([*SUSLOV, "--format", "netcdf"], "name a file with --out FILE"),
     ],
 )
 def test_refusals(refusal, words, part):

@@ -49,7 +49,6 @@ def test_a_store_is_kept_read_back_and_refused_to_others(answer, refusal, tmp_pa
         *replaced(SWEEP, "--set", "a=0.6"), "--store", store
     )
     assert "does not contain a sweep" in refusal("sweep", "--store", str(tmp_path))
-    assert "Name a computation" in refusal("sweep", "--store", store, "--set", "a=1")
 
 
 def test_a_function_of_a_file_is_swept_and_written_as_a_table(answer, refusal, tmp_path):
@@ -97,7 +96,7 @@ def test_a_log_gets_bars(monkeypatch, capsys):
     assert "100%" in bars[-1]
 
 
-LAMBDA = typed("sweep lyapunov suslov --over w1=0.2:1.4:40 --over I22=1:2:30 --set duration=100 --accuracy draft")
+LAMBDA = typed("sweep lyapunov suslov --over w1=0.2:1.4:40 --over I22=1:2:30 --set duration=400 --accuracy draft")
 
 
 def test_a_sweep_that_is_killed_three_times_is_bit_for_bit_the_loop_by_hand(tmp_path):
@@ -125,7 +124,7 @@ def test_a_sweep_that_is_killed_three_times_is_bit_for_bit_the_loop_by_hand(tmp_
     found, of = read(store), find("lyapunov suslov")
     assert (found.status == 1).all()
     for i, j in [*np.ndindex(found.status.shape)][::7]:
-        by_hand = of.compute({"w1": float(found.w1[i]), "I22": float(found.I22[j]), "duration": 100.0}, "draft")
+        by_hand = of.compute({"w1": float(found.w1[i]), "I22": float(found.I22[j]), "duration": 400.0}, "draft")
         assert found.exponent.values[i, j] == by_hand.value
 
 

@@ -195,7 +195,7 @@ def test_a_file_without_a_scene_is_refused(tmp_path, capsys, text, message):
         path.write_text(text)
     assert main(["serve", "--no-browser", "--scene", str(path)]) == 2
     said = capsys.readouterr().err
-    assert "brings no scene" in said and message in said
+    assert "mine.py" in said and message in said
 
 
 def test_its_chart_is_a_number_of_the_motion_over_two_sliders():

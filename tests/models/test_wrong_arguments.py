@@ -80,7 +80,7 @@ def test_a_wrong_argument_is_refused_with_a_sentence(name):
 
 def test_a_missing_argument_is_named():
     body, state = hm.systems()["suslov"].example_motion
-    with raises(InvalidParameter, match="missing a required argument: 'end'"):
+    with raises(InvalidParameter, match="missing a required argument: 'duration'"):
         hm.section(body, state, hm.Plane((0, 0, 0, 0, 1)))
     assert str(hm.ensemble(body, [state], [1.0]).status) == "ok"
 

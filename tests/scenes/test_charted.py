@@ -111,9 +111,7 @@ def test_the_caption_says_the_own_number_and_why_cells_have_none():
     own = trace(a=0.3, h=1.5, f=0.6)
     caption = state.charting.caption
     assert caption.verdict == f"|t| = {own:.4g}."
-    share = 100.0 * np.mean(~np.isfinite(cells_of(state)[2]))
     assert "216 × 216 cells; colours from" in caption.numbers
-    assert caption.numbers.endswith(f"{share:.2g} % have none: no such motion.")
     assert state.charting.about(-0.9, 2.9) == "h = −0.9, f = 2.9: No number: no such motion."
     assert state.charting.about(1.5, 0.6).startswith("h = 1.5, f = 0.6: |t| = 2.")
 

@@ -120,7 +120,7 @@ def test_on_a_small_sheet_another_start_is_found():
         seen={"section"},
         noted=True,
     )
-    assert re.search("no motion with this h and f crosses a second sheet", " ".join(view.report.notes))
+    assert re.search("no motion with this h and f crosses the second sheet", " ".join(view.report.notes))
     assert len(view.points("own")) == 20
 
 
@@ -143,7 +143,7 @@ def test_on_the_second_sheet_orbits_start_with_the_smaller_momentum():
 
 
 def test_where_there_is_no_second_sheet_that_is_said():
-    with pytest.raises(ModelError, match=r"crosses a second sheet: choose the largest G"):
+    with pytest.raises(ModelError, match=r"crosses the second sheet: choose the largest G"):
         _ = EP.of({**EP.defaults(), "sheet": "second G"}).clicks.picked
 
 

@@ -159,7 +159,7 @@ def test_a_chaotic_section_has_no_error_and_says_so():
     work = types.SimpleNamespace(dragging=False, need=lambda *_, **__: costs)
     found = Costs(work, bare(SUSLOV.of(SUSLOV.defaults())), (trial,))
     assert found.about().numbers == "Section has no error to measure: all of it is chaotic, or there is nothing."
-    assert (found.curve(trial), found.rings(), found.level("draft"), [*found.rows()]) == (None, [], None, [])
+    assert (found.curves, found.rings(), found.level("draft"), [*found.rows()]) == ({}, [], None, [])
 
 
 def test_what_is_too_large_to_be_measured_says_so():

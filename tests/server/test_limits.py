@@ -114,12 +114,12 @@ def test_a_link_that_is_too_long_is_refused_with_a_sentence(base):
 
 
 def test_of_too_many_files_at_once_the_last_are_refused_with_a_sentence(base, monkeypatch):
-    monkeypatch.setattr(Export, "waiting", 20)
+    monkeypatch.setitem(Export.waiting, False, 20)
     assert answer(base, "export?picture=circle") == (
         503,
         "The server is making too many files at the moment: try again in a minute.",
     )
-    monkeypatch.setattr(Export, "waiting", 19)
+    monkeypatch.setitem(Export.waiting, False, 19)
     code, table = answer(base, "export?picture=circle&accuracy=draft")
     assert (code, table[:1]) == (200, "#")
     assert answer(base, "export?picture=" + "x" * MAX_QUERY)[0] == 400

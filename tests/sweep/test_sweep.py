@@ -70,7 +70,6 @@ WRONG = [
     ({"over": {"h": (1, 10**400, 3)}}, "h is not a finite number"),
     ({"a": 1e9}, "a = 1e9 is not between -1000 and 1000"),
     ({"workers": "many"}, "workers = 'many'"),
-    ({"scheduler": "many"}, "'many' is not a Dask scheduler: write its address like tcp://host:8786"),
     ({"over": {"h": (0.0, 1.0, 10**6), "f": (0.0, 1.0, 10**6)}}, "1000000000000 cells, but at most 10000000"),
 ]
 

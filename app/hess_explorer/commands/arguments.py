@@ -11,21 +11,18 @@ from urllib.parse import parse_qsl, urlencode
 
 from . import CommandError
 
-__all__ = ["assigned", "defined", "integer", "run_file", "shown", "state"]
+__all__ = ["assigned", "defined", "integer", "run_file", "state"]
 
 T = TypeVar("T")
-_SHOWN = 60
 
 
 def run_file(path: str | Path) -> dict[str, Any]:
     """Return the names that a Python file of the user defines.  Raises `CommandError` if it stops."""
     try:
         return runpy.run_path(str(path))
-    except OSError as error:
-        raise CommandError(f"{shown(str(path))} cannot be read ({error.strerror}): choose another file.") from error
     # Whatever the user's code raises.
     except Exception as error:
-        raise CommandError(f"{shown(str(path))} stops with {type(error).__name__}: {error}.") from error
+        raise CommandError(f"{str(path)!r} stops with {type(error).__name__}: {error}.") from error
 
 
 def defined(text: str, kind: str, fits: Callable[[Any], bool]) -> Any:
@@ -36,13 +33,8 @@ def defined(text: str, kind: str, fits: Callable[[Any], bool]) -> Any:
     path, _, name = text.rpartition(":")
     found = run_file(path).get(name)
     if not fits(found):
-        raise CommandError(f"{shown(path)} defines no {kind} {shown(name)}: write it like mine.py:{name}.")
+        raise CommandError(f"{path!r} defines no {kind} {name!r}: write it like mine.py:{name}.")
     return found
-
-
-def shown(text: str) -> str:
-    """Return the text quoted for a message, shortened and with control characters escaped."""
-    return repr(text if len(text) <= _SHOWN else text[:_SHOWN] + "…")
 
 
 def integer(low: int, high: int) -> Callable[[str], int]:

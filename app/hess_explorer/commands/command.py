@@ -81,10 +81,9 @@ def flag(name: str, help: str) -> Option:
     return option(name, help, action="store_true")
 
 
-def whole(name: str, low: int, high: int, help: str, default: int | None = None) -> Option:
+def whole(name: str, low: int, high: int, help: str, default: int) -> Option:
     """Return the option of an integer from `low` to `high`."""
-    description = help if default is None else f"{help} (default {default})"
-    return option(name, description, type=arguments.integer(low, high), metavar="N", default=default)
+    return option(name, f"{help} (default {default})", type=arguments.integer(low, high), metavar="N", default=default)
 
 
 OUT = option("--out", "write to this file instead of standard output", type=Path, metavar="FILE")
@@ -93,7 +92,7 @@ OUTPUT = (
     option(
         "--format",
         "text (default): the numbers, and the first and last rows; json: strict JSON with all digits; csv: a table, "
-        "with other results as # comments; netcdf: arrays with their dimensions, needs --out",
+        "with other results as # comments; netcdf: arrays with their dimensions, for --out",
         choices=("text", "json", "csv", "netcdf"),
         default="text",
     ),

@@ -14,9 +14,9 @@ from hess_mechanics.dynamics.system import System
 from hess_mechanics.parameters import Parameter, plain
 
 from . import COMMANDS, CommandError
-from .arguments import defined, shown
+from .arguments import defined
 from .command import OUTPUT, Command, Option, Options, option
-from .output import computing, require_file, write
+from .output import computing, write
 
 __all__ = ["command_of", "parsed", "titles"]
 
@@ -33,7 +33,7 @@ def parsed(name: str, rest: list[str]) -> Options:
     """
     of = {one.system: one for one in catalogue().values() if one.name == name}
     if not of:
-        raise _unknown("command", name, [*COMMANDS, *dict.fromkeys(one.name for one in catalogue().values())])
+        raise _unknown("command", name, [*COMMANDS, *titles("compute"), *titles("prove")])
     prog = f"hess-explorer {name}"
     if "" in of:
         return command_of(of[""]).parsed(prog, rest)
@@ -53,7 +53,7 @@ def parsed(name: str, rest: list[str]) -> Options:
 def _unknown(kind: str, name: str, known: list[str]) -> CommandError:
     close = get_close_matches(name, known, 3)
     hint = f"did you mean {' or '.join(close)}?" if close else f"choose from {', '.join(known)}."
-    return CommandError(f"There is no {kind} {shown(name)}: {hint}")
+    return CommandError(f"There is no {kind} {name[:60]!r}: {hint}")
 
 
 def _own(name: str, text: str) -> Computation:
@@ -99,7 +99,6 @@ def _option(of: Parameter) -> Option:
 
 
 def _run(what: Computation, options: Options) -> None:
-    require_file(options, ("text", "json", "csv"))
     with computing():
         given = what.values({name: vars(options)[_typed(name)] for name in what.values()})
         result = what.compute(given, options.accuracy)
@@ -111,7 +110,7 @@ def _run(what: Computation, options: Options) -> None:
             try:
                 numbers[name] = of.read(result)
                 # NaN stands for no estimate.
-                if of.error is not None and math.isfinite(error := of.error(result)):
+                if math.isfinite(error := of.error(result)):
                     errors[name] = error
             except (NoValue, ArithmeticError) as missing:
                 notes.append(f"{name}: {missing}")

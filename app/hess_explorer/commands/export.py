@@ -8,9 +8,8 @@ from pathlib import Path
 from hess_explorer.export.formats import FILM_WIDTHS, FORMATS, SECONDS, WIDTHS, FileRequest, Loop, holding
 
 from . import CommandError
-from .arguments import shown
 from .command import Command, Options, flag, option, picture, whole
-from .output import computing, require_file, show
+from .output import computing, show
 
 __all__ = ["COMMAND"]
 
@@ -45,7 +44,7 @@ def _lesson(options: Options) -> bytes:
     lesson = read_file(path) if path.suffix == ".md" else shipped().get(options.lesson)
     if lesson is None:
         raise CommandError(
-            f"There is no lesson {shown(options.lesson)}: name a Markdown file or one of {', '.join(shipped())}."
+            f"There is no lesson {options.lesson!r}: name a Markdown file or one of {', '.join(shipped())}."
         )
     report = _print if options.progress else None
     return lesson_page(lesson, options.values, home=options.page or HOME, report=report)
@@ -69,7 +68,6 @@ def _picture(options: Options) -> bytes:
 
 
 def _run(options: Options) -> None:
-    require_file(options, ("csv", "json", "svg", "html", "py", "ipynb"))
     is_page = options.format in holding("state")
     if (options.vary or options.lesson) and not is_page:
         raise CommandError("Sliders and lessons need a page: add --format html.")

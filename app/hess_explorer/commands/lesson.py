@@ -6,7 +6,7 @@ from importlib.resources import files
 from pathlib import Path
 
 from . import CommandError
-from .command import Command, Options, option
+from .command import Command, option
 from .output import write_file
 
 __all__ = ["COMMAND"]
@@ -31,17 +31,11 @@ def _check(files: list[Path]) -> None:
 def _new(files: list[Path]) -> None:
     from hess_explorer.lessons.example import EXAMPLE
 
-    (file,) = files
-    if file.exists():
-        raise CommandError(f"{str(file)!r} exists: choose another name.")
-    write_file(file, EXAMPLE.encode())
-    print(f"Wrote {file}.  Look at it: hess-explorer serve --lesson {file}")
-
-
-def _run(options: Options) -> None:
-    if options.action == "new" and len(options.files) > 1:
-        raise CommandError("lesson new writes one file: name one.")
-    (_new if options.action == "new" else _check)(options.files)
+    for file in files:
+        if file.exists():
+            raise CommandError(f"{str(file)!r} exists: choose another name.")
+        write_file(file, EXAMPLE.encode())
+        print(f"Wrote {file}.  Look at it: hess-explorer serve --lesson {file}")
 
 
 COMMAND = Command(
@@ -56,12 +50,12 @@ COMMAND = Command(
         ),
         option(
             "files",
-            "Markdown file of a lesson; with check also several, or folders of them; with new it must not exist yet",
+            "Markdown files of lessons; with check also folders of them; with new they must not exist yet",
             type=Path,
             nargs="+",
             metavar="FILE",
         ),
     ),
-    _run,
+    lambda options: (_new if options.action == "new" else _check)(options.files),
     "check first.md",
 )

@@ -15,7 +15,7 @@ from typing import Any
 
 from hess_explorer.commands import CommandError
 
-__all__ = ["LONG", "PATIENCE", "computing", "require_file", "show", "write", "write_file"]
+__all__ = ["LONG", "PATIENCE", "computing", "show", "write", "write_file"]
 
 LONG = 2.0
 """Seconds after which a command reports that it is still running."""
@@ -46,12 +46,6 @@ def computing(own_progress: bool = False) -> Iterator[None]:
         raise CommandError("These numbers exceed the range of double precision: choose less extreme ones.") from error
     finally:
         timer.cancel()
-
-
-def require_file(options: argparse.Namespace, text: Sequence[str]) -> None:
-    """Raise `CommandError` for a binary format without a file; text : the formats that are not binary."""
-    if options.out is None and options.format not in text:
-        raise CommandError(f"{options.format.upper()} is a binary format: name a file with --out FILE.")
 
 
 def write(
@@ -135,6 +129,8 @@ def show(data: bytes, out: Path | None = None) -> None:
     if out is not None:
         write_file(out, data)
         return
+    if sys.stdout.isatty() and b"\0" in data:
+        raise CommandError("This is a binary format: name a file with --out FILE.")
     try:
         sys.stdout.buffer.write(data)
         sys.stdout.flush()
@@ -152,6 +148,5 @@ def write_file(path: Path, data: bytes) -> None:
 
     try:
         write_whole(path, data)
-    except (OSError, ValueError) as error:
-        reason = error.strerror if isinstance(error, OSError) else str(error)
-        raise CommandError(f"Cannot write {str(path)!r} ({reason}): choose another file.") from error
+    except OSError as error:
+        raise CommandError(f"Cannot write {str(path)!r} ({error.strerror}): choose another file.") from error

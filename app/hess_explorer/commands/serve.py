@@ -18,7 +18,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from . import CommandError
-from .arguments import run_file, shown
+from .arguments import run_file
 from .command import Command, Options, option, whole
 
 if TYPE_CHECKING:
@@ -34,14 +34,20 @@ _MOST_CELLS = 256
 
 def _host(text: str) -> str:
     if not re.fullmatch(r"(https?://)?(\*\.)?([A-Za-z0-9._-]{1,253}|\[[0-9A-Fa-f:.]{2,45}\])(:\d{1,5})?", text):
-        raise argparse.ArgumentTypeError(f"{shown(text)} is not a host; write it like example.org:8080")
+        raise argparse.ArgumentTypeError(f"{text!r} is not a host; write it like example.org:8080")
     return text
 
 
 def _run(options: Options) -> None:
-    _add_scenes(options.scenes)
-    lessons = _lessons(options.lessons)
-    state = _chart(options.chart)
+    for path in options.scenes:
+        from hess_explorer.scenes import add
+
+        add(run_file(path).get("SCENE"), f"SCENE of {path}")
+    lessons, state = _lessons(options.lessons), ""
+    if options.chart is not None:
+        from hess_explorer.sweep import read
+
+        state = f"/?{_shown(read(options.chart))}&large=chart"
     _require_free(options.address, options.port)
     if options.workers > 1 and not hasattr(os, "fork"):
         raise CommandError("--workers needs an operating system with fork: run the command without it.")
@@ -53,8 +59,6 @@ def _run(options: Options) -> None:
 
     def ready() -> None:
         print(f"Hess Explorer is running at {url} (press Ctrl-C to stop).", flush=True)
-        if options.browser and not show:
-            print(f"No browser was found on this machine: open {url} yourself.", flush=True)
 
     # Handle SIGTERM like Ctrl-C from the start, for process managers.
     signal.signal(signal.SIGTERM, signal.default_int_handler)
@@ -76,27 +80,6 @@ def _run(options: Options) -> None:
             workers=options.workers,
             sessions=options.sessions,
         )
-
-
-def _add_scenes(paths: Sequence[Path]) -> None:
-    """Add the `SCENE` of each file.  Raises `CommandError`."""
-    for path in paths:
-        from hess_explorer.scenes import add
-        from hess_mechanics.errors import ModelError
-
-        try:
-            add(run_file(path).get("SCENE"), str(path))
-        except (ModelError, CommandError) as error:
-            raise CommandError(f"{shown(str(path))} brings no scene: {error}") from error
-
-
-def _chart(path: Path | None) -> str:
-    """Show a stored sweep as the chart of a scene, and return the address of its state behind that of the server."""
-    if path is None:
-        return ""
-    from hess_explorer.sweep import read
-
-    return f"/?{_shown(read(path))}&large=chart"
 
 
 def _shown(found: xr.Dataset) -> str:
@@ -198,9 +181,8 @@ def _require_free(address: str, port: int) -> None:
     try:
         socket.create_server((address, port), family=socket.AF_INET6 if ":" in address else socket.AF_INET).close()
     except (OSError, UnicodeError) as error:
-        why = getattr(error, "strerror", None) or error
         raise CommandError(
-            f"{why}: choose another port, like --port {port % 65535 + 1}, or --address 127.0.0.1 or 0.0.0.0."
+            f"{error}: choose another port, like --port {port % 65535 + 1}, or --address 127.0.0.1 or 0.0.0.0."
         ) from error
 
 

@@ -39,7 +39,7 @@ def _run(options: Options) -> None:
 
         if options.computation:
             found = _swept(options)
-        elif options.store is None or options.over or options.set:
+        elif options.store is None:
             raise CommandError(
                 "Name a computation after sweep, such as lyapunov suslov: hess-explorer --help lists all."
             )

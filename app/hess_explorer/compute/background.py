@@ -5,7 +5,7 @@ from __future__ import annotations
 import logging
 import threading
 from collections import deque
-from collections.abc import Collection, Iterable
+from collections.abc import Collection
 from typing import Any
 
 import numpy as np
@@ -29,8 +29,8 @@ logger = logging.getLogger("hess_explorer")
 class _Job:
     """The background tasks of one state."""
 
-    def __init__(self, tasks: Iterable[Task[Any]]) -> None:
-        self.tasks = deque(tasks)
+    def __init__(self) -> None:
+        self.tasks: deque[Task[Any]] = deque()
         self.running = 0
         self.error = ""
 
@@ -45,28 +45,22 @@ class Background:
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
-        self._job = _Job(())
+        self._job = _Job()
         # The running tasks, including those of earlier states, each with the event that cancels it.
         self._begun: list[tuple[Task[Any], threading.Event]] = []
 
-    def follow(self, tasks: Iterable[Task[Any]]) -> None:
+    def follow(self, tasks: Collection[Task[Any]]) -> None:
         """Compute these tasks into the cache.  Earlier tasks are discarded, except running ones that are listed."""
-        wanted = list(tasks)
-        self._discard(wanted)
-        self._job = _Job(wanted)
-        self._run(len(wanted))
+        self._discard(tasks)
+        self._job = _Job()
+        self.add(tasks)
 
-    def add(self, tasks: Iterable[Task[Any]]) -> None:
+    def add(self, tasks: Collection[Task[Any]]) -> None:
         """Compute these tasks too, after the others."""
-        with self._lock:
-            before = len(self._job.tasks)
-            self._job.tasks.extend(tasks)
-            added = len(self._job.tasks) - before
-        self._run(added)
-
-    def _run(self, count: int) -> None:
         job = self._job
-        for _ in range(min(POOL.cores, count)):
+        with self._lock:
+            job.tasks.extend(tasks)
+        for _ in range(min(POOL.cores, len(tasks))):
             POOL.fill(lambda: self._step(job))
 
     def stop(self) -> None:

@@ -99,13 +99,11 @@ def as_film(
     Raises
     ------
     InvalidParameter
-        If format, width or duration are not supported, nothing moves, or a library is not installed.
+        If width or duration are not supported, nothing moves, or a library is not installed.
     BrowserError
         If there is no browser, or the picture cannot be drawn.
     """
     kind, seconds = request.kind, request.seconds
-    if kind not in _CODECS:
-        raise InvalidParameter(f"{kind!r} is not a film format: choose one of {', '.join(_CODECS)}.")
     if request.loop is None:
         FILM_WIDTHS.require("A film", request.width, "mm wide")
     SECONDS.require("A film", seconds, "seconds long")

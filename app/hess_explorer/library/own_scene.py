@@ -233,14 +233,14 @@ def _section_of(system: System, pictures: Sequence[str]) -> dict[str, Any]:
 
 def _checked_section(system: System, section: Mapping[str, Any]) -> VariableSection:
     """Return the section at the example.  Raises `InvalidParameter` if it has one coordinate only."""
-    if len(system.variables) < 3:
-        raise InvalidParameter(f"{system.title}: a picture of a section needs a system of three or more variables.")
-    known = {name: float(value) for name, value in system.integrals(*system.example).items()}
-    levels = section.get("integrals", [*known][: len(system.variables) - 3])
-    found = variable_section(
-        system.at(), {name: known[name] for name in levels}, section["surface"], section["coordinates"]
-    )
-    if len(found.names) != 2:
+    found = None
+    if len(system.variables) > 2:
+        known = {name: float(value) for name, value in system.integrals(*system.example).items()}
+        levels = section.get("integrals", [*known][: len(system.variables) - 3])
+        found = variable_section(
+            system.at(), {name: known[name] for name in levels}, section["surface"], section["coordinates"]
+        )
+    if found is None or len(found.names) != 2:
         raise InvalidParameter(f"{system.title}: a picture of a section needs a system of three or more variables.")
     return found
 

@@ -9,7 +9,7 @@ from html import escape
 from numbers import Real
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
@@ -443,7 +443,7 @@ def _checked(spec: Spec, value: Any) -> Value:
             raise InvalidParameter(
                 f"{value!r} is not a number: {spec.name} ({spec.label}) must be a number {spec.range}."
             )
-        found, note = spec.read(value)
+        found, note = spec.read(cast(float, value))
     elif isinstance(spec, Places) and not isinstance(value, str):
         try:
             pairs = [(float(x), float(y)) for x, y in value]

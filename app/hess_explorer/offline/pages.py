@@ -8,7 +8,7 @@ from typing import Any
 from hess_explorer.export.picture_data import Address, address, picture_of
 from hess_explorer.lessons.lesson import TIME, Lesson
 from hess_explorer.offline.html import HOME, document
-from hess_explorer.offline.plan import Family, Slider, across, family, read_slider, slider_of
+from hess_explorer.offline.plan import Family, across, family, read_slider, slider_of
 from hess_explorer.offline.recording import Recording, Report
 from hess_explorer.page.lesson_description import describe_lesson
 from hess_explorer.protocol.specs import Values, encode
@@ -117,9 +117,7 @@ def _families(lesson: Lesson, count: int) -> list[Family]:
             values, _ = scene.admit(state.values)
             _, _, sliders = found.setdefault(encode(scene.name, values), (scene, values, {}))
             for name in step.controls:
-                slider = slider_of(scene, name, values, count)
-                if slider is not None:
-                    sliders.setdefault(name, set()).update(slider.values)
+                sliders.setdefault(name, set()).update(slider_of(scene, name, values, count))
         animation = step.animation
         if animation is not None and animation.name != TIME:
             values, _ = scene.admit(step.at.values)
@@ -131,7 +129,7 @@ def _families(lesson: Lesson, count: int) -> list[Family]:
         family(
             scene,
             values,
-            [Slider(name, tuple(sorted(each))) for name, each in sliders.items()],
+            [(name, tuple(sorted(each))) for name, each in sliders.items() if each],
             moving=_moving(scene),
         )
         for scene, values, sliders in found.values()

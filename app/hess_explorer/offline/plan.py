@@ -16,7 +16,7 @@ from hess_explorer.protocol.specs import Number, Values
 from hess_explorer.scenes.framework.scene import Scene
 from hess_mechanics.errors import InvalidParameter
 
-__all__ = ["MOST_STATES", "Family", "Slider", "across", "family", "read_slider", "slider_of"]
+__all__ = ["MOST_STATES", "Family", "across", "family", "read_slider", "slider_of"]
 
 MOST_STATES = 4000
 """Maximum number of states of a file."""
@@ -25,14 +25,6 @@ _MOST_VALUES = 400
 _DIGITS = 4
 """Significant digits of the values, relative to the range of a slider."""
 _SLIDER = re.compile(r"(?P<name>\w+)=(?P<low>[^:=]+):(?P<high>[^:=]+)(?::(?P<count>\d{1,4}))?")
-
-
-@dataclass(frozen=True)
-class Slider:
-    """A slider of a file; name : the parameter; values : its values in ascending order."""
-
-    name: str
-    values: tuple[float, ...]
 
 
 @dataclass(frozen=True)
@@ -63,8 +55,8 @@ def across(low: float, high: float, count: int, own: float) -> tuple[float, ...]
     return tuple(sorted({own, *(float(one) for one in np.round(np.linspace(low, high, count), decimals))}))
 
 
-def read_slider(text: str, scene: Scene[Any], base: Values, count: int) -> Slider:
-    """Return the slider that a text describes.
+def read_slider(text: str, scene: Scene[Any], base: Values, count: int) -> tuple[str, tuple[float, ...]]:
+    """Return the parameter and the values of a slider that a text describes.
 
     Parameters
     ----------
@@ -79,8 +71,8 @@ def read_slider(text: str, scene: Scene[Any], base: Values, count: int) -> Slide
 
     Returns
     -------
-    Slider
-        The slider, whose values include that of the first state.
+    tuple of str and tuple
+        The name of the parameter, and values in ascending order, which include that of the first state.
 
     Raises
     ------
@@ -106,22 +98,22 @@ def read_slider(text: str, scene: Scene[Any], base: Values, count: int) -> Slide
         raise InvalidParameter(f"{text!r}: the ends must increase and lie within [{least:g}, {most:g}].")
     if not 2 <= count <= _MOST_VALUES:
         raise InvalidParameter(f"{text!r}: a slider has 2 to {_MOST_VALUES} values.")
-    return Slider(name, across(low, high, count, float(base[name])))
+    return name, across(low, high, count, float(base[name]))
 
 
-def slider_of(scene: Scene[Any], name: str, values: Values, count: int) -> Slider | None:
-    """Return the whole slider of a parameter in a state; None if it is no number."""
-    spec = next((spec for spec in scene.specs if spec.name == name), None)
+def slider_of(scene: Scene[Any], name: str, values: Values, count: int) -> tuple[float, ...]:
+    """Return the values of the whole slider of a parameter in a state; none if it is no number."""
+    spec = next(spec for spec in scene.specs if spec.name == name)
     if not isinstance(spec, Number):
-        return None
+        return ()
     low, high, _ = slider_limits(spec, scene.limits(values))
-    return Slider(name, across(low, high, count, float(values[name])))
+    return across(low, high, count, float(values[name]))
 
 
 def family(
     scene: Scene[Any],
     base: Values,
-    sliders: Sequence[Slider],
+    sliders: Sequence[tuple[str, tuple[float, ...]]],
     *,
     grid: bool = False,
     moving: Values | None = None,
@@ -134,8 +126,8 @@ def family(
         The scene.
     base : mapping
         The values of the state.
-    sliders : sequence of Slider
-        The sliders.
+    sliders : sequence of (str, tuple)
+        The name and the values of each slider.
     grid : bool
         True for all combinations of their values; by default each slider has its own line through the state.
     moving : mapping, optional
@@ -151,19 +143,19 @@ def family(
     InvalidParameter
         If there are more than `MOST_STATES`, or a parameter has two sliders.
     """
-    names = tuple(slider.name for slider in sliders)
+    names, sides = tuple(name for name, _ in sliders), [values for _, values in sliders]
     if len(set(names)) < len(names):
         raise InvalidParameter(f"Vary each parameter once, not {', '.join(names)}.")
     first = tuple(float(base[name]) for name in names)
-    lengths = [len(slider.values) for slider in sliders]
+    lengths = [*map(len, sides)]
     count = math.prod(lengths) if grid else sum(lengths)
     if count > MOST_STATES:
         raise InvalidParameter(f"These are {count} states; a file holds at most {MOST_STATES}: choose fewer values.")
     if grid:
         # There and back, so that consecutive states are neighbours.
-        points = _snake([slider.values for slider in sliders])
+        points = _snake(sides)
     else:
-        points = [(*first[:i], value, *first[i + 1 :]) for i, one in enumerate(sliders) for value in one.values]
+        points = [(*first[:i], value, *first[i + 1 :]) for i, side in enumerate(sides) for value in side]
     return Family(scene, base, names, tuple(dict.fromkeys([first, *points])), moving or {})
 
 

@@ -17,6 +17,7 @@ from hess_explorer.page.controls import show_controls
 from hess_explorer.page.description import describe, without_gestures
 from hess_explorer.protocol.specs import Number, Values, encode
 from hess_explorer.protocol.wire import Wire
+from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Scene
 from hess_explorer.scenes.framework.stage import Stage
 from hess_explorer.views.plot import Plot
@@ -58,7 +59,6 @@ class Recording:
     _strips: list[Strip] = field(default_factory=list)
     _families: list[dict[str, Any]] = field(default_factory=list)
     _varied: dict[str, dict[str, tuple[float, float]]] = field(default_factory=dict)
-    _picks: dict[str, dict[str, list[str]]] = field(default_factory=dict)
     _columns: dict[str, dict[str, list[str]]] = field(default_factory=dict)
 
     def record(self, families: Sequence[Family]) -> None:
@@ -132,7 +132,6 @@ class Recording:
                 "derived": "\n".join(report.derived),
                 "notes": "\n".join([*notes, *report.notes]),
             }
-            self._note_picks(scene, plots)
         for plot, ranges in axes:
             wire.put_ranges(plot.name, ranges.x, ranges.y)
         for key, text in texts.items():
@@ -153,13 +152,15 @@ class Recording:
             new = [] if source in canvases else [*columns]
             noted[source] = [*dict.fromkeys([*noted.get(source, []), *new])]
 
-    def _note_picks(self, scene: Scene[Any], plots: Sequence[Plot[Any]]) -> None:
-        """Note which plots have varied parameters as their axes: a click there chooses a computed state."""
-        noted = self._picks.setdefault(scene.name, {})
-        for plot in plots:
-            handle = plot.handle
-            if handle is not None and set(handle.columns[:2]) & self._varied[scene.name].keys():
-                noted[plot.name] = list(handle.columns[:2])
+    def _picks(self, name: str) -> dict[str, list[str]]:
+        """Return the plots with varied parameters as their axes: a click there chooses a computed state."""
+        varied = self._varied.get(name, {})
+        handles = {
+            view.name: view.handle.columns[:2]
+            for view in scenes()[name].views
+            if isinstance(view, Plot) and view.name in self.pictures[name] and view.handle is not None
+        }
+        return {plot: [*columns] for plot, columns in handles.items() if varied.keys() & {*columns}}
 
     def described(self) -> dict[str, Any]:
         """Return the descriptions of the scenes, with the pictures, sliders and gestures that the file has."""
@@ -167,7 +168,7 @@ class Recording:
 
     def _described(self, name: str) -> dict[str, Any]:
         found = json.loads(describe(name))
-        varied, picks = self._varied.get(name, {}), self._picks.get(name, {})
+        varied, picks = self._varied.get(name, {}), self._picks(name)
         chosen = [one for one in found["pictures"] if one["name"] in self.pictures[name]]
         found["pictures"] = [
             {**one, "folded": None, "picks": list(_CLICKS)} if one["name"] in picks else without_gestures(one)
@@ -180,5 +181,6 @@ class Recording:
 
     def packed(self) -> tuple[dict[str, Any], list[str]]:
         """Return the index of the states and the strips in base 64."""
-        index = {"families": self._families, "picks": self._picks, "sources": self._columns}
+        picks = {name: self._picks(name) for name in self.pictures}
+        index = {"families": self._families, "picks": picks, "sources": self._columns}
         return index, [base64.b64encode(strip.pack()).decode() for strip in self._strips]

@@ -124,11 +124,7 @@ class Strip:
                 return item
             values = numbers[item["at"] : item["at"] + item["n"]]
             number = places[path] = self._array(values, column, steps.get(source, {}).get(column), self._last.get(path))
-            return {
-                "at": self._starts[number],
-                "n": len(values),
-                **({"shape": item["shape"]} if "shape" in item else {}),
-            }
+            return {**item, "at": self._starts[number]}
 
         sources = {
             source: {name: stored(item, f"{source}/{name}", source, name) for name, item in columns.items()}

@@ -39,13 +39,7 @@ def _step(step: LessonStep, images: Mapping[str, str]) -> dict[str, Any]:
     if step.animation:
         found["animation"] = dataclasses.asdict(step.animation)
     if step.hide:
-        found["hide"] = {"picture": step.hide.picture, "source": step.hide.source}
+        found["hide"] = dataclasses.asdict(step.hide)
     if step.prediction:
-        guess = step.prediction
-        found["prediction"] = {
-            "picture": guess.picture,
-            "source": guess.source,
-            "columns": guess.columns,
-            "what": guess.what,
-        }
+        found["prediction"] = {name: value for name, value in vars(step.prediction).items() if name != "then"}
     return found

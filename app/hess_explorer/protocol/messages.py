@@ -37,6 +37,7 @@ __all__ = [
     "Request",
     "StateAnswer",
     "StepChoice",
+    "number",
     "parse",
 ]
 
@@ -126,7 +127,7 @@ def parse(message: Any) -> Request | None:
 
 def _picked(given: Any) -> PicturePoint | PictureBox | None:
     match given:
-        case [str(picture), *place] if all(map(math.isfinite, numbers := [_number(one) for one in place])):
+        case [str(picture), *place] if all(map(math.isfinite, numbers := [number(one) for one in place])):
             match numbers:
                 case [x, y]:
                     return PicturePoint(picture, x, y)
@@ -143,10 +144,10 @@ def _step(given: Any) -> StepChoice | None:
 
 
 def _value(value: Any) -> Value:
-    return _number(value) if isinstance(value, int | float) else str(value)
+    return number(value) if isinstance(value, int | float) else str(value)
 
 
-def _number(value: Any) -> float:
+def number(value: Any) -> float:
     """Return the value as a float; NaN if it is not a number or exceeds the double range."""
     try:
         return float(value) if isinstance(value, int | float) else math.nan

@@ -20,6 +20,7 @@ import re
 from dataclasses import dataclass
 from typing import Any
 
+from hess_explorer.protocol.messages import number
 from hess_explorer.protocol.specs import MAX_QUERY
 
 __all__ = ["CODE", "MOST_POINTS", "End", "Follow", "Guess", "Lead", "Message", "Open", "Show", "parse"]
@@ -122,10 +123,6 @@ def _show(shown: dict[str, Any]) -> Show | None:
 
 def _point(given: Any) -> tuple[float, float] | None:
     match given:
-        case [int() | float() as x, int() | float() as y]:
-            try:
-                point = float(x), float(y)
-            except OverflowError:
-                return None
-            return point if all(map(math.isfinite, point)) else None
+        case [x, y] if all(map(math.isfinite, point := (number(x), number(y)))):
+            return point
     return None

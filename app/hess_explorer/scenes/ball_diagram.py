@@ -14,13 +14,13 @@ from hess_explorer.scenes.framework.scene import Preset
 from hess_explorer.scenes.framework.sliders import like, parameter
 from hess_explorer.scenes.parts.diagrams.controls import parameter_of_diagram
 from hess_mechanics.chaplygin_ball.ball_section import BallSection
-from hess_mechanics.chaplygin_ball.equations import BallBody
+from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody
 from hess_mechanics.parameters import H_BALL
 
 
 def _ball(*values: float) -> dict[str, Value]:
     """Return I₁₁, I₂₂, I₁₃, I₂₃, 𝒟, b₁, b₂, b₃ and h by name."""
-    return dict(zip(("I11", "I22", "I13", "I23", "D", "b1", "b2", "b3", "h"), values, strict=True))
+    return dict(zip((*SYSTEM.parameters, "h"), values, strict=True))
 
 
 PRESETS = (

@@ -49,6 +49,7 @@ from hess_mechanics.numerics.results import Array
 from hess_mechanics.parameters import H_BALL
 
 _CELLS = 32
+_MOST_STEPS = 15_000
 _NAMES = ("ψ", "δ")
 
 _DOUBLES = parameters_of(BallBody(1.5, 3.0, -0.3, 0.0, 1.0, 1.0, -0.7, 0.7))
@@ -160,7 +161,7 @@ class BallSection(SectionState):
     section = part(
         lambda s: Section(
             s,
-            most_steps=15_000,
+            most_steps=_MOST_STEPS,
             later=s.drop == _LATE,
         )
     )

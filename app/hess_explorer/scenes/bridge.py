@@ -111,11 +111,6 @@ class BothSides(State):
     accuracy: str = accuracy_level()
 
     @cached_property
-    def body(self) -> HessBody:
-        """The Suslov–Hess body from the parameters, if that side is given."""
-        return HessBody(self.I22, self.I23, self.b3)
-
-    @cached_property
     def heavy(self) -> HeavyHess:
         """The Euler–Poisson motion from the parameters, if that side is given."""
         return HeavyHess((self.I1, self.I2, self.I3), self.m, self.h, self.f)
@@ -166,7 +161,9 @@ class BothSides(State):
     @cached_property
     def bridge(self) -> Bridge:
         """Both bodies.  Raises `ModelError`."""
-        return self.heavy.bridge if self.given == HEAVY else Bridge.of_suslov(self.body, self.share)
+        if self.given == HEAVY:
+            return self.heavy.bridge
+        return Bridge.of_suslov(HessBody(self.I22, self.I23, self.b3), self.share)
 
     @cached_property
     def turning(self) -> TurningPoints:
@@ -266,10 +263,6 @@ class BothSides(State):
         l, x = self.andoyer.T
         return torus_plane.track_columns(found, phi_start=start, l=l, x=x, apart=apart)
 
-    def apart(self, distance: Array) -> tuple[Array, Array]:
-        """Return times and lg of a distance."""
-        return self.difference.times, lg(distance)
-
     # ---- words --------------------------------------------------------------------------------------------------
 
     def _about_torus(self) -> Caption:
@@ -358,7 +351,7 @@ SCENE = Scene(
             layers=(
                 over_time(
                     "free",
-                    lambda s: s.apart(s.difference.free),
+                    lambda s: (s.difference.times, lg(s.difference.free)),
                     color=theme.MAP,
                     dash="dotdash",
                     label="difference, without correction",
@@ -366,7 +359,7 @@ SCENE = Scene(
                 ),
                 over_time(
                     "held",
-                    lambda s: s.apart(s.difference.held),
+                    lambda s: (s.difference.times, lg(s.difference.held)),
                     color=theme.ORBIT,
                     label="difference, with r·M = 0 imposed",
                     tag="r·M = 0 imposed",

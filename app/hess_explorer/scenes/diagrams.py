@@ -69,8 +69,9 @@ class DiagramState(DiagramControls):
     @property
     def weights(self) -> tuple[float, ...]:
         """Scale of each variable in pixels per unit, with room for all motions of this energy."""
-        highest = self.poincare.E + math.hypot(self.b1, self.b2, self.b3)
-        return pixels_per_unit(room_for(math.sqrt(2.0 * highest / min(self.I11, self.I22))))
+        I11, I22, *_, b1, b2, b3 = self.body.parameters
+        highest = self.poincare.E + math.hypot(b1, b2, b3)
+        return pixels_per_unit(room_for(math.sqrt(2.0 * highest / min(I11, I22))))
 
     @property
     def start(self) -> Start:
@@ -311,7 +312,7 @@ def _pictures(state: type[DiagramState], ball: bool) -> tuple[Picture[Any], ...]
             ),
         ),
         replace(
-            along_the_orbit(lambda s: centre_of_mass((s.b1, s.b2, s.b3)), lambda s: s.proof.around),
+            along_the_orbit(lambda s: centre_of_mass(s.body.parameters[-3:]), lambda s: s.proof.around),
             folded="Show the Poisson sphere",
         ),
     )

@@ -224,7 +224,7 @@ class EulerPoisson(FilledState):
     @part
     def clicks(self) -> Clicks:
         """The starts of the chosen orbits."""
-        which, remedy = ("a second sheet", "the largest G") if self.poincare.sheet else ("the section", _MORE)
+        which, remedy = ("the second sheet", "the largest G") if self.poincare.sheet else ("the section", _MORE)
         return Clicks(self, f"no motion with this h and f crosses {which}", remedy)
 
     density = part(

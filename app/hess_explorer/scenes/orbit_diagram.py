@@ -13,7 +13,7 @@ from hess_explorer.scenes.framework.scene import Preset
 from hess_explorer.scenes.framework.sliders import like, parameter
 from hess_explorer.scenes.parts.diagrams.controls import parameter_of_diagram
 from hess_mechanics import parameters as known
-from hess_mechanics.suslov.equations import SuslovBody
+from hess_mechanics.suslov.equations import SYSTEM, SuslovBody
 from hess_mechanics.suslov.suslov_section import SuslovSection
 
 _PARAMETERS = {"h": "h", "I₁₁": "I11", "I₂₂": "I22", "I₁₃": "I13", "I₂₃": "I23", "b₁": "b1", "b₂": "b2", "b₃": "b3"}
@@ -21,7 +21,7 @@ _PARAMETERS = {"h": "h", "I₁₁": "I11", "I₂₂": "I22", "I₁₃": "I13", "
 
 def _body(*values: float) -> dict[str, Value]:
     """Return I₁₁, I₂₂, I₁₃, I₂₃, b₁, b₂, b₃ and h by name."""
-    return dict(zip(("I11", "I22", "I13", "I23", "b1", "b2", "b3", "h"), values, strict=True))
+    return dict(zip((*SYSTEM.parameters, "h"), values, strict=True))
 
 
 PRESETS = (

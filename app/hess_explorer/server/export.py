@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import asyncio
 import threading
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
-from typing import Any
+from typing import Any, ClassVar
 from urllib.parse import urlencode
 
 import numpy as np
@@ -40,17 +40,17 @@ _SPECS = (
 # One file and one slow file at a time, so that open pages have priority.
 _files = ThreadPoolExecutor(max_workers=1, thread_name_prefix="export")
 _one_slow = asyncio.Lock()
-_MOST, _MOST_SLOW = 20, 5
-"""Maximum number of waiting requests, for files and for slow files."""
+_MOST = {False: 20, True: 5}
+"""Maximum number of waiting requests by whether the file is slow."""
 _MOST_STATES = 400
 """Maximum number of states of a page."""
 _SECONDS = 10.0
 """CPU time limit of a file in seconds."""
 
 
-def _needs_browser(state: Mapping[str, str], picture: str, kind: str) -> bool:
+def _needs_browser(name: str, picture: str, kind: str) -> bool:
     """Return whether a browser draws the file: a film, or a figure of a picture that is no plot."""
-    scene = scenes().get(state.get("scene", ""), next(iter(scenes().values())))
+    scene = scenes().get(name, next(iter(scenes().values())))
     view = next((view for view in scene.views if view.name == picture), scene.views[0])
     return kind in holding("film") or (kind in holding("figure") and not isinstance(view, Plot))
 
@@ -65,7 +65,7 @@ class Export(RequestHandler):
     bytes that follow, or "why" and an error message.
     """
 
-    waiting = slow_waiting = 0
+    waiting: ClassVar[dict[bool, int]] = {False: 0, True: 0}
     _task: asyncio.Task[Any] | None = None
 
     def initialize(self) -> None:
@@ -88,21 +88,20 @@ class Export(RequestHandler):
         given = {name: self.get_query_argument(name) for name in self.request.query_arguments}
         read, _ = decode(self.request.query, _SPECS)
         own = {spec.name for spec in _SPECS} | {"picture", "vary"}
-        state, picture = {name: value for name, value in given.items() if name not in own}, given.get("picture", "")
+        query, picture = urlencode([one for one in given.items() if one[0] not in own]), given.get("picture", "")
         sliders = given["vary"].split(",") if read["format"] in holding("state") and given.get("vary") else []
-        is_slow = bool(sliders) or _needs_browser(state, picture, str(read["format"]))
-        if (Export.slow_waiting >= _MOST_SLOW) if is_slow else (Export.waiting >= _MOST):
+        is_slow = bool(sliders) or _needs_browser(given.get("scene", ""), picture, str(read["format"]))
+        if self.waiting[is_slow] >= _MOST[is_slow]:
             refuse(self, 503, "The server is making too many files at the moment: try again in a minute.")
             return
-        Export.slow_waiting += is_slow
-        Export.waiting += not is_slow
+        self.waiting[is_slow] += 1
         try:
             if is_slow:
-                await self._answer_slowly(state, picture, read, sliders)
+                await self._answer_slowly(query, picture, read, sliders)
             else:
                 request = FileRequest(str(read["format"]), float(read["width"]), read["black"] == "1")
                 name, data = await asyncio.get_running_loop().run_in_executor(
-                    _files, self._file, state, picture, request
+                    _files, self._file, query, picture, request
                 )
                 self.set_header("Content-Type", FORMATS[request.kind].media)
                 self.set_header("Content-Disposition", f'attachment; filename="{name}.{request.kind}"')
@@ -112,17 +111,15 @@ class Export(RequestHandler):
         except ModelError as error:
             refuse(self, 400, str(error))
         finally:
-            Export.slow_waiting -= is_slow
-            Export.waiting -= not is_slow
+            self.waiting[is_slow] -= 1
 
-    def _file(self, state: dict[str, str], picture: str, request: FileRequest) -> tuple[str, bytes]:
+    def _file(self, query: str, picture: str, request: FileRequest) -> tuple[str, bytes]:
         """Return name and contents of the file.  Raises `ModelError`, `Abandoned`."""
         if request.kind == "html":
             with limited(self._left, _SECONDS), np.errstate(all="ignore"):
-                return state_page(
-                    urlencode(state), picture.split(",") if picture else (), home=home_of(self.request), lenient=True
-                )
-        where = address(urlencode(state), picture, lenient=True)
+                pictures = picture.split(",") if picture else ()
+                return state_page(query, pictures, home=home_of(self.request), lenient=True)
+        where = address(query, picture, lenient=True)
         name = f"{where.scene.name}-{where.picture.name}"
         if request.kind in PROGRAMS:
             return name, PROGRAMS[request.kind](where).encode()
@@ -132,17 +129,13 @@ class Export(RequestHandler):
         with limited(self._left, _SECONDS), np.errstate(all="ignore"):
             return name, as_file(compute(where), request)
 
-    async def _answer_slowly(
-        self, state: dict[str, str], picture: str, read: dict[str, Any], sliders: Sequence[str]
-    ) -> None:
+    async def _answer_slowly(self, query: str, picture: str, read: dict[str, Any], sliders: Sequence[str]) -> None:
         """Send a slow file after lines that report its progress.  Raises `ModelError` if it cannot be made."""
         grid = bool(sliders) and read["grid"] == "1"
         # A file that cannot be made is refused at once, and not after those that wait.
-        await asyncio.get_running_loop().run_in_executor(
-            _files, self._check_slow, urlencode(state), picture, sliders, grid
-        )
+        await asyncio.get_running_loop().run_in_executor(_files, self._check_slow, query, picture, sliders, grid)
         options = {
-            "state": urlencode(state),
+            "state": query,
             "picture": picture,
             "format": read["format"],
             "width": f"{read['width']:g}",

@@ -33,10 +33,7 @@ Region = Mapping[str, slice]
 @cache
 def version() -> str:
     """Return the version of this package; results of different versions are not mixed."""
-    try:
-        return metadata.version("hess-explorer")
-    except metadata.PackageNotFoundError:
-        return "not installed"
+    return metadata.version("hess-explorer")
 
 
 @dataclass(frozen=True)

@@ -112,10 +112,10 @@ def sweep(
     level = as_level_name(accuracy)
     if callable(computation):
         what, source = computation_of(computation, over, fixed, level)
-        plan = Plan.of(what, numbers or [*what.numbers], level, over, fixed, source)
     else:
-        what = computation if isinstance(computation, Computation) else find(computation)
-        plan = Plan.of(what, numbers or [*what.numbers][:1], level, over, fixed)
+        what, source = computation if isinstance(computation, Computation) else find(computation), ""
+    names = [*what.numbers]
+    plan = Plan.of(what, numbers or (names if source else names[:1]), level, over, fixed, source)
     path = None if store is None else Path(store)
     place: Any = path if path is not None and exists(path, plan) else None
     todo = None if place is None else missing(place, plan)
@@ -164,9 +164,9 @@ def explain(found: xr.Dataset, **cell: float) -> str:
         failed.
     """
     facts = found.attrs
-    if "computation" not in facts or {*cell} != {*found.status.dims}:
+    if {*cell} != {*found.status.dims}:
         raise InvalidParameter("Pass a result of `sweep` or `read`, and all coordinates of one of its cells.")
-    cell = {str(name): as_number(str(name), cell[str(name)]) for name in found.status.dims}
+    cell = {name: as_number(name, cell[name]) for name in map(str, found.status.dims)}
     if (failure := json.loads(facts["failures"]).get(named(cell))) is not None:
         return str(failure)
     if facts["source"]:

@@ -31,7 +31,6 @@ if TYPE_CHECKING:
 
 __all__ = ["create", "exists", "load", "missing", "read", "require_libraries", "write"]
 
-_PROGRAM = "hess-explorer sweep"
 _MOST_FAILURES = 1000
 _DAMAGED = (OSError, ValueError, RuntimeError, KeyError)
 """Errors of the decoder for an incomplete file."""
@@ -98,13 +97,12 @@ def _fill(place: Path | MemoryStore, plan: Plan, cells: float) -> None:
 
 def _facts(plan: Plan) -> dict[str, str]:
     return {
-        "program": _PROGRAM,
         "computation": plan.computation.key,
         "title": plan.computation.title,
         "numbers": ", ".join(plan.numbers),
         "accuracy": plan.accuracy,
         "version": version(),
-        "parameters": json.dumps(dict(plan.fixed), ensure_ascii=False, sort_keys=True),
+        "parameters": json.dumps(plan.fixed, sort_keys=True),
         "source": plan.source,
     }
 
@@ -164,7 +162,7 @@ def write(place: Path | MemoryStore, region: Region, done: PieceResult) -> None:
             facts = zarr.open_group(place, mode="r+", use_consolidated=False).attrs
             both = json.loads(str(facts["failures"])) | failures
             # In an order that does not depend on which worker was first.
-            facts["failures"] = json.dumps(dict(islice(sorted(both.items()), _MOST_FAILURES)), ensure_ascii=False)
+            facts["failures"] = json.dumps(dict(islice(sorted(both.items()), _MOST_FAILURES)))
         for variables in (parts, status):
             xr.Dataset(variables).to_zarr(place, region=region, consolidated=False)
     except (OSError, ValueError) as error:
@@ -185,8 +183,6 @@ def _open(place: Path | MemoryStore) -> xr.Dataset:
 
     with _reading(place, "does not contain a sweep: choose another folder."):
         found = xr.open_zarr(place, zarr_format=3, consolidated=False, chunks=None)
-        if found.attrs["program"] != _PROGRAM:
-            raise ValueError
         # Zarr does not keep their order.
         ordered: xr.Dataset = found[found.attrs["variables"].split(", ")]
         return ordered

@@ -52,8 +52,8 @@ def build(plot: Plot[Any]) -> figure:
     # begin a new path for the outline; without it Bokeh strokes the ticks of the previous painting again.
     root = figure(
         name=plot.name,
-        x_range=Range1d(*axes.x),
-        y_range=Range1d(*axes.y),
+        x_range=Range1d(start=axes.x[0], end=axes.x[1]),
+        y_range=Range1d(start=axes.y[0], end=axes.y[1]),
         x_axis_type="log" if "x" in plot.log else "linear",
         y_axis_type="log" if "y" in plot.log else "linear",
         x_axis_label=names[0],

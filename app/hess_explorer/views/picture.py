@@ -72,8 +72,8 @@ class Picture(ABC, Generic[S]):
 
     @property
     def tracks(self) -> frozenset[str]:
-        """The tracks of the scene that it requires."""
-        return frozenset()
+        """The tracks of the scene that it requires: "orbit" sets the time of the player."""
+        return frozenset({"orbit"})
 
     @property
     def followers(self) -> Mapping[str, tuple[str, str]]:

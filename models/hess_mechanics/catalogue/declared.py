@@ -175,10 +175,8 @@ class Computation:
         Raises `InvalidParameter`.
         """
         given = given or {}
-        words = {one.name: one for one in self.choices}
-        for name in given:
-            if name not in words:
-                self.parameter(name)
+        for name in given.keys() - {one.name for one in self.choices}:
+            self.parameter(name)
         found: dict[str, Value] = {}
         for one in self.parameters:
             value = one.check(as_number(one.name, given.get(one.name, one.default)))
@@ -224,10 +222,11 @@ def declare(of: Motions, one: Computation, on_section: bool = False) -> Computat
     one : its function takes body, initial state and accuracy, or with `on_section` the return map and a point of the
     section, before its parameters.
     """
-    names = [*(each.name for each in one.parameters), *(each.name for each in one.choices)]
+    own = (*of.parameters, *of.place)
+    names = {each.name for each in own}
 
     def call(accuracy: Level, **values: Any) -> Any:
-        more = {name: values[name] for name in names}
+        more = {name: value for name, value in values.items() if name not in names}
         start: tuple[Any, ...]
         if on_section and of.section is not None:
             start = ReturnMap(of.section(values), accuracy), tuple(values[each.name] for each in of.place)
@@ -237,19 +236,16 @@ def declare(of: Motions, one: Computation, on_section: bool = False) -> Computat
 
     return replace(
         one,
-        parameters=(*of.parameters, *of.place, *one.parameters),
+        parameters=(*own, *one.parameters),
         call=call,
         system=of.name,
         source=of.source,
     )
 
 
-def largest_difference(values: Any, exact: Any, turn: float = math.inf) -> float:
-    """Return the largest difference of two arrays of one shape, up to full turns; NaN if the shapes differ."""
+def largest_difference(values: Any, exact: Any) -> float:
+    """Return the largest difference of two arrays of one shape; NaN if the shapes differ."""
     one, other = np.asarray(values, float), np.asarray(exact, float)
     if one.shape != other.shape or not one.size:
         return math.nan
-    away = one - other
-    if math.isfinite(turn):
-        away = away - turn * np.round(away / turn)
-    return float(np.max(np.abs(away)))
+    return float(np.max(np.abs(one - other)))

@@ -43,12 +43,6 @@ def exact_motion(a: float, start: tuple[float, ...], duration: float, count: int
     return solve(REDUCED.at((a, 1.0)), start, np.linspace(0.0, duration, count), REFERENCE)
 
 
-def _relative(body: HeavyBody, states: Array) -> Array:
-    """Return (r, M)/(|r| max |M|) (n,) of the states (n, 6) of one motion."""
-    largest = float(np.max(np.linalg.norm(states[:, :3], axis=1)))
-    return np.asarray(states[:, :3] @ np.array(body.r) / (math.hypot(*body.r) * largest or 1.0), float)
-
-
 @dataclass(frozen=True)
 class FreeRun:
     """Orbit of the Euler–Poisson equations, computed once at one level, with its leak off the Hess manifold.
@@ -88,8 +82,10 @@ def run_free(
     times = frozen(np.linspace(0.0, duration, count))
     problem = Problem.of(body, [start])
     scaled = problem.times(times)
-    axis = np.array(body.r) / math.hypot(*body.r)
-    growth = body.hess_a * _fastest(body, start) * duration
+    axis, a = np.array(body.r) / math.hypot(*body.r), body.a[1]
+    # |w| of the motion on the manifold is at most `fastest`.
+    fastest = math.sqrt((a * math.hypot(*start[:3])) ** 2 + 4.0 * a * body.strength)
+    growth = body.hess_a * fastest * duration
     pieces = math.ceil(max((count - 1) / _HELD_SAMPLES, growth / _BEFORE_HELD)) if held else 1
     if pieces > MAX_STEPS:
         raise WorkLimit("The manifold is too unstable to stay on it over this time span: choose a shorter one.")
@@ -116,13 +112,8 @@ def run_free(
     out[first[-1] :] = state
     states = out * problem.scale
     drift = drift_of(SYSTEM, states[0], states, np.array(body.parameters))
-    return FreeRun(level.name, times, frozen(states), frozen(_relative(body, states)), total, drift)
-
-
-def _fastest(body: HeavyBody, start: tuple[float, ...]) -> float:
-    """Return a bound on |w| of the motion on the manifold from this state."""
-    a = body.a[1]
-    return math.sqrt(a * a * (start[0] ** 2 + start[1] ** 2 + start[2] ** 2) + 4.0 * a * body.strength)
+    off = states[:, :3] @ axis / (np.linalg.norm(states[:, :3], axis=1).max() or 1.0)
+    return FreeRun(level.name, times, frozen(states), frozen(off), total, drift)
 
 
 @dataclass(frozen=True)

@@ -210,13 +210,12 @@ def _omega(of: PassageConstants, arc: int, tanh: Array, sech: Array) -> Array:
 
 @dataclass(frozen=True)
 class Passage:
-    """One motion ω(t): constants of its tensor, arc σ = ±1, u0 = u(0), rate ω0 and speed |ω^(±)|."""
+    """One motion ω(t): constants of its tensor, arc σ = ±1, u0 = u(0) and rate ω0."""
 
     shape: PassageConstants
     arc: int
     u0: float
     rate: float
-    speed: float
 
     def omega(self, u: Array) -> Array:
         """Return ω (m, 2) in closed form (`biz132`)."""
@@ -247,8 +246,7 @@ def passage(body: SuslovBody, omega: Sequence[float]) -> Passage:
             "Move ω off the line."
         )
     rate = _rate(body, of, r)
-    speed = r / math.sqrt(of.w)
-    if not (math.isfinite(rate) and rate > 0.0 and math.isfinite(speed)):
+    if not (math.isfinite(rate) and rate > 0.0 and math.isfinite(r / math.sqrt(of.w))):
         raise InvalidParameter("This ω exceeds the range of double precision: choose a less extreme one.")
     n1, n2 = of.eta[:2]
     sin = (body.I22 * n1 * (w2 / r) - body.I11 * n2 * (w1 / r)) / math.sqrt(of.w)
@@ -259,7 +257,7 @@ def passage(body: SuslovBody, omega: Sequence[float]) -> Passage:
         u0 = math.asinh(sin * math.exp(-log_cos))
     else:
         u0 = math.copysign(math.log(2.0) - log_cos, sin)
-    return Passage(of, 1 if s > 0 else -1, u0, rate, speed)
+    return Passage(of, 1 if s > 0 else -1, u0, rate)
 
 
 def _log(x: Fraction) -> float:

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hess_mechanics.errors import InvalidParameter, OutsideRegion, Separatrix
-from hess_mechanics.numerics.arguments import as_whole
+from hess_mechanics.numerics.arguments import as_number, as_whole
 from hess_mechanics.numerics.results import Array, frozen
 from hess_mechanics.rigid_body.inertia import require_finite
 from hess_mechanics.suslov_hess.bifurcation_kernels import f_max_and_roots, largest_f_into
@@ -48,8 +48,6 @@ class TurningPoints:
         1 − n1².
     period : float
         Period of n3.
-    f_max : float
-        Largest |f| at this h.
     """
 
     h: float
@@ -58,7 +56,6 @@ class TurningPoints:
     w_squared: float
     sine_squared: float
     period: float
-    f_max: float
 
     @property
     def initial_rho(self) -> float:
@@ -204,8 +201,7 @@ def turning_points(h: float, f: float) -> TurningPoints:
     [-1.5, -1.0, 1.0]
     """
     _check_h(h)
-    require_finite(f=f)
-    h, f = float(h), float(f) + 0.0  # f = −0.0 is f = 0
+    h, f = float(h), as_number("f", f) + 0.0  # f = −0.0 is f = 0
     fm, found, period = f_max_and_roots(h, f)
     if abs(f) > fm * (1 + 1e-15):
         # Rounded down, so that the bound in the message is itself accepted.
@@ -216,7 +212,7 @@ def turning_points(h: float, f: float) -> TurningPoints:
     n0, n1, n2, _, _, _, w1, v1 = found
     if not math.isfinite(period):
         raise Separatrix("h = 1, f = 0 is the separatrix: no return. Move h or f a little.")
-    return TurningPoints(h, f, (n0, n1, n2), 2.0 * w1, v1, period, fm)
+    return TurningPoints(h, f, (n0, n1, n2), 2.0 * w1, v1, period)
 
 
 def curve_point(n: float) -> tuple[float, float]:

@@ -26,7 +26,7 @@ import numpy as np
 
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import Accuracy, Level, Status
-from hess_mechanics.numerics.arguments import as_level
+from hess_mechanics.numerics.arguments import as_level, as_number
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.measured import measured
 from hess_mechanics.numerics.results import Array, Cost, facts_of, frozen
@@ -183,7 +183,7 @@ class CircleMap(Result):
         Examples
         --------
         >>> from hess_mechanics import circle_map
-        >>> found = circle_map(a=0.5, h=1.5, f=0.6, level="standard")
+        >>> found = circle_map(a=0.5, h=1.5, f=0.6, accuracy="standard")
         >>> found.theta([0.0, 1.0]).round(4)
         array([-1.8468, -1.7131])
         """
@@ -207,7 +207,7 @@ class CircleMap(Result):
         Examples
         --------
         >>> from hess_mechanics import circle_map
-        >>> circle_map(a=0.5, h=1.5, f=0.6, level="standard").iterate(0.0, 3).round(4)
+        >>> circle_map(a=0.5, h=1.5, f=0.6, accuracy="standard").iterate(0.0, 3).round(4)
         array([ 0.    , -1.8468, -1.9509, -1.9569])
         """
         orbit = np.empty(count + 1)
@@ -346,16 +346,12 @@ def circle_map(a: float, h: float, f: float, accuracy: Accuracy) -> CircleMap:
     Examples
     --------
     >>> from hess_mechanics import circle_map, level
-    >>> found = circle_map(a=0.0, h=1.5, f=0.6, level=level("precise"))  # without coupling the map does not lock
+    >>> found = circle_map(a=0.0, h=1.5, f=0.6, accuracy=level("precise"))  # without coupling the map does not lock
     >>> found.kind, len(found.fixed_points)
     ('elliptic', 0)
     """
     level = as_level(accuracy)
-    try:
-        a, h, f = float(a), float(h), float(f) + 0.0  # f = −0.0 is f = 0
-    except (TypeError, ValueError):
-        require_finite(a=a, h=h, f=f)
-        raise
+    a, h, f = as_number("a", a), as_number("h", h), as_number("f", f) + 0.0  # f = −0.0 is f = 0
     check_a(a)
     turning = turning_points(h, f)
     here = np.array([h]), np.array([f])

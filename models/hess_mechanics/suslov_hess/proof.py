@@ -62,7 +62,6 @@ __all__ = [
     "Proof",
     "ProofStep",
     "check_possible",
-    "on_edge",
     "prove",
 ]
 
@@ -234,12 +233,13 @@ def prove(
     begun = time.perf_counter()
     at = exact("a", a), exact("h", h), exact("f", f)
     check_possible(*at)
-    if on_edge(*at[1:]):
+    if _discriminant(*at[1:]) == 0:
         return prove_edge(*at)
     if at[2] == 0 and at[1] < 1:
         with working(FIRST_BITS):
             return _oscillation(*at, begun)
-    bits, found = FIRST_BITS, None
+    bits = FIRST_BITS
+    found: Proof | None = None
     while True:
         with working(bits):
             turns = _turns(at[1], at[2], bits)
@@ -248,14 +248,12 @@ def prove(
                 plan.append(step)
                 work += step[2] ** 2
                 if work > most_work:
-                    break
-            if work > most_work:
-                if found is None:
+                    if found is not None:
+                        return found
                     raise WorkLimit(
                         f"This proof needs more than {len(plan)} steps: choose smaller |a|, or (h, f) "
                         "farther from (1, 0)."
                     )
-                return found
             found = _proof(at, turns, plan, bits, begun)
         known = found.trace.precision < 10.0**-digits and found.rotation_number is not None
         if (known and found.statement != UNDECIDED) or 2 * bits > most_bits:
@@ -298,24 +296,6 @@ def check_possible(a: Fraction, h: Fraction, f: Fraction) -> None:
             f"No motion has exactly h = {float(h):.15g} and f = {float(f):.15g}: at this h choose "
             f"|f| ≤ {largest * (1 - 1e-11):.12g}, or a larger h."
         )
-
-
-def on_edge(h: Fraction, f: Fraction) -> bool:
-    """Return True if (h, f) lies on the edge of the region, where n3 is constant and there is no torus (`Geq3`).
-
-    Parameters
-    ----------
-    h : Fraction
-        The energy, in units b = 1, accepted by `check_possible`.
-    f : Fraction
-        The area integral, in units b = 1.
-
-    Returns
-    -------
-    bool
-        True on the edge.
-    """
-    return _discriminant(h, f) == 0
 
 
 def _discriminant(h: Fraction, f: Fraction) -> Fraction:

@@ -70,6 +70,7 @@ TURNS = 1500
 _TERM = 3
 """The harmonic that breaks the Möbius form."""
 _NEAR_SEPARATRIX = 1e-9
+_MARGIN = 0.03
 
 
 @dataclass(frozen=True)
@@ -83,6 +84,13 @@ class Torus:
     def at(self, **values: float) -> Torus:
         """Return the torus with some parameters replaced."""
         return Torus(**{**vars(self), **values})
+
+    def range_of(self, name: str) -> tuple[float, float]:
+        """Return the range of the parameter `name` ("a", "h" or "f") for which motion is possible, given the others."""
+        if name == "h":
+            return h_min(self.f), math.inf
+        last = math.inf if name == "a" else f_max(self.h) if self.h > -1.0 else 0.0
+        return -last, last
 
 
 @dataclass(frozen=True)
@@ -112,16 +120,11 @@ class ParameterLine:
         return {**vars(self.torus), self.name: values}
 
 
-def possible_part(line: ParameterLine, margin: float = 0.03) -> ParameterLine:
-    """Return the line cut to the values with motion, plus a share `margin` at each end; uncut if there is none."""
-    first, last = -math.inf, math.inf
-    if line.name == "h":
-        first = h_min(line.torus.f)
-    elif line.name == "f":
-        last = f_max(line.torus.h) if line.torus.h > -1.0 else 0.0
-        first = -last
+def possible_part(line: ParameterLine) -> ParameterLine:
+    """Return the line cut to the values with motion, plus a share `_MARGIN` at each end; uncut if there is none."""
+    first, last = line.torus.range_of(line.name)
     low, high = max(line.low, first), min(line.high, last)
-    room = margin * (high - low)
+    room = _MARGIN * (high - low)
     bottom = -1.0 + 1e-9 if line.name == "h" else -math.inf
     if room <= 0.0:
         return replace(line, low=max(bottom, line.low))
@@ -220,11 +223,11 @@ def lock_curve(plane: str, torus: Torus, window: Sequence[float], accuracy: Accu
 
 def _abscissas(plane: str, torus: Torus, x0: float, x1: float, points: int) -> Array:
     """Return values between x0 and x1 where motion is possible; values of f are denser near 0, where a(f) is steep."""
+    first, last = torus.range_of(plane[0])
     if plane == "h, a":
-        low = max(x0, h_min(torus.f) + 1e-9)
+        low = max(x0, first + 1e-9)
         return np.linspace(low, x1, points) if low < x1 else np.empty(0)
-    top = f_max(torus.h) * (1.0 - 1e-9) if torus.h > -1.0 else 0.0
-    ends = np.clip([x0, x1], -top, top)
+    ends = np.clip([x0, x1], first * (1.0 - 1e-9), last * (1.0 - 1e-9))
     first, last = np.copysign(np.sqrt(np.abs(ends)), ends).tolist()
     roots = np.linspace(first, last, points)
     return np.asarray(roots * np.abs(roots))

@@ -131,7 +131,7 @@ class _Chart(Part[Any]):
 
     def look_closer(self, corners: Corners) -> Values:
         """Return the window of a box."""
-        (x0, x1), (y0, y1) = (one.bounds for one in self.axes)
+        (x0, x1), (y0, y1) = (one.ends for one in self.axes)
         return boxed(corners, ((x0, y0), (x1, y1)), "chart_window")
 
     def _says(self, value: float, error: float, status: float) -> str:
@@ -163,10 +163,6 @@ class _Chart(Part[Any]):
         said = [f"{columns} × {rows} cells" + f", {rows - coarse} rows known" * (coarse > 0)]
         if self.cells.ends is not None:
             said.append(f"colours {ranging(*self.cells.ends, 3)}")
-        missing = cells[:, 2][cells[:, 2] >= Outcome.OUTSIDE_REGION].astype(int)
-        if missing.size:
-            most = Outcome(int(np.bincount(missing).argmax()))
-            said.append(f"{digits(100.0 * missing.size / (rows * columns), 2)} % have none: {most.words}")
         return Caption(verdict, f"{'; '.join(said)}.")
 
 
@@ -174,10 +170,10 @@ def _sides(charts: Charts, state: type[Any]) -> Mapping[str, Side]:
     found = []
     for spec in specs_of(state):
         if isinstance(spec, Number):
-            found.append(Side(spec.symbol, spec.name, spec.softbounds, spec.bounds))
+            found.append(Side(spec.symbol, spec.name, spec.softbounds))
         elif isinstance(spec, Places) and spec.name == charts.placed[0]:
             ends = zip(spec.low, spec.high, strict=True)
-            found += [Side(charts.placed[1][i], spec.name, both, both, i) for i, both in enumerate(ends)]
+            found += [Side(charts.placed[1][i], spec.name, both, i) for i, both in enumerate(ends)]
     return {one.symbol: one for one in found}
 
 

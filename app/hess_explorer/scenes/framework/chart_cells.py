@@ -25,13 +25,12 @@ __all__ = ["STORED", "Cells", "Side", "chart_row"]
 class Side:
     """A parameter of the scene as a side of a chart, or a coordinate of its last place.
 
-    ends : the usual range; bounds : the largest one; axis : index of the coordinate.
+    ends : the usual range; axis : index of the coordinate.
     """
 
     symbol: str
     name: str
     ends: Range
-    bounds: Range
     axis: int | None = None
 
     def of(self, state: Any) -> float:
@@ -65,7 +64,8 @@ class Cells:
 
 
 def _evaluated(charted: Charted, number: str, chosen: Level, cells: tuple[Any, ...]) -> Array:
-    columns = {name: np.array([cell[i][1] for cell in cells]) for i, (name, _) in enumerate(cells[0])}
+    names = [one.name for one in charted.computation.parameters]
+    columns = dict(zip(names, np.array(cells, float).T, strict=True))
     found = evaluate(charted.computation, (number,), columns, chosen)
     errors = found.errors.get(number, np.full(len(cells), np.nan))
     return frozen(np.stack([found.values[number], errors, found.status]))
@@ -75,10 +75,10 @@ def chart_row(cells: Cells, window: Window, count: int, row: int) -> Array:
     """Return values, estimated errors and status (3, count) of a row of `count` × `count` cells."""
     (x0, y0), (x1, y1) = window
     y = float(centres(y0, y1, count)[row])
-    found, known = np.full((3, count), np.nan), dict[int, tuple[tuple[str, float], ...]]()
+    found, known = np.full((3, count), np.nan), dict[int, tuple[float, ...]]()
     for i, x in enumerate(centres(x0, x1, count).tolist()):
         try:
-            known[i] = tuple(cells.arguments(x, y).items())
+            known[i] = tuple(cells.arguments(x, y).values())
         # An error in one cell must not stop the others.
         except Exception as error:
             found[2, i], _ = refused(error, {cells.x.name: x, cells.y.name: y})

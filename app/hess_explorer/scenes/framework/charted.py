@@ -20,9 +20,6 @@ Arguments = Mapping[str, float]
 Numbers = Mapping[str, tuple["Charted", str]]
 """Computation and name of each number, by the option of the menu."""
 
-_SHORT = 20.0
-"""Longest motion that only loads the kernels."""
-
 
 @dataclass(frozen=True, eq=False)
 class Charted:
@@ -40,7 +37,7 @@ class Charted:
     @property
     def computation(self) -> Computation:
         """The computation."""
-        return self.known[self.key] if self.known else catalogue.find(self.key)
+        return (self.known or catalogue.catalogue())[self.key]
 
     def values(self, state: Any) -> Mapping[str, Any]:
         """Return all arguments of a state, within their bounds.  Raises `ModelError`."""
@@ -69,13 +66,10 @@ class Charts:
         }
 
     def load(self, state: Any) -> None:
-        """Compute every number once over a short time, which compiles or loads its kernels.  Raises `ModelError`."""
+        """Compute every number once, which compiles or loads its kernels.  Raises `ModelError`."""
         for one in self.charted:
-            values = one.values(state)
-            short = {
-                name: np.array([min(value, _SHORT) if name == "duration" else value]) for name, value in values.items()
-            }
-            evaluate(one.computation, one.numbers, short, DRAFT)
+            columns = {name: np.array([value]) for name, value in one.values(state).items()}
+            evaluate(one.computation, one.numbers, columns, DRAFT)
 
 
 def of_torus(torus: Callable[[Any], tuple[float, float, float]]) -> tuple[Charted, ...]:

@@ -171,11 +171,6 @@ class BodyInSpace(Picture[S]):
         return super().needs | ({self.attitude} if self.attitude else set())
 
     @property
-    def tracks(self) -> frozenset[str]:
-        """The track "orbit", which sets the time of the player."""
-        return frozenset({"orbit"})
-
-    @property
     def legend(self) -> tuple[Sign, ...]:
         """Entries that the picture adds to the legend of its scene."""
         colour = "" if self.wheels is None else theme.SHADES[self.wheels.look][0]

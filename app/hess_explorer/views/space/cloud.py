@@ -113,11 +113,6 @@ class CloudPlane(Picture[S]):
     kind: ClassVar[str] = "cloud"
 
     @property
-    def tracks(self) -> frozenset[str]:
-        """The track "orbit", which sets the time of the player."""
-        return frozenset({"orbit"})
-
-    @property
     def first_axes(self) -> Axes:
         """The axes before the first state."""
         return Axes(centred(1.0), centred(1.0))

@@ -53,11 +53,6 @@ class TorusInSpace(Picture[S]):
     kind: ClassVar[str] = "torus"
 
     @property
-    def tracks(self) -> frozenset[str]:
-        """The track "orbit", which sets the time of the player."""
-        return frozenset({"orbit"})
-
-    @property
     def legend(self) -> tuple[Sign, ...]:
         """Entries that the picture adds to the legend of its scene."""
         return (*self.signs, _SECTION, MOVING_POINT)

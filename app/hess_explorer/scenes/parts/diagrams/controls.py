@@ -65,13 +65,6 @@ class DiagramControls(State, ABC):
     symbols : symbol of each parameter of the section → its name.
     """
 
-    I11: float
-    I22: float
-    I13: float
-    I23: float
-    b1: float
-    b2: float
-    b3: float
     h: float
     along: str
     first: float = number(

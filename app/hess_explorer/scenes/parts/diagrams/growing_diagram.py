@@ -16,7 +16,6 @@ from hess_explorer.scenes.framework.continuation import Continuation
 from hess_explorer.scenes.framework.families import Begin, Family
 from hess_explorer.scenes.framework.part import Part, Start
 from hess_explorer.scenes.framework.periodic_search import NONE, PERIODS
-from hess_explorer.scenes.framework.sliders import specs_of
 from hess_explorer.scenes.framework.windows import Window, tidy_window, window_of
 from hess_explorer.scenes.parts.diagrams.controls import (
     BACKWARD,
@@ -58,13 +57,12 @@ class OrbitDiagram(Part[DiagramControls]):
         if first == last:
             first = min(first, FARTHEST[1] - 1.0)
             last = first + 1.0
-        default = next(one.default for one in specs_of(type(self.host)) if one.name == "chosen")
         window = tidy_window(self.host.window)
         (x0, _), (x1, _) = window_of(window, ((first, 0.0), (last, 0.0)))
         return {
             "first": first,
             "last": last,
-            "chosen": self.host.chosen or default,
+            "chosen": self.host.chosen or type(self.host).chosen,
             "window": window if x0 < last and x1 > first else "",
         }
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -36,7 +35,7 @@ from hess_explorer.views.plot import Plot
 from hess_mechanics.numerics.accuracy import Kind, Plan
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov_hess import rotation_number as mechanics
-from hess_mechanics.suslov_hess.bifurcation import f_max, f_max_each, h_min
+from hess_mechanics.suslov_hess.bifurcation import f_max_each
 from hess_mechanics.suslov_hess.rotation_number import Torus, TorusValues
 
 __all__ = ["BOUNDS", "FULL", "RotationMap", "rotation_map", "window_over"]
@@ -169,26 +168,19 @@ class RotationMap(Part[Host]):
         energies = np.linspace(max(low, -1.0), high, _ON_EDGE)
         return np.column_stack([energies, f_max_each(energies)])
 
-    def _ends(self) -> Range:
-        """Return the ends of the possible tori along the horizontal axis, if a is on the vertical one."""
-        if self.plane == "h, a":
-            return h_min(self.torus.f), math.inf
-        top = f_max(self.torus.h) if self.torus.h > -1.0 else 0.0
-        return -top, top
-
     def _edges(self) -> list[Array]:
         """Return the boundary curves (n, 2) of the possible tori."""
         (x0, x1), y = self.window
         if self.plane == "h, f":
             return [self._upper, self._upper * (1.0, -1.0)] if x1 > -1.0 else []
-        return [np.array([[end, one] for one in y]) for end in self._ends() if x0 < end < x1]
+        return [np.array([[end, one] for one in y]) for end in self.torus.range_of(self.plane[0]) if x0 < end < x1]
 
     def _impossible(self) -> Regions:
         """Return the part of the window without tori."""
         (x0, x1), (y0, y1) = x, y = self.window
         if self.plane == "h, f":
             return impossible(self._upper, Axes(x, (min(y0, -y1), max(y1, -y0)))) if x1 > -1.0 else [[rectangle(x, y)]]
-        first, last = self._ends()
+        first, last = self.torus.range_of(self.plane[0])
         parts = [(x0, min(x1, first)), (max(x0, last), x1)]
         return [[rectangle(part, y)] for part in parts if part[0] < part[1]]
 

@@ -312,6 +312,4 @@ def _first_place(section: PoincareSection, state: Start, crossed: Callable[[], O
 
 def first_place(section: PoincareSection, state: Start) -> Place | None:
     """Return the place where the motion of a state starts, or else first crosses the section; None if it does not."""
-    return _first_place(
-        section, state, lambda: crossings_from(section, (state,), 1, True, STANDARD, Section.most_steps)
-    )
+    return _first_place(section, state, lambda: crossings_from(section, (state,), 1, True, STANDARD))
