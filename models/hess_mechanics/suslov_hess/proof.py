@@ -246,12 +246,12 @@ def prove(
             for step in _plan(at[0], at[2], turns, bits):
                 plan.append(step)
                 work += step[2] ** 2
-                if work > most_work and found is None:
-                    raise WorkLimit(
-                        f"This proof needs more than {len(plan)} steps: choose smaller |a|, or (h, f) "
-                        "farther from (1, 0)."
-                    )
                 if work > most_work:
+                    if found is None:
+                        raise WorkLimit(
+                            f"This proof needs more than {len(plan)} steps: choose smaller |a|, or (h, f) "
+                            "farther from (1, 0)."
+                        )
                     return found
             found = _proof(at, turns, plan, bits, begun)
         known = found.trace.precision < 10.0**-digits and found.rotation_number is not None
