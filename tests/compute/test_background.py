@@ -479,7 +479,7 @@ def test_a_box_beyond_the_section_is_cut_and_one_that_is_none_is_not_taken(free_
         {"picked": ["section", 0.1, 0.2, 0.6, 0.7, 0.8, 0.9]},
         {"values": {"starts": ["0,0"], "window": {}}},
         {"values": {"starts": "0" * 5000, "window": "1,2,3;4"}},
-        {"values": {"h": "2.5", "f": [1], "nobody": 1.0, "accuracy": 2}},
+        {"values": {"h": "high", "f": [1], "nobody": 1.0, "accuracy": 2}},
         {"reset": 1, "preset": "nobody", "scene": "nowhere", "restore": ["v=1"]},
     ],
 )

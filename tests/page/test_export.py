@@ -143,7 +143,7 @@ def filming():
             words = one.read_bytes().split(b"\0")
         except OSError:
             continue
-        if b"--progress" in words and b"30" in words:
+        if b"--progress" in words and b"--seconds=30" in words:
             found.append(words)
     return found
 

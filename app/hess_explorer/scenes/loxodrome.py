@@ -21,7 +21,7 @@ from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import CENTRE_OF_MASS, Columns, Sign, column, line
 from hess_explorer.views.plane.velocity_plane import pixels_per_unit
 from hess_explorer.views.plot import Plot
-from hess_explorer.views.space.body import BodyInSpace, Curve, Rod, Shape, Trail
+from hess_explorer.views.space.body import BodyInSpace, Curve, Rod, Shape
 from hess_explorer.views.space.poisson_sphere import Circle, Mark
 from hess_explorer.views.text import digits, ranging, vector
 from hess_mechanics import parameters as known
@@ -200,7 +200,7 @@ SCENE = Scene(
             motion=lambda s: (s.found.attitude, s.found.times),
             rods=Loxodrome.rods,
             curves=lambda s: [Curve(s.found.centre, "stable", 2.0)],
-            trail=lambda s: Trail((0.0, 1.0, 0.0), "orbit"),
+            trail=lambda s: (0.0, 1.0, 0.0),
             mass=lambda s: np.array(s.pendulum.body.r),
             signs=(CIRCULAR_SECTION,),
         ),

@@ -238,8 +238,7 @@ def prove(
     if at[2] == 0 and at[1] < 1:
         with working(FIRST_BITS):
             return _oscillation(*at, begun)
-    bits = FIRST_BITS
-    found: Proof | None = None
+    bits, found = FIRST_BITS, None
     while True:
         with working(bits):
             turns = _turns(at[1], at[2], bits)
@@ -248,12 +247,12 @@ def prove(
                 plan.append(step)
                 work += step[2] ** 2
                 if work > most_work:
-                    if found is not None:
-                        return found
-                    raise WorkLimit(
-                        f"This proof needs more than {len(plan)} steps: choose smaller |a|, or (h, f) "
-                        "farther from (1, 0)."
-                    )
+                    if found is None:
+                        raise WorkLimit(
+                            f"This proof needs more than {len(plan)} steps: choose smaller |a|, or (h, f) "
+                            "farther from (1, 0)."
+                        )
+                    return found
             found = _proof(at, turns, plan, bits, begun)
         known = found.trace.precision < 10.0**-digits and found.rotation_number is not None
         if (known and found.statement != UNDECIDED) or 2 * bits > most_bits:

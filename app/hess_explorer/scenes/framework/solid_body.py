@@ -16,7 +16,7 @@ from hess_explorer.scenes.framework.work import Work
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import CENTRE_OF_MASS, Sign
-from hess_explorer.views.space.body import BodyInSpace, Rod, Shape, Trail, Wheels
+from hess_explorer.views.space.body import BodyInSpace, Rod, Shape, Wheels
 from hess_explorer.views.space.poisson_sphere import Direction, centre_of_mass
 from hess_explorer.views.text import digits
 from hess_mechanics.dynamics.system import Body
@@ -188,9 +188,8 @@ def solid_body(
         found = of(state).mass
         return None if found is None else np.asarray(found.along)
 
-    def trail(state: S) -> Trail | None:
-        along = mass(state) if section else None
-        return None if along is None else Trail(along, "orbit")
+    def trail(state: S) -> Array | None:
+        return mass(state) if section else None
 
     def caption(state: S) -> Caption:
         if ball and of(state).in_space():

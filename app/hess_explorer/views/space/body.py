@@ -17,7 +17,7 @@ from hess_mechanics.numerics.results import Array
 from hess_mechanics.rigid_body.attitude import Attitude, travelled
 from hess_mechanics.rigid_body.inertia import paired_weights
 
-__all__ = ["BodyInSpace", "Curve", "Rod", "Shape", "Trail", "Wheels", "seen_in_space"]
+__all__ = ["BodyInSpace", "Curve", "Rod", "Shape", "Wheels", "seen_in_space"]
 
 S = TypeVar("S")
 
@@ -93,14 +93,6 @@ class Wheels:
 
 
 @dataclass(frozen=True)
-class Trail:
-    """The trace of a body direction on the unit sphere; look as in `Rod`."""
-
-    along: Sequence[float] | Array
-    look: str
-
-
-@dataclass(frozen=True)
 class Rod:
     """A rod from the fixed point to the unit sphere, along a direction of the body, with a dot and a label.
 
@@ -141,7 +133,7 @@ class BodyInSpace(Picture[S]):
 
     shape(state) : the ellipsoid of the body, or None.
     motion(state) : its attitude and the times (n,) in the player's units, or None.
-    wheels : the wheels of its constraint; trail(state) : the trail of one of its points or None.
+    wheels : the wheels of its constraint; trail(state) : the direction whose trace is drawn, or None.
     mass(state) : direction of the centre of mass of its weights, or None.
     hollow : draw a glass ball rolling on an inner ball instead of the ellipsoid; heavy(state) : whether γ is gravity.
     attitude : the picture whose attitude it follows, if it has none of its own.
@@ -152,7 +144,7 @@ class BodyInSpace(Picture[S]):
     shape: Callable[[S], Shape | None] = lambda state: None
     motion: Callable[[S], tuple[Attitude, Array] | None] | None = None
     wheels: Wheels | None = None
-    trail: Callable[[S], Trail | None] = lambda state: None
+    trail: Callable[[S], Sequence[float] | Array | None] = lambda state: None
     mass: Callable[[S], Array | None] = lambda state: None
     hollow: bool = False
     heavy: Callable[[S], bool] = lambda state: True
@@ -216,7 +208,7 @@ class BodyInSpace(Picture[S]):
             columns["arc"] = column(travelled(attitude.axes, wheels.at, wheels.e))
         trail = self.trail(state)
         if trail is not None:
-            columns["trail"] = [*map(float, trail.along), trail.look]
+            columns["trail"] = [*map(float, trail), "orbit"]
         label = "γ, gravity" if self.heavy(state) else "γ"
         return {
             self.name: {

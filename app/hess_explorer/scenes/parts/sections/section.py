@@ -212,8 +212,9 @@ class Section(Part[_Host]):
             if self.at_once and None in known.others:
                 few = [self.work.need(task) for task in self._filling(min(self._count, _FEW))]
                 known = replace(known, few=few)
-        except WorkLimit as error:
-            return Known([], [], reason=f"The section is left out: {error}")
+        except WorkLimit:
+            much = f"{self._count} crossings take an orbit more than {self.most_steps} steps here"
+            return Known([], [], reason=f"The section is left out: {much}: choose fewer of them.")
         return known
 
     @cached_property
