@@ -6,8 +6,7 @@ import numpy as np
 import sympy
 from pytest import approx, mark
 
-from hess_mechanics import section, systems
-from hess_mechanics.chaplygin_ball.ball_section import EQUATOR
+from hess_mechanics import Plane, section, systems
 from hess_mechanics.dynamics.spectrum import lyapunov_exponent
 from hess_mechanics.errors import NotPositiveDefinite
 from hess_mechanics.suslov.plane_potential import (
@@ -96,7 +95,7 @@ def test_the_integrable_one_is_regular_and_the_others_have_chaos(name, E, chaoti
 def test_a_motion_for_a_picture_knows_its_period_and_its_integral(name):
     body, start = body_of(name, 1.3, 0.8), (0.9, -0.7, 0.48, 0.6, 0.64)
     found = motion_from(body, start, 40.0, "precise")
-    both = section(body, start, EQUATOR, 400.0, "reference", 2)
+    both = section(body, start, Plane((0.0, 0.0, 0.0, 0.0, 1.0)), 400.0, "reference", 2)
     assert found.period == approx(float(both.times[1] - both.times[0]), abs=1e-8)
     assert found.missed < 1e-8
     assert (found.integral < 1e-10) is body.separates
