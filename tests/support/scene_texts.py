@@ -21,7 +21,7 @@ from hess_mechanics import (
     period_doublings,
     periodic_orbit,
 )
-from hess_mechanics.dynamics import attraction, edge, megno, point_sets, regime, spectrum, work_precision
+from hess_mechanics.dynamics import attraction, birkhoff, edge, megno, point_sets, regime, work_precision
 from hess_mechanics.dynamics.birkhoff import rotation_number
 from hess_mechanics.dynamics.return_map import section_crossings
 from hess_mechanics.euler_poisson import andoyer, equations, rotation
@@ -265,13 +265,13 @@ DIAGRAMS = {
     "where 800 crossings": (regime._FEWEST,),
     "at least six of eight orbits": (regime._ENOUGH, regime._MEMBERS),
     "within which 95 %": (100.0 * point_sets._QUANTILE,),
-    "beyond three standard errors": (spectrum._ERRORS,),
+    "beyond three standard errors": (birkhoff.ERRORS,),
     "Feigenbaum's $\\delta=4.6692$": lambda s: (feigenbaum(),),
 }
 """Rows of both orbit diagrams."""
 SHARED = {
     "about a million crossings of 128 orbits": (density._ORBITS,),
-    "negative by more than three times its error": (spectrum._ERRORS,),
+    "negative by more than three times its error": (birkhoff.ERRORS,),
     "needs more than 2000 points": (periodic_search.MOST_POINTS,),
     "four levels": (len(LEVELS),),
 }
