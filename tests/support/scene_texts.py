@@ -7,9 +7,9 @@ import numpy as np
 from scipy.optimize import brentq
 
 from hess_explorer.protocol import formulas
-from hess_explorer.scenes import ball_section, quartic, scenes
+from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework import periodic_search, trial
-from hess_explorer.scenes.parts.sections import basins, density
+from hess_explorer.scenes.parts.sections import basins, density, section
 from hess_explorer.views.plane import layered_section
 from hess_mechanics import (
     LEVELS,
@@ -336,8 +336,8 @@ ROWS = {
             *POTENTIALS["quartic"][1::2],
         ),
     },
-    "quartic": {"20 orbits": (quartic._ORBITS,)},
-    "ball-section": {"20 orbits": (ball_section._ORBITS,)},
+    "quartic": {"20 orbits": (section._ORBITS,)},
+    "ball-section": {"20 orbits": (section._ORBITS,)},
     "rotation-number": {
         "where it exceeds 2.": threshold,
         "over 1500 returns": (TURNS,),
