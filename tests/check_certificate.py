@@ -142,7 +142,7 @@ def step(a, h, f, roots, start, end, radius, bound, terms, bits):
         need(change.b < w.a and change.b < gap.a, "a disc reaches a singular point")
         A, F = interval(a), interval(f)
         largest = (abs(F) / (2 * (w - change)) + abs(A) * iv.sqrt(2 * (w + change))) / iv.sqrt(8 * (gap - change))
-        need(largest.b <= K.a, "a bound of the coefficients is too small")
+        need(largest.b <= K.a, "a bound on the coefficients is too small")
         need((K * delta).b < 3, "a step turns too far to count the turns")
 
         cosine, factor = [], kappa

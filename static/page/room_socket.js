@@ -8,7 +8,7 @@ import { answering, watch } from "./websocket.js"
 export const TAKEN = 4003
 const FIRST_OF_OURS = 4000
 const FULL = 1013
-// A device that slept longer than this connects anew: its connection may be dead without its knowledge.
+// A device that slept longer than this reconnects: its connection may be dead without its knowledge.
 const SLEEP = 20_000
 const PAUSE = 1000
 const FOLLOWED = "followed-room"

@@ -329,7 +329,7 @@ def test_a_new_scene_is_computed_whole_whatever_was_hidden_in_the_old_one(cache)
     cache.take()
     browser.ask(2, hidden=["omega", "sphere", "circle"], scene=ACCURACY.name)
     assert cache.take() == STUDY
-    # The browser says anew what it does not see there.
+    # The browser repeats what it does not see there.
     browser.ask(3, hidden=["growth", "drift", "pixels"], values={"h": 1.25})
     assert cache.take() == {LEVELS, OTHERS}
 

@@ -27,7 +27,7 @@ def test_a_slider_has_readable_values_and_that_of_the_state():
     ("text", "why"),
     [
         ("h", "is no slider: write NAME=LOW:HIGH:COUNT"),
-        ("h=a:b:3", "are no numbers"),
+        ("h=a:b:3", "are not numbers"),
         ("h=1:nan:3", "must increase"),
         ("h=-1e9:1:3", "within"),
         ("h=1:2:9999", "2 to 400 values"),

@@ -5,7 +5,7 @@ orbits at once, `decimal.Decimal` for as many digits as one likes.  Circle maps:
 section to the section, fix a Möbius map; and closed forms where there are any.  No kernel of `models` enters.
 
 What took long is kept in "oracle_values.json", by its arguments, and only looked up: `make_oracle_values.py` finds it
-anew.
+again.
 """
 
 from oracle.circle_maps import (

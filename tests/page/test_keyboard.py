@@ -19,7 +19,7 @@ HOLD = """([name, low, high]) => {
 
 
 def test_arrow_keys_move_the_ring_of_the_bifurcation_diagram_by_pixels(explorer):
-    # Loaded anew: after some other tests the first key was not answered.
+    # Loaded again: after some other tests the first key was not answered.
     page = explorer.open().page
     host = page.get_by_role("application", name="Bifurcation diagram: arrow keys move the ring")
     wide, high, *_ = page.evaluate(HOLD, ["bifurcation", 0, 0])

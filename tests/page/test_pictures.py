@@ -47,7 +47,7 @@ def test_a_click_in_the_bifurcation_diagram_chooses_the_torus_under_it(explorer)
     values = {**DEFAULTS, "h": explorer.shown("h")[0], "f": explorer.shown("f")[0]}
     assert (values["h"], values["f"]) == approx(found, rel=1e-6)
     assert_orbit(explorer, values)
-    # At t = 0 n3 turns, so the bound of |f| stands in the middle of the ring: under the pointer.
+    # At t = 0 n3 turns, so the bound on |f| stands in the middle of the ring: under the pointer.
     explorer.page.mouse.move(5, 5)
     rows, columns = np.nonzero(like(picture(explorer, (x - 9, y - 9, 18, 18)), theme.MUTED))
     assert rows.size > 40

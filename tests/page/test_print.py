@@ -88,5 +88,5 @@ def test_print_has_the_pictures_and_the_text_on_white_and_no_controls(on_screen,
     assert page.locator(".printed").count() == 0
     wait_frames(explorer, 4)
     page.locator(".moves").evaluate("sentence => sentence.replaceChildren()")
-    # The browser paints everything anew: rounded corners and dotted lines may differ by some levels of grey, of 255.
+    # The browser paints everything again: rounded corners and dotted lines may differ by some levels of grey, of 255.
     assert all(most <= 16 for _, most in ImageChops.difference(before, shot(page)).getextrema())

@@ -1,4 +1,4 @@
-"""*Your own body*: its section and its energy against motions that are computed anew."""
+"""*Your own body*: its section and its energy against motions that are computed again."""
 
 import numpy as np
 from pytest import approx

@@ -40,7 +40,7 @@ COMMAND = Command(
     "the ball arithmetic of Arb is correct.  If |trace| is too close to 2, the result is “undecided”.  On the edge |f| "
     "= f_max(h) the torus degenerates to a circle of states; the command proves that it contains exactly two "
     "equilibria or is a periodic orbit.  Multipliers, fixed points and rotation number are enclosed in intervals.  The "
-    "JSON output is a certificate with every Taylor step and the bound of its remainder, for an independent check such "
+    "JSON output is a certificate with every Taylor step and the bound on its remainder, for an independent check such "
     "as tests/check_certificate.py.  Requires: pip install 'hess-explorer[prove]'.",
     (
         *(

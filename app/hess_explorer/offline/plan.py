@@ -91,7 +91,7 @@ def read_slider(text: str, scene: Scene[Any], base: Values, count: int) -> tuple
     try:
         low, high = float(found["low"]), float(found["high"])
     except ValueError as error:
-        raise InvalidParameter(f"The ends of {text!r} are no numbers: write NAME=LOW:HIGH:COUNT.") from error
+        raise InvalidParameter(f"The ends of {text!r} are not numbers: write NAME=LOW:HIGH:COUNT.") from error
     count = int(found["count"] or count)
     least, most = known[name].bounds
     if not (low < high and least <= low and high <= most):

@@ -103,7 +103,7 @@ def polynomial(text: str) -> dict[Exponents, float]:
     Returns
     -------
     dict
-        Coefficients other than 0, without the constant, by the exponents of g1, g2, g3.
+        Nonzero coefficients, without the constant, by the exponents of g1, g2, g3.
 
     Raises
     ------
@@ -133,7 +133,7 @@ def drive(text: str) -> dict[Exponents, float]:
     Returns
     -------
     dict
-        Coefficients other than 0, without the constant, by the exponents of cos Ωt and sin Ωt, and 0.
+        Nonzero coefficients, without the constant, by the exponents of cos Ωt and sin Ωt, and 0.
 
     Raises
     ------

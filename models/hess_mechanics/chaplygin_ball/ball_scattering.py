@@ -42,7 +42,7 @@ _MOST_SWING = 300.0
 _MOST_TURN = 0.3
 """Largest angle from the circle up to which the first order in the distance is used."""
 _TINY = 1e-280
-"""Lower bound of a rate, whose inverse would otherwise overflow."""
+"""Lower bound on a rate, whose inverse would otherwise overflow."""
 _STEPS = 2.0
 """Taylor steps of both runs per time 1/ν, at a tolerance of 1e-9 and the order of `REFERENCE`."""
 

@@ -34,7 +34,7 @@ def line_of_rest(body: BallBody) -> tuple[Array, Array]:
     """
     length = math.hypot(body.I13, body.I23)
     if length == 0.0:
-        raise InvalidParameter("I13 = I23 = 0: there is no line of equilibria. Choose I13 or I23 other than 0.")
+        raise InvalidParameter("I13 = I23 = 0: there is no line of equilibria. Choose a nonzero I13 or I23.")
     along, across = body.I13 / length, body.I23 / length
     return np.array([across, -along]), np.array([along, across])
 
@@ -182,7 +182,7 @@ def omega_of_energy(
     """
     length = math.hypot(*direction)
     if not (math.isfinite(length) and length > 0.0):
-        raise InvalidParameter("The direction of ω must be a finite vector other than 0.")
+        raise InvalidParameter("The direction of ω must be a finite nonzero vector.")
     potential = sum(b * g for b, g in zip(body.parameters[5:], gamma, strict=True))
     if not h >= potential:
         raise OutsideRegion(f"With this γ the ball at rest has the energy {potential:.6g}: choose h above it.")

@@ -65,7 +65,7 @@ class Cloud(Result):
 
     times : (m,); along : (n, m), x = (ω, ξ); log_s : (n, m), ln|s|; signs : (n,), the sign of s, which is constant;
     gamma : (n, m, 3).
-    error_estimate : largest estimated error of x/ν, ln|s| and γ, with ν a bound of |ω|.
+    error_estimate : largest estimated error of x/ν, ln|s| and γ, with ν a bound on |ω|.
     """
 
     body: BallBody

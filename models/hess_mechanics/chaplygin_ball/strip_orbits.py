@@ -51,7 +51,7 @@ def largest_distance(orbits: Sequence[StripOrbit], exact: Sequence[StripOrbit]) 
 
 def _times(body: BallBody, speed: float) -> Array:
     """Return the times at which to follow the orbits; `speed` is the largest |ω|."""
-    # `rate` is a lower bound of the rate of departure and arrival; the second bound limits the turns of γ.
+    # `rate` is a lower bound on the rate of departure and arrival; the second bound limits the turns of γ.
     moment = 2.0 / float(np.sum(Strip(body, 1.0).unstable[1] ** 2))
     rate = math.hypot(body.I13, body.I23) * math.sqrt(2.0 * moment) / (body.I11 + body.D) / (body.I22 + body.D)
     end = min(10.0 / max(rate, 1e-290), 250.0 / speed)

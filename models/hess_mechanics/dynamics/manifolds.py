@@ -435,7 +435,7 @@ def _refined(one: Manifold, other: Manifold, pair: tuple[int, int]) -> Intersect
     try:
         for iteration in range(20):
             go_on()
-            # After two steps slopes are right to a percent, which costs fewer points than to know them anew.
+            # After two steps slopes are right to a percent, which costs fewer points than to compute them again.
             for k, (curve, sign) in enumerate(((one, 1.0), (other, -1.0)) if iteration < 2 else ()):
                 both = [curve.at(tau[k] + side * h[k]) for side in (1.0, -1.0)]
                 slopes[:, k] = sign * apart(one.turns, *both) / (2.0 * h[k])

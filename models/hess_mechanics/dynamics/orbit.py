@@ -69,7 +69,7 @@ def checked_span(duration: float, what: str) -> float:
     """Return the time span of the quantity `what`, validated.  Raises `InvalidParameter`."""
     if not _SHORTEST <= abs(duration) < math.inf:
         raise InvalidParameter(
-            f"The time span of {what} must be a finite number other than 0, of {_SHORTEST:g} or "
+            f"The time span of {what} must be a finite nonzero number, of {_SHORTEST:g} or "
             "more: choose one like 100, or -100 for backwards."
         )
     return float(duration)

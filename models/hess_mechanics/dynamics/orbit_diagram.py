@@ -1,7 +1,7 @@
 """Orbit diagrams of a section over a parameter, and cascades of period doublings.
 
 An orbit is followed from value to value, each time from its last point at the value before, so that it stays with its
-attractor as long as there is one; the way back may differ.  Alternatively it starts anew at the same point.  The map
+attractor as long as there is one; the way back may differ.  Alternatively it starts again at the same point.  The map
 backward in time shows repellers.  Periods in a diagram are read from the orbit; period doublings are computed: there an
 orbit found by Newton's method has the multiplier −1.
 """
@@ -182,7 +182,7 @@ def diagram_over(
     follow : bool, default True
         Start each value from the last point of the one before; from `again` if that fails.
     again : array_like, shape (d,), optional
-        Point where the orbit starts anew.  By default `start`.
+        Point where the orbit starts again.  By default `start`.
 
     Returns
     -------

@@ -77,7 +77,7 @@ class Plane:
 
     def __post_init__(self) -> None:
         if not (all(map(math.isfinite, self.normal)) and any(self.normal) and math.isfinite(self.offset)):
-            raise InvalidParameter("A plane needs a finite normal other than 0 and a finite offset.")
+            raise InvalidParameter("A plane needs a finite nonzero normal and a finite offset.")
         if self.sense not in (-1, 0, 1):
             raise InvalidParameter("The sense of a crossing is 1 (from below), −1 (from above) or 0 (both).")
 

@@ -1,6 +1,6 @@
 """Number types in ball arithmetic on which a vector field can be evaluated: Taylor models and dual numbers.
 
-A Taylor model is a polynomial with a bound of its error.  `tube` uses both types; they have only the operations that
+A Taylor model is a polynomial with a bound on its error.  `tube` uses both types; they have only the operations that
 fields use.
 """
 
@@ -32,7 +32,7 @@ class _Number:
 
 
 class Along(_Number):
-    """A Taylor model: a function of s in [0, δ] as a polynomial and a bound of its error there.
+    """A Taylor model: a function of s in [0, δ] as a polynomial and a bound on its error there.
 
     Polynomials have at most 2 `terms` coefficients; higher terms are added to the bound.
     """
@@ -62,13 +62,13 @@ class Along(_Number):
 
     @property
     def most(self) -> ArbBall:
-        """A bound of |polynomial| on [0, δ]."""
+        """A bound on |polynomial| on [0, δ]."""
         if self._most is None:
             self._most = _size(self.polynomial.coeffs(), self.delta)
         return self._most
 
     def distance(self, other: ArbBall) -> ArbBall:
-        """Return a bound of the distance from a polynomial on [0, δ]."""
+        """Return a bound on the distance from a polynomial on [0, δ]."""
         found = _size((self.polynomial - other).coeffs(), self.delta)
         return found if self.rest is None else found + self.rest
 

@@ -161,7 +161,7 @@ class Regime(Result):
 
     @property
     def bound(self) -> float:
-        """Upper bound of |mean divergence|: its value plus three errors."""
+        """Upper bound on |mean divergence|: its value plus three errors."""
         return abs(self.divergence) + 3.0 * self.divergence_error
 
     def labels(self) -> Labels:

@@ -511,7 +511,7 @@ class System:
     def crosses(self, task: str, surface: SurfaceKernels) -> Kernel:
         """Return a kernel that finds the crossings of a surface by one orbit.
 
-        Each call derives the kernel anew.
+        Each call derives the kernel again.
 
         Parameters
         ----------

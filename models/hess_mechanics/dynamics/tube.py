@@ -7,7 +7,7 @@ solution y of ẏ = f(y), the distance e = D⁻¹(y − p) obeys
     |e|˙ ≤ μ|e| + Δ,   Δ ≥ |D⁻¹(ṗ − f(p))|,   μ ≥ the largest eigenvalue of the symmetric part of D⁻¹ f′ D,
 
 so |e(s)| ≤ (ρ + Δs) max(1, e^{μs}) as long as this is less than the R for which μ was found, over the box p ± DR.  The
-defect ṗ − f(p) is computed in polynomials, to all orders; a division in f becomes a polynomial with a bound of its
+defect ṗ − f(p) is computed in polynomials, to all orders; a division in f becomes a polynomial with a bound on its
 error.  f′ comes from dual numbers, μ from Gershgorin's circles where f′ is nearly diagonal.
 
 ρ grows at this rate along a motion even if neighbours do not part.  Other methods rotate boxes along with the motion
@@ -181,13 +181,13 @@ class ProvedOrbit(Result):
 
     @property
     def least(self) -> float:
-        """Lower bound of the largest error of any component at these times; NaN if there is none."""
+        """Lower bound on the largest error of any component at these times; NaN if there is none."""
         found = max((least for sample in self._errors for least, _ in sample), default=math.nan)
         return math.nextafter(float(found), 0.0)
 
     @property
     def largest(self) -> float:
-        """Upper bound of the largest error of any component at these times; NaN if there is none."""
+        """Upper bound on the largest error of any component at these times; NaN if there is none."""
         return float(self.bounds.max()) if self.bounds.size else math.nan
 
     @property
@@ -334,7 +334,7 @@ def _functions(recursion: Recursion) -> dict[str, Callable[..., Any]]:
 
 @dataclass(frozen=True)
 class _Step:
-    """Polynomials along a step of the given length, and a bound of |e| over the whole step."""
+    """Polynomials along a step of the given length, and a bound on |e| over the whole step."""
 
     series: list[ArbBall]
     length: float
@@ -454,7 +454,7 @@ class _Walk:
         return shortest
 
     def _radius(self, along: list[ArbBall], length: float, sign: int) -> ArbBall | None:
-        """Return a bound of |e| over a step; None if the step is too long."""
+        """Return a bound on |e| over a step; None if the step is too long."""
         from flint import arb, ctx
 
         delta = arb(length)
@@ -480,7 +480,7 @@ class _Walk:
         return most if most < R else None
 
     def _rate(self, box: list[ArbBall], sign: int) -> ArbBall | None:
-        """Return a bound of the eigenvalues of the symmetric part of ±D⁻¹ f′ D over a box; None if there is none.
+        """Return a bound on the eigenvalues of the symmetric part of ±D⁻¹ f′ D over a box; None if there is none.
 
         Raises `ZeroDivisionError` if a divisor may vanish.
         """

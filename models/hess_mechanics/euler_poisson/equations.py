@@ -223,7 +223,7 @@ def integrals(y: Sequence[Any], p: Sequence[Any]) -> Mapping[str, Any]:
 
 
 def frequency(y: Array, p: Array) -> Array | float:
-    """Return ν = √(2 max(a) (T + 2|μ||r||γ|)), a bound of |ω| along the motion, of states (6,) or (6, n).
+    """Return ν = √(2 max(a) (T + 2|μ||r||γ|)), a bound on |ω| along the motion, of states (6,) or (6, n).
 
     Raises `NotPositiveDefinite`, `InvalidParameter`.
     """

@@ -36,7 +36,7 @@ def _tilt(body: HeavyBody) -> tuple[float, float]:
         )
     length = math.hypot(*body.r)
     if length == 0.0:
-        raise NoField("r = 0: the centre of mass is the fixed point and defines no axis. Choose r other than 0.")
+        raise NoField("r = 0: the centre of mass is the fixed point and defines no axis. Choose a nonzero r.")
     return body.r[0] / length, body.r[2] / length
 
 
@@ -270,5 +270,5 @@ def largest_area_integral(weight: float, I2: float, h: float) -> float:
 
 
 def largest_distance(h: float) -> float:
-    """Return an upper bound of `Bridge.distance` between two motions of the energy h, in units b = 1."""
+    """Return an upper bound on `Bridge.distance` between two motions of the energy h, in units b = 1."""
     return 4.0 * math.sqrt(2.0 * (h + 1.0)) + 4.0

@@ -225,7 +225,9 @@ def _as_array(name: str, value: Any) -> Any:
             raise ValueError
         return found.astype(float)
     except (TypeError, ValueError, OverflowError):
-        raise InvalidParameter(f"{name} = {_short(value)} is no array of numbers; write it like [1.5, 2.0].") from None
+        raise InvalidParameter(
+            f"{name} = {_short(value)} is not an array of numbers; write it like [1.5, 2.0]."
+        ) from None
 
 
 def _short(value: Any) -> str:
@@ -270,7 +272,7 @@ def unit_vector(gamma: Sequence[float]) -> tuple[tuple[float, float, float], str
     gamma = as_place(("γ1", "γ2", "γ3"), gamma)
     length = math.hypot(*gamma)
     if not (math.isfinite(length) and length > 0):
-        raise InvalidParameter("γ must be a finite vector other than 0: it is the direction of the vertical.")
+        raise InvalidParameter("γ must be a finite nonzero vector: it is the direction of the vertical.")
     g1, g2, g3 = (g / length for g in gamma)
     note = None if abs(length - 1) <= 1e-15 else f"γ had length {length:.12g}; it was normalised to 1."
     return (g1, g2, g3), note

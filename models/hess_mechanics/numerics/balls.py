@@ -182,7 +182,7 @@ def _rounded(number: Fraction, digits: int, rounding: str) -> str:
 def enclosure(ball: ArbBall) -> Enclosure:
     """Return the exact interval of a ball.  Raises `ArithmeticError` if it is not finite."""
     if not ball.is_finite():
-        raise ArithmeticError("a ball without end")
+        raise ArithmeticError("an unbounded ball")
     low, high = (end.man_exp() for end in (ball.lower(), ball.upper()))
     return Enclosure(_dyadic(*low), _dyadic(*high))
 

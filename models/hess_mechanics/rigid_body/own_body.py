@@ -298,7 +298,7 @@ class OwnBody:
         Raises `WorkLimit`.
         """
         if _system.cache_info().currsize >= _FORMS:
-            raise WorkLimit(f"{_FORMS} forms of equations have been compiled here: start the program anew.")
+            raise WorkLimit(f"{_FORMS} forms of equations have been compiled here: restart the program.")
         drive = self.shape.exponents if self.is_driven else ()
         return _system(self.potential.exponents, self.constraint is not None, drive)
 

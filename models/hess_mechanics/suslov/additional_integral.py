@@ -83,7 +83,7 @@ def coefficients(k: int, I22: Fraction | float, I23: Fraction | float) -> Coeffi
     """
     _check_order(k)
     if not (I22 > 0 and I23 != 0):
-        raise InvalidParameter("F2 needs I22 > 0 and I23 other than 0: with I13 = I23 = 0 ω is constant.")
+        raise InvalidParameter("F2 needs I22 > 0 and a nonzero I23: with I13 = I23 = 0 ω is constant.")
     I22, I23 = Fraction(I22), Fraction(I23)
     I11 = I22 + k * k * I23**2 / I22
     n, x = (k + 1) // 2, I23 / I22

@@ -107,7 +107,7 @@ def integrals(y: Sequence[Any], p: Sequence[Any]) -> Mapping[str, Any]:
 
 
 def frequency(y: Array, p: Array) -> Array | float:
-    """Return ν = √(2(E+|b||γ|)/min(I11, I22)), a bound of |ω| along the motion, of states (5,) or (5, n).
+    """Return ν = √(2(E+|b||γ|)/min(I11, I22)), a bound on |ω| along the motion, of states (5,) or (5, n).
 
     Raises `NotPositiveDefinite`, `InvalidParameter`.
     """

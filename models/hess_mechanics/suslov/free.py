@@ -119,7 +119,7 @@ def shape(body: SuslovBody) -> PassageConstants:
     if not J > 0.0:
         raise InvalidParameter(
             "With I13 = I23 = 0 and no field ω is constant: there is no line of equilibria, no ξ and no "
-            "scattering. Choose I13 or I23 other than 0."
+            "scattering. Choose a nonzero I13 or I23."
         )
     n1, n2 = I13 / J, I23 / J
     w = I22 * n1 * n1 + I11 * n2 * n2
@@ -237,7 +237,7 @@ def passage(body: SuslovBody, omega: Sequence[float]) -> Passage:
     w1, w2 = as_place(("ω1", "ω2"), omega)
     r = math.hypot(math.sqrt(body.I11) * w1, math.sqrt(body.I22) * w2)
     if r == 0.0:
-        raise InvalidParameter("ω = 0: the body is at rest for ever, h = 0. Choose ω1 or ω2 other than 0.")
+        raise InvalidParameter("ω = 0: the body is at rest for ever, h = 0. Choose a nonzero ω1 or ω2.")
     # Exact arithmetic, because close to the line of equilibria the two products nearly cancel.
     s = Fraction(body.I13) * Fraction(w1) + Fraction(body.I23) * Fraction(w2)
     if s == 0:
@@ -506,7 +506,7 @@ def sample_times(
     motion = passage(body, omega)
     of, length = motion.shape, motion.rate * duration
     if not (math.isfinite(length) and length != 0.0):
-        raise InvalidParameter("The time span must be a finite number other than 0.")
+        raise InvalidParameter("The time span must be a finite nonzero number.")
     first_u, last_u = sorted((motion.u0, motion.u0 + length))
     knots = np.clip(np.linspace(-_PASSING, _PASSING, 801), first_u, last_u)
     u = np.unique(np.concatenate([[motion.u0, motion.u0 + length], knots]))

@@ -93,7 +93,7 @@ class QuarticBody(PlaneProblem):
     def __post_init__(self) -> None:
         super().__post_init__()
         if self.b3 == 0.0:
-            raise NoField("b3 = 0: without a field the energy does not determine γ₃. Choose b3 other than 0.")
+            raise NoField("b3 = 0: without a field the energy does not determine γ₃. Choose a nonzero b3.")
         if not -abs(self.b3) < self.E:
             raise OutsideRegion(f"No motion has the energy E = {self.E:g}: choose E above −|b3| = {-abs(self.b3):.6g}.")
         smallest, largest = sorted(self.axes)

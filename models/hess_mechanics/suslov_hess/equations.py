@@ -144,7 +144,7 @@ class HessBody:
     def frequency_unit(self) -> float:
         """The unit of frequency √|b|: in units b = 1 time is t√|b| and angular velocity w/√|b|.  Raises `NoField`."""
         if self.b == 0.0:
-            raise NoField("b3 = 0: without a field h and f have no unit. Choose b3 other than 0.")
+            raise NoField("b3 = 0: without a field h and f have no unit. Choose a nonzero b3.")
         return math.sqrt(abs(self.b))
 
     def to_reduced(self, states: Array) -> Array:
@@ -261,7 +261,7 @@ def integrals(y: Sequence[Any], p: Sequence[Any]) -> Mapping[str, Any]:
 
 
 def frequency(y: Array, p: Array) -> Array | float:
-    """Return ν = √(w² + 4|b||n|), an upper bound of |w| along the motion, of a state (5,) or of states (5, n)."""
+    """Return ν = √(w² + 4|b||n|), an upper bound on |w| along the motion, of a state (5,) or of states (5, n)."""
     nu: Array | float = np.sqrt(y[0] ** 2 + y[1] ** 2 + 4 * abs(p[1]) * np.sqrt(y[2] ** 2 + y[3] ** 2 + y[4] ** 2))
     return nu
 

@@ -41,7 +41,7 @@ __all__ = ["CELLS", "InvariantMeasure", "density_on_torus", "invariant_measure",
 
 
 _LEAST_GAP = 1e-150
-"""Lower bound of 1 − |ζ|, which is 0 on the lock boundary."""
+"""Lower bound on 1 − |ζ|, which is 0 on the lock boundary."""
 
 
 @dataclass(frozen=True)

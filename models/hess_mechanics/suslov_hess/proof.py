@@ -80,7 +80,7 @@ Matrix = tuple[ArbBall, ArbBall, ArbBall, ArbBall]
 
 @dataclass(frozen=True)
 class ProofStep:
-    """One Taylor step and the bounds of its remainder.
+    """One Taylor step and the bounds on its remainder.
 
     Attributes
     ----------
@@ -397,7 +397,7 @@ def _proof(
 def _step(
     a: ArbBall, f: ArbBall, turns: _Turns, s: ArbBall, r: ArbBall, delta: ArbBall, terms: int
 ) -> tuple[Fraction, Matrix]:
-    """Return K and the matrix of the step δ from s, by its Taylor series and Cauchy's bound of the remainder."""
+    """Return K and the matrix of the step δ from s, by its Taylor series and Cauchy's bound on the remainder."""
     from flint import arb, arb_series, ctx
 
     rise = 2 * turns.kappa * (s / 2).sin() ** 2

@@ -252,8 +252,8 @@ def test_a_run_that_finds_other_crossings_than_the_more_exact_one_is_replaced_by
 
 
 test_a_plane_that_is_none_raises_a_sentence = refused(
-    (lambda: Plane((0.0,) * 5), "finite normal other than 0"),
-    (lambda: Plane((np.nan, 1.0)), "finite normal other than 0"),
+    (lambda: Plane((0.0,) * 5), "finite nonzero normal"),
+    (lambda: Plane((np.nan, 1.0)), "finite nonzero normal"),
     (lambda: Plane((1.0, 0.0), -np.inf), "finite offset"),
     (lambda: Plane((1.0, 0.0), 0.0, -2), "1 \\(from below\\), −1 \\(from above\\) or 0 \\(both\\)"),
 )

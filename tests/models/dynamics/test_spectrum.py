@@ -174,7 +174,7 @@ def test_a_dimension_is_that_of_kaplan_and_yorke():
 @mark.parametrize(
     ("span", "error", "words"),
     [
-        (0.0, InvalidParameter, "must be a finite number other than 0"),
+        (0.0, InvalidParameter, "must be a finite nonzero number"),
         (1e300, WorkLimit, "time"),
         # A round-off of 1e-16 over that is beyond double range.
         (-5e-324, InvalidParameter, "of 1e-290 or more: choose one like 100"),

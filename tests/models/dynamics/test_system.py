@@ -271,7 +271,7 @@ test_what_means_nothing_is_refused = refused(
         (lambda I=I: solve(SYSTEMS["suslov"].at((*I, *REST)), SUSLOV_STATE, [1.0]), "choose I", NotPositiveDefinite)
         for I in ((0.0, 1.0), (1.0, -2.0))
     ),
-    (lambda: unit_vector((0.0, 0.0, 0.0)), "other than 0"),
+    (lambda: unit_vector((0.0, 0.0, 0.0)), "nonzero"),
     (lambda: unit_vector((np.nan, 0.0, 1.0)), "not a finite number"),
     (lambda: SuslovBody(np.nan, 1.0, 0.0, 0.0), "I11"),
     (lambda: level("exact"), "draft, standard, precise, reference"),

@@ -188,7 +188,7 @@ def test_a_heavy_body_made_from_a_suslov_body_is_in_the_hess_case_and_rigid_wher
 
 test_bodies_that_have_no_counterpart_are_refused = refused(
     (lambda: Bridge.of_heavy(HeavyBody.hess((1.0, 0.625, 0.375), 1.0, 0.01)), "not in the Hess case"),
-    (lambda: Bridge.of_heavy(HeavyBody((1.0, 1.6, 2.5), (0.0, 0.0, 0.0), 1.0)), "Choose r other than 0", NoField),
+    (lambda: Bridge.of_heavy(HeavyBody((1.0, 1.6, 2.5), (0.0, 0.0, 0.0), 1.0)), "Choose a nonzero r", NoField),
 )
 
 

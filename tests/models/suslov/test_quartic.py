@@ -128,7 +128,7 @@ def test_points_of_the_section_are_what_they_say(body):
 
 
 test_what_is_no_motion_is_refused = refused(
-    (lambda: QuarticBody(1.0, 1.0, 0.0, 1.0), "Choose b3 other than 0", NoField),
+    (lambda: QuarticBody(1.0, 1.0, 0.0, 1.0), "Choose a nonzero b3", NoField),
     (lambda: QuarticBody(1.0, 1.0, -1.0, -2.0), "energy E = -2: choose E above −\\|b3\\| = -1", OutsideRegion),
     (lambda: QuarticBody(1.0, -1.0, 1.0, 1.0), "choose I22 > 0", NotPositiveDefinite),
     (lambda: QuarticBody(1.0, 1.0, 1e-155, 1.0), "no picture can show"),

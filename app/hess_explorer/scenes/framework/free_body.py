@@ -29,7 +29,7 @@ def free_body(k: float, I22: float, I13: float, I23: float) -> SuslovBody:
     """Return the body.  Raises `NotPositiveDefinite`, `InvalidParameter`, with messages that name the controls."""
     if I13 == I23 == 0.0:
         raise InvalidParameter(
-            "I₁₃ = I₂₃ = 0: without a field ω does not change, and there is no ξ. Choose one of them other than 0."
+            "I₁₃ = I₂₃ = 0: without a field ω does not change, and there is no ξ. Choose at least one of them nonzero."
         )
     I11 = I11_at(k, I22, I13, I23)
     if I11 <= 0.0:

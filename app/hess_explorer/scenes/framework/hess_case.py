@@ -237,5 +237,5 @@ class HeavyHess:
             return turning_points(*self.bridge.in_units_of_b(self.h, self.f))
         except Separatrix:
             raise Separatrix(
-                "h = μ|r|, f = 0 is the separatrix: n₃ has no period. Choose another h, or f other than 0."
+                "h = μ|r|, f = 0 is the separatrix: n₃ has no period. Choose another h, or a nonzero f."
             ) from None

@@ -115,7 +115,7 @@ def proved_error_shown() -> Any:
         "Proved error",
         (HIDDEN, SHOWN),
         HIDDEN,
-        doc="Proved upper bound of the orbit's error, on the status line. Where it exceeds a pixel, a band and "
+        doc="Proved upper bound on the orbit's error, on the status line. Where it exceeds a pixel, a band and "
         "circles enclose the true orbit at the times of the samples.",
     )
 
