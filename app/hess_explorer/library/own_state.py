@@ -77,7 +77,7 @@ class OwnState(State):
         return self.given
 
     @property
-    def lasts(self) -> float:
+    def duration(self) -> float:
         """The time span of the orbit on show."""
         return self.span
 
@@ -147,7 +147,7 @@ class LevelState(OwnState):
         return self.given if self.closed is None else self.closed.state
 
     @property
-    def lasts(self) -> float:
+    def duration(self) -> float:
         """The time span of the orbit on show."""
         return self.span if self.closed is None else self.closed.time
 

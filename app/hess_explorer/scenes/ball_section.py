@@ -154,7 +154,7 @@ class BallSection(SectionState):
     @cached_property
     def weights(self) -> tuple[float, ...]:
         """Scale of each variable in pixels per unit, fitted to the orbit."""
-        return pixels_per_unit(room_for(self.work.need(Task(fastest, self.body, self.start, self.lasts))))
+        return pixels_per_unit(room_for(self.work.need(Task(fastest, self.body, self.start, self.duration))))
 
     # ---- the parts ----------------------------------------------------------------------------------------------
 

@@ -101,7 +101,7 @@ class ChaplyginBall(State):
         return plane.pixels_per_unit(self.half_width)
 
     @property
-    def lasts(self) -> float:
+    def duration(self) -> float:
         """The length of the orbit in time."""
         return self.span
 

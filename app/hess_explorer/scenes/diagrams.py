@@ -84,7 +84,7 @@ class DiagramState(DiagramControls):
         return None if self.branch == NONE else self.continuation.closed
 
     @property
-    def lasts(self) -> float:
+    def duration(self) -> float:
         """The length of the orbit in time."""
         return self.span
 

@@ -146,6 +146,11 @@ class OwnBodyState(State):
     max_step: float = parameter(MAX_STEP)
     accuracy: str = accuracy_level()
 
+    @property
+    def duration(self) -> float:
+        """The length of the orbit in time."""
+        return self.lasts
+
     @cached_property
     def body(self) -> OwnBody:
         """The body.  Raises `ModelError`."""

@@ -172,7 +172,7 @@ class Suslov(FilledState):
         if self.I13 != 0.0 or self.I23 != 0.0:
             return None, "Only for I₁₃ = I₂₃ = 0, as in the example “On a principal axis”."
         try:
-            return self.work.need(Task(conformal, self.body, self.start, self.lasts, self.orbit_level())), ""
+            return self.work.need(Task(conformal, self.body, self.start, self.duration, self.orbit_level())), ""
         except WorkLimit as error:
             return None, str(error)
 
@@ -241,6 +241,6 @@ SCENE = Scene(
             orbit_alone(lambda s: s.half_width, energy=lambda s: s.E, proved=lambda s: s.proof.band),
             folded="Show the angular velocity",
         ),
-        conformal_time.picture(lambda s: s._conformal[0], lambda s: s._conformal[1], lambda s: s.lasts),
+        conformal_time.picture(lambda s: s._conformal[0], lambda s: s._conformal[1], lambda s: s.duration),
     ),
 )

@@ -36,7 +36,7 @@ class _Host(Host, Protocol):
         """The state at t = 0.  Raises `ModelError`."""
 
     @property
-    def lasts(self) -> float:
+    def duration(self) -> float:
         """The time span of the orbit."""
 
     @property
@@ -62,7 +62,7 @@ class Orbit(Part[_Host]):
         host = self.host
         level = self.work.level if self.accuracy is None else self.accuracy()
         step = self.max_step or None
-        return Task(sampled_orbit, host.body, host.start, host.lasts, host.weights, level, self.most, step)
+        return Task(sampled_orbit, host.body, host.start, host.duration, host.weights, level, self.most, step)
 
     @cached_property
     def path(self) -> results.Orbit:
@@ -72,7 +72,7 @@ class Orbit(Part[_Host]):
     def motion(self) -> Motion:
         """Return the motion of the orbit, for "Speed and accuracy"."""
         host = self.host
-        return Motion(host.body.system, host.start, host.body.parameters, host.lasts, host.weights)
+        return Motion(host.body.system, host.start, host.body.parameters, host.duration, host.weights)
 
     @property
     def caption(self) -> Caption:

@@ -86,7 +86,7 @@ class SectionState(State):
         return self.given if self.closed is None else self.closed.state
 
     @property
-    def lasts(self) -> float:
+    def duration(self) -> float:
         """The length of the orbit in time."""
         return self.span if self.closed is None else self.closed.time
 
