@@ -4,7 +4,7 @@
 import { tell } from "../base/bus.js"
 import { element } from "../base/elements.js"
 import { gallery } from "./gallery.js"
-import { INK, onDark, setDark, shade } from "./looks.js"
+import { ink, onDark, setDark, shade } from "./looks.js"
 import { sizePlot } from "./plot_looks.js"
 import { pngOf } from "./png.js"
 
@@ -52,12 +52,12 @@ function inTheme(isDark, act) {
 function draw({ picture, side, ratio, isDark = false, isBlack = false, texts }) {
   return inTheme(isDark, () => {
     const { sheet, ctx } = sheetOf(side)
-    const look = { edge: side / ratio, ratio, text: shade(INK), dark: isDark, isFine: true, texts }
+    const look = { edge: side / ratio, ratio, text: shade(ink()), dark: isDark, isFine: true, texts }
     ctx.drawImage(gallery.shown.shots.get(picture)(look), 0, 0)
     if (isBlack) {
       // Takes the colours away.
       ctx.globalCompositeOperation = "saturation"
-      ctx.fillStyle = INK
+      ctx.fillStyle = ink()
       ctx.fillRect(0, 0, side, side)
     }
     return sheet
@@ -128,7 +128,7 @@ export async function frameUrl({ t, title, lines, ...wanted }) {
     const { sheet, ctx } = sheetOf(side)
     ctx.drawImage(drawn, Math.round((side - drawn.width) / 2), Math.round(ratio * HEAD))
     ctx.scale(ratio, ratio)
-    ctx.fillStyle = shade(INK)
+    ctx.fillStyle = shade(ink())
     ctx.font = `${LARGE}px ${FONT}`
     const time = `t = ${t.toFixed(2)}`
     const clock = ctx.measureText("t = 000.00").width

@@ -7,7 +7,7 @@ import { element } from "../base/elements.js"
 import { zoom } from "../base/presenting.js"
 import { cloudPlane } from "./cloud_plane.js"
 import { planeGhost } from "./ghost.js"
-import { INK, inks, setShades } from "./looks.js"
+import { ink, inks, setShades } from "./looks.js"
 import { createCell, fillCaption, fillHover, isFolded, isInSight, nameOf } from "./picture.js"
 import { buildPlot } from "./plot.js"
 import { colourPlot } from "./plot_looks.js"
@@ -126,7 +126,7 @@ function shoot(side) {
   const shots = gallery.cellsInSight().map((cell) => {
     const host = cell.querySelector(".host")
     const edge = host.clientWidth / zoom()
-    const sheet = shown.shots.get(nameOf(cell))({ edge, ratio: side / edge, text: INK, dark: false })
+    const sheet = shown.shots.get(nameOf(cell))({ edge, ratio: side / edge, text: ink(), dark: false })
     sheet.className = "printed"
     host.append(sheet)
     return sheet

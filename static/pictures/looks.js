@@ -1,8 +1,6 @@
 // @ts-check
 // Colours, dashes and line widths on our own canvases.  The colours come from "theme.py" with the description of a scene.
 
-// Text colour on paper.
-export const INK = "#101010"
 // Text and secondary text on a light page and on a dark one.
 /** @type {[string, string][]} */
 const INKS = [["rgba(0, 0, 0, 0.87)", "rgba(0, 0, 0, 0.6)"], ["rgb(255, 255, 255)", "rgba(255, 255, 255, 0.7)"]]
@@ -25,6 +23,9 @@ export function setShades(given) {
   onDarkPage = new Map(Object.values(given))
   for (const [name, pair] of Object.entries(given)) document.documentElement.style.setProperty(`--${name}`, `light-dark(${pair})`)
 }
+
+/** Return the text colour on paper. */
+export const ink = () => shades.ink[0]
 
 /**
  * Choose the colours of a dark or a light page for everything that is drawn from now on.

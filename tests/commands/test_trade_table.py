@@ -8,6 +8,7 @@ import pytest
 from benchmarks.bench import main
 from benchmarks.integrators import trade as rows
 from benchmarks.integrators.trade import Row, _draft_computes, _example, as_json, by_kind, line_of, names
+from hess_explorer.__main__ import main as program
 from hess_explorer.scenes import scenes
 from hess_mechanics import LEVELS
 from hess_mechanics import catalogue as declared
@@ -98,7 +99,7 @@ def test_the_page_and_the_command_print_the_table_of_the_levels(capsys):
     for name in ("suslov-accuracy", "suslov-hess-accuracy"):
         printed = scenes()[name].words.replace("\\|", "|")
         assert all(line(row) in printed for row in (head, *rows))
-    assert main(["levels"]) == 0
+    assert program(["levels"]) == 0
     said = capsys.readouterr().out
     assert all(cell in said for row in rows for cell in row[:-1])
 

@@ -451,7 +451,8 @@ def test_the_last_piece_may_come_while_its_picture_is_drawn(gate):
 
 
 def test_a_refusal_in_the_background_is_said(free_gate, monkeypatch):
-    monkeypatch.setattr(euler_poisson, "_MOST_STEPS", 30)
+    crossings = euler_poisson._crossings
+    monkeypatch.setattr(euler_poisson, "_crossings", lambda *given: crossings(*given[:-1], 30))
     browser = Browser(EP, SMALL)
     completed(browser)
     assert "choose a shorter time span" in browser.texts["notes"]

@@ -59,7 +59,7 @@ def test_the_mean_divergence_of_the_chaotic_body_agrees_at_twice_the_time():
     assert np.std(one, ddof=1) < 0.05 * abs(np.mean(one))
     assert deviations(one, 0.0) < -5.0
     # Every motion is called chaotic, and its error is one.
-    map_ = return_map(state.body, E=state.E)
+    map_ = return_map(state.body, E=section.E)
     found = [regime(map_, place, duration=span) for place in settled(section, 8, 1)[:, 0]]
     assert {motion.kind.words for motion in found} == {"chaotic"}
     off = [(motion.divergence - np.mean(twice)) / motion.divergence_error for motion in found]

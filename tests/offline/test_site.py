@@ -32,7 +32,7 @@ def test_the_index_leads_to_every_page_and_nowhere_else(site):
     # The command lists the bytes of each page.
     for path, size in files.items():
         assert re.search(rf"{size:,} bytes +{re.escape(path)}", said)
-    assert f"{sum(files.values()):,} bytes in" in said
+    assert f"{sum(files.values()):,} bytes: open" in said
 
 
 def test_every_page_opens_and_its_sliders_move(site, browser):

@@ -94,7 +94,7 @@ def test_the_start_of_a_motion_in_a_section_is_a_place_of_the_chart():
     assert [side.symbol for side in state.charting.axes] == ["ψ", "δ"]
     assert state.charting.here() == [(1.0, 1.0)]
     assert state.charting.choose(0.5, 1.5) == {"starts": "0.5,1.5"}
-    with pytest.raises(ModelError, match="no motion has this energy"):
+    with pytest.raises(ModelError, match="No motion crosses the section"):
         state.charting.choose(-2.5, 1.0)
 
 

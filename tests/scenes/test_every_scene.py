@@ -496,7 +496,7 @@ REFUSED = [
         {"h": 0.895, "starts": "-2.356,1", "window": "-2.5,1;-2.2,2"},
         "In this window no motion has this energy: .* press Clear",
     ),
-    ("quartic", {"b3": 0.0}, "Choose b3"),
+    ("quartic", {"b3": 0.0}, "Choose a nonzero b3"),
     ("chaplygin-ball", {"I13": 0.0, "I23": 0.0}, "I13 = I23 = 0: there is no line of equilibria"),
     ("euler-poisson", {"h": -20.0}, "no motion with this h and f .* choose a larger h, a smaller .f., or press Clear"),
     ("euler-poisson", {"f": 500.0}, "In this window no motion"),

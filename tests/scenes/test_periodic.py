@@ -131,7 +131,7 @@ def test_without_one_nothing_is_said_or_drawn_of_it(name):
     assert scene.idle({**scene.defaults(), **LIGHT[name]})["reach"] == 5.0
     assert "reach" not in scene.idle({**scene.defaults(), "periodic": "period 1"})
     # An example has none, whatever was chosen before.
-    assert all("periodic" in one.values for one in scene.presets)
+    assert all("periodic" in scene.example(one) for one in scene.presets)
 
 
 def test_where_none_is_found_the_chosen_orbit_is_shown_and_why():

@@ -132,7 +132,7 @@ def test_the_poles_keep_their_digits():
 
 test_refusals = refused(
     (lambda: scattering(SuslovBody(2.0, 1.0, 0.3, 0.5, b1=1.0), "draft"), "Set b1 = b2"),
-    (lambda: scattering(SuslovBody(2.0, 1.0, 0.0, 0.0), "draft"), "Choose I13 or I23"),
+    (lambda: scattering(SuslovBody(2.0, 1.0, 0.0, 0.0), "draft"), "Choose a nonzero I13 or I23"),
     (lambda: scattering(SuslovBody(2.0, 1.0, 0.0, 1e-06), "draft"), "choose larger I13, I23", WorkLimit),
     (lambda: scattering(GENERIC, "draft", 0), "\\+1 or −1"),
     (lambda: scattering(GENERIC, "draft", 1, 1.23), "choose one above 0 and up to 1.227"),
