@@ -7,18 +7,13 @@
 import { element } from "../base/elements.js"
 import { LIGHT, HALFWAY } from "./solid.js"
 
-// Facets around the axis, and the largest number of pixels on a side, in a file and on the screen.  The screen has every second
-// facet: their sides are some ten pixels long, and less than half a pixel inside a circle.
+// Facets around the axis of a large surface, and the largest number of pixels on a side, in a file and on the screen.  A small
+// surface has every second facet: their sides are then some ten pixels long too, and a quarter of a pixel inside a circle.
 const AROUND = 96
 const FINE = 2048
 const MOST = 640
-// Numbers of a corner: x, y, then what a pixel has too: premultiplied red, green, blue, alpha, and depth.
-const CORNER = 7
-const PIXEL = 5
-// Depths are sorted by so many steps for a unit.
-const STEPS = 1e5
-// Pixels to the right and downwards, so that no edge runs through centres of pixels, which two facets would paint, or none.
-const ASIDE = [1e-4, 3e-4]
+const SMALL = 420
+const BUCKETS = 1024
 
 // Tones of the outside, of the inside and of a dense part, and the brightness without direct light.
 const TONES = {
@@ -44,9 +39,6 @@ function normals(radius, height) {
   return { across, along }
 }
 
-// The sides of a facet, from corner to corner: along the cross-section and around.
-const SIDES = [[0, 0, 1, 0], [1, 0, 1, 1], [1, 1, 0, 1], [0, 1, 0, 0]]
-
 /**
  * Return the outline of a surface of revolution as segments, each as columns: where the line of sight touches it.
  * @param {ArrayLike<number>} radius
@@ -58,32 +50,40 @@ const SIDES = [[0, 0, 1, 0], [1, 0, 1, 1], [1, 1, 0, 1], [0, 1, 0, 0]]
 export function outline(radius, height, azimuth, elevation) {
   const { across, along } = normals(radius, height)
   const [ce, se] = [Math.cos(elevation), Math.sin(elevation)]
-  /** @param {number} j */
-  const angle = (j) => 2 * Math.PI * j / AROUND
-  // How much the surface faces the eye.
-  const facing = Array.from({ length: AROUND + 1 }, (_, j) => across.map((x, i) => x * ce * Math.cos(angle(j)) + along[i] * se))
-  /** @param {number} i with a fraction, in the cross-section @param {number} j with a fraction, around @returns {Vector} */
-  const at = (i, j) => {
-    const k = Math.floor(i)
-    /** @param {ArrayLike<number>} column */
-    const value = (column) => column[k] + (i > k ? (i - k) * (column[k + 1] - column[k]) : 0)
-    const psi = azimuth + angle(j)
-    return [value(radius) * Math.cos(psi), value(radius) * Math.sin(psi), value(height)]
+  const n = radius.length - 1
+  /** Return the points of the cross-section, with fractions, where the surface turns away from the eye. @param {number} psi */
+  const turns = (psi) => {
+    const c = ce * Math.cos(psi)
+    const found = []
+    for (let i = 0; i < n; i++) {
+      const [before, after] = [across[i] * c + along[i] * se, across[i + 1] * c + along[i + 1] * se]
+      if (before >= 0 !== after >= 0) found.push(i + before / (before - after))
+    }
+    return found
   }
+  /** @param {number} place @param {number} psi @returns {Vector} */
+  const at = (place, psi) => {
+    const i = Math.min(n - 1, Math.floor(place))
+    const s = place - i
+    const r = radius[i] + s * (radius[i + 1] - radius[i])
+    return [r * Math.cos(azimuth + psi), r * Math.sin(azimuth + psi), height[i] + s * (height[i + 1] - height[i])]
+  }
+  /** @param {number} a @param {number} b */
+  const apart = (a, b) => Math.min(Math.abs(a - b), n - Math.abs(a - b))
   /** @type {number[][][]} */
   const segments = []
-  for (let j = 0; j < AROUND; j++) {
-    for (let i = 0; i < radius.length - 1; i++) {
-      /** @type {Vector[]} */
-      const ends = []
-      for (const [i0, j0, i1, j1] of SIDES) {
-        const before = facing[j + j0][i + i0], after = facing[j + j1][i + i1]
-        const share = before / (before - after)
-        if (before >= 0 !== after >= 0) ends.push(at(i + i0 + share * (i1 - i0), j + j0 + share * (j1 - j0)))
-      }
-      // It crosses two sides of a facet, or none.
-      if (ends.length === 2) segments.push([0, 1, 2].map((k) => ends.map((end) => end[k])))
+  let [last, before] = [0, turns(0)]
+  for (let j = 1; j <= AROUND; j++) {
+    const psi = 2 * Math.PI * j / AROUND
+    const found = turns(psi)
+    for (const place of found) {
+      const [nearest] = before.toSorted((one, other) => apart(one, place) - apart(other, place))
+      if (!(apart(nearest, place) < n / 8)) continue
+      const ends = [at(nearest, last), at(place, psi)]
+      segments.push([0, 1, 2].map((k) => ends.map((end) => end[k])))
     }
+    last = psi
+    before = found
   }
   return segments
 }
@@ -97,37 +97,81 @@ export function createRevolved() {
   let stride = 1
   /** @type {ImageData} */
   let image
-  let pixels = new Float32Array(0)
+  // Premultiplied colours, and the depth of what is in front.
+  let colours = new Float32Array(0)
+  let depths = new Float32Array(0)
+
+  // Corners: x, y, depth, and premultiplied red, green, blue, alpha.
+  const WIDE = 7
   let corners = new Float64Array(0)
+  let order = new Uint32Array(0)
+  const starts = new Uint32Array(BUCKETS + 1)
 
   /**
-   * Fill a triangle of corners; a pixel belongs to it if its centre does.
+   * Fill a triangle of corners; a pixel belongs to it if its centre does, so neighbours never share one.
    * @param {number} a
    * @param {number} b
    * @param {number} c
    */
   function fill(a, b, c) {
     const v = corners
-    const xa = v[a], xb = v[b], xc = v[c], ya = v[a + 1], yb = v[b + 1], yc = v[c + 1]
+    // Sorted by y.
+    if (v[b + 1] < v[a + 1]) [a, b] = [b, a]
+    if (v[c + 1] < v[a + 1]) [a, c] = [c, a]
+    if (v[c + 1] < v[b + 1]) [b, c] = [c, b]
+    const ya = v[a + 1]
+    const yb = v[b + 1]
+    const yc = v[c + 1]
+    const top = Math.max(0, Math.ceil(ya - 0.5))
+    const bottom = Math.min(side, Math.ceil(yc - 0.5))
+    const xa = v[a]
+    const xb = v[b]
+    const xc = v[c]
     const area = (xb - xa) * (yc - ya) - (xc - xa) * (yb - ya)
+    if (top >= bottom || area === 0) return
+    // Neighbours find the same slope of the edge that they share: the upper end is always the first.
+    const long = (xc - xa) / (yc - ya)
+    const upper = (xb - xa) / (yb - ya)
+    const lower = (xc - xb) / (yc - yb)
     // The shares of the corners b and c change by these from pixel to pixel.
-    const bx = (yc - ya) / area, by = (xa - xc) / area, cx = (ya - yb) / area, cy = (xb - xa) / area
-    const right = Math.min(side, Math.max(xa, xb, xc) - 0.5), bottom = Math.min(side, Math.max(ya, yb, yc) - 0.5)
-    const left = Math.max(0, Math.ceil(Math.min(xa, xb, xc) - 0.5))
-    for (let row = Math.max(0, Math.ceil(Math.min(ya, yb, yc) - 0.5)); row < bottom; row++) {
-      for (let column = left; column < right; column++) {
-        const x = column + 0.5 - xa, y = row + 0.5 - ya
-        const atB = x * bx + y * by
-        const atC = x * cx + y * cy
-        const atA = 1 - atB - atC
-        if (!(atA >= 0 && atB >= 0 && atC >= 0)) continue
-        const at = PIXEL * (row * side + column)
-        const through = 1 - atA * v[a + 5] - atB * v[b + 5] - atC * v[c + 5]
-        for (let k = 0; k < PIXEL; k++) {
-          const own = atA * v[a + 2 + k] + atB * v[b + 2 + k] + atC * v[c + 2 + k]
-          // Depth is that of what is in front.
-          pixels[at + k] = k < 4 ? pixels[at + k] * through + own : own
-        }
+    const bx = (yc - ya) / area
+    const by = (xa - xc) / area
+    const cx = (ya - yb) / area
+    const cy = (xb - xa) / area
+    const depth0 = v[a + 2], depthB = v[b + 2] - depth0, depthC = v[c + 2] - depth0
+    const red0 = v[a + 3], redB = v[b + 3] - red0, redC = v[c + 3] - red0
+    const green0 = v[a + 4], greenB = v[b + 4] - green0, greenC = v[c + 4] - green0
+    const blue0 = v[a + 5], blueB = v[b + 5] - blue0, blueC = v[c + 5] - blue0
+    const alpha0 = v[a + 6], alphaB = v[b + 6] - alpha0, alphaC = v[c + 6] - alpha0
+    for (let row = top; row < bottom; row++) {
+      const y = row + 0.5
+      const x1 = xa + (y - ya) * long
+      const x2 = y < yb ? xa + (y - ya) * upper : xb + (y - yb) * lower
+      const from = Math.max(0, Math.ceil((x1 < x2 ? x1 : x2) - 0.5))
+      const to = Math.min(side, Math.ceil((x1 < x2 ? x2 : x1) - 0.5))
+      if (from >= to) continue
+      const right = from + 0.5 - xa
+      const atB = right * bx + (y - ya) * by
+      const atC = right * cx + (y - ya) * cy
+      let depth = depth0 + atB * depthB + atC * depthC
+      let red = red0 + atB * redB + atC * redC
+      let green = green0 + atB * greenB + atC * greenC
+      let blue = blue0 + atB * blueB + atC * blueC
+      let alpha = alpha0 + atB * alphaB + atC * alphaC
+      const end = row * side + to
+      for (let at = row * side + from; at < end; at++) {
+        const i = 4 * at
+        const through = 1 - alpha
+        colours[i] = colours[i] * through + red
+        colours[i + 1] = colours[i + 1] * through + green
+        colours[i + 2] = colours[i + 2] * through + blue
+        colours[i + 3] = colours[i + 3] * through + alpha
+        depths[at] = depth
+        depth += bx * depthB + cx * depthC
+        red += bx * redB + cx * redC
+        green += bx * greenB + cx * greenC
+        blue += bx * blueB + cx * blueC
+        alpha += bx * alphaB + cx * alphaC
       }
     }
   }
@@ -165,52 +209,63 @@ export function createRevolved() {
         const glint = front ? 90 * shine : 0
         const tone = front ? outside : inside
         const alpha = Math.min(1, (front ? 0.2 : 0.3) + 0.5 * rim + 0.4 * share + (front ? 0.5 * shine : 0))
-        corners[k++] = 0.5 * side + ASIDE[0] + scale * radius[i] * s
-        corners[k++] = 0.5 * side + ASIDE[1] - scale * (ce * z - se * ahead)
+        corners[k] = 0.5 * side + scale * radius[i] * s
+        corners[k + 1] = 0.5 * side - scale * (ce * z - se * ahead)
+        corners[k + 2] = ce * ahead + se * z
         for (let channel = 0; channel < 3; channel++) {
           const colour = tone[channel] + share * (dense[channel] - tone[channel])
-          corners[k++] = Math.min(255, bright * colour + glint) * alpha
+          corners[k + 3 + channel] = Math.min(255, bright * colour + glint) * alpha
         }
-        corners[k++] = alpha
-        corners[k++] = ce * ahead + se * z
+        corners[k + 6] = alpha
+        k += WIDE
       }
     }
   }
 
-  /** Return the facets from back to front, each by its first corner. @param {number} count points of the cross-section */
-  function sorted(count) {
-    const facets = AROUND / stride * (count - 1)
-    // Numbers are sorted faster than by a function: the depth, then the facet.
-    const keys = new Float64Array(facets)
-    for (let facet = 0; facet < facets; facet++) {
-      const first = firstOf(facet, count)
-      const depth = corners[first + 6] + corners[first + CORNER * (count + 1) + 6]
-      keys[facet] = Math.round(STEPS * (2 + depth)) * facets + facet
+  /** Fill `order` with the facets from back to front, each by its first corner. @param {number} count points of the cross-section */
+  function sort(count) {
+    const opposite = WIDE * (count + 1)
+    const around = AROUND / stride
+    const facets = around * (count - 1)
+    if (order.length !== facets) order = new Uint32Array(facets)
+    starts.fill(0)
+    /** @param {number} first */
+    const bucket = (first) => {
+      const depth = 0.25 * (corners[first + 2] + corners[first + opposite + 2]) + 0.5
+      return Math.max(0, Math.min(BUCKETS - 1, Math.floor(depth * BUCKETS)))
     }
-    return keys.sort().map((key) => firstOf(key % facets, count))
+    /** @param {(first: number) => void} act */
+    const each = (act) => {
+      for (let j = 0; j < around; j++) for (let i = 0; i < count - 1; i++) act(WIDE * (j * count + i))
+    }
+    each((first) => { starts[bucket(first) + 1]++ })
+    for (let b = 0; b < BUCKETS; b++) starts[b + 1] += starts[b]
+    each((first) => { order[starts[bucket(first)]++] = first })
   }
 
-  /** @param {number} facet @param {number} count */
-  const firstOf = (facet, count) => CORNER * (facet + Math.floor(facet / (count - 1)))
-
-  /** Size the buffers, and clear them. @param {number} size @param {number} count points of the cross-section */
-  function begin(size, count) {
-    if (size !== side) {
-      side = canvas.width = canvas.height = size
+  /** Size the buffers, and clear them. @param {number} pixels @param {number} count points of the cross-section */
+  function begin(pixels, count) {
+    if (pixels !== side) {
+      side = canvas.width = canvas.height = pixels
       image = paper.createImageData(side, side)
-      pixels = new Float32Array(PIXEL * side * side)
+      colours = new Float32Array(4 * side * side)
+      depths = new Float32Array(side * side)
     }
-    pixels.fill(0)
-    const length = CORNER * count * (AROUND / stride + 1)
+    colours.fill(0)
+    depths.fill(-Infinity)
+    const length = WIDE * count * (AROUND / stride + 1)
     if (corners.length !== length) corners = new Float64Array(length)
   }
 
   function show() {
     const { data } = image
-    for (let i = 0, at = 0; i < data.length; i += 4, at += PIXEL) {
-      const alpha = pixels[at + 3]
+    for (let i = 0; i < data.length; i += 4) {
+      const alpha = colours[i + 3]
       data[i + 3] = 255 * alpha
-      if (alpha > 0) for (let k = 0; k < 3; k++) data[i + k] = pixels[at + k] / alpha
+      if (alpha === 0) continue
+      data[i] = colours[i] / alpha
+      data[i + 1] = colours[i + 1] / alpha
+      data[i + 2] = colours[i + 2] / alpha
     }
     paper.putImageData(image, 0, 0)
   }
@@ -231,19 +286,20 @@ export function createRevolved() {
      * @param {((i: number, phi: number) => number) | null} density see `place`
      */
     shade({ edge, ratio, scale, dark, isFine }, radius, height, turn, density) {
-      const size = Math.min(isFine ? FINE : MOST, Math.round(edge * ratio))
-      perEdge = size / edge
+      const pixels = Math.min(isFine ? FINE : MOST, Math.round(edge * ratio))
+      perEdge = pixels / edge
       // Without a density the surface looks the same from all azimuths.
-      const now = [size, dark, turn[1], density && turn[0]].join()
+      const now = [pixels, dark, turn[1], density && turn[0]].join()
       if (now === key && radius === last) return canvas
       key = now
       last = radius
-      stride = isFine || radius.length % 2 === 0 ? 1 : 2
+      stride = pixels <= SMALL && radius.length % 2 === 1 ? 2 : 1
       const count = (radius.length - 1) / stride + 1
-      begin(size, count)
+      begin(pixels, count)
       place(radius, height, turn, dark, scale * perEdge, density)
-      const [next, beside] = [CORNER, CORNER * count]
-      for (const first of sorted(count)) {
+      sort(count)
+      const [next, beside] = [WIDE, WIDE * count]
+      for (const first of order) {
         fill(first, first + next, first + beside)
         fill(first + next, first + beside, first + next + beside)
       }
@@ -261,8 +317,7 @@ export function createRevolved() {
       const column = Math.floor(x * perEdge)
       const row = Math.floor(y * perEdge)
       if (!(column >= 0 && row >= 0 && column < side && row < side)) return true
-      const at = PIXEL * (row * side + column)
-      return pixels[at + 3] === 0 || depth > pixels[at + 4] - slack
+      return depth > depths[row * side + column] - slack
     },
   }
 }
