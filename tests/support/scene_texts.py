@@ -82,7 +82,8 @@ def dimension_of_the_sea(_step):
     """Return the Kaplan–Yorke dimension 3 + div/|λ3| of motions, and whether it is less than a number."""
     first, divergence, _ = chaos("orbit-diagram", "A chaotic sea")
     found = 3.0 + divergence / (first - divergence)
-    return (found, 0.02), lambda whole: deviations(found, whole) < -5.0
+    # Means of 24 motions lie between 2.939 and 2.946, with errors of 0.003, of which there are five on each side.
+    return (found, 0.03), lambda whole: deviations(found, whole) < -5.0
 
 
 def shared(_step):
