@@ -297,7 +297,7 @@ REDUCED_GAMMA = _vector(
 # ---- a heavy body with a fixed point, in its principal axes ---------------------------------------------------------
 
 _HEAVY = "Euler–Poisson"
-I1, I2, I3 = MOMENTS = tuple(
+I1, I2, I3 = tuple(
     Parameter(name, symbol, f"Moment {symbol}", default, (0.1, 3.0), 0.005, _MOMENT, doc, "Body")
     for name, symbol, default, doc in (
         ("I1", "I₁", 1.0, "First principal moment of inertia."),

@@ -1,4 +1,4 @@
-"""What draws the descriptions of scenes is not loaded at the start."""
+"""The libraries that draw descriptions of scenes are not loaded at the start."""
 
 import subprocess
 import sys

@@ -14,7 +14,7 @@ from .output import computing, show
 __all__ = ["COMMAND"]
 
 
-def _print(done: int, of: int, size: int = 0) -> None:
+def _print(done: int, of: int) -> None:
     print(f"{done}/{of}", file=sys.stderr, flush=True)
 
 

@@ -19,7 +19,7 @@ from hess_explorer.offline.recording import Recording
 from hess_explorer.page.component import styles
 from hess_explorer.protocol.specs import CLIENT
 
-__all__ = ["HOME", "document", "frame_size", "module_address"]
+__all__ = ["HOME", "document", "module_address"]
 
 HOME = "http://localhost:5006/"
 """Default address of the explorer."""
@@ -132,11 +132,6 @@ def _code() -> str:
     bokeh = "\n".join(Resources(mode="inline", components=["bokeh"]).js_raw)
     code = json.dumps({"bokeh": bokeh, "page": module_address()})
     return base64.b64encode(zlib.compress(code.encode(), 9)).decode()
-
-
-def frame_size() -> int:
-    """Return the size in bytes of a page without states, to a fifth."""
-    return len(_code()) + len(_json(styles()))
 
 
 def _json(value: Any) -> str:

@@ -25,7 +25,7 @@ from hess_mechanics.errors import ModelError
 
 __all__ = ["Recording", "Report"]
 
-Report = Callable[[int, int, int], None]
+Report = Callable[[int, int], None]
 """Gets the number of computed states, that of all states, and the largest size of all in bytes."""
 
 _LARGEST_STRIP = 600_000
@@ -50,7 +50,7 @@ class Recording:
     pictures : mapping
         The names of the pictures of each scene.
     report : callable, optional
-        Gets the number of computed states, that of all states, and their largest size in bytes.
+        Gets the number of computed states and that of all states.
     """
 
     pictures: Mapping[str, Sequence[str]]
@@ -65,7 +65,7 @@ class Recording:
         """Compute the states of families, each state once.  Raises `ModelError` if a first state is impossible."""
         queries = [{encode(one.scene.name, one.values(point)): point for point in one.points} for one in families]
         total = len({query for found in queries for query in found} - self._states.keys())
-        done = size = 0
+        done = 0
         for one, points in zip(families, queries, strict=True):
             self._note_sliders(one)
             strip = self._begin()
@@ -78,9 +78,7 @@ class Recording:
                 self._states[query] = len(self._strips) - 1, len(strip.trees) - 1
                 done += 1
                 if self.report is not None:
-                    # The others are smaller, being differences from their neighbours.
-                    size = size or total * len(base64.b64encode(strip.pack()))
-                    self.report(done, total, size)
+                    self.report(done, total)
             self._families.append(
                 {
                     "scene": one.scene.name,

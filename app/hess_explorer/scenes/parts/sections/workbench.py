@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -27,11 +28,11 @@ from hess_mechanics.dynamics.system import Body
 __all__ = ["PLAIN", "FilledState", "SectionState"]
 
 PLAIN: dict[str, Value] = {"periodic": NONE, "indicator": DENSITY}
-"""Of the first preset: the others then set these choices too, see `Scene.example`."""
+"""Choices of the first preset; every other example then sets them too, see `Scene.example`."""
 
 
 @dataclass(frozen=True)
-class SectionState(State):
+class SectionState(State, ABC):
     """A state with an orbit from its section, or the periodic orbit in place of it, among others.
 
     A scene adds its parameters, its `poincare`, its `body` if that is not the section, and the `weights` of the
@@ -49,9 +50,9 @@ class SectionState(State):
     window: str = ""
 
     @property
+    @abstractmethod
     def poincare(self) -> PoincareSection:
         """The section in its coordinates.  Raises `ModelError`."""
-        raise NotImplementedError
 
     @property
     def body(self) -> Body:
