@@ -125,7 +125,7 @@ def test_a_sweep_that_is_killed_three_times_is_bit_for_bit_the_loop_by_hand(tmp_
     assert (found.status == 1).all()
     for i, j in [*np.ndindex(found.status.shape)][::7]:
         by_hand = of.compute({"w1": float(found.w1[i]), "I22": float(found.I22[j]), "duration": 400.0}, "draft")
-        assert found.exponent.values[i, j] == by_hand.value
+        assert found.lyapunov.values[i, j] == by_hand.value
 
 
 def test_ctrl_c_without_a_store_writes_what_is_done(capsys, monkeypatch, tmp_path):

@@ -89,6 +89,14 @@ def test_a_click_or_drag_sets_both_parameters_and_computes_no_cell_again():
     assert (held.charting.cells, held.work.todo) == (None, [])
 
 
+@pytest.mark.parametrize("key", [key for key, scene in SCENES.items() if scene.charted is not None])
+def test_the_menu_offers_every_number_of_the_computations(key):
+    charts = SCENES[key].charted
+    offered = {name for one in charts.charted for name in find(one.key).numbers}
+    assert {*charts.numbers} == offered
+    assert {*next(spec for spec in SCENES[key].specs if spec.name == "chart").options} == offered
+
+
 def test_the_start_of_a_motion_in_a_section_is_a_place_of_the_chart():
     state = state_of(SUSLOV, known=False)
     assert [side.symbol for side in state.charting.axes] == ["ψ", "δ"]

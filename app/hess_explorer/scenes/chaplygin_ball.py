@@ -258,7 +258,6 @@ SCENE = Scene(
         (
             Charted(
                 "ball-scattering",
-                ("theta-plus",),
                 lambda s: {**tensor_of(s.body), "D": s.D, "theta": s.theta, "phi": s.phi, "distance": s.distance},
             ),
             *of_motion(SYSTEM, lambda s: s.start),

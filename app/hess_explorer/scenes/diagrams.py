@@ -200,7 +200,7 @@ def regime_in(section: str, **more: float) -> Charted:
         psi, delta = s.diagram.place
         return {**parameters_of(s.body), "h": s.h, "psi": psi, "delta": delta, **more}
 
-    return Charted(f"regime {section}", ("kind",), arguments)
+    return Charted(f"regime {section}", arguments)
 
 
 def _pictures(state: type[DiagramState], ball: bool) -> tuple[Picture[Any], ...]:

@@ -296,7 +296,7 @@ SCENE = Scene(
     __file__,
     place=2,
     presets=PRESETS,
-    charts=Charts((Charted("cos-chi", ("cos-chi",), lambda s: tensor_of(s.body)),), over=("k", "I23")),
+    charts=Charts((Charted("cos-chi", lambda s: tensor_of(s.body)),), over=("k", "I23")),
     group="Free body",
     essential=("k", "I23", "Gamma", "phi"),
     title="Free Suslov problem",

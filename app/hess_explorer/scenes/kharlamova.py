@@ -326,7 +326,6 @@ SCENE = Scene(
         (
             Charted(
                 "period",
-                ("period",),
                 lambda s: {
                     "I11": s.I11,
                     "I22": s.I22,

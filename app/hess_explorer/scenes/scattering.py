@@ -224,8 +224,8 @@ SCENE = Scene(
     measures=(_MAP,),
     charts=Charts(
         (
-            Charted("scattering", ("theta-plus",), lambda s: {**tensor_of(s.body), "theta": s.theta, "phi": s.phi}),
-            Charted("cos-chi", ("cos-chi",), lambda s: tensor_of(s.body)),
+            Charted("scattering", lambda s: {**tensor_of(s.body), "theta": s.theta, "phi": s.phi}),
+            Charted("cos-chi", lambda s: tensor_of(s.body)),
         ),
         over=("k", "I23"),
     ),

@@ -211,7 +211,6 @@ SCENE = Scene(
             *of_motion(SYSTEM, lambda s: start_on(s.poincare, s.starts), time=lambda s: s.long),
             Charted(
                 "basins suslov-section",
-                ("attractors",),
                 # Attractors belong to the whole section: one cell is enough.
                 lambda s: {**parameters_of(s.body), "h": s.h, "k": s.poincare.k, "across": 1.0, "up": 1.0},
             ),

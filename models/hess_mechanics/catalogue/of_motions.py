@@ -110,11 +110,7 @@ def computations(system: System) -> Iterator[Computation]:
             usual(known.TIME, 100.0, "Time up to which crossings are counted; negative: backward."),
             *_STEPS,
         ),
-        {
-            "count": Number(
-                "n", "how often the motion crosses the plane", lambda r: len(r.times), error_reader="error_estimate"
-            )
-        },
+        {"crossings": Number("n", "how often the motion crosses the plane", lambda r: len(r.times))},
         Kind.SECTION,
         "times",
         _crossings,
@@ -126,7 +122,7 @@ def computations(system: System) -> Iterator[Computation]:
         "Largest Lyapunov exponent",
         lyapunov_exponent,
         (_LONG,),
-        {"exponent": Number("λ", "largest Lyapunov exponent", "value", "1/time", "spread")},
+        {"lyapunov": Number("λ", "largest Lyapunov exponent", "value", "1/time", "spread")},
         Kind.EXPONENT,
         unit="1/time",
         example={"duration": 50.0},

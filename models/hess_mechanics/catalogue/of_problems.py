@@ -162,7 +162,7 @@ COMPUTATIONS: tuple[Computation, ...] = (
         "Birth of the limit cycles of a Suslov–Hess torus",
         critical_a,
         _TORUS[1:],
-        {"a": Number("a*", "a at which the limit cycles appear, |trace| = 2")},
+        {"critical-a": Number("a*", "a at which the limit cycles appear, |trace| = 2")},
         Kind.ORBIT,
         example={"h": 1.5, "f": 0.3},
     ),

@@ -23,14 +23,13 @@ Numbers = Mapping[str, tuple["Charted", str]]
 
 @dataclass(frozen=True, eq=False)
 class Charted:
-    """Numbers of a computation that a scene charts.
+    """A computation whose numbers a scene charts.
 
-    key : of the computation; numbers : names of its numbers; arguments(state) : its arguments other than the defaults,
-    raises `ModelError`; known : the computations by key, empty for the catalogue.
+    key : of the computation; arguments(state) : its arguments other than the defaults, raises `ModelError`; known : the
+    computations by key, empty for the catalogue.
     """
 
     key: str
-    numbers: tuple[str, ...]
     arguments: Callable[[Any], Arguments]
     known: Mapping[str, Computation] = field(default_factory=dict)
 
@@ -58,26 +57,21 @@ class Charts:
 
     @property
     def numbers(self) -> Numbers:
-        """The numbers by option: their names, or that of the computation if it has only one."""
-        return {
-            name if len(one.numbers) > 1 else one.key.split()[0]: (one, name)
-            for one in self.charted
-            for name in one.numbers
-        }
+        """The numbers of all computations by name; of equal names the last."""
+        return {name: (one, name) for one in self.charted for name in one.computation.numbers}
 
     def load(self, state: Any) -> None:
         """Compute every number once, which compiles or loads its kernels.  Raises `ModelError`."""
         for one in self.charted:
             columns = {name: np.array([value]) for name, value in one.values(state).items()}
-            evaluate(one.computation, one.numbers, columns, DRAFT)
+            evaluate(one.computation, (*one.computation.numbers,), columns, DRAFT)
 
 
 def of_torus(torus: Callable[[Any], tuple[float, float, float]]) -> tuple[Charted, ...]:
     """Return what is charted of a Suslov–Hess torus (a, h, f)."""
-    numbers = ("rotation-number", "trace", "locked", "stable", "unstable", "log-multiplier")
     return (
-        Charted("circle-map", numbers, lambda s: dict(zip("ahf", torus(s), strict=True))),
-        Charted("critical-a", ("a",), lambda s: dict(zip("hf", torus(s)[1:], strict=True))),
+        Charted("circle-map", lambda s: dict(zip("ahf", torus(s), strict=True))),
+        Charted("critical-a", lambda s: dict(zip("hf", torus(s)[1:], strict=True))),
     )
 
 
@@ -109,10 +103,9 @@ def of_motion(
     def averaged(s: Any) -> Arguments:
         return motion(s) if time is None else {**motion(s), "duration": time(s)}
 
-    spectrum = (*(f"exponent-{i + 1}" for i in range(len(system.variables))), "dimension", "divergence")
     return (
-        Charted(f"megno {system.name}", ("megno",), motion, known),
-        Charted(f"lyapunov {system.name}", ("exponent",), averaged, known),
-        Charted(f"spectrum {system.name}", spectrum, averaged, known),
-        Charted(f"crossings {system.name}", ("count",), motion, known),
+        Charted(f"megno {system.name}", motion, known),
+        Charted(f"lyapunov {system.name}", averaged, known),
+        Charted(f"spectrum {system.name}", averaged, known),
+        Charted(f"crossings {system.name}", motion, known),
     )
