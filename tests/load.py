@@ -26,7 +26,7 @@ if __name__ == "__main__":
 from tornado.httpclient import AsyncHTTPClient
 
 from hess_explorer.headless.screenshot import server_process
-from hess_explorer.protocol.specs import Number
+from hess_explorer.protocol.specs import NumberSpec
 from hess_explorer.scenes import scenes
 from support.measured import write_measured
 from support.processes import memory, worked
@@ -77,7 +77,7 @@ class Crowd:
             chance = random.Random(1000 * seed + i)
             every, answered = (FRAME, self.dragged) if i < drag else (pause, self.answered)
             specs = {spec.name: spec for spec in scenes()[name].specs}
-            spec = next(specs[one] for one in scenes()[name].essential if isinstance(specs[one], Number))
+            spec = next(specs[one] for one in scenes()[name].essential if isinstance(specs[one], NumberSpec))
             await asyncio.sleep(every * chance.random())
             while time.monotonic() < ends:
                 begun = time.monotonic()

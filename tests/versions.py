@@ -27,13 +27,13 @@ AGES = {"oldest": "lowest-direct", "newest": "highest"}
 
 async def _scenes(base):
     """Return the number of scenes that open and answer."""
-    from hess_explorer.protocol.specs import Number
+    from hess_explorer.protocol.specs import NumberSpec
     from hess_explorer.scenes import scenes
     from support.visitor import Visitor
 
     for name, scene in scenes().items():
         visitor = await Visitor.open(base, f"scene={name}&accuracy=draft", timeout=900.0)
-        spec = next(spec for spec in scene.specs if isinstance(spec, Number))
+        spec = next(spec for spec in scene.specs if isinstance(spec, NumberSpec))
         state = await visitor.ask(timeout=900.0, values={spec.name: spec.default + spec.step})
         assert state["scene"] == name
         assert "could not be computed" not in json.dumps(state["tree"]), name

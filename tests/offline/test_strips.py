@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from hess_explorer.offline.strips import EXACT, PIXELS, Strip, steps_of_plots
+from hess_explorer.offline.strips import EXACT, PIXELS, OfflineStrip, steps_of_plots
 from hess_explorer.protocol.wire import Wire
 from hess_explorer.scenes import scenes
 from hess_explorer.views.layers import Axes
@@ -43,7 +43,7 @@ def add(strip, steps=None, **sources):
 
 def test_arrays_come_back_within_half_a_step(tmp_path):
     s = np.linspace(0, 6, 500)
-    strip = Strip()
+    strip = OfflineStrip()
     curves, step = [], 8.0 / PIXELS
     for h in np.linspace(0.2, 1.0, 12):
         # A curve that leaves its plot by far, one of another length in each state, and a constant one.
@@ -75,7 +75,7 @@ def test_gaps_whole_numbers_images_and_logarithmic_axes_are_exact(tmp_path):
     gaps = np.array([1.0, np.nan, 3.5, np.nan, *np.linspace(0, 1, 20)])
     image = np.tile(np.arange(256.0), (4, 1))
     decades = np.geomspace(1e-16, 1e3, 40)
-    strip = Strip()
+    strip = OfflineStrip()
     for shift in (0.0, 1.0):
         add(
             strip,

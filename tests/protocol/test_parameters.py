@@ -12,10 +12,10 @@ from hess_explorer.protocol.specs import (
     CLIENT,
     MAX_QUERY,
     VERSION,
-    Choice,
+    ChoiceSpec,
     Formula,
     Names,
-    Number,
+    NumberSpec,
     Places,
     decode,
     encode,
@@ -27,18 +27,18 @@ from support.thorough import examples
 SCENES = scenes()
 SCENE = SCENES["suslov-hess"]
 SPECS = (*SCENE.specs, *CLIENT, THEME)
-NUMBERS = [spec for spec in SPECS if isinstance(spec, Number)]
+NUMBERS = [spec for spec in SPECS if isinstance(spec, NumberSpec)]
 
 every_key = pytest.mark.parametrize("spec", SPECS, ids=[spec.name for spec in SPECS])
 every_number = pytest.mark.parametrize("spec", NUMBERS, ids=[spec.name for spec in NUMBERS])
 
 
 def admissible(spec):
-    if isinstance(spec, Number):
+    if isinstance(spec, NumberSpec):
         return st.floats(spec.bounds[0], spec.bounds[1])
     if isinstance(spec, Formula):
         return st.sampled_from(["", "g1", "0.5*g1^2 - g3"])
-    return st.sampled_from(spec.options) if isinstance(spec, Choice) else texts_of(spec)
+    return st.sampled_from(spec.options) if isinstance(spec, ChoiceSpec) else texts_of(spec)
 
 
 def texts_of(places):
@@ -54,14 +54,14 @@ def states(specs):
 
 
 def is_admissible(spec, value):
-    if isinstance(spec, Choice):
+    if isinstance(spec, ChoiceSpec):
         return value in spec.options
     if isinstance(spec, Places | Formula):
         return spec.read(value) == (value, None)
     return isinstance(value, float) and spec.bounds[0] <= value <= spec.bounds[1]
 
 
-CHOICE = Choice("scene", "Scene", tuple(SCENES), next(iter(SCENES)))
+CHOICE = ChoiceSpec("scene", "Scene", tuple(SCENES), next(iter(SCENES)))
 
 
 @given(st.sampled_from(list(SCENES)), states(SPECS))

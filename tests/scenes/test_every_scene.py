@@ -18,7 +18,7 @@ from hess_explorer.assets import STATIC
 from hess_explorer.compute.background import Background
 from hess_explorer.compute.cache import CACHE
 from hess_explorer.page import session
-from hess_explorer.protocol.specs import Choice, Formula, Number, Places, written
+from hess_explorer.protocol.specs import ChoiceSpec, Formula, NumberSpec, Places, written
 from hess_explorer.scenes.parts.orbits import precision
 from hess_explorer.views import theme
 from hess_explorer.views.layers import Axes
@@ -119,7 +119,7 @@ def test_a_scene_explains_itself_and_each_of_its_parameters(scene):
 @every_scene
 def test_sliders_have_ends_wherever_the_others_are(scene):
     for spec in scene.specs:
-        for value in (*spec.bounds, 0.0, 1e-320, -1e-320) if isinstance(spec, Number) else ():
+        for value in (*spec.bounds, 0.0, 1e-320, -1e-320) if isinstance(spec, NumberSpec) else ():
             try:
                 values = scene.admit({**scene.defaults(), spec.name: value})[0]
             except ModelError:
@@ -182,7 +182,7 @@ def test_the_description_of_a_scene_has_all_that_the_browser_needs(scene):
     assert {spec.group for spec in controlled} <= set(found["groups"])
     # Three or four sliders are open.
     assert 3 <= len(set(scene.essential)) == len(scene.essential) <= 4
-    assert set(scene.essential) <= {spec.name for spec in controlled if not isinstance(spec, Choice)}
+    assert set(scene.essential) <= {spec.name for spec in controlled if not isinstance(spec, ChoiceSpec)}
     assert found["essential"] == list(scene.essential)
     assert scene.group
     assert len(re.sub(r"<[^>]*>", "", found["words"])) > 200
@@ -364,7 +364,7 @@ def somewhere(spec):
         return st.lists(place, max_size=3 if spec.most > 2 else 0).map(written)
     if isinstance(spec, Formula):
         return st.sampled_from(["", "g3 - 0.5*g1", "g1^4 + g2^4 - g3^2"])
-    if not isinstance(spec, Number):
+    if not isinstance(spec, NumberSpec):
         return st.sampled_from(spec.options)
     distance = st.floats(-16.0, log10(spec.bounds[1] - spec.bounds[0])).map(lambda exponent: 10.0**exponent)
     return st.one_of(
@@ -803,7 +803,7 @@ def test_whatever_is_raised_the_page_gets_a_state(where, opening, caplog):
     browser = Browser(variant(BALL, **{where: fail}))
     if not opening:
         broken[0] = True
-        choice = next(spec for spec in BALL.specs if not isinstance(spec, Number))
+        choice = next(spec for spec in BALL.specs if not isinstance(spec, NumberSpec))
         other = next(option for option in choice.options if option != choice.default)
         assert browser.ask(1, values={choice.name: other, "h": 7.0})["answers"] == 1
     assert browser.texts["status"] == session.FAILED

@@ -11,7 +11,7 @@ import pytest
 import oracle
 from hess_explorer.compute.cache import Task
 from hess_explorer.scenes import scenes
-from hess_explorer.scenes.parts.orbits.proof import judged
+from hess_explorer.scenes.parts.orbits.proof import proved_error
 from hess_mechanics import circle_map, level
 from hess_mechanics.suslov_hess.equations import SYSTEM
 from support.thorough import sample
@@ -36,7 +36,7 @@ def sentence(view):
 
 
 def tasks(view):
-    return [task for task in view.first.todo if task.function is judged]
+    return [task for task in view.first.todo if task.function is proved_error]
 
 
 @pytest.mark.parametrize("name", sample(PROVING, 4))
@@ -119,7 +119,7 @@ def test_an_estimate_that_is_too_small_is_given_away():
     found = finding.now()
     least = np.abs(found.orbit.states - true_states(motion, found.orbit.times)).max()
     for estimate, too_small in ((1.1 * least, False), (0.9 * least, True)):
-        judgement = judged(Task(_told, Told(found, estimate)), motion, units)
+        judgement = proved_error(Task(_told, Told(found, estimate)), motion, units)
         assert ("the estimate is too small, as the error reaches" in judgement.sentence) == too_small
 
 

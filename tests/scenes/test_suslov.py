@@ -112,7 +112,7 @@ def test_exponent_and_divergence_of_an_example_are_as_its_name_and_words_say(nam
 def test_the_shares_in_the_caption_are_those_of_the_basins():
     view = example(TWO)
     share, rest = view.numbers("section", "Two attractors. Basins: # % and # % of the cells.")
-    found = view.result.basins.found
+    found = view.result.basins.arrivals
     assert found.number.shape == (CELLS, CELLS)
     assert share == approx(100.0 * np.mean(found.number == 0), abs=0.51)
     assert share + rest == approx(100.0, abs=1.1)
@@ -126,7 +126,7 @@ def test_a_saddle_bounds_the_basins_and_its_manifold_runs_between_their_cells():
     (saddle,) = view.result.basins.saddles
     assert (saddle.kind, saddle.period) == ("saddle", 1)
     assert view.points("repels") == approx(saddle.places)
-    numbers = view.result.basins.found.number
+    numbers = view.result.basins.arrivals.number
     for branch in view.result.basins.manifolds:
         psi, delta = branch.points.T
         column = np.floor((psi + pi) / (2.0 * pi) * CELLS).astype(int) % CELLS
@@ -152,7 +152,7 @@ def scores(view, count):
 @pytest.mark.chaotic
 def test_a_sea_that_is_its_own_mirror_image_is_no_attractor():
     view = View(SCENE, {**FEW, "colours": "basins", "long": 1000.0})
-    assert view.result.basins.found is None
+    assert view.result.basins.arrivals is None
     assert "section-basins" not in view.data or not view.data["section-basins"]
     mean, error = view.numbers("section", "No attractor is seen. mean div = # ± #.")
     assert abs(mean) < 5.0 * error < 0.05

@@ -11,7 +11,7 @@ from hess_explorer.lessons import shipped
 from hess_explorer.page.description import describe
 from hess_explorer.page.session import Session
 from hess_explorer.protocol.messages import Request, parse
-from hess_explorer.protocol.specs import Formula, Number, Places, decode
+from hess_explorer.protocol.specs import Formula, NumberSpec, Places, decode
 from hess_explorer.protocol.wire import Wire
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.stage import Stage
@@ -267,7 +267,7 @@ class Browser:
         assert set(values) == {spec.name for spec in self.scene.specs}
         for spec in self.scene.specs:
             value = values[spec.name]
-            if isinstance(spec, Number):
+            if isinstance(spec, NumberSpec):
                 assert isinstance(value, float)
                 assert spec.bounds[0] <= value <= spec.bounds[1]
             elif isinstance(spec, Places | Formula):

@@ -22,7 +22,7 @@ from hess_explorer.commands.compute import command_of
 from hess_explorer.commands.output import PATIENCE
 from hess_explorer.compute.budget import limited
 from hess_explorer.page.requested import linked
-from hess_explorer.protocol.specs import CLIENT, Choice, Formula, Link, Number, Places, written
+from hess_explorer.protocol.specs import CLIENT, ChoiceSpec, Formula, Link, NumberSpec, Places, written
 from hess_explorer.scenes import scenes
 from hess_mechanics.catalogue import catalogue
 from hess_mechanics.numerics.jit import seconds_compiling
@@ -162,9 +162,9 @@ def _number(random, spec, wild=False):
 def _value(random, spec, wild=False):
     if random.random() < 0.04:
         return random.choice(GARBAGE)
-    if isinstance(spec, Number):
+    if isinstance(spec, NumberSpec):
         return repr(_number(random, spec, wild))
-    if isinstance(spec, Choice):
+    if isinstance(spec, ChoiceSpec):
         return random.choice(spec.options)
     if isinstance(spec, Formula):
         return random.choice(["", "g1", "0.5*g1^2 - g3", "g1^9"])
@@ -226,7 +226,7 @@ def message(random, scene):
 
     if sometimes(0.7):
         given["values"] = {
-            name: text if sometimes(0.1) or not isinstance(spec, Number) else _number(random, spec)
+            name: text if sometimes(0.1) or not isinstance(spec, NumberSpec) else _number(random, spec)
             for spec in scene.specs
             for name, text in [(spec.name, _value(random, spec))]
             if sometimes(0.3)

@@ -3,7 +3,7 @@
 import numpy as np
 from pytest import approx
 
-from hess_explorer.protocol.specs import Number, Places
+from hess_explorer.protocol.specs import NumberSpec, Places
 from hess_explorer.scenes import scenes
 from hess_mechanics import HessBody, solve, systems, turning_points
 
@@ -47,7 +47,7 @@ def assert_defaults(explorer, scene, **others):
     assert explorer.scene == scene
     for spec in scenes()[scene].specs:
         value = others.get(spec.name, spec.default)
-        if isinstance(spec, Number):
+        if isinstance(spec, NumberSpec):
             assert explorer.shown(spec.name) == (value, value), spec.name
         elif not isinstance(spec, Places):
             assert explorer.chosen(spec.name) == value, spec.name

@@ -89,7 +89,7 @@ def _shown(found: xr.Dataset) -> str:
     """
     import numpy as np
 
-    from hess_explorer.protocol.specs import Number, encode
+    from hess_explorer.protocol.specs import NumberSpec, encode
     from hess_explorer.scenes import scenes
     from hess_explorer.scenes.framework.chart_cells import STORED
     from hess_mechanics.errors import InvalidParameter
@@ -108,7 +108,7 @@ def _shown(found: xr.Dataset) -> str:
     cells = found.transpose(*reversed(names))
     fixed = json.loads(found.attrs["parameters"])
     for scene in scenes().values():
-        symbols = {one.name: one.symbol for one in scene.specs if isinstance(one, Number)}
+        symbols = {one.name: one.symbol for one in scene.specs if isinstance(one, NumberSpec)}
         numbers = {} if scene.charted is None or not {*names} <= {*symbols} else scene.charted.numbers
         for chart, (charted, name) in numbers.items():
             variable = name.replace("-", "_")

@@ -119,7 +119,7 @@ class ResultCache:
         return int(self._results.currsize)
 
     @property
-    def asked(self) -> int:
+    def lookups(self) -> int:
         """The number of lookups so far."""
         return self.hits + self.misses
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from hess_explorer.export.picture_data import Address
-from hess_explorer.protocol.specs import Number, Places, Spec, Value, places
+from hess_explorer.protocol.specs import NumberSpec, Places, Spec, Value, places
 
 __all__ = ["code", "lines_of"]
 
@@ -48,7 +48,7 @@ def _filled(words: Sequence[str]) -> Iterator[str]:
 
 def _value(spec: Spec, value: Value) -> str:
     """Return a value as Python code; empty for an argument to omit."""
-    if isinstance(spec, Number):
+    if isinstance(spec, NumberSpec):
         return repr(float(value))
     if isinstance(spec, Places):
         return repr(places(value)).replace(" ", "") if value or spec.default else ""

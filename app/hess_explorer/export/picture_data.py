@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from importlib.metadata import version
 from typing import Any, TypeVar
 
-from hess_explorer.protocol.specs import CLIENT, Choice, Link, Value, Values, encode
+from hess_explorer.protocol.specs import CLIENT, ChoiceSpec, Link, Value, Values, encode
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Scene
 from hess_explorer.views.layers import Axes, Columns
@@ -159,7 +159,7 @@ def address(query: str, picture: str = "", *, lenient: bool = False) -> Address:
     """
     known = scenes()
     link = Link(query, lenient)
-    scene = known[str(link.value(Choice("scene", "Scene", tuple(known), next(iter(known)))))]
+    scene = known[str(link.value(ChoiceSpec("scene", "Scene", tuple(known), next(iter(known)))))]
     link.require(scene.name, scene.specs)
     client = {name: float(value) for name, value in link.values(CLIENT_KEPT).items()}
     values, changed = scene.admit(link.values(scene.specs))

@@ -19,7 +19,7 @@ from hess_explorer.lessons.lesson import (
     Prediction,
     StateLink,
 )
-from hess_explorer.protocol.specs import Controlled, Link, Number, refusal
+from hess_explorer.protocol.specs import Controlled, Link, NumberSpec, refusal
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Scene
 from hess_explorer.views.layers import Layer
@@ -52,20 +52,20 @@ def is_number(value: Any) -> TypeGuard[float]:
     return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
 
 
-def only(found: Any, what: str, allowed: Sequence[str], line: int) -> dict[str, Any]:
+def only(value: Any, what: str, allowed: Sequence[str], line: int) -> dict[str, Any]:
     """Return a mapping that has no other keys than those allowed."""
-    if not isinstance(found, dict):
+    if not isinstance(value, dict):
         raise LessonError(f"{what} must be a list of keys with values; the keys are {', '.join(allowed)}.", line)
-    for key in found:
+    for key in value:
         if key not in allowed:
             raise LessonError(f"{str(key)[:40]!r} is not a known key: choose from {', '.join(allowed)}.", line)
-    return found
+    return value
 
 
-def _one_of(found: object, what: str, allowed: Sequence[str], line: int) -> str:
-    if not isinstance(found, str) or found not in allowed:
-        raise LessonError(f"{what} must be one of {', '.join(allowed)}, not {str(found)[:40]!r}.", line)
-    return found
+def _one_of(value: object, what: str, allowed: Sequence[str], line: int) -> str:
+    if not isinstance(value, str) or value not in allowed:
+        raise LessonError(f"{what} must be one of {', '.join(allowed)}, not {str(value)[:40]!r}.", line)
+    return value
 
 
 # ---- states ---------------------------------------------------------------------------------------------------------
@@ -124,40 +124,43 @@ def _places(step: LessonStep) -> Iterator[tuple[str, StateLink]]:
 # ---- what is shown --------------------------------------------------------------------------------------------------
 
 
-def look_of(found: object, scene: Scene[Any], line: int) -> str:
+def look_of(value: object, scene: Scene[Any], line: int) -> str:
     """Return the name of the picture to enlarge, "" for none."""
-    return _one_of(found, "look", scene.pictures, line) if found else ""
+    return _one_of(value, "look", scene.pictures, line) if value else ""
 
 
-def pictures_of(found: object, scene: Scene[Any], line: int) -> tuple[str, ...]:
+def pictures_of(value: object, scene: Scene[Any], line: int) -> tuple[str, ...]:
     """Return the names of the pictures that are shown alone, none for the whole page."""
-    return () if found is None else _names_of(found, "pictures", scene.pictures, line)
+    return () if value is None else _names_of(value, "pictures", scene.pictures, line)
 
 
-def controls_of(found: object, animation: Animation | None, scene: Scene[Any], line: int) -> tuple[str, ...]:
+def controls_of(value: object, animation: Animation | None, scene: Scene[Any], line: int) -> tuple[str, ...]:
     """Return the names of the controls beside the text; by default that of the animated parameter."""
-    if found is None:
+    if value is None:
         return (animation.name,) if animation and animation.name != TIME else ()
-    return _names_of(found, "controls", [spec.name for spec in scene.specs if isinstance(spec, Controlled)], line)
+    return _names_of(value, "controls", [spec.name for spec in scene.specs if isinstance(spec, Controlled)], line)
 
 
-def _names_of(found: object, key: str, allowed: Sequence[str], line: int) -> tuple[str, ...]:
-    if not isinstance(found, list) or len(found) > _MOST_NAMES:
+def _names_of(value: object, key: str, allowed: Sequence[str], line: int) -> tuple[str, ...]:
+    if not isinstance(value, list) or len(value) > _MOST_NAMES:
         example = f"{key}: [{', '.join(allowed[:2])}]"
         raise LessonError(f"{key} must be a list of at most {_MOST_NAMES} names, like {example}.", line)
-    return tuple(dict.fromkeys(_one_of(name, f"a name in {key}", allowed, line) for name in found))
+    return tuple(dict.fromkeys(_one_of(name, f"a name in {key}", allowed, line) for name in value))
 
 
-def animation_of(found: object, scene: Scene[Any], line: int) -> Animation | None:
+def animation_of(value: object, scene: Scene[Any], line: int) -> Animation | None:
     """Return the animation of a step, None for none."""
-    if found is None:
+    if value is None:
         return None
     names = ("name", "from", "to", "seconds")
-    given = only(found, "animate", names, line)
+    given = only(value, "animate", names, line)
     if len(given) < len(names):
         example = "{name: h, from: 0.2, to: 1.5, seconds: 8}"
         raise LessonError(f"animate needs name, from, to and seconds, like {example}.", line)
-    bounds = {TIME: (0.0, _MOST_TIME), **{spec.name: spec.bounds for spec in scene.specs if isinstance(spec, Number)}}
+    bounds = {
+        TIME: (0.0, _MOST_TIME),
+        **{spec.name: spec.bounds for spec in scene.specs if isinstance(spec, NumberSpec)},
+    }
     name = _one_of(given["name"], "name of animate", tuple(bounds), line)
     low, high = bounds[name]
     if not all(is_number(given[one]) and low <= given[one] <= high for one in ("from", "to")):
@@ -167,19 +170,19 @@ def animation_of(found: object, scene: Scene[Any], line: int) -> Animation | Non
     return Animation(name, float(given["from"]), float(given["to"]), float(given["seconds"]))
 
 
-def hidden_of(found: object, scene: Scene[Any], line: int) -> HiddenLayer | None:
+def hidden_of(value: object, scene: Scene[Any], line: int) -> HiddenLayer | None:
     """Return the layer that a step leaves out, None for none."""
-    if found is None:
+    if value is None:
         return None
-    plot, layer = _layer(only(found, "hide", ("picture", "layer"), line), "hide", scene, line)
+    plot, layer = _layer(only(value, "hide", ("picture", "layer"), line), "hide", scene, line)
     return HiddenLayer(plot.name, plot.source_of(layer))
 
 
-def prediction_of(found: object, place: StateLink, line: int) -> Prediction | None:
+def prediction_of(value: object, place: StateLink, line: int) -> Prediction | None:
     """Return the prediction of a step, None for none."""
-    if found is None:
+    if value is None:
         return None
-    given = only(found, "predict", ("picture", "layer", "then"), line)
+    given = only(value, "predict", ("picture", "layer", "then"), line)
     then = place_of(given["then"], line) if "then" in given else place
     if then.scene != place.scene:
         raise LessonError(f"then must be a state of the same scene, {place.scene}.", line)

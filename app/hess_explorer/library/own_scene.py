@@ -20,7 +20,7 @@ from hess_explorer.scenes.framework.scene import Preset, Scene
 from hess_explorer.scenes.framework.sliders import number, places
 from hess_explorer.scenes.parts.orbits.exponent import exponent_picture
 from hess_explorer.scenes.parts.sections import (
-    Branch,
+    SectionBranch,
     branch_picture,
     colouring,
     coordinate_of_branch,
@@ -166,7 +166,7 @@ def scene(
             controls.append(("place", str, places("Start of the motion", 1, low, high, _place(own))))
         if _BRANCH in names:
             first, second = own.names
-            section["branch"] = part(lambda s: Branch(s, s.periodic_orbit, field_of))
+            section["branch"] = part(lambda s: SectionBranch(s, s.periodic_orbit, field_of))
             controls += [
                 ("over", str, parameter_of_branch(tuple(field_of))),
                 ("low", float, end_of_branch("from")),
@@ -316,19 +316,19 @@ def _first_picture(system: System) -> str:
     return " ".join(system.variables[:2]) if len(system.variables) > 1 else f"t {system.variables[0]}"
 
 
-def _picture(system: System, wanted: str, leveled: bool) -> Picture[Any]:
+def _picture(system: System, picture: str, leveled: bool) -> Picture[Any]:
     """Return the picture of a text; leveled : its section has periodic orbits.  Raises `InvalidParameter`."""
-    if wanted == _EXPONENT:
+    if picture == _EXPONENT:
         return exponent_picture()
-    if wanted == _BRANCH:
+    if picture == _BRANCH:
         return branch_picture()
-    if _SECTION.fullmatch(wanted):
+    if _SECTION.fullmatch(picture):
         shown = ("megno", "periodic_orbit") if leveled else ("megno",)
         return section_picture(
             layers=section_layers(*shown, ended=lambda s: s.section.points(ends=True)),
             on_box=OwnState.look_closer,
         )
-    names = wanted.split()
+    names = picture.split()
     if len(names) == 3:
         a, b, c = (_require(system, name, system.variables) for name in names)
         return Sphere(
@@ -339,7 +339,7 @@ def _picture(system: System, wanted: str, leveled: bool) -> Picture[Any]:
         )
     if len(names) != 2:
         raise InvalidParameter(
-            f"{system.title}: {wanted!r} is no picture. Write two names of variables, t and one of them, three for a "
+            f"{system.title}: {picture!r} is no picture. Write two names of variables, t and one of them, three for a "
             f"sphere, section, or {_EXPONENT}."
         )
     x, y = _require(system, names[0], ("t", *system.variables)), _require(system, names[1], system.variables)

@@ -15,13 +15,13 @@ from hess_explorer.scenes.framework.periodic_search import Closed, NotPeriodic
 from hess_explorer.scenes.framework.scene import State
 from hess_explorer.scenes.framework.sliders import accuracy_level, exponent_time, parameter, time_span
 from hess_explorer.scenes.framework.windows import boxed
-from hess_explorer.scenes.parts.orbits.exponent import Exponent
+from hess_explorer.scenes.parts.orbits.exponent import OrbitExponent
 from hess_explorer.scenes.parts.sections import (
     MEGNO,
+    BodyOrbit,
     Indicator,
-    Orbit,
-    PeriodicOrbit,
     Section,
+    SectionPeriodicOrbit,
     crossings_of_each,
     length_of_manifolds,
     start_on,
@@ -87,12 +87,12 @@ class OwnState(State):
         return self.work.need(Task(_pixels, self.system))
 
     @property
-    def periodic_orbit(self) -> NotPeriodic | PeriodicOrbit:
+    def periodic_orbit(self) -> NotPeriodic | SectionPeriodicOrbit:
         """The periodic orbit in place of the chosen one: none is searched for."""
         return NotPeriodic()
 
-    orbit = part(lambda s: Orbit(s, max_step=s.max_step))
-    exponent = part(Exponent)
+    orbit = part(lambda s: BodyOrbit(s, max_step=s.max_step))
+    exponent = part(OrbitExponent)
 
     def levels(self) -> dict[str, float]:
         """Return the values of integrals at which the section lies: those along the motion."""
@@ -156,7 +156,7 @@ class LevelState(OwnState):
         """The periodic orbit, if known."""
         return self.periodic_orbit.closed
 
-    periodic_orbit = part(lambda s: PeriodicOrbit(s.section, s.periodic, s.reach))
+    periodic_orbit = part(lambda s: SectionPeriodicOrbit(s.section, s.periodic, s.reach))
 
     @property
     def special(self) -> Caption | None:

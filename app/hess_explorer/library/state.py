@@ -17,7 +17,7 @@ from hess_explorer.export.code import code
 from hess_explorer.export.columns import Table, columns_of
 from hess_explorer.export.formats import FileRequest, holding
 from hess_explorer.export.picture_data import CLIENT_KEPT, Address, PictureData, address, compute, picture_of
-from hess_explorer.protocol.specs import Number, Places, Spec, Value, query_in, refusal, written
+from hess_explorer.protocol.specs import NumberSpec, Places, Spec, Value, query_in, refusal, written
 from hess_explorer.scenes import scene_named, scenes
 from hess_explorer.scenes.framework.scene import Scene
 from hess_mechanics.errors import InvalidParameter
@@ -337,7 +337,7 @@ class SceneState:
 
     def _repr_html_(self) -> str:
         rows = "".join(
-            f"<tr><th>{escape(spec.symbol if isinstance(spec, Number) else spec.label)}</th>"
+            f"<tr><th>{escape(spec.symbol if isinstance(spec, NumberSpec) else spec.label)}</th>"
             f"<td>{escape(str(self.parameters[spec.name]))}</td></tr>"
             for spec in self._address.scene.specs
             if spec.name in self.parameters
@@ -438,7 +438,7 @@ def _checked(spec: Spec, value: Any) -> Value:
     """Return the value of a parameter; raise `InvalidParameter` with the text of a link's note."""
     found: Value
     note: str | None
-    if isinstance(spec, Number):
+    if isinstance(spec, NumberSpec):
         if isinstance(value, bool) or not isinstance(value, Real):
             raise InvalidParameter(
                 f"{value!r} is not a number: {spec.name} ({spec.label}) must be a number {spec.range}."

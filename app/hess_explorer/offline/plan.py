@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from hess_explorer.page.controls import slider_limits
-from hess_explorer.protocol.specs import Number, Values
+from hess_explorer.protocol.specs import NumberSpec, Values
 from hess_explorer.scenes.framework.scene import Scene
 from hess_mechanics.errors import InvalidParameter
 
@@ -79,7 +79,7 @@ def read_slider(text: str, scene: Scene[Any], base: Values, count: int) -> tuple
     InvalidParameter
         If the text is no such description.
     """
-    known = {spec.name: spec for spec in scene.specs if isinstance(spec, Number)}
+    known = {spec.name: spec for spec in scene.specs if isinstance(spec, NumberSpec)}
     found = _SLIDER.fullmatch(text)
     if found is None:
         raise InvalidParameter(f"{text!r} is no slider: write NAME=LOW:HIGH:COUNT, such as h=0.2:3.5:80.")
@@ -104,7 +104,7 @@ def read_slider(text: str, scene: Scene[Any], base: Values, count: int) -> tuple
 def slider_of(scene: Scene[Any], name: str, values: Values, count: int) -> tuple[float, ...]:
     """Return the values of the whole slider of a parameter in a state; none if it is no number."""
     spec = next(spec for spec in scene.specs if spec.name == name)
-    if not isinstance(spec, Number):
+    if not isinstance(spec, NumberSpec):
         return ()
     low, high, _ = slider_limits(spec, scene.limits(values))
     return across(low, high, count, float(values[name]))

@@ -12,10 +12,10 @@ import numpy as np
 
 from hess_explorer.export.picture_data import complete
 from hess_explorer.offline.plan import Family
-from hess_explorer.offline.strips import Strip, steps_of_plots
+from hess_explorer.offline.strips import OfflineStrip, steps_of_plots
 from hess_explorer.page.controls import show_controls
 from hess_explorer.page.description import describe, without_gestures
-from hess_explorer.protocol.specs import Number, Values, encode
+from hess_explorer.protocol.specs import NumberSpec, Values, encode
 from hess_explorer.protocol.wire import Wire
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Scene
@@ -37,7 +37,7 @@ _CLICKS = ("tap", "pan")
 def _fixed(one: Family) -> str:
     """Return the numbers that do not move in the file."""
     idle = one.scene.idle(one.base)
-    specs = [spec for spec in one.scene.specs if isinstance(spec, Number) and spec.name not in {*one.names, *idle}]
+    specs = [spec for spec in one.scene.specs if isinstance(spec, NumberSpec) and spec.name not in {*one.names, *idle}]
     return ", ".join(f"{spec.symbol} = {one.base[spec.name]:g}".replace("-", "−") for spec in specs)
 
 
@@ -56,7 +56,7 @@ class Recording:
     pictures: Mapping[str, Sequence[str]]
     report: Report | None = None
     _states: dict[str, tuple[int, int]] = field(default_factory=dict)
-    _strips: list[Strip] = field(default_factory=list)
+    _strips: list[OfflineStrip] = field(default_factory=list)
     _families: list[dict[str, Any]] = field(default_factory=list)
     _varied: dict[str, dict[str, tuple[float, float]]] = field(default_factory=dict)
     _columns: dict[str, dict[str, list[str]]] = field(default_factory=dict)
@@ -94,9 +94,9 @@ class Recording:
         """Return the number of the family that begins with the state of a query."""
         return next(i for i, one in enumerate(self._families) if one["queries"][0] == query)
 
-    def _begin(self) -> Strip:
+    def _begin(self) -> OfflineStrip:
         if not self._strips or self._strips[-1].trees:
-            self._strips.append(Strip())
+            self._strips.append(OfflineStrip())
         return self._strips[-1]
 
     def _note_sliders(self, one: Family) -> None:
@@ -105,7 +105,7 @@ class Recording:
             low, high = varied.get(name, (np.inf, -np.inf))
             varied[name] = min(low, *values), max(high, *values)
 
-    def _compute(self, scene: Scene[Any], values: Values, strip: Strip, *, must: bool) -> None:
+    def _compute(self, scene: Scene[Any], values: Values, strip: OfflineStrip, *, must: bool) -> None:
         """Append a state, complete; where the model refuses it, its reason as on the page, unless it must be there."""
         wire = Wire()
         stage = Stage(scene, wire)

@@ -11,7 +11,7 @@ from hess_explorer.lessons import shipped
 from hess_explorer.offline.html import HOME
 from hess_explorer.offline.pages import COUNT, accumulates, lesson_page, state_page
 from hess_explorer.page.controls import slider_limits
-from hess_explorer.protocol.specs import Number, Value, encode
+from hess_explorer.protocol.specs import NumberSpec, Value, encode
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Scene
 from hess_mechanics.errors import InvalidParameter
@@ -140,7 +140,7 @@ def _scene_page(scene: Scene[Any], count: int, home: str) -> bytes:
     values, _ = scene.admit({**scene.defaults(), **light})
     if "points" in values or accumulates(scene):
         count = max(2, count // 4)
-    numbers = {spec.name: spec for spec in scene.specs if isinstance(spec, Number) and spec.name not in _WINDOW}
+    numbers = {spec.name: spec for spec in scene.specs if isinstance(spec, NumberSpec) and spec.name not in _WINDOW}
     names = [name for name in scene.essential if name in numbers][:2]
     ends = [slider_limits(numbers[name], scene.limits(values))[:2] for name in names]
     sliders = [f"{name}={low}:{high}:{count}" for name, (low, high) in zip(names, ends, strict=True)]

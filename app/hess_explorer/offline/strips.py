@@ -21,7 +21,7 @@ from hess_explorer.views.layers import Axes
 from hess_explorer.views.plot import Plot
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["EXACT", "PIXELS", "Strip", "steps_of_plots"]
+__all__ = ["EXACT", "PIXELS", "OfflineStrip", "steps_of_plots"]
 
 PIXELS = 16_000
 """Steps across a plot: an eighth of a pixel of a picture that is 2000 pixels wide."""
@@ -91,7 +91,7 @@ def _quantised(values: Array, step: float) -> tuple[int, np.ndarray]:
     return low, whole
 
 
-class Strip:
+class OfflineStrip:
     """A sequence of states under construction: trees of pictures, texts and controls with their arrays."""
 
     def __init__(self) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from hess_explorer.protocol.specs import Number, Values
+from hess_explorer.protocol.specs import NumberSpec, Values
 from hess_explorer.protocol.wire import Wire
 from hess_explorer.scenes.framework.scene import Scene
 
@@ -15,7 +15,7 @@ CHOOSE = ""
 """Entry of the menu of examples when the values match no example."""
 
 
-def slider_limits(spec: Number, limits: Mapping[str, tuple[float, float, float]]) -> tuple[float, float, float]:
+def slider_limits(spec: NumberSpec, limits: Mapping[str, tuple[float, float, float]]) -> tuple[float, float, float]:
     """Return (low, high, step) of a slider: from `limits` if they depend on the state, else from the parameter."""
     return limits.get(spec.name, (*spec.softbounds, spec.step))
 
@@ -34,7 +34,7 @@ def show_controls(scene: Scene[Any], values: Values, wire: Wire) -> None:
     """Send the values and ranges of all controls."""
     limits, idle = scene.limits(values), scene.idle(values)
     for spec in scene.specs:
-        if isinstance(spec, Number):
+        if isinstance(spec, NumberSpec):
             value = idle.get(spec.name, values[spec.name])
             wire.show_number(spec.name, float(value), slider_limits(spec, limits), idle=spec.name in idle)
         else:

@@ -15,7 +15,7 @@ from hess_explorer.lessons import tries
 from hess_explorer.lessons.reading import without_tries
 from hess_explorer.page.glossary import explained
 from hess_explorer.page.lesson_description import steps
-from hess_explorer.protocol.specs import Choice, Controlled, Number
+from hess_explorer.protocol.specs import ChoiceSpec, Controlled, NumberSpec
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Scene
 from hess_explorer.views.plot import Plot
@@ -83,9 +83,9 @@ def _html(scene: Scene[Any]) -> str:
 
 def _control(spec: Controlled) -> dict[str, Any]:
     common = {"name": spec.name, "label": spec.label, "help": spec.doc, "group": spec.group}
-    if isinstance(spec, Number):
+    if isinstance(spec, NumberSpec):
         return {"kind": "number", "symbol": spec.symbol, "range": list(spec.softbounds), **common}
-    if isinstance(spec, Choice):
+    if isinstance(spec, ChoiceSpec):
         return {"kind": "choice", "options": list(spec.options), **common}
     return {"kind": "formula", **common}
 

@@ -10,7 +10,7 @@ from urllib.parse import urlencode
 from hess_explorer.lessons import shipped
 from hess_explorer.lessons.lesson import Lesson
 from hess_explorer.page.requested import linked
-from hess_explorer.protocol.specs import CLIENT, Choice, Controlled, Link, Names, Number, Values
+from hess_explorer.protocol.specs import CLIENT, ChoiceSpec, Controlled, Link, Names, NumberSpec, Values
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Scene
 
@@ -18,9 +18,9 @@ __all__ = ["THEME", "Opening", "opening", "query_of"]
 
 SPEEDS = (0.25, 0.5, 1.0, 2.0, 4.0, 8.0)
 """Playback speeds."""
-THEME = Choice("theme", "Theme", ("system", "light", "dark"), "system")
-PRESENT = Choice("present", "Present mode", ("0", "1"), "0")
-EMBED = Choice("embed", "Embedding", ("0", "1"), "0")
+THEME = ChoiceSpec("theme", "Theme", ("system", "light", "dark"), "system")
+PRESENT = ChoiceSpec("present", "Present mode", ("0", "1"), "0")
+EMBED = ChoiceSpec("embed", "Embedding", ("0", "1"), "0")
 
 
 @dataclass(frozen=True)
@@ -72,9 +72,9 @@ def opening(query: str, own: Sequence[Lesson] = (), *, lenient: bool = True) -> 
     lessons = {**{lesson.name: lesson for lesson in own}, **shipped()}
     link = Link(query, lenient)
     first = own[0].name if own and "scene" not in link.given else ""
-    reading = lessons.get(str(link.value(Choice("lesson", "Lesson", ("", *lessons), first))))
+    reading = lessons.get(str(link.value(ChoiceSpec("lesson", "Lesson", ("", *lessons), first))))
     most = len(reading.steps) if reading else 1
-    at = int(float(link.value(Number("step", "step", "Step", 1.0, (1.0, most), 1.0, (1.0, most)))))
+    at = int(float(link.value(NumberSpec("step", "step", "Step", 1.0, (1.0, most), 1.0, (1.0, most)))))
     if reading and "scene" not in link.given:
         # A link with only a step opens the state of that step.
         place = reading.steps[at - 1].at

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from hess_explorer.lessons.lesson import StateLink
-from hess_explorer.protocol.specs import Choice, Formula, Link, Value, Values
+from hess_explorer.protocol.specs import ChoiceSpec, Formula, Link, Value, Values
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Scene
 
@@ -14,7 +14,7 @@ __all__ = ["RequestedState", "linked"]
 
 def linked(link: Link, here: str) -> tuple[Scene[Any], dict[str, Value]]:
     """Return the scene of a link, by default the scene `here`, and the values of its parameters."""
-    scene = scenes()[str(link.value(Choice("scene", "Scene", tuple(scenes()), here)))]
+    scene = scenes()[str(link.value(ChoiceSpec("scene", "Scene", tuple(scenes()), here)))]
     return scene, link.values(scene.specs)
 
 
@@ -46,7 +46,7 @@ class RequestedState:
         before = dict(self.values)
         self.notes = []
         self._set(values)
-        if any(isinstance(spec, Choice) and self.values[name] != before[name] for name, spec in self.specs.items()):
+        if any(isinstance(spec, ChoiceSpec) and self.values[name] != before[name] for name, spec in self.specs.items()):
             carried = self.scene.carried(before, self.values)
             self._set({name: value for name, value in carried.items() if name not in values})
 

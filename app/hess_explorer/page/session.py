@@ -19,7 +19,7 @@ from hess_explorer.page.lesson_description import describe_lesson
 from hess_explorer.page.requested import RequestedState
 from hess_explorer.protocol.expressions import NotANumber, evaluate
 from hess_explorer.protocol.messages import Answer, PictureBox, PicturePoint, Request, StateAnswer, StepChoice
-from hess_explorer.protocol.specs import Formula, Number, Places, Values, encode
+from hess_explorer.protocol.specs import Formula, NumberSpec, Places, Values, encode
 from hess_explorer.protocol.wire import Wire
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Report, Scene
@@ -190,7 +190,7 @@ class Session:
     def _evaluate(self, expressions: Mapping[str, str]) -> None:
         """Set numbers typed as expressions; an error is shown at its input field."""
         for name, text in expressions.items():
-            if isinstance(self.requested.specs.get(name), Number):
+            if isinstance(self.requested.specs.get(name), NumberSpec):
                 try:
                     self.requested.change({name: evaluate(text)})
                     # The input field must show the number, even if it is unchanged.

@@ -169,7 +169,7 @@ def _harmonic(angle: Any, part: str) -> _Terms:
 
 
 def _read(
-    plain: str, allowed: re.Pattern[str], names: Mapping[str, Any], functions: Mapping[str, Any], wanted: str
+    plain: str, allowed: re.Pattern[str], names: Mapping[str, Any], functions: Mapping[str, Any], kind: str
 ) -> dict[Exponents, float]:
     """Return the coefficients of an expression in Python.  Raises `InvalidParameter`."""
     if len(plain) > MOST:
@@ -183,7 +183,7 @@ def _read(
     except InvalidParameter:
         raise
     except (Unreadable, ValueError, ArithmeticError):
-        raise InvalidParameter(f"This is no {wanted}.") from None
+        raise InvalidParameter(f"This is no {kind}.") from None
     # The constant part of a potential moves nothing, and that of a drive belongs to the rotors.
     kept = {exponents: value for exponents, value in found.items() if value != 0.0 and any(exponents)}
     if not all(abs(value) <= _LARGEST for value in kept.values()):

@@ -22,12 +22,12 @@ __all__ = [
     "MAX_QUERY",
     "PAGE_KEYS",
     "VERSION",
-    "Choice",
+    "ChoiceSpec",
     "Controlled",
     "Formula",
     "Link",
     "Names",
-    "Number",
+    "NumberSpec",
     "Places",
     "Spec",
     "Value",
@@ -52,7 +52,7 @@ Values = Mapping[str, Value]
 
 
 @dataclass(frozen=True)
-class Number(Parameter):
+class NumberSpec(Parameter):
     """A numeric parameter; its slider covers `softbounds`, typed values may lie anywhere within `bounds`."""
 
     def read(self, given: Value) -> tuple[float, str | None]:
@@ -71,7 +71,7 @@ class Number(Parameter):
 
 
 @dataclass(frozen=True)
-class Choice:
+class ChoiceSpec:
     """One of a fixed list of names."""
 
     name: str
@@ -178,16 +178,16 @@ def places(text: Value) -> list[tuple[float, float]]:
     return [(float(x), float(y)) for x, y in pairs]
 
 
-Controlled = Number | Choice | Formula
+Controlled = NumberSpec | ChoiceSpec | Formula
 """Parameters with a control."""
 
 Spec = Controlled | Places | Names
 
-CLIENT: tuple[Number, ...] = (
-    Number("t", "t", "Time", 0.0, (0.0, 1000.0), 0.0, (0.0, 1e6)),
-    Number("speed", "speed", "Speed", 1.0, (0.25, 8.0), 0.0, (0.25, 8.0)),
-    Number("az", "azimuth", "Azimuth of the sphere", 0.6, (-3.1416, 3.1416), 0.0, (-3.1416, 3.1416)),
-    Number("el", "elevation", "Elevation of the sphere", 0.35, (-1.5708, 1.5708), 0.0, (-1.5708, 1.5708)),
+CLIENT: tuple[NumberSpec, ...] = (
+    NumberSpec("t", "t", "Time", 0.0, (0.0, 1000.0), 0.0, (0.0, 1e6)),
+    NumberSpec("speed", "speed", "Speed", 1.0, (0.25, 8.0), 0.0, (0.25, 8.0)),
+    NumberSpec("az", "azimuth", "Azimuth of the sphere", 0.6, (-3.1416, 3.1416), 0.0, (-3.1416, 3.1416)),
+    NumberSpec("el", "elevation", "Elevation of the sphere", 0.35, (-1.5708, 1.5708), 0.0, (-1.5708, 1.5708)),
 )
 """Keys of the URL that the browser keeps; they need no computation."""
 

@@ -19,8 +19,8 @@ from hess_explorer.scenes.framework.sliders import choice, number, parameter
 from hess_explorer.scenes.framework.solid_body import solid_body
 from hess_explorer.scenes.parts.sections import (
     PLAIN,
-    Branch,
     Section,
+    SectionBranch,
     SectionState,
     branch_picture,
     coordinate_of_branch,
@@ -79,7 +79,7 @@ PRESETS = (
 
 
 @dataclass(frozen=True)
-class BallSection(SectionState):
+class BallSectionState(SectionState):
     """One orbit, chosen in the section, among others of the same energy."""
 
     I11: float = parameter(ball.I11)
@@ -127,7 +127,7 @@ class BallSection(SectionState):
         """The energy."""
         return self.h - math.hypot(self.b1, self.b2)
 
-    def admitted(self, notes: list[str]) -> BallSection:
+    def admitted(self, notes: list[str]) -> BallSectionState:
         """Move ψ out of the band that the energy forbids."""
         psi = self.psi if self.band is None else outside_band(self.band, self.psi)
         if psi != self.psi:
@@ -165,7 +165,7 @@ class BallSection(SectionState):
             later=s.drop == _LATE,
         )
     )
-    branch = part(lambda s: Branch(s, s.periodic_orbit, ball.PARAMETERS))
+    branch = part(lambda s: SectionBranch(s, s.periodic_orbit, ball.PARAMETERS))
 
     # ---- the pictures -------------------------------------------------------------------------------------------
 
@@ -232,7 +232,7 @@ class BallSection(SectionState):
 
 
 SCENE = Scene(
-    BallSection,
+    BallSectionState,
     __file__,
     place=10,
     presets=PRESETS,
@@ -249,30 +249,32 @@ SCENE = Scene(
         solid_body(ball=True),
         section_picture(
             title="Section γ₃ = 0 (upward crossings)",
-            caption=BallSection._about_section,
+            caption=BallSectionState._about_section,
             axes=_NAMES,
             x=ANGLE,
             y=square.POLAR,
             ticks=ANGLE_TICKS,
             y_ticks=square.POLAR_TICKS,
             layers=section_layers(
-                forbidden=BallSection.forbidden,
+                forbidden=BallSectionState.forbidden,
                 start=lambda s: [(s.psi, s.delta)] if s.section.known.chosen else [],
             ),
         ),
-        orbit_alone(BallSection.half_width, energy=lambda s: s.E, label="chosen orbit", proved=lambda s: s.proof.band),
+        orbit_alone(
+            BallSectionState.half_width, energy=lambda s: s.E, label="chosen orbit", proved=lambda s: s.proof.band
+        ),
         along_the_orbit(lambda s: s.r, lambda s: s.proof.around),
         Plot(
             name="returns",
             title="First return",
             folded="Show the first return",
-            caption=BallSection._about_returns,
+            caption=BallSectionState._about_returns,
             axes=("ψ", "ψ at the next crossing"),
             x=ANGLE,
             y=ANGLE,
             ticks=ANGLE_TICKS,
             message=lambda s: s.section.known.reason,
-            layers=section_plane.layers(BallSection.returns),
+            layers=section_plane.layers(BallSectionState.returns),
         ),
         branch_picture(),
     ),

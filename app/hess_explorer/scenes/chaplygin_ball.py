@@ -17,8 +17,8 @@ from hess_explorer.scenes.framework.sliders import accuracy_level, parameter, ti
 from hess_explorer.scenes.framework.solid_body import Solid, constrained_solid, solid_body
 from hess_explorer.scenes.framework.trial import Trial, curve_error
 from hess_explorer.scenes.framework.work import orbit_status
-from hess_explorer.scenes.parts.orbits.proof import Proof, proved_error_shown
-from hess_explorer.scenes.parts.sections import Orbit
+from hess_explorer.scenes.parts.orbits.proof import OrbitProof, proved_error_shown
+from hess_explorer.scenes.parts.sections import BodyOrbit
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import arrows, curves, levels, names, region, ring
@@ -106,14 +106,14 @@ class ChaplyginBall(State):
         return self.span
 
     @cached_property
-    def orbit(self) -> Orbit:
+    def orbit(self) -> BodyOrbit:
         """The chosen orbit."""
-        return Orbit(self)
+        return BodyOrbit(self)
 
     @cached_property
-    def proof(self) -> Proof:
+    def proof(self) -> OrbitProof:
         """The proved error of the orbit."""
-        return Proof(self.orbit, self.certain)
+        return OrbitProof(self.orbit, self.certain)
 
     def motion(self) -> Motion:
         """Return the chosen orbit."""
@@ -216,7 +216,7 @@ class ChaplyginBall(State):
 
     def status(self) -> Iterator[str]:
         """Yield the status of the chosen orbit and of the map."""
-        if self.orbit.asked("path"):
+        if self.orbit.has_result("path"):
             yield from orbit_status(self.orbit.path)
             yield from self.proof.status()
         if self.known("map_or_reason") and self.map is not None:

@@ -28,9 +28,9 @@ from hess_explorer.scenes.parts.diagrams.controls import (
 )
 from hess_explorer.scenes.parts.diagrams.diagram_density import DiagramDensity
 from hess_explorer.scenes.parts.diagrams.growing_diagram import DiagramBranch, OrbitDiagram
-from hess_explorer.scenes.parts.orbits.proof import Proof
-from hess_explorer.scenes.parts.orbits.regime import Regime, few
-from hess_explorer.scenes.parts.sections import Orbit
+from hess_explorer.scenes.parts.orbits.proof import OrbitProof
+from hess_explorer.scenes.parts.orbits.regime import OrbitRegime, few
+from hess_explorer.scenes.parts.sections import BodyOrbit
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.graphs.graph import about_0, over_time
@@ -95,9 +95,9 @@ class DiagramState(DiagramControls):
     diagram = part(OrbitDiagram)
     density = part(lambda s: DiagramDensity(s.diagram))
     continuation = part(lambda s: DiagramBranch(s.diagram, s.branch))
-    orbit = part(Orbit)
-    proof = part(lambda s: Proof(s.orbit, s.certain))
-    regime = part(lambda s: Regime(s.diagram, s.long))
+    orbit = part(BodyOrbit)
+    proof = part(lambda s: OrbitProof(s.orbit, s.certain))
+    regime = part(lambda s: OrbitRegime(s.diagram, s.long))
 
     # ---- the pictures -------------------------------------------------------------------------------------------
 
@@ -107,7 +107,7 @@ class DiagramState(DiagramControls):
         return constrained_solid(self.work, self.body, self.orbit.path)
 
     @cached_property
-    def turned(self) -> SectionCrossings:
+    def reversals(self) -> SectionCrossings:
         """The moments of reversal of the orbit on show."""
         return self.work.need(Task(reversals, self.body, self.start, self.span, self.level))
 
@@ -137,11 +137,11 @@ class DiagramState(DiagramControls):
         return replace(found, numbers=f"{self.density.said}{found.numbers}".rstrip())
 
     def _about_turning(self) -> Caption:
-        times = self.turned.times
+        times = self.reversals.times
         if not len(times):
             return Caption("The rotation does not reverse.")
         many = "once" if len(times) == 1 else f"{len(times)} times"
-        first, error = digits(float(times[0])), digits(self.turned.error_estimate, 1)
+        first, error = digits(float(times[0])), digits(self.reversals.error_estimate, 1)
         return Caption(f"The rotation reverses {many}.", f"First at t = {first} ± {error}.")
 
     def derived(self) -> list[str]:
@@ -302,7 +302,7 @@ def _pictures(state: type[DiagramState], ball: bool) -> tuple[Picture[Any], ...]
                 ),
                 points(
                     "moments",
-                    lambda s: (s.turned.times, np.zeros(len(s.turned.times))),
+                    lambda s: (s.reversals.times, np.zeros(len(s.reversals.times))),
                     color=theme.UNSTABLE,
                     size=11,
                     hollow=True,

@@ -40,9 +40,9 @@ from hess_explorer.scenes.parts.orbits.hess_surface import (
 )
 from hess_explorer.scenes.parts.sections import (
     PLAIN,
-    Branch,
     Clicks,
     FilledState,
+    SectionBranch,
     branch_picture,
     coordinate_of_branch,
     end_of_branch,
@@ -54,7 +54,7 @@ from hess_explorer.scenes.parts.sections import (
     section_trials,
     start_on,
 )
-from hess_explorer.scenes.parts.sections.density import Density
+from hess_explorer.scenes.parts.sections.density import SectionDensity
 from hess_explorer.scenes.parts.sections.rotation_across import RotationAcross, rotation_picture, rotation_trial
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import Columns, column
@@ -228,9 +228,9 @@ class EulerPoisson(FilledState):
         return Clicks(self, f"no motion with this h and f crosses {which}", remedy)
 
     density = part(
-        lambda s: Density(s.section, s.dense, 2, lambda states: (relation(s.body, states) <= 0.0).astype(int))
+        lambda s: SectionDensity(s.section, s.dense, 2, lambda states: (relation(s.body, states) <= 0.0).astype(int))
     )
-    branch = part(lambda s: Branch(s, s.periodic_orbit, _OVER, ("sheet",)))
+    branch = part(lambda s: SectionBranch(s, s.periodic_orbit, _OVER, ("sheet",)))
 
     @part
     def surface(self) -> HessSurface:
@@ -284,7 +284,7 @@ class EulerPoisson(FilledState):
     def _about_section(self) -> Caption:
         if self.special is not None:
             return self.special
-        kept = [one for batch in self.section.known.batches for one in batch.kept]
+        kept = [one for batch in self.section.known.batches for one in batch.same_side]
         return Caption(
             "The two layers never mix." if self.away == 0.0 else "",
             f"{self.density.said}r·M keeps its sign along {sum(kept)} of {len(kept)} orbits.",
@@ -294,7 +294,7 @@ class EulerPoisson(FilledState):
         """Yield a and r, the start of the orbit on show and the check of the body."""
         yield f"a = {digits(self.body.hess_a)}, r = {vector(self.body.r)}"
         yield from super().derived()
-        if self.section.asked("known") and len(self.elsewhere):
+        if self.section.has_result("known") and len(self.elsewhere):
             yield f"on another sheet: {len(self.elsewhere)} points"
         yield self.body.check.sentence
 
@@ -312,7 +312,7 @@ def _crossings(
     return replace(
         batch_of(section, found),
         firsts=tuple(bool(sign > 0.0) for sign in signs),
-        kept=tuple(kept),
+        same_side=tuple(kept),
         elsewhere=frozen(joined(other)),
     )
 

@@ -81,7 +81,7 @@ class Loxodrome(State):
         return LoxodromicPendulum(HeavyBody.hess(self.moments, self.m), self.energy, self.l)
 
     @cached_property
-    def found(self) -> LoxodromicMotion:
+    def pendulum_motion(self) -> LoxodromicMotion:
         """The motion, the source of all pictures."""
         return self.work.need(Task(loxodromic_motion, self.pendulum, self.span, self.level))
 
@@ -112,7 +112,11 @@ class Loxodrome(State):
 
     def track(self) -> Columns:
         """Return the height of the centre of mass and l over time."""
-        return {"t": column(self.found.times), "height": column(-self.found.centre[:, 0]), "l": column(self.found.l)}
+        return {
+            "t": column(self.pendulum_motion.times),
+            "height": column(-self.pendulum_motion.centre[:, 0]),
+            "l": column(self.pendulum_motion.l),
+        }
 
     # ---- words --------------------------------------------------------------------------------------------------
 
@@ -120,11 +124,11 @@ class Loxodrome(State):
         check_note = "" if self.pendulum.body.check.is_body else "Not a rigid body, so no ellipsoid. "
         return Caption(
             "The centre of mass swings in a plane.",
-            f"{check_note}Largest distance from the vertical plane: {digits(self.found.off_plane, 1)}.",
+            f"{check_note}Largest distance from the vertical plane: {digits(self.pendulum_motion.off_plane, 1)}.",
         )
 
     def _about_space(self) -> Caption:
-        p, l = self.pendulum, self.found.l
+        p, l = self.pendulum, self.pendulum_motion.l
         if p.h < 1.0:
             low, high = sorted(map(float, p.l_at(np.array([-p.amplitude, p.amplitude]))))
             return Caption("The middle axis oscillates along a loxodrome.", f"l {ranging(low, high)}.")
@@ -136,7 +140,7 @@ class Loxodrome(State):
         return Caption("The middle axis follows the whole loxodrome.", f"l {ranging(l[0], l[-1])}.")
 
     def _about_angle(self) -> Caption:
-        measured, theta = self.found.measured[1], self.pendulum.angle
+        measured, theta = self.pendulum_motion.measured[1], self.pendulum.angle
         error = f"; the track agrees to {digits(np.max(np.abs(measured - theta)), 1)}" if measured.size else ""
         return Caption("The angle θ is constant.", f"θ = arcsin(1/√(1+a²)) = {digits(theta)}{error}.")
 
@@ -148,7 +152,7 @@ class Loxodrome(State):
             )
         if p.h == 1.0:
             return Caption("The body approaches the top for ever.", "The height tends to 1.")
-        turns = abs(float(self.found.swing[-1])) / (2.0 * math.pi)
+        turns = abs(float(self.pendulum_motion.swing[-1])) / (2.0 * math.pi)
         return Caption("The body rotates.", f"{digits(turns)} turns in this time.")
 
     def derived(self) -> Iterator[str]:
@@ -165,18 +169,16 @@ class Loxodrome(State):
 
     def status(self) -> Iterator[str]:
         """Yield the status of the attitude and of its orbit."""
-        yield from orbit_status(self.found.orbit)
-        yield f"γ, e orthonormalised, defect {digits(self.found.attitude.defect, 1)}"
+        yield from orbit_status(self.pendulum_motion.orbit)
+        yield f"γ, e orthonormalised, defect {digits(self.pendulum_motion.attitude.defect, 1)}"
 
     def notes(self) -> Iterator[str]:
         """Yield warnings: not a rigid body, a truncated motion."""
         if not self.pendulum.body.check.is_body:
             yield self.pendulum.body.check.sentence
-        if self.found.times[-1] < self.span * (1 - 1e-9):
-            yield (
-                f"The motion is shown up to t = {digits(float(self.found.times[-1]))}: after that it is visibly "
-                "at rest."
-            )
+        if self.pendulum_motion.times[-1] < self.span * (1 - 1e-9):
+            end = digits(float(self.pendulum_motion.times[-1]))
+            yield f"The motion is shown up to t = {end}: after that it is visibly at rest."
 
 
 SCENE = Scene(
@@ -197,9 +199,9 @@ SCENE = Scene(
             caption=Loxodrome._about_body,
             bare=True,
             shape=Loxodrome.shape,
-            motion=lambda s: (s.found.attitude, s.found.times),
+            motion=lambda s: (s.pendulum_motion.attitude, s.pendulum_motion.times),
             rods=Loxodrome.rods,
-            curves=lambda s: [Curve(s.found.centre, "stable", 2.0)],
+            curves=lambda s: [Curve(s.pendulum_motion.centre, "stable", 2.0)],
             trail=lambda s: (0.0, 1.0, 0.0),
             mass=lambda s: np.array(s.pendulum.body.r),
             signs=(CIRCULAR_SECTION,),
@@ -212,8 +214,8 @@ SCENE = Scene(
             rods=lambda s: s.rods("2"),
             curves=lambda s: [
                 Curve(s.loxodrome(), "muted", 2.0),
-                Curve(s.found.middle, "orbit", 4.0),
-                Curve(s.found.centre, "stable", 2.0),
+                Curve(s.pendulum_motion.middle, "orbit", 4.0),
+                Curve(s.pendulum_motion.centre, "stable", 2.0),
             ],
             circles=(Circle((1.0, 0.0, 0.0), 0.0, "limit"),),
             marks=(Mark((1.0, 0.0, 0.0), "muted", "e"), Mark((-1.0, 0.0, 0.0), "muted", "−e")),
@@ -232,11 +234,13 @@ SCENE = Scene(
             y=(0.0, math.pi),
             dot=("t", "l"),
             layers=(
-                line("l", lambda s: (s.found.times, s.found.l), color=theme.MAP, label="l", tag="l"),
-                line("theta", lambda s: s.found.measured, color=theme.ORBIT, label="θ", tag="θ"),
+                line(
+                    "l", lambda s: (s.pendulum_motion.times, s.pendulum_motion.l), color=theme.MAP, label="l", tag="l"
+                ),
+                line("theta", lambda s: s.pendulum_motion.measured, color=theme.ORBIT, label="θ", tag="θ"),
                 line(
                     "promised",
-                    lambda s: ((0.0, s.found.times[-1]), (s.pendulum.angle,) * 2),
+                    lambda s: ((0.0, s.pendulum_motion.times[-1]), (s.pendulum.angle,) * 2),
                     color=theme.MUTED,
                     dash="dotted",
                 ),

@@ -25,8 +25,8 @@ from hess_explorer.scenes.framework.sliders import (
     parameter,
     time_span,
 )
-from hess_explorer.scenes.parts.orbits.exponent import Exponent, exponent_picture, exponent_trial
-from hess_explorer.scenes.parts.sections import Orbit
+from hess_explorer.scenes.parts.orbits.exponent import OrbitExponent, exponent_picture, exponent_trial
+from hess_explorer.scenes.parts.sections import BodyOrbit
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.graphs.graph import over_time, with_room
@@ -190,8 +190,8 @@ class OwnBodyState(State):
         """None; the exponent, which needs another kernel, waits for the orbit's."""
         return NotPeriodic(looking=not self.is_compiled)
 
-    orbit = part(lambda s: Orbit(s, max_step=s.max_step))
-    exponent = part(Exponent)
+    orbit = part(lambda s: BodyOrbit(s, max_step=s.max_step))
+    exponent = part(OrbitExponent)
 
     @property
     def track(self) -> Columns | None:

@@ -18,8 +18,8 @@ from hess_explorer.scenes.framework.solid_body import solid_body
 from hess_explorer.scenes.framework.windows import Window
 from hess_explorer.scenes.parts.sections import (
     PLAIN,
-    Branch,
     Section,
+    SectionBranch,
     SectionState,
     branch_picture,
     coordinate_of_branch,
@@ -152,7 +152,7 @@ class Quartic(SectionState):
             whole=s.section_window,
         )
     )
-    branch = part(lambda s: Branch(s, s.periodic_orbit, _ALONG, ("I22",)))
+    branch = part(lambda s: SectionBranch(s, s.periodic_orbit, _ALONG, ("I22",)))
 
     # ---- the pictures -------------------------------------------------------------------------------------------
 
@@ -214,7 +214,7 @@ class Quartic(SectionState):
         yield f"h/|b₃| = {digits(self.h / abs(self.b3))}"
         yield f"Start: γ₃ = {digits(self.start[4])}"
         yield f"ω(0) = {vector(self.start[:2])}"
-        if self.orbit.asked("path"):
+        if self.orbit.has_result("path"):
             yield f"H = ½ to {digits(model.level_error(self.body, self.orbit.path.states), 1)}"
         yield "Integrable" if self.body.integrable else "Not integrable"
         yield "div v = 0: the standard measure"

@@ -50,7 +50,7 @@ PRESETS = (
 
 
 @dataclass(frozen=True)
-class Scattering(State):
+class ScatteringState(State):
     """The rotation, which gives the curve and the map, and the orbit of the chosen phase."""
 
     I22: float = parameter(free_body.I22)
@@ -76,7 +76,7 @@ class Scattering(State):
         """Return the slider of k, limited to I11 > 0."""
         return free_body.limits_of_k(self.I22, self.I13, self.I23)
 
-    def admitted(self, notes: list[str]) -> Scattering:
+    def admitted(self, notes: list[str]) -> ScatteringState:
         """Limit the distance to 1e-16 beside an oblique line, where doubles round the start."""
         if self.I13 * self.I23 == 0.0 or self.digits <= _MOST_DIGITS:
             return self
@@ -203,13 +203,13 @@ class Scattering(State):
             )
 
 
-def _map(s: Scattering, plan: Plan) -> Array:
+def _map(s: ScatteringState, plan: Plan) -> Array:
     found = model.scattering(s.body, plan.level, 1, s.distance)
     model.theta_plus_grid(found, *plan.grid(_CELLS))
     return found.theta_plus(s.theta, _PHASES)
 
 
-_MAP: Trial[Scattering] = Trial(
+_MAP: Trial[ScatteringState] = Trial(
     Kind.MAP,
     ("curve", "map"),
     _map,
@@ -217,7 +217,7 @@ _MAP: Trial[Scattering] = Trial(
 )
 
 SCENE = Scene(
-    Scattering,
+    ScatteringState,
     __file__,
     place=4,
     presets=PRESETS,
@@ -239,7 +239,7 @@ SCENE = Scene(
     views=(
         solid_body(field=False),
         square.over_phases(
-            Scattering._about_curve,
+            ScatteringState._about_curve,
             layers=(
                 levels("levels", lambda s: (s.theta, math.pi - s.theta)),
                 curves(
@@ -252,9 +252,9 @@ SCENE = Scene(
                 ring("chosen", lambda s: [(s.phi, s.theta_plus)], size=18.0, label="chosen orbit", tag="chosen orbit"),
             ),
         ),
-        square.over_square(Scattering._about_map, Scattering.grid, lambda s: (s.phi, s.theta)),
+        square.over_square(ScatteringState._about_map, ScatteringState.grid, lambda s: (s.phi, s.theta)),
         sphere(
-            Scattering._about_sphere,
+            ScatteringState._about_sphere,
             xi=lambda s: s.points.xi,
             left=lambda s: s.theta,
             joined=lambda s: math.cos(s.theta_plus),

@@ -192,8 +192,8 @@ class SingularMeasures(State):
             numbers=f"Mean density times |s| at |s| = {digits(s, 2)}: {digits(mean, 3)}; dotted: {height}/|s|."
         )
 
-    def _about_course(self) -> Caption:
-        return cloud.about_course(self.clouds, of_patch=self.along == "volume" and self.start == "small patch")
+    def _about_history(self) -> Caption:
+        return cloud.about_history(self.clouds, of_patch=self.along == "volume" and self.start == "small patch")
 
     def derived(self) -> Iterator[str]:
         """Yield the system, its invariant density and the change of volumes."""
@@ -264,13 +264,13 @@ SCENE = Scene(
         ),
         Plot(
             name="divergence",
-            caption=SingularMeasures._about_course,
+            caption=SingularMeasures._about_history,
             axes=("t", "div v, or ln s(t)/s(0)"),
             title=lambda s: f"{'Divergence' if s.along == 'divergence' else 'Small volumes'} along the orbits",
             x=lambda s: (0.0, float(s.times[-1])),
             y=lambda s: s.heights,
             dot=("t", "mean"),
-            layers=cloud.course_layers(
+            layers=cloud.history_layers(
                 lambda s: s.times, lambda s: s.on_show, beside=lambda s: s.clouds.other is not None
             ),
         ),

@@ -18,9 +18,9 @@ from hess_explorer.scenes.framework.solid_body import solid_body
 from hess_explorer.scenes.parts.orbits.exponent import exponent_trial
 from hess_explorer.scenes.parts.sections import (
     PLAIN,
+    BodyOrbit,
     Clicks,
     FilledState,
-    Orbit,
     Section,
     filled,
     filled_picture,
@@ -28,7 +28,7 @@ from hess_explorer.scenes.parts.sections import (
     section_trials,
     start_on,
 )
-from hess_explorer.scenes.parts.sections.basins import Basins, basins_trial
+from hess_explorer.scenes.parts.sections.basins import SectionBasins, basins_trial
 from hess_explorer.scenes.parts.sections.divergence import Divergence, divergence_picture
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.graphs import conformal_time
@@ -162,9 +162,9 @@ class Suslov(FilledState):
         return filled(self, 12, ways=ways, later=self.drop == _LATE, alone=self.colours != "basins")
 
     clicks = part(lambda s: Clicks(s, "no motion has this energy"))
-    orbit = part(lambda s: Orbit(s, s.orbit_level))
+    orbit = part(lambda s: BodyOrbit(s, s.orbit_level))
     exponent = part(Divergence)
-    basins = part(lambda s: Basins(s, s.section))
+    basins = part(lambda s: SectionBasins(s, s.section))
 
     @cached_property
     def _conformal(self) -> tuple[Conformal | None, str]:
@@ -177,7 +177,7 @@ class Suslov(FilledState):
             return None, str(error)
 
     def _section_title(self) -> str:
-        return f"Section {self.plane}{' (upward crossings)' if self.basins.found is None else ': basins'}"
+        return f"Section {self.plane}{' (upward crossings)' if self.basins.arrivals is None else ': basins'}"
 
     def _about_section(self) -> Caption:
         special = self.special or self.basins.caption
@@ -230,7 +230,7 @@ SCENE = Scene(
             title=Suslov._section_title,
             caption=Suslov._about_section,
             labels=("forward in time", "backward"),
-            under=(layered_section.basins(lambda s: s.basins.found, lambda s: s.section.frame),),
+            under=(layered_section.basins(lambda s: s.basins.arrivals, lambda s: s.section.frame),),
             over=periodic_layers(lambda s: s.basins),
         ),
         solid_body(),

@@ -19,7 +19,7 @@ from hess_explorer.scenes.framework.solid_body import Solid, hess_solid, solid_b
 from hess_explorer.scenes.framework.trial import COLOUR_UNIT, Trial, boundary_error, colour_error, curve_error
 from hess_explorer.scenes.framework.work import orbit_status
 from hess_explorer.scenes.parts.orbits.hess_surface import INVARIANT, HessSurface, shaded_by, surface_picture
-from hess_explorer.scenes.parts.orbits.proof import Proof, proved_error_shown
+from hess_explorer.scenes.parts.orbits.proof import OrbitProof, proved_error_shown
 from hess_explorer.views.layers import CellGrid, Columns
 from hess_explorer.views.maps import bifurcation_diagram as diagram
 from hess_explorer.views.maps import circle_map as circle
@@ -137,10 +137,10 @@ class SuslovHess(State):
         return Task(track, self.body, self.h, self.f, self.phi0, self.span, self.level, self.half_width)
 
     @cached_property
-    def orbit_proof(self) -> Proof:
+    def orbit_proof(self) -> OrbitProof:
         """The proved error of the orbit."""
         unit = self.body.frequency_unit
-        return Proof(self, self.certain, (unit, unit * math.hypot(1.0, self.body.a)))
+        return OrbitProof(self, self.certain, (unit, unit * math.hypot(1.0, self.body.a)))
 
     @cached_property
     def cycles(self) -> tuple[Track, Track] | None:

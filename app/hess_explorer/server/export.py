@@ -18,7 +18,7 @@ from hess_explorer.export.formats import FORMATS, SERVED_SECONDS, WIDTHS, FileRe
 from hess_explorer.export.notebook import PROGRAMS
 from hess_explorer.export.picture_data import address, compute
 from hess_explorer.offline.pages import planned, state_page
-from hess_explorer.protocol.specs import MAX_QUERY, Choice, Number, decode
+from hess_explorer.protocol.specs import MAX_QUERY, ChoiceSpec, NumberSpec, decode
 from hess_explorer.scenes import scenes
 from hess_explorer.server.home import home_of
 from hess_explorer.server.refusal import refuse
@@ -29,12 +29,12 @@ from hess_mechanics.errors import InvalidParameter, ModelError
 __all__ = ["Export"]
 
 _SPECS = (
-    Choice("format", "Format", tuple(FORMATS), "csv"),
-    Choice("black", "Black", ("0", "1"), "0"),
-    Number("width", "width", "Width", FileRequest.width, WIDTHS, 5.0, WIDTHS),
-    Number("seconds", "seconds", "Seconds", FileRequest.seconds, SERVED_SECONDS, 1.0, SERVED_SECONDS),
-    Choice("loop", "Loop", ("", "light", "dark"), ""),
-    Choice("grid", "Grid", ("0", "1"), "0"),
+    ChoiceSpec("format", "Format", tuple(FORMATS), "csv"),
+    ChoiceSpec("black", "Black", ("0", "1"), "0"),
+    NumberSpec("width", "width", "Width", FileRequest.width, WIDTHS, 5.0, WIDTHS),
+    NumberSpec("seconds", "seconds", "Seconds", FileRequest.seconds, SERVED_SECONDS, 1.0, SERVED_SECONDS),
+    ChoiceSpec("loop", "Loop", ("", "light", "dark"), ""),
+    ChoiceSpec("grid", "Grid", ("0", "1"), "0"),
 )
 
 # One file and one slow file at a time, so that open pages have priority.

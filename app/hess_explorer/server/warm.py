@@ -110,14 +110,14 @@ def warm(first_is_ready: Callable[[], None] = lambda: None) -> None:
 
 def _wait_for_a_page() -> None:
     """Wait until a page has requested a state: a browser may be loading it on the same cores."""
-    asked, ends = CACHE.asked, time.monotonic() + PAGE_SECONDS
-    while CACHE.asked == asked and time.monotonic() < ends:
+    asked, ends = CACHE.lookups, time.monotonic() + PAGE_SECONDS
+    while CACHE.lookups == asked and time.monotonic() < ends:
         time.sleep(0.05)
 
 
 def _wait_until_quiet() -> None:
     """Wait until no result has been requested for `QUIET_SECONDS`."""
     asked = -1
-    while asked != CACHE.asked:
-        asked = CACHE.asked
+    while asked != CACHE.lookups:
+        asked = CACHE.lookups
         time.sleep(QUIET_SECONDS)

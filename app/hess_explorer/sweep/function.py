@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from hess_explorer.compute.cells import UserError
-from hess_explorer.sweep.plan import Axis, Plan
+from hess_explorer.sweep.plan import Axis, SweepPlan
 from hess_mechanics.catalogue import Computation, NoValue, Number
 from hess_mechanics.catalogue.declared import real
 from hess_mechanics.errors import InvalidParameter, ModelError
@@ -80,7 +80,7 @@ def computation_of(
     )
     what = Computation(name, name, function, tuple(parameters), {}, Kind.MAP, call=call)
     title = (inspect.getdoc(inner) or name).partition("\n")[0]
-    fields = _fields(what, Plan.of(what, (), accuracy, over, fixed))
+    fields = _fields(what, SweepPlan.of(what, (), accuracy, over, fixed))
     try:
         source = textwrap.dedent(inspect.getsource(inner))
     except (OSError, TypeError):
@@ -88,7 +88,7 @@ def computation_of(
     return replace(what, numbers={each: _number(each, title) for each in fields}), source
 
 
-def _fields(what: Computation, plan: Plan) -> tuple[str, ...]:
+def _fields(what: Computation, plan: SweepPlan) -> tuple[str, ...]:
     """Return the names of a function's numbers, from the first cell that has a result."""
     failed: Exception | None = None
     for cell in np.unique(np.linspace(0, plan.cells - 1, _TRIALS).astype(int)):

@@ -13,7 +13,7 @@ import numpy as np
 
 from hess_explorer.compute.cells import Outcome, evaluate
 from hess_explorer.sweep.errors import WorkersLost
-from hess_explorer.sweep.plan import Plan, version
+from hess_explorer.sweep.plan import SweepPlan, version
 from hess_mechanics.catalogue import catalogue, find
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.arguments import as_level
@@ -40,7 +40,7 @@ def named(cell: Mapping[str, float]) -> str:
     return ", ".join(f"{name} = {float(value)!r}" for name, value in cell.items())
 
 
-def compute(piece: Plan) -> PieceResult:
+def compute(piece: SweepPlan) -> PieceResult:
     """Return the results at all cells of a plan."""
     columns = piece.columns()
     found = evaluate(piece.computation, piece.numbers, columns, as_level(piece.accuracy))
@@ -55,7 +55,7 @@ def compute(piece: Plan) -> PieceResult:
     return {name: values.reshape(piece.shape) for name, values in arrays.items()}, failures
 
 
-def sendable(plan: Plan) -> bytes:
+def sendable(plan: SweepPlan) -> bytes:
     """Return a plan without its axes as workers receive it, with the text of functions of a notebook.
 
     Raises `InvalidParameter`.
@@ -76,10 +76,10 @@ def sendable(plan: Plan) -> bytes:
 
 
 @lru_cache(maxsize=1)
-def received(content: bytes) -> Plan:
+def received(content: bytes) -> SweepPlan:
     """Return the plan that was sent, the same object for all pieces: a function keeps what it has compiled."""
     what, numbers, accuracy, fixed = pickle.loads(content)
-    return Plan(find(what) if isinstance(what, str) else what, numbers, accuracy, {}, fixed)
+    return SweepPlan(find(what) if isinstance(what, str) else what, numbers, accuracy, {}, fixed)
 
 
 def compute_sent(content: bytes, needed: str, axes: Mapping[str, Array]) -> PieceResult:
@@ -92,14 +92,14 @@ def compute_sent(content: bytes, needed: str, axes: Mapping[str, Array]) -> Piec
     return compute(replace(received(content), axes=axes))
 
 
-def cells_of_a_piece(plan: Plan, workers: int) -> float:
+def cells_of_a_piece(plan: SweepPlan, workers: int) -> float:
     """Return how many cells a piece has at most, from trials at random cells."""
     cost = _seconds_of_a_cell(plan)
     seconds = min(_LONGEST, max(_SHORTEST, cost * plan.cells / (_PIECES * workers)))
     return max(1.0, min(seconds / cost, _MOST_NUMBERS / len(plan.numbers)))
 
 
-def _seconds_of_a_cell(plan: Plan) -> float:
+def _seconds_of_a_cell(plan: SweepPlan) -> float:
     """Return the cost of a cell; ∞ for few cells, which are pieces of their own."""
     if plan.cells < _PART // 4:
         return np.inf

@@ -17,7 +17,7 @@ from hess_mechanics.numerics.arguments import as_number, as_parts
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.parameters import Parameter
 
-__all__ = ["MAX_CELLS", "Axis", "Plan", "Region", "version"]
+__all__ = ["MAX_CELLS", "Axis", "Region", "SweepPlan", "version"]
 
 MAX_CELLS = 10_000_000
 """Maximum number of cells of a sweep."""
@@ -37,7 +37,7 @@ def version() -> str:
 
 
 @dataclass(frozen=True)
-class Plan:
+class SweepPlan:
     """Numbers of a computation over the Cartesian product of the axes.
 
     Attributes
@@ -62,7 +62,7 @@ class Plan:
         over: Mapping[str, Axis],
         fixed: Mapping[str, float],
         source: str = "",
-    ) -> Plan:
+    ) -> SweepPlan:
         """Return the checked plan.  Raises `InvalidParameter`, `WorkLimit`."""
         if not isinstance(over, Mapping) or not 1 <= len(over) <= _MOST_AXES:
             raise InvalidParameter(f"A sweep is over one to {_MOST_AXES} parameters: name them with their values.")
@@ -94,7 +94,7 @@ class Plan:
         """The total number of cells."""
         return math.prod(self.shape)
 
-    def part(self, region: Region) -> Plan:
+    def part(self, region: Region) -> SweepPlan:
         """Return the plan of the cells in a region."""
         return replace(self, axes={name: values[region[name]] for name, values in self.axes.items()})
 

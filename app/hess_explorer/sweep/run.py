@@ -14,7 +14,7 @@ from hess_explorer.compute.cells import Outcome, evaluate
 from hess_explorer.sweep.errors import Interrupted, StoreError, WorkersLost
 from hess_explorer.sweep.function import computation_of
 from hess_explorer.sweep.piece import cells_of_a_piece, named
-from hess_explorer.sweep.plan import Axis, Plan
+from hess_explorer.sweep.plan import Axis, SweepPlan
 from hess_explorer.sweep.progress import Report, reporting
 from hess_explorer.sweep.store import create, exists, load, missing, require_libraries, write
 from hess_explorer.sweep.workers import connected, results, size
@@ -115,7 +115,7 @@ def sweep(
     else:
         what, source = computation if isinstance(computation, Computation) else find(computation), ""
     names = [*what.numbers]
-    plan = Plan.of(what, numbers or (names if source else names[:1]), level, over, fixed, source)
+    plan = SweepPlan.of(what, numbers or (names if source else names[:1]), level, over, fixed, source)
     path = None if store is None else Path(store)
     place: Any = path if path is not None and exists(path, plan) else None
     todo = None if place is None else missing(place, plan)
@@ -142,12 +142,12 @@ def sweep(
     return load(place)
 
 
-def explain(found: xr.Dataset, **cell: float) -> str:
+def explain(result: xr.Dataset, **cell: float) -> str:
     """Return a sentence on the status of a cell, which is computed once more unless the text of its exception is kept.
 
     Parameters
     ----------
-    found : xarray.Dataset
+    result : xarray.Dataset
         A result of `sweep` or `read`.
     **cell : float
         Coordinates of the cell by name.
@@ -163,10 +163,10 @@ def explain(found: xr.Dataset, **cell: float) -> str:
         If the coordinates do not match the sweep, or the sweep is one of a function of your own and the cell has not
         failed.
     """
-    facts = found.attrs
-    if {*cell} != {*found.status.dims}:
+    facts = result.attrs
+    if {*cell} != {*result.status.dims}:
         raise InvalidParameter("Pass a result of `sweep` or `read`, and all coordinates of one of its cells.")
-    cell = {name: as_number(name, cell[name]) for name in map(str, found.status.dims)}
+    cell = {name: as_number(name, cell[name]) for name in map(str, result.status.dims)}
     if (failure := json.loads(facts["failures"]).get(named(cell))) is not None:
         return str(failure)
     if facts["source"]:

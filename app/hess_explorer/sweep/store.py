@@ -22,7 +22,7 @@ import numpy as np
 from hess_explorer.compute.cells import Outcome
 from hess_explorer.sweep.errors import OtherSweep, StoreError
 from hess_explorer.sweep.piece import PieceResult
-from hess_explorer.sweep.plan import Plan, Region, version
+from hess_explorer.sweep.plan import Region, SweepPlan, version
 from hess_mechanics.errors import MissingLibrary
 
 if TYPE_CHECKING:
@@ -42,7 +42,7 @@ def require_libraries() -> None:
         raise MissingLibrary("Sweeps need xarray, Zarr and Dask: pip install 'hess-explorer[sweep]'.")
 
 
-def create(path: Path | None, plan: Plan, cells: float) -> Path | MemoryStore:
+def create(path: Path | None, plan: SweepPlan, cells: float) -> Path | MemoryStore:
     """Return a new store with pieces of at most so many cells, in memory without a path.
 
     Raises `OtherSweep`, `StoreError`.
@@ -65,7 +65,7 @@ def create(path: Path | None, plan: Plan, cells: float) -> Path | MemoryStore:
     return path
 
 
-def _fill(place: Path | MemoryStore, plan: Plan, cells: float) -> None:
+def _fill(place: Path | MemoryStore, plan: SweepPlan, cells: float) -> None:
     """Write the attributes of a store, its axes, and its arrays without any chunk."""
     import dask.array
     import xarray as xr
@@ -95,7 +95,7 @@ def _fill(place: Path | MemoryStore, plan: Plan, cells: float) -> None:
     whole.to_zarr(place, compute=False, zarr_format=3, consolidated=False, encoding=packed)
 
 
-def _facts(plan: Plan) -> dict[str, str]:
+def _facts(plan: SweepPlan) -> dict[str, str]:
     return {
         "computation": plan.computation.key,
         "title": plan.computation.title,
@@ -107,7 +107,7 @@ def _facts(plan: Plan) -> dict[str, str]:
     }
 
 
-def exists(path: Path, plan: Plan) -> bool:
+def exists(path: Path, plan: SweepPlan) -> bool:
     """Return True if the path has a store of this sweep, False if it is free.  Raises `OtherSweep`, `StoreError`."""
     if not path.exists() or (path.is_dir() and not any(path.iterdir())):
         return False
@@ -126,7 +126,7 @@ def exists(path: Path, plan: Plan) -> bool:
     return True
 
 
-def missing(place: Path | MemoryStore, plan: Plan) -> list[Region]:
+def missing(place: Path | MemoryStore, plan: SweepPlan) -> list[Region]:
     """Return the pieces that are not finished."""
     from dask.array.core import normalize_chunks, slices_from_chunks
 
@@ -136,7 +136,7 @@ def missing(place: Path | MemoryStore, plan: Plan) -> list[Region]:
     return [region for region in regions if not _finished(stored.isel(region), plan)]
 
 
-def _finished(part: xr.Dataset, plan: Plan) -> bool:
+def _finished(part: xr.Dataset, plan: SweepPlan) -> bool:
     """Return True if a piece is readable, each cell has a status, and each cell with a value some finite number."""
     try:
         status = part.status.values

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from hess_explorer.sweep.errors import WorkersLost
 from hess_explorer.sweep.piece import PieceResult, compute, compute_sent, sendable
-from hess_explorer.sweep.plan import Plan, Region, version
+from hess_explorer.sweep.plan import Region, SweepPlan, version
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.arguments import as_whole
 
@@ -36,7 +36,7 @@ def size(client: Client | None) -> int:
     return 1 if client is None else max(1, sum(client.nthreads().values()))
 
 
-def results(client: Client | None, plan: Plan, regions: Iterable[Region]) -> Generator[tuple[Region, PieceResult]]:
+def results(client: Client | None, plan: SweepPlan, regions: Iterable[Region]) -> Generator[tuple[Region, PieceResult]]:
     """Yield the results of the pieces in any order.  Raises `WorkersLost`."""
     if client is None:
         for region in regions:

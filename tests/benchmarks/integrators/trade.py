@@ -3,7 +3,7 @@
 import math
 from dataclasses import dataclass
 
-from hess_explorer.protocol.specs import Choice
+from hess_explorer.protocol.specs import ChoiceSpec
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.trial import bare
 from hess_explorer.views.text import digits
@@ -50,7 +50,7 @@ def _states(scene):
     yield from shown
     for values in shown:
         for spec in scene.specs:
-            if isinstance(spec, Choice) and spec.name != "accuracy":
+            if isinstance(spec, ChoiceSpec) and spec.name != "accuracy":
                 yield from ({**values, spec.name: option} for option in spec.options)
 
 

@@ -16,7 +16,7 @@ import numpy as np
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.compute.cells import Outcome
-from hess_explorer.protocol.specs import Choice, Number, Places, Spec, Values
+from hess_explorer.protocol.specs import ChoiceSpec, NumberSpec, Places, Spec, Values
 from hess_explorer.scenes.framework.cells import COARSE, found_by_rows
 from hess_explorer.scenes.framework.chart_cells import STORED, Cells, Side, chart_row
 from hess_explorer.scenes.framework.charted import Charts, Numbers
@@ -169,7 +169,7 @@ class _Chart(Part[Any]):
 def _sides(charts: Charts, state: type[Any]) -> Mapping[str, Side]:
     found = []
     for spec in specs_of(state):
-        if isinstance(spec, Number):
+        if isinstance(spec, NumberSpec):
             found.append(Side(spec.symbol, spec.name, spec.softbounds))
         elif isinstance(spec, Places) and spec.name == charts.placed[0]:
             ends = zip(spec.low, spec.high, strict=True)
@@ -183,9 +183,9 @@ def charting(state: type[Any], charts: Charts) -> type[Any]:
     x, y = (next(symbol for symbol, side in sides.items() if one in (symbol, side.name)) for one in charts.over)
     along = "Parameter along this axis."
     specs: tuple[Spec, ...] = (
-        Choice("chart", "Number", (*numbers,), next(iter(numbers)), "Number on show, as in commands.", "Chart"),
-        Choice("chart_x", "Across", (*sides,), x, along, "Chart"),
-        Choice("chart_y", "Up", (*sides,), y, along, "Chart"),
+        ChoiceSpec("chart", "Number", (*numbers,), next(iter(numbers)), "Number on show, as in commands.", "Chart"),
+        ChoiceSpec("chart_x", "Across", (*sides,), x, along, "Chart"),
+        ChoiceSpec("chart_y", "Up", (*sides,), y, along, "Chart"),
         Places("chart_window", "The window of the chart", 2, (-_FAR, -_FAR), (_FAR, _FAR)),
     )
 

@@ -204,14 +204,14 @@ class Continuation(Part[H_co]):
 
     def derived(self) -> Iterator[str]:
         """Yield the bifurcations."""
-        found = bifurcations(self.branches) if self.asked("_known") else []
+        found = bifurcations(self.branches) if self.has_result("_known") else []
         yield from map(self._named, found[:_SAID])
         if len(found) > _SAID:
             yield f"and {len(found) - _SAID} more bifurcations of the branch"
 
     def status(self) -> Iterator[str]:
         """Yield the size and the error of the branch."""
-        if self.asked("_known") and self.branches:
+        if self.has_result("_known") and self.branches:
             yield (
                 f"branch {sum(len(one.values) for one in self.branches)} points, places to "
                 f"{digits(max(one.error_estimate for one in self.branches), 1)}"
@@ -219,7 +219,7 @@ class Continuation(Part[H_co]):
 
     def notes(self) -> Iterator[str]:
         """Yield the reasons why there is no branch, or why it ends within the range."""
-        if not self.asked("_known"):
+        if not self.has_result("_known"):
             return
         if isinstance(self._found, NotFound):
             yield self._found.reason

@@ -25,7 +25,7 @@ class OrbitBatch:
     orbits : points (n, 2) of each orbit, in order of time; firsts : True for orbits of the first of two kinds.
     drift : the largest drift of each integral; steps : their Taylor steps.
     reasons : why each orbit ends early; empty for the others.
-    kept : True if all points of an orbit lie on its side of the curve that divides the kinds, if there is one.
+    same_side : True if all points of an orbit lie on its side of the curve that divides the kinds, if there is one.
     elsewhere : points (m, 2) that are drawn separately.
     """
 
@@ -34,7 +34,7 @@ class OrbitBatch:
     drift: Mapping[str, float]
     steps: int
     reasons: tuple[str, ...]
-    kept: tuple[bool, ...] = ()
+    same_side: tuple[bool, ...] = ()
     elsewhere: Array | None = None
 
 

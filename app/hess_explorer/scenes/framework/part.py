@@ -51,7 +51,7 @@ class Part(Generic[H_co]):
         """The computation of the state on show."""
         return self.host.work
 
-    def asked(self, name: str) -> bool:
+    def has_result(self, name: str) -> bool:
         """Return whether a picture in sight has computed this cached property; texts never compute one."""
         return name in vars(self)
 

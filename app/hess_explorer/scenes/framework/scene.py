@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any, ClassVar, Generic, Self, TypeVar, cast
 
 from hess_explorer.compute.cache import Task
-from hess_explorer.protocol.specs import Choice, Number, Spec, Value, Values
+from hess_explorer.protocol.specs import ChoiceSpec, NumberSpec, Spec, Value, Values
 from hess_explorer.scenes.framework.chart import charting
 from hess_explorer.scenes.framework.chart_picture import chart_picture
 from hess_explorer.scenes.framework.charted import Charts
@@ -139,7 +139,7 @@ class State:
         return {name: value for one in self.parts() for name, value in one.idle().items()}
 
     def means(self) -> Mapping[str, str]:
-        """Return the meanings, as `Number.means`, of the numbers whose meaning depends on a choice."""
+        """Return the meanings, as `NumberSpec.means`, of the numbers whose meaning depends on a choice."""
         return {name: meaning for one in self.parts() for name, meaning in one.means().items()}
 
     def carried(self, before: Self) -> Values:
@@ -308,14 +308,14 @@ class Scene(Generic[S]):
     def example(self, preset: Preset) -> dict[str, Value]:
         """Return all numbers and places of a preset, and the choices that any preset sets: not the accuracy."""
         given = {name for one in self.presets for name in one.values}
-        plain = {one.name: one.default for one in self.specs if not isinstance(one, Choice) or one.name in given}
+        plain = {one.name: one.default for one in self.specs if not isinstance(one, ChoiceSpec) or one.name in given}
         return {**plain, **preset.values}
 
     def of(self, values: Values, seen: Collection[str] = (), dragging: bool = False) -> S:
         """Return the state of these values, without computing anything."""
         work = Work(str(values.get("accuracy", "standard")), dragging)
         typed: dict[str, Any] = {
-            spec.name: float(values[spec.name]) if isinstance(spec, Number) else str(values[spec.name])
+            spec.name: float(values[spec.name]) if isinstance(spec, NumberSpec) else str(values[spec.name])
             for spec in self.specs
         }
         return self.state(**typed, work=work, seen=frozenset(seen))
@@ -349,9 +349,9 @@ class Scene(Generic[S]):
     def _meanings(self, values: Values) -> Mapping[str, str]:
         """Return the meaning of each number and choice of a state by name, without those that have no effect."""
         labels = {
-            spec.name: (isinstance(spec, Number) and spec.means) or spec.label
+            spec.name: (isinstance(spec, NumberSpec) and spec.means) or spec.label
             for spec in self.specs
-            if isinstance(spec, Number | Choice)
+            if isinstance(spec, NumberSpec | ChoiceSpec)
         }
         idle = self.idle(values)
         return {name: meaning for name, meaning in {**labels, **self.of(values).means()}.items() if name not in idle}

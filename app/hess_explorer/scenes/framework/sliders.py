@@ -8,7 +8,7 @@ from dataclasses import field, fields, replace
 from inspect import get_annotations
 from typing import Any
 
-from hess_explorer.protocol.specs import Choice, Formula, Number, Places, Spec, Value
+from hess_explorer.protocol.specs import ChoiceSpec, Formula, NumberSpec, Places, Spec, Value
 from hess_explorer.scenes.framework.work import AUTO
 from hess_mechanics.numerics.accuracy import LEVELS
 from hess_mechanics.parameters import Group, Parameter
@@ -60,7 +60,7 @@ def parameter(known: Parameter, default: float | None = None, **changes: Any) ->
     default : another default.
     changes : other fields of `Parameter`, such as softbounds, step or doc.  State a reason beside other bounds.
     """
-    return declared(Number(**known.changed(default=known.default if default is None else default, **changes)))
+    return declared(NumberSpec(**known.changed(default=known.default if default is None else default, **changes)))
 
 
 def number(
@@ -76,12 +76,12 @@ def number(
     means: str = "",
 ) -> Any:
     """Declare a number: its slider covers `softbounds` in steps; typed values and links are limited to `bounds`."""
-    return declared(Number("", symbol, label, default, softbounds, step, bounds, doc, group, means=means))
+    return declared(NumberSpec("", symbol, label, default, softbounds, step, bounds, doc, group, means=means))
 
 
 def choice(label: str, options: tuple[str, ...], default: str, *, doc: str, group: Group = "Computation") -> Any:
     """Declare a choice from a fixed list of names."""
-    return declared(Choice("", label, options, default, doc, group))
+    return declared(ChoiceSpec("", label, options, default, doc, group))
 
 
 def formula(label: str, default: str, reads: Callable[[str], object], *, doc: str, group: Group = "Body") -> Any:

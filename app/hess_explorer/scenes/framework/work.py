@@ -16,7 +16,7 @@ from hess_mechanics.numerics.jit import seconds_compiling
 from hess_mechanics.numerics.results import Orbit
 from hess_mechanics.suslov.free import FreeMotion
 
-__all__ = ["AUTO", "Work", "drift_status", "kept_status", "orbit_status"]
+__all__ = ["AUTO", "Work", "accuracy_status", "drift_status", "orbit_status"]
 
 
 _NOTED = 0.1
@@ -143,13 +143,14 @@ def orbit_status(orbit: Orbit | FreeMotion) -> list[str]:
     ]
 
 
-def kept_status(kept: tuple[int, int | None] | None, crossings: int) -> Iterator[str]:
+def accuracy_status(accurate: tuple[int, int | None] | None, crossings: int) -> Iterator[str]:
     """Yield the status entry of a section: the last crossings that are right to half a pixel."""
-    if kept is not None:
+    if accurate is not None:
         own, others = (
-            "to the end" if count is not None and count >= crossings else f"up to crossing {count}" for count in kept
+            "to the end" if count is not None and count >= crossings else f"up to crossing {count}"
+            for count in accurate
         )
-        median = "" if kept[1] is None else f", others {others} (median)"
+        median = "" if accurate[1] is None else f", others {others} (median)"
         yield f"right to ½ pixel: the chosen orbit {own}{median}"
 
 

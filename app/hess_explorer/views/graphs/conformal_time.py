@@ -25,20 +25,20 @@ _LEAST = 2.5
 """Half height of the axis at least, so that the brackets, of order 1 away from γ3 = 0, are visible."""
 
 
-def about(found: Conformal) -> Caption:
+def about(motion: Conformal) -> Caption:
     """Return the caption of a motion in both times."""
-    turned = {0: "never", 1: "once"}.get(found.turns, f"{found.turns} times")
+    turned = {0: "never", 1: "once"}.get(motion.turns, f"{motion.turns} times")
     return Caption(
         "Hamiltonian in the time τ.",
-        f"ẋ = γ₃{{x, E}} to {digits(found.left_over, 1)}; τ reverses {turned} on the equator.",
+        f"ẋ = γ₃{{x, E}} to {digits(motion.left_over, 1)}; τ reverses {turned} on the equator.",
     )
 
 
-def _bracket(found: Found[S], i: int) -> Callable[[S, Axes], list[Array]]:
+def _bracket(motion_of: Found[S], i: int) -> Callable[[S, Axes], list[Array]]:
     """Return the graph of a bracket, cut at the equator, where it is infinite."""
 
     def graph(state: S, axes: Axes) -> list[Array]:
-        motion = found(state)
+        motion = motion_of(state)
         if motion is None:
             return []
         values, top = motion.brackets[:, i], 1.5 * axes.y[1]
@@ -48,19 +48,19 @@ def _bracket(found: Found[S], i: int) -> Callable[[S, Axes], list[Array]]:
     return graph
 
 
-def picture(found: Found[S], reason: Callable[[S], str], span: Callable[[S], float]) -> Plot[S]:
+def picture(motion_of: Found[S], reason: Callable[[S], str], span: Callable[[S], float]) -> Plot[S]:
     """Return the plot of τ, {ω1, γ3} and {ω2, γ3} against t, or of the reason for their absence."""
 
     def caption(state: S) -> Caption:
-        motion = found(state)
+        motion = motion_of(state)
         return Caption(numbers=reason(state)) if motion is None else about(motion)
 
     layers: Layers[S] = (
-        levels("levels", lambda s: [] if found(s) is None else [0.0]),
-        curves("first", within=_bracket(found, 0), color=theme.MAP, width=1.5, label="{ω₁, γ₃} = γ₂/(I₁₁γ₃)"),
+        levels("levels", lambda s: [] if motion_of(s) is None else [0.0]),
+        curves("first", within=_bracket(motion_of, 0), color=theme.MAP, width=1.5, label="{ω₁, γ₃} = γ₂/(I₁₁γ₃)"),
         curves(
             "second",
-            within=_bracket(found, 1),
+            within=_bracket(motion_of, 1),
             color=theme.MUTED,
             width=1.5,
             dash="dashed",
@@ -68,7 +68,7 @@ def picture(found: Found[S], reason: Callable[[S], str], span: Callable[[S], flo
         ),
         over_time(
             "tau",
-            mapped(found, lambda motion: thinned(motion.orbit.times, motion.tau)),
+            mapped(motion_of, lambda motion: thinned(motion.orbit.times, motion.tau)),
             color=theme.ORBIT,
             label="conformal time τ",
             tag="τ",
@@ -81,7 +81,7 @@ def picture(found: Found[S], reason: Callable[[S], str], span: Callable[[S], flo
         axes=("t", "τ"),
         first=Axes((0.0, 60.0), (-3.0, 3.0)),
         x=lambda s: (0.0, span(s)),
-        y=mapped(found, lambda motion: about_0(motion.tau, _LEAST)),
+        y=mapped(motion_of, lambda motion: about_0(motion.tau, _LEAST)),
         layers=layers,
         folded="Show the conformal time",
     )

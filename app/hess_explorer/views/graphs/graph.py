@@ -87,11 +87,11 @@ def branches(x: Array, y: Array, period: float) -> list[Array]:
     return np.split(np.column_stack([x, y]), cuts + 2 + 2 * np.arange(cuts.size))
 
 
-def pieces(curve: Array, kept: Mask, jump: float = math.inf) -> list[Array]:
-    """Return the parts of a curve (n, 2) where `kept` (n,) holds, also cut at jumps in height."""
-    cuts = np.flatnonzero((kept[1:] != kept[:-1]) | (np.abs(np.diff(curve[:, 1])) > jump)) + 1
+def pieces(curve: Array, mask: Mask, jump: float = math.inf) -> list[Array]:
+    """Return the parts of a curve (n, 2) where `mask` (n,) holds, also cut at jumps in height."""
+    cuts = np.flatnonzero((mask[1:] != mask[:-1]) | (np.abs(np.diff(curve[:, 1])) > jump)) + 1
     return [
         part
-        for part, whole in zip(np.split(curve, cuts), np.split(kept, cuts), strict=True)
+        for part, whole in zip(np.split(curve, cuts), np.split(mask, cuts), strict=True)
         if whole[0] and len(part) > 1
     ]

@@ -30,12 +30,12 @@ _BASINS = (
 _CLEAR = theme.FORBIDDEN + "00"
 
 
-def apart(found: Array, window: Window) -> Array:
+def apart(points: Array, window: Window) -> Array:
     """Return points (n, 2), thinned to one per cell of the window if there are very many."""
-    if len(found) <= _MANY:
-        return found
+    if len(points) <= _MANY:
+        return points
     low, high = np.array(window)
-    within = found[np.all((found >= low) & (found <= high), axis=1)]
+    within = points[np.all((points >= low) & (points <= high), axis=1)]
     cells = np.minimum((within - low) * (_ACROSS / (high - low)), _ACROSS - 1).astype(int)
     one = np.full(_ACROSS * _ACROSS, -1)
     one[cells @ (_ACROSS, 1)] = np.arange(len(within))
@@ -65,7 +65,7 @@ def _kinds(
     )
 
 
-def basins(found: Callable[[S], Arrivals | None], window: Callable[[S], Window]) -> Layer[S]:
+def basins(arrivals: Callable[[S], Arrivals | None], window: Callable[[S], Window]) -> Layer[S]:
     """Return the layer of basins: a colour for each attractor, the stronger the sooner an orbit arrives."""
     faint, full = 0.35, 0.95
     shades = [f"{round(255 * (faint + (full - faint) * (i + 0.5) / _SHADES)):02x}" for i in range(_SHADES)]
@@ -84,7 +84,7 @@ def basins(found: Callable[[S], Arrivals | None], window: Callable[[S], Window])
 
     return image(
         "basins",
-        in_window(mapped(found, values), window),
+        in_window(mapped(arrivals, values), window),
         palette=(
             *[_CLEAR] * _SHADES,
             *(color + shade for color in theme.BASINS for shade in shades),

@@ -23,11 +23,11 @@ from hess_mechanics.numerics.results import Array
 
 __all__ = [
     "CloudPlane",
-    "about_course",
     "about_ends",
-    "course_layers",
+    "about_history",
     "density_axes",
     "density_layers",
+    "history_layers",
     "largest_distance",
     "room",
     "status_of",
@@ -44,22 +44,22 @@ def _frames(columns: Sequence[Array]) -> np.ndarray:
     return np.stack([one.T for one in columns], axis=1).astype(np.float32).ravel()
 
 
-def room(found: Clouds) -> float:
+def room(clouds: Clouds) -> float:
     """Return half the width of a plane with room for all ω of the clouds."""
-    return nice_above(1.1 * found.fastest)
+    return nice_above(1.1 * clouds.fastest)
 
 
-def about_ends(found: Clouds) -> Caption:
+def about_ends(clouds: Clouds) -> Caption:
     """Return the median distance of the points from s = 0 at the start and at the end."""
-    before, after = (digits(math.exp(float(np.median(found.cloud.log_s[:, i]))), 3) for i in (0, -1))
+    before, after = (digits(math.exp(float(np.median(clouds.cloud.log_s[:, i]))), 3) for i in (0, -1))
     return Caption(
-        numbers=f"{found.cloud.signs.size} points: half of them start within |s| < {before}, and end within {after}."
+        numbers=f"{clouds.cloud.signs.size} points: half of them start within |s| < {before}, and end within {after}."
     )
 
 
-def status_of(found: Clouds) -> Iterator[str]:
+def status_of(clouds: Clouds) -> Iterator[str]:
     """Yield the size, cost and errors of the clouds for the status line."""
-    cloud, other = found.cloud, found.other
+    cloud, other = clouds.cloud, clouds.other
     yield (
         f"{cloud.level}: {cloud.signs.size} points, {cloud.times.size} frames, {cloud.cost.steps} Taylor steps, "
         f"error of ω/ν, γ and ln|s| ≤ {cloud.error_estimate:.1e} ({cloud.status})"
@@ -68,9 +68,9 @@ def status_of(found: Clouds) -> Iterator[str]:
         yield f"beside ≤ {other.errors.max():.1e}"
 
 
-def about_course(found: Clouds, of_patch: bool) -> Caption:
+def about_history(clouds: Clouds, of_patch: bool) -> Caption:
     """Return the change of small volumes, or with `of_patch` of the volume of the patch."""
-    course = found.course
+    course = clouds.course
     if of_patch:
         text = f"The patch keeps {digits(course.volume[-1], 3)} of its volume"
     else:
@@ -78,20 +78,20 @@ def about_course(found: Clouds, of_patch: bool) -> Caption:
             f"Mean of div v {ranging(course.divergence[0, 0], course.divergence[0, -1], 3)}; "
             f"mean of ln s(t)/s(0) at the end {digits(course.log_growth[0, -1], 3)}"
         )
-    return Caption(numbers=f"{text}; the second cloud preserves volume." if found.other is not None else f"{text}.")
+    return Caption(numbers=f"{text}; the second cloud preserves volume." if clouds.other is not None else f"{text}.")
 
 
-def largest_distance(found: Clouds, exact: Clouds) -> float:
+def largest_distance(clouds: Clouds, exact: Clouds) -> float:
     """Return the largest distance in pixels, in the plane and on the sphere, of points from more exact ones."""
     to_pixels = 0.5 * PIXELS * np.array([1.0 / room(exact)] * 2 + [1.0] * 3)
-    away = to_pixels * (_points(found) - _points(exact))
+    away = to_pixels * (_points(clouds) - _points(exact))
     return max(float(np.linalg.norm(part, axis=-1).max()) for part in (away[..., :2], away[..., 2:]))
 
 
-def _points(found: Clouds) -> Array:
+def _points(clouds: Clouds) -> Array:
     """Return ω1, ω2 and γ (n, m, 5) of the points of all clouds in all frames."""
-    states = np.concatenate([found.cloud.omega, found.cloud.gamma], axis=-1)
-    return states if found.other is None else np.concatenate([states, found.other.states])
+    states = np.concatenate([clouds.cloud.omega, clouds.cloud.gamma], axis=-1)
+    return states if clouds.other is None else np.concatenate([states, clouds.other.states])
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -178,12 +178,12 @@ class CloudPlane(Picture[S]):
         }
 
 
-def density_axes(found: Clouds) -> Axes:
+def density_axes(clouds: Clouds) -> Axes:
     """Return axes between powers of ten about |s| of the cloud; the curve c/|s| joins the corners."""
-    lowest = max(SMALLEST, float(np.quantile(found.cloud.log_s[:, -1], 0.02)))
+    lowest = max(SMALLEST, float(np.quantile(clouds.cloud.log_s[:, -1], 0.02)))
     low = math.floor(lowest / math.log(10.0))
-    high = max(math.ceil(float(found.density.log_s[-1]) / math.log(10.0)), low + 1)
-    middle = math.log10(found.density.height)
+    high = max(math.ceil(float(clouds.density.log_s[-1]) / math.log(10.0)), low + 1)
+    middle = math.log10(clouds.density.height)
     return Axes((10.0**low, 10.0**high), (10.0 ** (middle - high - 1.5), 10.0 ** (middle - low + 1.5)))
 
 
@@ -226,14 +226,16 @@ def density_layers(density: Callable[[S], Density]) -> Layers[S]:
     )
 
 
-def course_layers(times: Callable[[S], Array], course: Callable[[S], Array], beside: Callable[[S], bool]) -> Layers[S]:
+def history_layers(
+    times: Callable[[S], Array], history: Callable[[S], Array], beside: Callable[[S], bool]
+) -> Layers[S]:
     """Return the layers of mean, minimum, maximum (3, m) over the cloud at times (m,); track "orbit" holds the mean.
 
     beside : whether there is a cloud on a principal axis, whose values are 0.
     """
 
     def extreme(name: str, i: int) -> Layer[S]:
-        return over_time(name, lambda s: (times(s), course(s)[i]), color=theme.MUTED, dash="dashed")
+        return over_time(name, lambda s: (times(s), history(s)[i]), color=theme.MUTED, dash="dashed")
 
     return (
         levels("levels", lambda s: [0.0]),

@@ -135,7 +135,7 @@ class DiagramDensity(Part[OrbitDiagram]):
 
     def status(self) -> Iterator[str]:
         """Yield the size and drift of the density."""
-        if self.asked("_found") and self.points:
+        if self.has_result("_found") and self.points:
             yield f"density {self.points} points"
             yield from drift_status(one.drift for _, one in self._found if one is not None)
 

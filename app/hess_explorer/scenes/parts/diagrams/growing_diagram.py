@@ -245,12 +245,12 @@ class OrbitDiagram(Part[DiagramControls]):
 
     def status(self) -> Iterator[str]:
         """Yield the error of the doublings."""
-        if self.asked("cascade") and self.flips.size and isinstance(self.cascade, Cascade):
+        if self.has_result("cascade") and self.flips.size and isinstance(self.cascade, Cascade):
             yield f"doublings to {digits(self.cascade.error_estimate, 1)}"
 
     def notes(self) -> Iterator[str]:
         """Yield the reason why a doubling could not be located."""
-        if self.asked("cascade") and isinstance(self.cascade, str):
+        if self.has_result("cascade") and isinstance(self.cascade, str):
             yield f"The doubling that is seen was not located: {self.cascade}"
 
 

@@ -105,12 +105,12 @@ class HessSplit(Part[Host]):
 
     def derived(self) -> Iterator[str]:
         """Yield the slope of the split at ε = 0."""
-        if self.asked("_found") and self.slope is not None:
+        if self.has_result("_found") and self.slope is not None:
             yield f"split/ε → {with_error(*self.slope)}"
 
     def notes(self) -> Iterator[str]:
         """Yield the reasons why splits on the graph are missing."""
-        if self.asked("_found") and self.splits:
+        if self.has_result("_found") and self.splits:
             yield from (f"Some splits are not known. {reason}" for reason in self._reasons)
 
 

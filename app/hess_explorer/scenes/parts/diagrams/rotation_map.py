@@ -194,7 +194,7 @@ class RotationMap(Part[Host]):
 
     def status(self) -> Iterator[str]:
         """Yield the size and the error of the map."""
-        if self.asked("grid"):
+        if self.has_result("grid"):
             m, n = self.grid[1]
             task = Task(mechanics.rows_error, self.plane, self._beside, self.window, self.work.plan(Kind.GRID).level)
             error = None if self.work.dragging else self.work.need(task, preview=None)

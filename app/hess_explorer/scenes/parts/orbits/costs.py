@@ -42,7 +42,7 @@ class Costs:
     trials: tuple[Trial[Any], ...]
 
     @cached_property
-    def found(self) -> dict[Trial[Any], tuple[LevelCost, ...] | Refused | None]:
+    def results(self) -> dict[Trial[Any], tuple[LevelCost, ...] | Refused | None]:
         """The samples of each trial, one per level, or the reason why there are none; None until known."""
         return {trial: self.work.need(Task(measured, trial, self.shown), preview=None) for trial in self.trials}
 
@@ -51,7 +51,7 @@ class Costs:
         """The samples measured so far, of the trials and levels with an error."""
         return {
             trial: samples
-            for trial, found in self.found.items()
+            for trial, found in self.results.items()
             if isinstance(found, tuple) and (samples := tuple(one for one in found if one.is_measured))
         }
 
@@ -92,11 +92,11 @@ class Costs:
         """Return the caption: the cheapest level that is accurate enough for each trial, as far as measured."""
         if self.work.dragging:
             return Caption("Measured when a slider is released.")
-        known = [found for found in self.found.values() if found is not None]
-        if len(known) < len(self.found):
-            return Caption("Being measured.", f"{len(known)} of {len(self.found)} so far.")
+        known = [found for found in self.results.values() if found is not None]
+        if len(known) < len(self.results):
+            return Caption("Being measured.", f"{len(known)} of {len(self.results)} so far.")
         sentences = []
-        for trial, found in self.found.items():
+        for trial, found in self.results.items():
             if isinstance(found, Refused):
                 sentences.append(f"{trial.kind} cannot be measured: {found.reason}")
             elif trial not in self.samples:

@@ -26,7 +26,7 @@ from hess_mechanics.errors import MotionEnds
 from hess_mechanics.numerics.accuracy import Kind, Level, Plan
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["Exponent", "exponent_picture", "exponent_trial"]
+__all__ = ["OrbitExponent", "exponent_picture", "exponent_trial"]
 
 _LONG = 2000.0
 """The longest time for which levels are compared."""
@@ -51,7 +51,7 @@ class _Host(Host, Protocol):
 
 
 @dataclass(frozen=True, eq=False)
-class Exponent(Part[_Host]):
+class OrbitExponent(Part[_Host]):
     """The largest Lyapunov exponent; for a periodic orbit it follows from the multipliers."""
 
     @property
@@ -74,7 +74,7 @@ class Exponent(Part[_Host]):
         )
 
     @property
-    def found(self) -> spectrum.Exponent | None:
+    def result(self) -> spectrum.Exponent | None:
         """The exponent of an orbit that is not periodic; None until known, and if the motion ends early."""
         return None if isinstance(self._answer, NotFound) else self._answer
 
@@ -87,16 +87,16 @@ class Exponent(Part[_Host]):
         """Times and mean growth rates; None until known."""
         if self.growth is not None:
             return np.array([0.0, self.host.long]), np.full(2, self.growth[0])
-        return None if self.found is None else thinned(self.found.times, self.found.rates)
+        return None if self.result is None else thinned(self.result.times, self.result.rates)
 
     @property
     def axis(self) -> Range | None:
         """The vertical range of the picture; None until the exponent is known."""
         if self.growth is not None:
             return with_room(np.array([0.0, self.growth[0]]), 0.1, 1e-6)
-        if self.found is None:
+        if self.result is None:
             return None
-        later = self.found.rates[len(self.found.rates) // 10 :]
+        later = self.result.rates[len(self.result.rates) // 10 :]
         return min(0.0, 1.05 * float(later.min())), nice_above(1.05 * max(1e-6, float(later.max())))
 
     @property
@@ -116,7 +116,7 @@ class Exponent(Part[_Host]):
 
     def notes(self) -> Iterator[str]:
         """Yield the reason why the motion ends early, with time and place."""
-        if self.asked("_answer") and isinstance(self._answer, NotFound):
+        if self.has_result("_answer") and isinstance(self._answer, NotFound):
             yield self._answer.reason
 
 

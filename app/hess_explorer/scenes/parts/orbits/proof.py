@@ -21,7 +21,7 @@ from hess_mechanics.numerics.balls import has_flint
 from hess_mechanics.numerics.results import Array, Orbit
 from hess_mechanics.suslov_hess.torus import Track
 
-__all__ = ["HIDDEN", "SHOWN", "Proof", "ProvedError", "hull", "judged", "proved_error_shown"]
+__all__ = ["HIDDEN", "SHOWN", "OrbitProof", "ProvedError", "hull", "proved_error", "proved_error_shown"]
 
 _DIGITS, _MOST_WORK = 16, 1e6
 """Digits and work limit of a tube: far below double round-off; about 1.5 s of CPU time, 4 s for the ball."""
@@ -52,7 +52,7 @@ class _Host(Host, Protocol):
 
 
 @dataclass(frozen=True, eq=False)
-class Proof(Part[_Host]):
+class OrbitProof(Part[_Host]):
     """The proved error of the orbit on show, for a traced system.
 
     certain : `SHOWN` or `HIDDEN`; units : factors from ω1 and ω2 of the computation to those of the picture.
@@ -68,7 +68,7 @@ class Proof(Part[_Host]):
             return None
         if not has_flint():
             return ProvedError("proofs need python-flint: pip install 'hess-explorer[prove]'")
-        return self.work.need(Task(judged, self.host.finding, self.host.motion(), self.units), preview=None)
+        return self.work.need(Task(proved_error, self.host.finding, self.host.motion(), self.units), preview=None)
 
     @property
     def band(self) -> list[list[Array]]:
@@ -87,7 +87,7 @@ class Proof(Part[_Host]):
             yield self.error.sentence
 
 
-def judged(finding: Task[Orbit | Track], motion: Motion, units: tuple[float, float]) -> ProvedError:
+def proved_error(finding: Task[Orbit | Track], motion: Motion, units: tuple[float, float]) -> ProvedError:
     """Return the error of the computed orbit that the tube of its motion proves."""
     found: Orbit | Track = finding.get()
     orbit, omega, gamma = (

@@ -19,7 +19,7 @@ from hess_mechanics.errors import NoReturn
 from hess_mechanics.numerics.accuracy import Kind
 from hess_mechanics.numerics.results import Array, frozen
 
-__all__ = ["Regime", "few", "sets_of"]
+__all__ = ["OrbitRegime", "few", "sets_of"]
 
 _NOTHING = np.empty((0, 2))
 _LONG = 500, 1500
@@ -35,7 +35,7 @@ class _Host(Sectioned, Protocol):
 
 
 @dataclass(frozen=True, eq=False)
-class Regime(Part[_Host]):
+class OrbitRegime(Part[_Host]):
     """The kind of motion that starts at a place of a section, with its attractor and its repeller.
 
     long : the averaging time of the divergence.
@@ -108,7 +108,7 @@ def _dynamics(map_: ReturnMap, start: Place, transient: int, kept: int, duration
         return Dynamics(motion, motion.places[:0], motion.places[:0], ())
 
 
-def few(found: Array) -> Array | None:
+def few(points: Array) -> Array | None:
     """Return the distinct places (2, m) if there are few, to be drawn as large marks; else None."""
-    _, first = np.unique(np.round(found, 4), axis=0, return_index=True)
-    return found[first].T if 0 < len(first) <= _MANY else None
+    _, first = np.unique(np.round(points, 4), axis=0, return_index=True)
+    return points[first].T if 0 < len(first) <= _MANY else None

@@ -1,7 +1,7 @@
 """Sections: their orbits, and the results on them."""
 
 from hess_explorer.scenes.parts.sections.branch import (
-    Branch,
+    SectionBranch,
     branch_picture,
     coordinate_of_branch,
     end_of_branch,
@@ -9,9 +9,9 @@ from hess_explorer.scenes.parts.sections.branch import (
 )
 from hess_explorer.scenes.parts.sections.clicks import Clicks, filled, orbits_spread, points_of_each
 from hess_explorer.scenes.parts.sections.indicator import MEGNO, Indicator, colouring
-from hess_explorer.scenes.parts.sections.orbit import Orbit, orbit_picture
+from hess_explorer.scenes.parts.sections.orbit import BodyOrbit, orbit_picture
 from hess_explorer.scenes.parts.sections.periodic_orbit import (
-    PeriodicOrbit,
+    SectionPeriodicOrbit,
     length_of_manifolds,
     periodic_layers,
     which,
@@ -28,13 +28,13 @@ from hess_explorer.scenes.parts.sections.workbench import PLAIN, FilledState, Se
 __all__ = [
     "MEGNO",
     "PLAIN",
-    "Branch",
+    "BodyOrbit",
     "Clicks",
     "FilledState",
     "Indicator",
-    "Orbit",
-    "PeriodicOrbit",
     "Section",
+    "SectionBranch",
+    "SectionPeriodicOrbit",
     "SectionState",
     "branch_picture",
     "colouring",

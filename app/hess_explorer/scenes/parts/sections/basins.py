@@ -31,7 +31,7 @@ from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array, Mask
 from hess_mechanics.suslov.suslov_section import SuslovSection
 
-__all__ = ["Basins", "basins_trial"]
+__all__ = ["SectionBasins", "basins_trial"]
 
 _PIXELS = (512, 512)
 _STAGES = 6
@@ -97,17 +97,17 @@ class _Piece:
     """A part of the new cells of a stage."""
 
     stage: int
-    found: Arrivals
+    arrivals: Arrivals
 
 
 @dataclass(frozen=True, eq=False)
-class Basins(Part[_Host]):
+class SectionBasins(Part[_Host]):
     """The basins of a section of the Suslov problem, the boundaries refined to the pixel, and the saddles there."""
 
     section: Section
 
     @property
-    def wanted(self) -> bool:
+    def is_on(self) -> bool:
         """True if they are shown: the section is not alone then."""
         return not self.section.alone
 
@@ -119,7 +119,7 @@ class Basins(Part[_Host]):
     @cached_property
     def _what(self) -> _Sought | None:
         """The basins to compute; None if none are shown, and while a slider is held."""
-        return self.sought(self.work.plan(Kind.BASINS)) if self.wanted and not self.work.dragging else None
+        return self.sought(self.work.plan(Kind.BASINS)) if self.is_on and not self.work.dragging else None
 
     @cached_property
     def stage(self) -> int:
@@ -136,7 +136,7 @@ class Basins(Part[_Host]):
         return self.stage == _STAGES - 1
 
     @cached_property
-    def found(self) -> Arrivals | None:
+    def arrivals(self) -> Arrivals | None:
         """The attractor and the time of arrival of each cell (n, m); coarse until all stages are known."""
         if self._what is None or self.stage < 0 or not self._what.attractors().count:
             return None
@@ -189,9 +189,9 @@ class Basins(Part[_Host]):
         if largest is None:
             return Caption("No motion returns to the section.")
         div = f"mean div = {digits(largest.mean, 2)} ± {digits(largest.error, 1)}"
-        if not count or self.found is None:
+        if not count or self.arrivals is None:
             return Caption("No attractor is seen.", f"{div}.")
-        numbers = self.found.number
+        numbers = self.arrivals.number
         there = numbers[numbers != NOWHERE]
         if not there.size:
             return Caption("Nothing moves in this window.")
@@ -210,12 +210,12 @@ class Basins(Part[_Host]):
 
     def status(self) -> Iterator[str]:
         """Yield how much the basins depend on the size of the cells, once all are known, and the manifolds' error."""
-        if self.asked("found") and self.found is not None and self.known:
-            cells = resolved(self.found.number)
+        if self.has_result("arrivals") and self.arrivals is not None and self.known:
+            cells = resolved(self.arrivals.number)
             n, m = cells.shape
             change = digits(100.0 * unsure(cells), 2)
             yield f"basins {m} × {n}, twice as many cells would change {change} % of it"
-        if self.asked("manifolds") and self.manifolds:
+        if self.has_result("manifolds") and self.manifolds:
             yield (
                 f"stable manifolds {sum(len(one.points) for one in self.manifolds)} points, error across ≤ "
                 f"{max(one.error_estimate for one in self.manifolds):.1e}"
@@ -236,7 +236,7 @@ def _before(what: _Sought, stage: int) -> Arrivals | None:
 def _cells(what: _Sought, stage: int) -> Arrivals:
     """Return the arrivals from all cells (n, m) of a stage."""
     before = _before(what, stage)
-    pieces = [(slice(i, None, _PARTS), Task(_piece, what, stage, i).get().found) for i in range(_PARTS)]
+    pieces = [(slice(i, None, _PARTS), Task(_piece, what, stage, i).get().arrivals) for i in range(_PARTS)]
     return joined(before, what.divided(stage, before), pieces)
 
 
@@ -299,5 +299,5 @@ def basins_trial() -> Trial[Any]:
         lambda s, cells, truth: _error(cells, truth),
         unit="% of the cells that change",
         seen=3.0,
-        shown=lambda s: s.basins.wanted,
+        shown=lambda s: s.basins.is_on,
     )

@@ -9,14 +9,14 @@ from typing import Any, Protocol, Self
 
 import numpy as np
 
-from hess_explorer.protocol.specs import Number, Values
+from hess_explorer.protocol.specs import NumberSpec, Values
 from hess_explorer.scenes.framework.continuation import Continuation
 from hess_explorer.scenes.framework.families import Begin, Family
 from hess_explorer.scenes.framework.part import Sectioned
 from hess_explorer.scenes.framework.periodic_search import PERIODS
 from hess_explorer.scenes.framework.sliders import Slider, choice, number, specs_of
 from hess_explorer.scenes.framework.windows import Window
-from hess_explorer.scenes.parts.sections.periodic_orbit import PeriodicOrbit
+from hess_explorer.scenes.parts.sections.periodic_orbit import SectionPeriodicOrbit
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import Axes, Range, curves, points
@@ -27,7 +27,7 @@ from hess_explorer.views.plot import Plot
 from hess_mechanics.numerics.results import Array
 
 __all__ = [
-    "Branch",
+    "SectionBranch",
     "branch_picture",
     "coordinate_of_branch",
     "end_of_branch",
@@ -98,13 +98,13 @@ class _Section(Sectioned, Protocol):
 
 
 @dataclass(frozen=True, eq=False)
-class Branch(Continuation[_Section]):
+class SectionBranch(Continuation[_Section]):
     """The branch of the periodic orbit of a section over a parameter.
 
     along : symbols of the section's parameters → their names; besides : choices that the section also depends on.
     """
 
-    orbit: PeriodicOrbit
+    orbit: SectionPeriodicOrbit
     along: Mapping[str, str]
     besides: tuple[str, ...] = ()
 
@@ -127,7 +127,7 @@ class Branch(Continuation[_Section]):
     def ends(self) -> tuple[float, float]:
         """The range of the parameter, within its bounds."""
         spec = next(one for one in specs_of(type(self.host)) if one.name == self.name)
-        assert isinstance(spec, Number)
+        assert isinstance(spec, NumberSpec)
         least, most = spec.bounds
         first, last, _ = self.host.limits().get(self.name, (*spec.softbounds, spec.step))
         low, high = (min(max(one, least), most) for one in sorted((self.host.low, self.host.high)))
@@ -207,14 +207,14 @@ class Branch(Continuation[_Section]):
     @property
     def caption(self) -> Caption:
         """The caption of the picture."""
-        if not self.orbit.closing:
+        if not self.orbit.is_on:
             return Caption("No periodic orbit is chosen.", "Choose one; then a click on its branch shows that orbit.")
         return Caption(self.work.awaited("A periodic orbit is")) if self.orbit.looking else super().caption
 
     @property
     def message(self) -> str:
         """The reason why the picture is empty; an empty string if it is not."""
-        if not self.orbit.closing:
+        if not self.orbit.is_on:
             return "Choose a Periodic orbit, and its branch is continued here"
         found = self.orbit.looking or self.orbit.closed is not None
         return "" if found else "No periodic orbit is found from here"
@@ -225,7 +225,7 @@ class Branch(Continuation[_Section]):
 
     def idle(self) -> Mapping[str, float]:
         """Return the ends of the range if there is no branch."""
-        return {} if self.orbit.closing else {"low": self.host.low, "high": self.host.high}
+        return {} if self.orbit.is_on else {"low": self.host.low, "high": self.host.high}
 
     def carried(self, before: Self) -> Mapping[str, float]:
         """Return the default range after a change of the parameter."""
@@ -235,26 +235,26 @@ class Branch(Continuation[_Section]):
 def branch_picture() -> Picture[Any]:
     """Return the picture of the branch over its parameter."""
 
-    def itself(s: Branch) -> Branch:
+    def itself(s: SectionBranch) -> SectionBranch:
         return s
 
-    def at_the_value(s: Branch, axes: Axes) -> list[Array]:
+    def at_the_value(s: SectionBranch, axes: Axes) -> list[Array]:
         return [np.array([[s.at, y] for y in axes.y])] if s.branches else []
 
-    def shown(s: Branch, axes: Axes) -> Array | None:
+    def shown(s: SectionBranch, axes: Axes) -> Array | None:
         here = s.here
         return None if here is None else seen(here[::-1].T, s.turn, Axes(axes.y, axes.x))[:, ::-1].T
 
-    return Plot[Branch](
+    return Plot[SectionBranch](
         name="branch",
         title="Branch of the periodic orbit",
         caption=lambda s: s.caption,
         folded="Show the branch of the periodic orbit",
         axes=lambda s: (s.host.over, s.host.upwards),
         message=lambda s: s.message,
-        on_click=Branch.choose,
-        on_box=Branch.boxed,
-        on_hover=Branch.about,
+        on_click=SectionBranch.choose,
+        on_box=SectionBranch.boxed,
+        on_hover=SectionBranch.about,
         x=lambda s: s.ends,
         y=lambda s: s.upwards_range,
         layers=(

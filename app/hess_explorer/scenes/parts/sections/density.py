@@ -20,7 +20,7 @@ from hess_mechanics.dynamics.section_density import Visits, visits
 from hess_mechanics.numerics.accuracy import Kind, plan
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["Density"]
+__all__ = ["SectionDensity"]
 
 _PIXELS = (512, 512)
 _ORBITS = 128
@@ -34,16 +34,16 @@ _LEVEL = plan(Kind.SECTION, "draft").level
 
 
 @dataclass(frozen=True, eq=False)
-class Density(Part[Section]):
+class SectionDensity(Part[Section]):
     """Crossings of orbits spread over the window, counted in its pixels.
 
     The orbits are followed in stages, each of which doubles their lengths.
 
-    wanted : show it; kinds : their number, by default one for each direction of time; kind_of(states) : the kinds (k,)
+    is_on : show it; kinds : their number, by default one for each direction of time; kind_of(states) : the kinds (k,)
     of orbits, by default in turn.
     """
 
-    wanted: bool
+    is_on: bool
     kinds: int = 0
     kind_of: Callable[[Array], Array] | None = None
 
@@ -65,7 +65,7 @@ class Density(Part[Section]):
     @cached_property
     def _found(self) -> list[Visits | None]:
         """The newest known visits of each group of orbits; none while a slider is held."""
-        if not self.wanted or self.work.dragging:
+        if not self.is_on or self.work.dragging:
             return []
         where = self.host.poincare, self.host.frame
         return self.work.newest(
@@ -110,7 +110,7 @@ class Density(Part[Section]):
 
     def status(self) -> Iterator[str]:
         """Yield the size and drift of the density."""
-        if self.asked("_found") and self.points:
+        if self.has_result("_found") and self.points:
             yield f"density {self.points} crossings"
             yield from drift_status(one.drift for one in self._found if one is not None)
 

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from hess_explorer.compute.cache import Task
-from hess_explorer.scenes.parts.orbits.exponent import Exponent, exponent_picture
+from hess_explorer.scenes.parts.orbits.exponent import OrbitExponent, exponent_picture
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.graphs.graph import over_time, settled_range, thinned
@@ -24,11 +24,11 @@ __all__ = ["Divergence", "divergence_picture"]
 
 
 @dataclass(frozen=True, eq=False)
-class Divergence(Exponent):
+class Divergence(OrbitExponent):
     """The exponent with the mean divergence along an orbit of the Suslov problem, shown once both are known."""
 
     @cached_property
-    def course(self) -> MeanDivergence | None:
+    def divergence(self) -> MeanDivergence | None:
         """The mean divergence over time; None until known, while a slider is held, and for a periodic orbit."""
         if self.later:
             return None
@@ -40,7 +40,7 @@ class Divergence(Exponent):
         """Times and values of the exponent and of the mean divergence, from the multipliers of a periodic orbit."""
         if self.growth is not None:
             return tuple((np.array([0.0, self.host.long]), np.full(2, rate)) for rate in self.growth)
-        found, course = self.found, self.course
+        found, course = self.result, self.divergence
         return () if found is None or course is None else ((found.times, found.rates), (course.times, course.mean))
 
     def rate(self, i: int) -> tuple[Array, Array] | None:
@@ -60,7 +60,7 @@ class Divergence(Exponent):
             return Caption(
                 "From the multipliers of the periodic orbit.", f"ln|μ₁|/T = {across}, div = ln|μ₁μ₂|/T = {divergence}."
             )
-        found, course = self.found, self.course
+        found, course = self.result, self.divergence
         if found is None or course is None:
             return Caption(self.work.awaited())
         return Caption(

@@ -49,9 +49,9 @@ _WAYS = ((1.0, 1.0), (-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0))
 
 @dataclass(frozen=True, eq=False)
 class Indicator(Part[Section]):
-    """The cells of a section coloured by MEGNO; wanted : show them."""
+    """The cells of a section coloured by MEGNO; is_on : show them."""
 
-    wanted: bool
+    is_on: bool
 
     @cached_property
     def time(self) -> float:
@@ -69,7 +69,7 @@ class Indicator(Part[Section]):
     @cached_property
     def _cells(self) -> tuple[Array, int] | None:
         """The rows (3, m) of `row_of_cells`, and the number of rows still coarse; None until coarse ones are known."""
-        if not self.wanted or self.work.dragging:
+        if not self.is_on or self.work.dragging:
             return None
         plan = self.work.plan(Kind.INDICATOR)
         return found_by_rows(
@@ -84,7 +84,7 @@ class Indicator(Part[Section]):
     @property
     def caption(self) -> Caption | None:
         """The caption of a section with MEGNO; None without it."""
-        if not self.wanted or self.work.dragging:
+        if not self.is_on or self.work.dragging:
             return None
         if self._cells is None or self._cells[1]:
             return Caption(self.work.awaited(), f"MEGNO after t = {digits(self.time)}: first coarse cells.")
@@ -104,7 +104,7 @@ class Indicator(Part[Section]):
 
     def status(self) -> Iterator[str]:
         """Yield the share of cells between regular and chaotic, once all are known."""
-        if self.asked("_cells") and self._cells is not None and not self._cells[1]:
+        if self.has_result("_cells") and self._cells is not None and not self._cells[1]:
             values = self._cells[0][:, 0]
             n, m = values.shape
             between = float(np.mean((values > REGULAR) & (values <= CHAOTIC)))
@@ -138,5 +138,5 @@ def indicator_trial() -> Trial[Any]:
         lambda s, cells, truth: changed(cells, truth),
         unit="% of the cells that change",
         seen=3.0,
-        shown=lambda s: s.megno.wanted,
+        shown=lambda s: s.megno.is_on,
     )

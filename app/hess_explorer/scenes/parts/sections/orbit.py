@@ -23,7 +23,7 @@ from hess_mechanics.dynamics.system import Body
 from hess_mechanics.numerics import results
 from hess_mechanics.numerics.accuracy import Level
 
-__all__ = ["Orbit", "orbit_picture"]
+__all__ = ["BodyOrbit", "orbit_picture"]
 
 
 class _Host(Host, Protocol):
@@ -45,7 +45,7 @@ class _Host(Host, Protocol):
 
 
 @dataclass(frozen=True, eq=False)
-class Orbit(Part[_Host]):
+class BodyOrbit(Part[_Host]):
     """The orbit on show, from `start`.
 
     accuracy : its level, if it is not the chosen one; most : the largest number of samples; max_step : its longest
@@ -82,12 +82,12 @@ class Orbit(Part[_Host]):
 
     def notes(self) -> Iterator[str]:
         """Yield the reason why the motion ends before its time span does, with time and place."""
-        if self.asked("path") and self.path.reason:
+        if self.has_result("path") and self.path.reason:
             yield self.path.reason
 
     def status(self) -> Iterator[str]:
         """Yield the size, cost and error."""
-        if self.asked("path"):
+        if self.has_result("path"):
             yield orbit_status(self.path)[0]
 
     @property

@@ -38,7 +38,7 @@ from hess_mechanics.dynamics.manifolds import Intersection, Manifold
 from hess_mechanics.dynamics.return_map import ReturnMap
 from hess_mechanics.numerics.accuracy import PRECISE, Status
 
-__all__ = ["NONE", "PeriodicOrbit", "length_of_manifolds", "periodic_layers", "which"]
+__all__ = ["NONE", "SectionPeriodicOrbit", "length_of_manifolds", "periodic_layers", "which"]
 
 T = TypeVar("T")
 
@@ -73,7 +73,7 @@ def length_of_manifolds() -> Any:
 
 
 @dataclass(frozen=True, eq=False)
-class PeriodicOrbit(Part[Section]):
+class SectionPeriodicOrbit(Part[Section]):
     """A periodic orbit shown in place of the chosen orbit of a section.
 
     period : one of `PERIODS`, or `NONE`; reach : the length of the manifolds of a saddle.
@@ -83,14 +83,14 @@ class PeriodicOrbit(Part[Section]):
     reach: float
 
     @property
-    def closing(self) -> bool:
+    def is_on(self) -> bool:
         """True if a periodic orbit is requested."""
         return self.period != NONE
 
     @property
     def _search(self) -> Search | None:
         """The arguments of `sought`; None if there is nothing to search for."""
-        if not self.closing or self.host.aim is None:
+        if not self.is_on or self.host.aim is None:
             return None
         # The error of an unstable orbit grows along it.
         level, held = self.work.level, self.work.dragging
@@ -184,12 +184,12 @@ class PeriodicOrbit(Part[Section]):
 
     def idle(self) -> Mapping[str, float]:
         """Return the length of the manifolds if none are requested."""
-        return {} if self.closing or not self.host.alone else {"reach": self.reach}
+        return {} if self.is_on or not self.host.alone else {"reach": self.reach}
 
     @property
     def caption(self) -> Caption | None:
         """The caption of the section if a periodic orbit is requested, else None."""
-        if not self.closing or self.host.aim is None:
+        if not self.is_on or self.host.aim is None:
             return None
         if self.looking:
             return Caption("Searching for a periodic orbit.")

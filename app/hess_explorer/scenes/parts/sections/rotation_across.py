@@ -102,7 +102,7 @@ class RotationAcross(Part[_Host]):
         return all(batch is not None for _, batch in self._known)
 
     @cached_property
-    def found(self) -> RotationProfile:
+    def profile(self) -> RotationProfile:
         """The known rotation numbers along the line; of few, short orbits while a slider is held."""
         return self._profile(self._known, self.work.plan(Kind.ROTATION))
 
@@ -127,11 +127,11 @@ class RotationAcross(Part[_Host]):
 
     def message(self) -> str:
         """Return the reason why the picture is empty; an empty string if it is not, or until all is known."""
-        if self.found.numbers.size or not self._complete:
+        if self.profile.numbers.size or not self._complete:
             return ""
         return (
             "No closed curve here makes a turn"
-            if self.found.standing.size
+            if self.profile.standing.size
             else "No orbit on the line is a closed curve"
         )
 
@@ -148,16 +148,16 @@ class RotationAcross(Part[_Host]):
     def parts_at_sea(self, axes: Axes) -> list[list[Array]]:
         """Return the chaotic parts of the line as rectangles."""
         low, high = axes.y
-        return [[np.array([[a, low], [b, low], [b, high], [a, high]])] for a, b in self.found.sea]
+        return [[np.array([[a, low], [b, low], [b, high], [a, high]])] for a, b in self.profile.sea]
 
     def caption(self) -> Caption:
         """Return the caption of the picture."""
-        if not self.found.numbers.size:
+        if not self.profile.numbers.size:
             return Caption(self.message() + "." if self._complete else self.work.awaited())
-        rho = self.found.numbers
+        rho = self.profile.numbers
         # A line across the whole section meets orbits of many kinds: ρ is no single function of the place.
-        turning = self.found.extremum if self.about_middle else None
-        still = self.found.standing.size
+        turning = self.profile.extremum if self.about_middle else None
+        still = self.profile.standing.size
         standing = f"; {still} do not rotate" if still else ""
         low, high = self._turns(rho.min()), self._turns(rho.max())
         if low == high:
@@ -205,7 +205,7 @@ def rotation_picture() -> Picture[Any]:
         first=Axes((-1.0, 1.0), (-0.5, 0.5)),
         message=lambda s: s.rotation.message(),
         x=lambda s: s.rotation.along,
-        y=lambda s: _axis_of(s.rotation.found),
+        y=lambda s: _axis_of(s.rotation.profile),
         layers=(
             region(
                 "sea",
@@ -216,15 +216,17 @@ def rotation_picture() -> Picture[Any]:
             ),
             points(
                 "standing",
-                lambda s: (s.rotation.found.standing, np.zeros(s.rotation.found.standing.size)),
+                lambda s: (s.rotation.profile.standing, np.zeros(s.rotation.profile.standing.size)),
                 size=7,
                 hollow=True,
                 color=theme.MUTED,
                 edge_width=1.5,
                 label="no rotation: 0 turns",
             ),
-            curves("rho", lambda s: _branches(s.rotation.found), color=theme.ORBIT),
+            curves("rho", lambda s: _branches(s.rotation.profile), color=theme.ORBIT),
             # An orbit between two gaps is a curve of one point, which only a mark shows.
-            points("orbits", lambda s: (s.rotation.found.places, s.rotation.found.numbers), size=4, color=theme.ORBIT),
+            points(
+                "orbits", lambda s: (s.rotation.profile.places, s.rotation.profile.numbers), size=4, color=theme.ORBIT
+            ),
         ),
     )

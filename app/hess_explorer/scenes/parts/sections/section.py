@@ -16,7 +16,7 @@ from hess_explorer.scenes.framework.part import Part, Sectioned, Start
 from hess_explorer.scenes.framework.periodic_search import Periodic, Place
 from hess_explorer.scenes.framework.sliders import number
 from hess_explorer.scenes.framework.windows import Window, pixels_in, tidy_window, window_of
-from hess_explorer.scenes.framework.work import drift_status, kept_status
+from hess_explorer.scenes.framework.work import accuracy_status, drift_status
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.plane.section_plane import joined
 from hess_mechanics.dynamics.return_map import PoincareSection, section_crossings
@@ -274,16 +274,16 @@ class Section(Part[_Host]):
 
     def status(self) -> Iterator[str]:
         """Yield the size, cost and drift of the section, and the accuracy of the orbit on show."""
-        if self.asked("known") and not self.known.reason:
+        if self.has_result("known") and not self.known.reason:
             known = [*self.known.chosen, *self.known.batches]
             points = len(self.own) + len(self.points()) + len(self.points(False))
             yield f"section {points} points, {sum(batch.steps for batch in known)} Taylor steps"
             yield from drift_status(batch.drift for batch in known)
-            yield from kept_status(self._right, self._count)
+            yield from accuracy_status(self._right, self._count)
 
     def notes(self) -> Iterator[str]:
         """Yield the reason why the section is left out, or why a chosen orbit ends early."""
-        if self.asked("known"):
+        if self.has_result("known"):
             reasons = (reason for batch in self.known.chosen for reason in batch.reasons)
             yield from filter(None, (self.known.reason, *reasons))
 

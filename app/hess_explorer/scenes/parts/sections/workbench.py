@@ -13,13 +13,13 @@ from hess_explorer.scenes.framework.periodic_search import Closed
 from hess_explorer.scenes.framework.scene import Motion, State
 from hess_explorer.scenes.framework.sliders import accuracy_level, exponent_time, proved_error_shown, time_span
 from hess_explorer.scenes.framework.solid_body import Solid, constrained_solid
-from hess_explorer.scenes.parts.orbits.exponent import Exponent
-from hess_explorer.scenes.parts.orbits.proof import Proof
+from hess_explorer.scenes.parts.orbits.exponent import OrbitExponent
+from hess_explorer.scenes.parts.orbits.proof import OrbitProof
 from hess_explorer.scenes.parts.sections.clicks import orbits_spread, points_of_each
-from hess_explorer.scenes.parts.sections.density import Density
+from hess_explorer.scenes.parts.sections.density import SectionDensity
 from hess_explorer.scenes.parts.sections.indicator import MEGNO, Indicator, colouring
-from hess_explorer.scenes.parts.sections.orbit import Orbit
-from hess_explorer.scenes.parts.sections.periodic_orbit import NONE, PeriodicOrbit, length_of_manifolds, which
+from hess_explorer.scenes.parts.sections.orbit import BodyOrbit
+from hess_explorer.scenes.parts.sections.periodic_orbit import NONE, SectionPeriodicOrbit, length_of_manifolds, which
 from hess_explorer.scenes.parts.sections.section import Section, crossings_of_each, start_on
 from hess_explorer.views.caption import Caption
 from hess_mechanics.dynamics.return_map import PoincareSection
@@ -65,11 +65,11 @@ class SectionState(State, ABC):
         return start_on(self.poincare, self.place)
 
     section = part(Section)
-    density = part(lambda s: Density(s.section, s.dense))
+    density = part(lambda s: SectionDensity(s.section, s.dense))
     megno = part(lambda s: Indicator(s.section, s.indicator == MEGNO and s.section.alone))
-    periodic_orbit = part(lambda s: PeriodicOrbit(s.section, s.periodic, s.reach))
-    orbit = part(Orbit)
-    proof = part(lambda s: Proof(s.orbit, s.certain))
+    periodic_orbit = part(lambda s: SectionPeriodicOrbit(s.section, s.periodic, s.reach))
+    orbit = part(BodyOrbit)
+    proof = part(lambda s: OrbitProof(s.orbit, s.certain))
 
     @property
     def dense(self) -> bool:
@@ -119,7 +119,7 @@ class FilledState(SectionState):
     long: float = exponent_time(1000.0, 5000.0, 2e4, "the Lyapunov exponent and the divergence are")
     starts: str = ""
 
-    exponent = part(Exponent)
+    exponent = part(OrbitExponent)
 
     @property
     def given(self) -> Start:
