@@ -28,7 +28,6 @@ DOCUMENTS = [
     )
 ] + sorted((ROOT / "app/hess_explorer/docs").rglob("*.md"))
 MEASURED = {
-    "tests/models/README.md": "tests/models/test_extremes.py",
     "tests/benchmarks/README.md": "tests/benchmarks/benchmark_page.py",
     "app/README.md": "tests/benchmarks/benchmark_trade.py",
     "app/hess_explorer/scenes/speed_accuracy.md": "tests/benchmarks/benchmark_trade.py",

@@ -1,7 +1,6 @@
 """Roots of one step's polynomial: none lost, none doubled, each accurate to round-off."""
 
-from fractions import Fraction
-
+import mpmath
 import numpy as np
 from hypothesis import assume, given
 from hypothesis import strategies as st
@@ -10,7 +9,6 @@ from pytest import approx, mark, param
 from scipy.optimize import brentq
 
 from hess_mechanics.numerics import events_kernels as crossings
-from hess_mechanics.numerics.events_kernels import largest_bend, root_between, value_and_slope
 
 EPS = np.finfo(float).eps
 
@@ -30,19 +28,13 @@ def found_roots(e, h, below=None, end=None, enough=50_000):
     Uncompiled, so that one root too many raises an error instead of writing outside the array.
     """
     e = np.array(e, float)
-    end = value_and_slope(e, h)[0] if end is None else end
+    end = np.polyval(e[::-1], h) if end is None else end
     below = bool(e[0] < 0.0) if below is None else below
     roots = np.full(e.size, np.nan)
     pieces = np.zeros((crossings._DEPTH + 2, 2)).view(Pieces)
     pieces.enough = enough
     found = crossings.roots_on_step.py_func(e, h, below, end, bool(end < 0.0), 0, roots, pieces)
     return roots[:found]
-
-
-def exactly(e, s):
-    """e(s) without round-off."""
-    s = Fraction(float(s))
-    return sum((Fraction(float(value)) * s**k for k, value in enumerate(e)), Fraction(0))
 
 
 def reach(e, s, h):
@@ -61,43 +53,18 @@ def agree(found, e, roots, h):
 
 
 def product(roots, others=(1.0,)):
-    """∏ (s − r) and another polynomial, multiplied out exactly and rounded once."""
-    e = [Fraction(float(value)) for value in others]
-    for root in roots:
-        shifted = [Fraction(0), *e]
-        e = [a - Fraction(float(root)) * b for a, b in zip(shifted, [*e, Fraction(0)], strict=True)]
-    return np.array([float(value) for value in e])
+    """∏ (s − r) and another polynomial."""
+    return (Polynomial.fromroots(roots) * Polynomial(others)).coef
 
 
-WITHOUT_ROOTS = [
-    param((1.0,), id="alone"),
-    param((2.0, 0.0, 1.0), id="with a complex pair"),
-    param((3.0, 1.0, 0.5, -0.25, 0.125), id="with four more far away"),
-]
-with_others = mark.parametrize("others", WITHOUT_ROOTS)
-
-
-@given(st.lists(st.integers(-1000, 1000), min_size=1, max_size=25), st.integers(-1500, 1500))
-def test_value_and_slope_are_those_of_the_polynomial(coefficients, at):
-    e, s = np.array(coefficients) / 1000.0, at / 1000.0
-    value, slope = value_and_slope(e, s)
-    derivative = [k * e[k] for k in range(1, e.size)]
-    # Horner's bound 2n ε Σ|e_k| |s|^k, for the slope n times that.
-    size = float(np.polyval(np.abs(e[::-1]), max(1.0, abs(s)))) * 2 * e.size * EPS
-    assert abs(value - float(exactly(e, s))) <= size
-    assert abs(slope - float(exactly(derivative, s))) <= e.size * size
-
-
-@given(st.lists(st.integers(-1000, 1000), min_size=1, max_size=25), st.floats(0.01, 3.0))
-def test_the_largest_bend_bounds_the_second_derivative(coefficients, h):
-    e = np.array(coefficients) / 1000.0
-    sampled = np.abs(Polynomial(e).deriv(2)(np.linspace(0.0, h, 201)))
-    bend = largest_bend(e, h)
-    # Round-off of the two sums.
-    assert bend >= sampled.max() * (1 - 100 * EPS)
-    # If no coefficient is negative it is at most the second derivative at h.
-    assert largest_bend(np.abs(e), h) == approx(Polynomial(np.abs(e)).deriv(2)(h), rel=100 * EPS)
-    assert bend == largest_bend(np.abs(e), h)
+with_others = mark.parametrize(
+    "others",
+    [
+        param((1.0,), id="alone"),
+        param((2.0, 0.0, 1.0), id="with a complex pair"),
+        param((3.0, 1.0, 0.5, -0.25, 0.125), id="with four more far away"),
+    ],
+)
 
 
 @mark.parametrize("height", [1e-6, 1e-10, 1e-14])
@@ -134,8 +101,8 @@ def test_a_plane_that_is_touched_is_not_crossed(root):
     assert found == approx(root, abs=1e-7)
 
 
-@mark.parametrize(("depth", "count"), [(1e-3, 0), (1e-9, 0), (1e-13, 0), (-1e-13, 2), (-1e-9, 2), (-1e-3, 2)])
-@mark.parametrize("root", [0.3, 0.5, 0.7123456789])
+@mark.parametrize(("depth", "count"), [(1e-3, 0), (1e-13, 0), (-1e-13, 2), (-1e-3, 2)])
+@mark.parametrize("root", [0.5, 0.7123456789])
 @mark.parametrize("sign", [1.0, -1.0])
 def test_a_turning_this_near_the_plane_is_on_its_side(depth, count, root, sign):
     e = product((root, root))
@@ -155,10 +122,7 @@ def test_a_crossing_where_two_steps_meet_is_seen_exactly_once(rounding, directio
     # From −1 to 1 through 0 in two steps; where they meet, round-off says how high the orbit is.
     whole = Polynomial(direction * np.array([0.0, *others]))
     first = whole(Polynomial([-1.0, 1.0])).coef
-    first_roots = found_roots(first, 1.0, end=rounding)
-    second = whole.coef + 0.0
-    second_roots = found_roots(second, 1.0, below=rounding < 0.0)
-    places = [*(first_roots - 1.0), *second_roots]
+    places = [*(found_roots(first, 1.0, end=rounding) - 1.0), *found_roots(whole.coef, 1.0, below=rounding < 0.0)]
     assert places == approx([0.0], abs=1e-14)
 
 
@@ -201,26 +165,23 @@ def test_random_polynomials_have_the_roots_that_numpy_finds(coefficients, h):
     assert agree(found_roots(e, h), e, roots, h)
 
 
-HARD = [
-    param(product((0.3,), (1.0, 0.0, 0.0, 1000.0)), 0.0, 1.0, id="flat, then steep"),
-    param(np.array([-1e-6, 1e-6, 0.0, 1.0]), 0.0, 1.0, id="nearly a triple root"),
-    param(np.array([-0.5, 0.0, 2.0, 2.0]), 0.0, 1.0, id="no slope at the left end"),
-    param(np.array([-0.2, 1.2, 0.0, -1.0]), 0.0, 0.6, id="a slope that vanishes near the end"),
-    param(product((1e-12, -1.0)), 0.0, 1.0, id="a root beside the left end"),
-    param(np.array([-0.5] + [0.0] * 22 + [1.0]), 0.0, 1.0, id="a high power"),
-    param(np.array([-1e-300, 0.5, 0.25]), 0.0, 1.0, id="a root that is nearly 0"),
-    param(np.array([-0.6, 1.0]) * 1e-12, 0.5, 0.75, id="a low line"),
-]
-
-
-@mark.parametrize(("e", "low", "high"), HARD)
+@mark.parametrize(
+    ("e", "h"),
+    [
+        param(product((0.3,), (1.0, 0.0, 0.0, 1000.0)), 1.0, id="flat, then steep"),
+        param([-1e-6, 1e-6, 0.0, 1.0], 1.0, id="nearly a triple root"),
+        param([-0.5, 0.0, 2.0, 2.0], 1.0, id="no slope at the left end"),
+        param([-0.2, 1.2, 0.0, -1.0], 0.6, id="a slope that vanishes near the end"),
+        param(product((1e-12, -1.0)), 1.0, id="a root beside the left end"),
+        param([-0.5] + [0.0] * 22 + [1.0], 1.0, id="a high power"),
+        param([-1e-300, 0.5, 0.25], 1.0, id="a root that is nearly 0"),
+        param([-0.6e-12, 1e-12], 0.75, id="a low line"),
+    ],
+)
 @mark.parametrize("sign", [1.0, -1.0])
-@mark.parametrize("place", [0.0, 0.1, 0.5, 0.9, 1.0])
-def test_a_root_is_found_from_every_guess(e, low, high, sign, place):
-    guess = low + place * (high - low)
-    bend = largest_bend(e, high)
-    found = root_between(sign * e, low, high, guess, bool(sign * exactly(e, low) < 0), bend)
-    # e changes sides, exactly, within the reach of double precision.
-    around = reach(e, found, high)
-    assert low <= found <= high
-    assert exactly(e, max(low, found - around)) <= 0 <= exactly(e, min(high, found + around))
+def test_around_a_hard_root_the_polynomial_changes_sides(e, h, sign):
+    (found,) = found_roots(sign * np.array(e), h)
+    around = reach(e, found, h)
+    with mpmath.workdps(700):
+        before, after = (mpmath.polyval([mpmath.mpf(x) for x in reversed(e)], found + d) for d in (-around, around))
+        assert before < 0 < after

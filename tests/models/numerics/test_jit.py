@@ -1,14 +1,10 @@
 """The cache of kernels: invalidation, ownership of its folder, and distinct kernels for distinct functions."""
 
-import json
 import os
 import re
 import shutil
-import subprocess
-import sys
 from pathlib import Path
 
-import numpy as np
 from pytest import fixture, mark, raises
 
 import hess_mechanics
@@ -19,20 +15,6 @@ from hess_mechanics.numerics.patience import limited_by
 
 PACKAGE = Path(hess_mechanics.__file__).parent
 PARTS = ("numerics", "dynamics", "rigid_body", "suslov", "suslov_hess", "chaplygin_ball", "euler_poisson")
-
-
-def run(code, folder, path, *arguments):
-    environment = {**os.environ, "NUMBA_CACHE_DIR": str(folder), "PYTHONPATH": str(path)}
-    found = subprocess.run(
-        [sys.executable, "-W", "error", "-c", code, *arguments],
-        env=environment,
-        capture_output=True,
-        text=True,
-        timeout=300,
-        check=False,
-    )
-    assert found.returncode == 0, found.stderr
-    return json.loads(found.stdout)
 
 
 # ---- what makes it stale ----------------------------------------------------------------------------------------
@@ -95,11 +77,6 @@ def test_a_change_makes_stale_what_it_is_part_of_and_nothing_else(copied, hashes
     assert (before["all"] != after["all"]) == bool(changed)
 
 
-def test_a_process_hashes_the_package_that_it_imports(hashes, copied, tmp_path):
-    code = "import json; from hess_mechanics.numerics.jit import source_hash; print(json.dumps(source_hash()))"
-    assert run(code, tmp_path, copied[0].parent) == hashes()["all"]
-
-
 # ---- whose folder it is -----------------------------------------------------------------------------------------
 
 
@@ -117,19 +94,17 @@ def nowhere(tmp_path, monkeypatch):
 
 def test_the_users_own_folder_comes_first_and_is_closed_to_others(tmp_path, monkeypatch):
     monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path))
-    folder = jit._cache_folder()
-    assert folder == tmp_path / "hess-explorer"
-    assert folder.stat().st_mode & 0o777 == 0o700
-    folder.chmod(0o755)
-    assert jit._cache_folder() == folder
-    assert folder.stat().st_mode & 0o777 == 0o700
+    for _ in range(2):
+        folder = jit._cache_folder()
+        assert folder == tmp_path / "hess-explorer"
+        assert folder.stat().st_mode & 0o777 == 0o700
+        folder.chmod(0o755)
 
 
 def test_in_a_shared_folder_its_name_cannot_be_guessed_and_it_is_found_again(nowhere):
     folder = jit._cache_folder()
     assert folder.parent == nowhere
-    assert folder.name.startswith("hess-explorer-")
-    assert len(folder.name) >= len("hess-explorer-") + 8
+    assert re.fullmatch(r"hess-explorer-.{8,}", folder.name)
     assert folder.stat().st_mode & 0o777 == 0o700
     assert jit._cache_folder() == folder
     shutil.rmtree(folder)
@@ -144,19 +119,18 @@ def test_a_folder_that_others_may_write_to_is_not_used(nowhere, mode):
     assert jit._cache_folder() != theirs
 
 
-def test_a_folder_of_somebody_else_is_not_used(nowhere, monkeypatch):
-    theirs = nowhere / "hess-explorer-0"
+def test_a_folder_of_somebody_else_or_a_link_to_one_is_not_used(nowhere, tmp_path, monkeypatch):
+    theirs, elsewhere = nowhere / "hess-explorer-0", tmp_path / "elsewhere"
     theirs.mkdir(mode=0o700)
     assert jit._cache_folder() == theirs
+    theirs.rename(elsewhere)
+    theirs.symlink_to(elsewhere)
+    assert jit._cache_folder() != theirs
+    theirs.unlink()
+    elsewhere.rename(theirs)
     own = os.getuid()
     monkeypatch.setattr(os, "getuid", lambda: own + 1)
     assert jit._cache_folder() != theirs
-
-
-def test_a_link_to_a_folder_is_not_used(nowhere, tmp_path):
-    (tmp_path / "elsewhere").mkdir(mode=0o700)
-    (nowhere / "hess-explorer-0").symlink_to(tmp_path / "elsewhere")
-    assert jit._cache_folder() != nowhere / "hess-explorer-0"
 
 
 def test_without_any_folder_kernels_are_compiled_all_the_same(nowhere, monkeypatch):
@@ -179,10 +153,7 @@ def test_systems_of_one_name_have_each_its_own_file(tmp_path, monkeypatch):
     monkeypatch.setattr(jit, "CACHE_FOLDER", tmp_path)
     for field in (lambda y, p: (p[0] * y[0],), lambda y, p: (-p[0] * y[0],)):
         assert callable(System("same", field, "x", {"a": 0.5}).orbit)
-    texts = [path.read_text(encoding="utf-8") for path in tmp_path.rglob("same_orbit-*.py")]
-    assert len(texts) == 2
-    (grows,) = (text for text in texts if "# def rates(y, q, p, one):\n#     return ((p[0] * y[0]),)" in text)
-    assert "def same_orbit(y, p, times, order, tolerance, longest, max_steps, out):" in grows
+    assert len(list(tmp_path.rglob("same_orbit-*.py"))) == 2
 
 
 class Cancelled(Exception):
@@ -217,14 +188,7 @@ def test_a_long_compilation_is_known_from_the_field():
         q, v = (0.0, *y[:15], 0.0), y[15:]
         return *v, *((q[i + 1] - q[i]) ** 3 - (q[i] - q[i - 1]) ** 3 for i in range(1, 16))
 
-    def pairs(y, p):
-        return tuple(sum(np.sin(other - one) for other in y) for one in y)
-
-    def seconds(kernel):
-        found = re.search(r"about (\d+) s", getattr(kernel.py_func, "announcement", ""))
-        return float(found[1]) if found else 0.0
-
     many = System("chain", chain, [f"{name}{i}" for name in "qv" for i in range(15)])
-    assert 15.0 <= seconds(many.vary_others) <= 60.0
-    assert seconds(many.orbit) == 0.0
-    assert seconds(System("pairs", pairs, "a b c d e f g h").orbit) > 120.0
+    (seconds,) = re.findall(r"about (\d+) s", many.vary_others.py_func.announcement)
+    assert 15.0 <= float(seconds) <= 60.0
+    assert not hasattr(many.orbit.py_func, "announcement")

@@ -53,17 +53,10 @@ def test_at_the_ends_of_the_interval_the_body_is_flat(I11, I22, share13, share23
 
 
 @given(moments, moments, shares, shares, st.integers(-200, 200))
-def test_the_answer_knows_no_axis_no_sign_and_no_unit(I11, I22, share13, share23, exponent):
-    root = sqrt(I11 * I22)
-    I13, I23 = 0.7 * share13 * root, 0.7 * share23 * root
-    found = check_body(I11, I22, I13, I23)
-    unit = 2.0**exponent
-    others = [check_body(I22, I11, I23, I13), check_body(I11, I22, -I13, I23), check_body(I11, I22, I13, -I23)]
-    for other in others:
-        assert other.is_body == found.is_body
-        if found.is_body:
-            assert np.array(other.I33) == approx(found.I33, rel=1e-11, abs=1e-13 * (I11 + I22))
-    scaled = check_body(*(unit * one for one in (I11, I22, I13, I23)))
+def test_the_answer_knows_no_unit(I11, I22, share13, share23, exponent):
+    root, unit = sqrt(I11 * I22), 2.0**exponent
+    tensor = (I11, I22, 0.7 * share13 * root, 0.7 * share23 * root)
+    found, scaled = check_body(*tensor), check_body(*(unit * one for one in tensor))
     assert scaled.is_body == found.is_body
     if found.is_body:
         assert np.array(scaled.I33) / unit == approx(found.I33, rel=1e-12)
@@ -90,6 +83,7 @@ def test_under_bizi1_the_interval_of_I33_has_a_closed_form(I22, a):
 def test_equal_and_principal_moments_have_closed_forms(given_tensor, interval):
     found = check_body(*given_tensor)
     assert approx(interval, rel=1e-12, abs=1e-15) == found.I33
+    assert f"between {interval[0]:.3g} and {interval[1]:.3g}" in found.sentence
 
 
 # (0.3, 0.4): y + 0.25/y = 1 has a double root, for flat bodies only.
@@ -99,10 +93,6 @@ def test_too_large_products_of_inertia_are_no_body_and_the_sentence_says_why(pro
     assert not found.is_body
     assert found.I33 is None
     assert "triangle inequality" in found.sentence
-
-
-def test_the_sentence_names_the_interval():
-    assert "between 1 and 3" in check_body(2.0, 1.0, 0.0, 0.0).sentence
 
 
 @mark.parametrize(
@@ -122,12 +112,10 @@ def test_impossible_values_are_refused_by_their_name(name, bad, error, words):
 def test_the_weights_have_the_moments_of_the_body_and_their_centre_of_mass_where_it_shall_be(moments):
     arms, centre = np.array([0.5, 0.7, 0.9]), np.array([0.0, 0.6, -0.8])
     masses = paired_weights(np.array(moments), arms, centre)
-    at = np.stack([np.diag(arms), -np.diag(arms)], axis=1)
-    tensor = sum(
-        m * (x @ x * np.eye(3) - np.outer(x, x)) for m, x in zip(masses.ravel(), at.reshape(6, 3), strict=True)
-    )
-    assert tensor == approx(np.diag(moments), abs=1e-14)
-    first = np.einsum("ij,ijk->k", masses, at)
+    at = np.stack([np.diag(arms), -np.diag(arms)], axis=1).reshape(6, 3)
+    second = at.T @ np.diag(masses.ravel()) @ at
+    assert np.trace(second) * np.eye(3) - second == approx(np.diag(moments), abs=1e-14)
+    first = masses.ravel() @ at
     assert first / np.linalg.norm(first) == approx(centre, abs=1e-14)
     assert np.all(masses >= 0.0)
     assert paired_weights(np.array([1.0, 1.0, 2.1]), arms) is None

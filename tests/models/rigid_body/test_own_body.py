@@ -7,6 +7,7 @@ from scipy.integrate import solve_ivp
 import oracle
 from hess_mechanics import ModelError, OwnBody, Plane, Polynomial, SuslovBody, solve
 from hess_mechanics.errors import InvalidParameter, NotPositiveDefinite
+from support.mechanics import differences
 
 TENSOR = (1.5, 1.0, 1.2, 0.1, 0.4, 0.2)
 FIELD = Polynomial(((1, 0, 0), (0, 1, 0), (0, 0, 1)), (0.3, -0.5, 1.0))
@@ -30,29 +31,21 @@ def motion(body, omega, times):
     return oracle.taylor(body.system.field, start, p, np.array(times)[:, None], 20, 1e-14)[:, :, 0]
 
 
-def matrix(tensor):
-    I11, I22, I33, I12, I13, I23 = tensor
-    return np.array([[I11, I12, I13], [I12, I22, I23], [I13, I23, I33]])
-
-
 def shape(body, t):
     return body.shape(np.cos(body.frequency * t), np.sin(body.frequency * t), 0.0)
 
 
 def rates(body):
     """The equations with ω̇ and λ as four unknowns; the gradient of U by differences."""
-    inertia = matrix(body.inertia)
-
-    def gradient(gamma, step=1e-5):
-        return np.array([(body.potential(*(gamma + e)) - body.potential(*(gamma - e))) for e in step * np.eye(3)]) / (
-            2 * step
-        )
+    I11, I22, I33, I12, I13, I23 = body.inertia
+    inertia = np.array([[I11, I12, I13], [I12, I22, I23], [I13, I23, I33]])
 
     def of(t, y):
         omega, gamma = y[:3], y[3:]
         K = np.array(body.momentum) + np.array(body.drive) * shape(body, t)
-        rate = np.array(body.drive) * (shape(body, t + 1e-5) - shape(body, t - 1e-5)) / 2e-5
-        N = np.cross(inertia @ omega + K, omega) + np.cross(gamma, gradient(gamma)) - rate
+        (rate,) = differences(lambda s: shape(body, s), t, 1e-5)
+        (gradient,) = differences(lambda g: [body.potential(*g)], gamma, 1e-5)
+        N = np.cross(inertia @ omega + K, omega) + np.cross(gamma, gradient) - np.array(body.drive) * rate
         if body.constraint is None:
             return np.concatenate([np.linalg.solve(inertia, N), np.cross(gamma, omega)])
         a = np.array(body.constraint)

@@ -1,1 +1,0 @@
-"""Rows of `test_extremes`, by subject."""
