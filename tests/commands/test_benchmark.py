@@ -9,14 +9,14 @@ import numpy as np
 import pytest
 from pytest import approx
 
-from benchmarks import bench as bench_command
-from benchmarks import make_benchmark_references as maker
-from benchmarks.integrators import run as benchmark
-from benchmarks.integrators.explorer import METHOD as EXPLORER
-from benchmarks.integrators.method import OURS
-from benchmarks.integrators.peers import PEERS
-from benchmarks.integrators.works import works
 from hess_mechanics import level, solve, systems
+from manual import bench as bench_command
+from manual import make_benchmark_references as maker
+from manual.integrators import run as benchmark
+from manual.integrators.explorer import METHOD as EXPLORER
+from manual.integrators.method import OURS
+from manual.integrators.peers import PEERS
+from manual.integrators.works import works
 from support import thorough
 from support.command_line import typed
 
@@ -116,7 +116,7 @@ def test_a_bad_option_gives_one_sentence(words, sentence, capsys):
 def test_each_script_finds_what_it_measures(name):
     """They run by hand only, so that a name that has moved would not be noticed."""
     try:
-        importlib.import_module(f"benchmarks.{name}")
+        importlib.import_module(f"manual.{name}")
     except ModuleNotFoundError as error:
         # A peer, which only the extra "bench" installs.
         assert error.name == "heyoka"

@@ -5,9 +5,6 @@ from math import nan
 
 import pytest
 
-from benchmarks.bench import main
-from benchmarks.integrators import trade as rows
-from benchmarks.integrators.trade import Row, _draft_computes, _example, as_json, by_kind, line_of, names
 from hess_explorer.__main__ import main as program
 from hess_explorer.scenes import scenes
 from hess_mechanics import LEVELS
@@ -15,6 +12,9 @@ from hess_mechanics import catalogue as declared
 from hess_mechanics.catalogue import find
 from hess_mechanics.dynamics.trade import LevelCost
 from hess_mechanics.numerics.accuracy import PLANS, Kind, levels_table
+from manual.bench import main
+from manual.integrators import trade as rows
+from manual.integrators.trade import Row, _draft_computes, _example, as_json, by_kind, line_of, names
 from support.command_line import typed
 from support.measured import line
 from support.mechanics import ROOT
@@ -80,7 +80,7 @@ def test_a_row_without_a_measurement_says_so():
 def measured_by_kind(file):
     """The cells of the table of all kinds in a file, by kind."""
     text = (ROOT / file).read_text(encoding="utf-8")
-    table = text.partition("<!-- measured by tests/benchmarks/benchmark_trade.py -->")[2].partition("<!-- end")[0]
+    table = text.partition("<!-- measured by tests/manual/benchmark_trade.py -->")[2].partition("<!-- end")[0]
     lines = [[cell.strip() for cell in line.strip("|").split("|")] for line in table.splitlines() if line[:1] == "|"]
     return {cells[0]: cells[1:] for cells in lines[2:] if cells[0] in set(Kind)}
 

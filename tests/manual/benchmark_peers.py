@@ -1,19 +1,19 @@
-"""`python tests/benchmarks/benchmark_peers.py`: the whole benchmark, into the README and the picture about it."""
+"""`python tests/manual/benchmark_peers.py`: the whole benchmark, into the README and the picture about it."""
 
 import sys
 from pathlib import Path
 
 if __name__ == "__main__":
     sys.path[:0] = [str(Path(__file__).parents[1])]
-    from benchmarks.integrators.threads import one_each
+    from manual.integrators.threads import one_each
 
     # The libraries listen to this only when they are first imported.
     one_each()
 
-from benchmarks.bench import TARGETS, WORKS
-from benchmarks.integrators.picture import draw
-from benchmarks.integrators.report import as_text
-from benchmarks.integrators.run import run
+from manual.bench import TARGETS, WORKS
+from manual.integrators.picture import draw
+from manual.integrators.report import as_text
+from manual.integrators.run import run
 from support.measured import write_measured
 
 ROOT = Path(__file__).resolve().parents[2]

@@ -1,7 +1,7 @@
 """Run the tests of chaotic motions with moved starts, on several code paths, and print which of them fail.
 
-    python tests/moved_starts.py                       ten moved starts for each code path that the processor can run
-    python tests/moved_starts.py --paths host generic --seeds 3 4 -- tests/scenes
+    python tests/manual/moved_starts.py  (ten moved starts on each code path of this processor)
+    python tests/manual/moved_starts.py --paths host generic --seeds 3 4 -- tests/scenes
 
 A code path is a processor for which the kernels are compiled, by the name that LLVM has for it.
 """
@@ -13,11 +13,14 @@ import subprocess
 import sys
 from pathlib import Path
 
+if __name__ == "__main__":
+    sys.path[:0] = [str(Path(__file__).parents[1])]
+
 from llvmlite.binding import get_host_cpu_features
 
 from support.measured import table
 
-ROOT = Path(__file__).resolve().parents[1]
+ROOT = Path(__file__).resolve().parents[2]
 HASWELL = {"avx2", "fma", "bmi", "bmi2", "lzcnt", "movbe"}
 NEEDED = {
     "host": set(),

@@ -1,4 +1,4 @@
-"""Which tests notice a fault?  `python tests/mutate.py [words…]` seeds the faults of "faults.toml", one at a time.
+"""Which tests notice a fault?  `python tests/manual/mutate.py [words…]` seeds the faults of "faults.toml" in turn.
 
 Each fault is put into a copy of the repository, the tests named beside it run until the first fails, and that test has
 to pass without the fault.  A table is printed: fault, file, the test that noticed it, seconds.  With words only the
@@ -18,7 +18,7 @@ import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 
-TESTS = Path(__file__).resolve().parent
+TESTS = Path(__file__).resolve().parents[1]
 ROOT = TESTS.parent
 README = TESTS / "README.md"
 MARKS = "<!-- faults -->", "<!-- end of faults -->"

@@ -1,4 +1,4 @@
-"""Proofs of random tori against 40-digit maps: `python tests/benchmarks/random_proofs.py 10000 --seed 1`.
+"""Proofs of random tori against 40-digit maps: `python tests/manual/random_proofs.py 10000 --seed 1`.
 
 The tori have decimals of three to six digits; |a| ≤ 3, h up to 50, f over the whole region and close to 0.  Prints what
 is decided, the longest proof, and every contradiction, of which there may be none.  About 0.2 s of a core for each.

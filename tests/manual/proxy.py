@@ -1,4 +1,4 @@
-"""The Caddyfile for real: `python tests/proxy.py` serves two replicas behind Caddy with TLS, and ends one of them.
+"""The Caddyfile for real: `python tests/manual/proxy.py` ends one of two replicas behind Caddy with TLS.
 
 Needs `caddy` (Debian: apt-get install caddy).  A visitor opens the page by https, is kept with its replica, loses it,
 and opens its own link again at the other one.
@@ -19,7 +19,7 @@ from contextlib import ExitStack
 from pathlib import Path
 
 if __name__ == "__main__":
-    sys.path[:0] = [str(Path(__file__).parent)]
+    sys.path[:0] = [str(Path(__file__).parents[1])]
 
 from tornado.httpclient import AsyncHTTPClient, HTTPRequest
 
@@ -29,7 +29,7 @@ from support.room import Follower, Lecturer
 from support.serving import free_port
 from support.visitor import Visitor
 
-ROOT = Path(__file__).resolve().parents[1]
+ROOT = Path(__file__).resolve().parents[2]
 
 
 def connections(process):

@@ -1,4 +1,4 @@
-"""A plain page to compare with, as a first script has it: `python tests/benchmarks/plain_page.py PORT`.
+"""A plain page to compare with, as a first script has it: `python tests/manual/plain_page.py PORT`.
 
 Four Bokeh plots and two sliders of Panel: the orbit, its track on the sphere, the bifurcation diagram, the circle map.
 """

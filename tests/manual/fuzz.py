@@ -1,4 +1,4 @@
-"""Links, messages and command lines of strangers: `python tests/fuzz.py links 1000 --seed 1`.
+"""Links, messages and command lines of strangers: `python tests/manual/fuzz.py links 1000 --seed 1`.
 
 Counted are what is raised, warned of or logged, answers that take more than 5 s, numbers that are none on a picture or
 in a sentence, and “could not be computed”.  The same seed sends the same.
@@ -12,12 +12,12 @@ import time
 from pathlib import Path
 
 if __name__ == "__main__":
-    sys.path[:0] = [str(Path(__file__).parent)]
+    sys.path[:0] = [str(Path(__file__).parents[1])]
 
 from hess_explorer.page.description import describe
 from hess_explorer.scenes import scenes
 from hess_explorer.server.warm import compute
-from support.fuzzing import Findings, fuzz_commands, fuzz_links, fuzz_messages
+from manual.fuzzing import Findings, fuzz_commands, fuzz_links, fuzz_messages
 
 WORKS = {"links": fuzz_links, "messages": fuzz_messages, "commands": fuzz_commands}
 

@@ -1,4 +1,4 @@
-"""`python tests/benchmarks/benchmark_offline.py`: bytes, opening and dragging of pages without a server, and the site.
+"""`python tests/manual/benchmark_offline.py`: bytes, opening and dragging of pages without a server, and the site.
 
 It rewrites the tables of app/hess_explorer/offline/README.md, with `--pages` all but the site's; `--quick` prints a
 trial with few states and no site.
@@ -14,10 +14,10 @@ from pathlib import Path
 if __name__ == "__main__":
     sys.path[:0] = [str(Path(__file__).parents[1])]
 
-from benchmarks.integrators.machine import conditions
 from hess_explorer.headless.browser import launched
 from hess_explorer.lessons import shipped
 from hess_explorer.offline.pages import lesson_page, state_page
+from manual.integrators.machine import conditions
 from support.command_line import run
 from support.measured import table, write_measured
 

@@ -1,6 +1,6 @@
 """Checks a certificate of `hess-explorer prove` with intervals of mpmath, by code of its own.
 
-`python tests/check_certificate.py FILE`, or "-" for standard input.  The theorems are in
+`python tests/manual/check_certificate.py FILE`, or "-" for standard input.  The theorems are in
 `models/hess_mechanics/proofs.md`; here everything is computed again, more exactly, and every number that the
 certificate encloses must come out inside.  A certificate is refused, with a sentence, where a part is missing or of
 another kind than `prove` writes, where a number is not enclosed, and where it says "undecided" although the

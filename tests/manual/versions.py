@@ -1,4 +1,4 @@
-"""The oldest and the newest allowed versions: `python tests/versions.py 3.11 3.12 3.13 3.14` prints a table.
+"""The oldest and the newest allowed versions: `python tests/manual/versions.py 3.11 3.12 3.13 3.14` prints a table.
 
 For each version of Python that is here, and for the oldest and the newest versions of what the explorer is built on,
 uv makes a virtual environment and installs this folder; a server is started there, each scene opened over the websocket
@@ -17,7 +17,7 @@ import time
 from importlib import metadata
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[1]
+ROOT = Path(__file__).resolve().parents[2]
 SHOWN = ("panel", "bokeh", "holoviews", "numba", "numpy")
 AGES = {"oldest": "lowest-direct", "newest": "highest"}
 

@@ -1,4 +1,4 @@
-"""`python tests/benchmarks/benchmark_trade.py`: what each level costs in all scenes.
+"""`python tests/manual/benchmark_trade.py`: what each level costs in all scenes.
 
 The table of all kinds of computation goes to app/README.md, with the ten scenes and kinds that take longest, and to the
 words of "Speed and accuracy".
@@ -10,8 +10,8 @@ from pathlib import Path
 if __name__ == "__main__":
     sys.path[:0] = [str(Path(__file__).parents[1])]
 
-from benchmarks.integrators.machine import conditions
-from benchmarks.integrators.trade import Failed, as_text, by_kind, costliest, heading, line_of, names, trade
+from manual.integrators.machine import conditions
+from manual.integrators.trade import Failed, as_text, by_kind, costliest, heading, line_of, names, trade
 from support.measured import write_measured
 
 ROOT = Path(__file__).resolve().parents[2]

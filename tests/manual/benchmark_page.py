@@ -1,4 +1,4 @@
-"""Measure the speed of the page and write the results to its README: `python tests/benchmarks/benchmark_page.py`.
+"""Measure the speed of the page and write the results to its README: `python tests/manual/benchmark_page.py`.
 
 Drag: the mouse moves every 16 ms whether or not the page follows.
 """
@@ -22,10 +22,10 @@ if __name__ == "__main__":
 
 from playwright.async_api import async_playwright
 
-from benchmarks.integrators.machine import conditions
 from hess_explorer.headless.browser import find_browser
 from hess_explorer.headless.screenshot import free_port
 from hess_explorer.scenes import scenes
+from manual.integrators.machine import conditions
 from support.measured import table, write_measured
 from support.processes import worked
 

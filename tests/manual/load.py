@@ -1,10 +1,10 @@
-"""A class at once: `python tests/load.py 10 50 200` prints what so many sessions, over the websocket, take and cost.
+"""A class at once: `python tests/manual/load.py 10 50 200` prints the cost of so many sessions.
 
 Each session opens a scene, the scenes in turn, and changes one of its sliders every 2 s.  Then the same with one more
 that asks for the dearest scene at `reference` without a pause.  `--drag 20`: all pages show the first scene, so many
 drag a slider without a pause, and the others change one every 20 s.  `--leave 2000`: what is left of closed sessions.
 `--followers 300`: a lecturer drags a slider for 20 s, in an empty room and in one of so many followers.
-On a quiet machine: `python tests/load.py 10 50 200 500 --workers 1 2 --leave 2000 --write`.
+On a quiet machine: `python tests/manual/load.py 10 50 200 500 --workers 1 2 --leave 2000 --write`.
 """
 
 import argparse
@@ -21,7 +21,7 @@ from contextlib import asynccontextmanager, nullcontext
 from pathlib import Path
 
 if __name__ == "__main__":
-    sys.path[:0] = [str(Path(__file__).parent)]
+    sys.path[:0] = [str(Path(__file__).parents[1])]
 
 from tornado.httpclient import AsyncHTTPClient
 
@@ -35,7 +35,7 @@ from support.visitor import Visitor
 
 EVERY, RARELY, FRAME, PIECES = 2.0, 20.0, 0.016, 0.08
 LOG = Path(os.devnull)
-README = Path(__file__).resolve().parents[1] / "app" / "hess_explorer" / "server" / "README.md"
+README = Path(__file__).resolve().parents[2] / "app" / "hess_explorer" / "server" / "README.md"
 TURNS = 4
 DEAREST = "scene=euler-poisson&accuracy=reference"
 

@@ -1,4 +1,4 @@
-"""Make the pictures of the scenes, in *Scenes* and in the README: `python tests/make_pictures.py [SCENE…]`.
+"""Make the pictures of the scenes, in *Scenes* and in the README: `python tests/manual/make_pictures.py [SCENE…]`.
 
 Each is the inside of a picture's axes, or a sphere, in the light and in the dark theme; with them goes the whole page.
 """
@@ -20,7 +20,7 @@ from hess_explorer.headless.screenshot import screenshot, server_process
 from hess_explorer.scenes import scenes
 from support.modules import look_inside
 
-README = Path(__file__).resolve().parents[1] / ".github" / "pictures"
+README = Path(__file__).resolve().parents[2] / ".github" / "pictures"
 FRONT = {
     "suslov-hess": ("Two limit cycles", "surface"),
     "free-suslov": ("Portrait, I₁₃ > 0, I₂₃ < 0", "omega"),

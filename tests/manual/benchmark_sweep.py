@@ -1,4 +1,4 @@
-"""`python tests/benchmarks/benchmark_sweep.py`: what a sweep costs beside a bare loop, in a store, and on two workers.
+"""`python tests/manual/benchmark_sweep.py`: what a sweep costs beside a bare loop, in a store, and on two workers.
 
 It rewrites the table of app/hess_explorer/sweep/README.md; `--quick` prints a trial.
 """
@@ -15,11 +15,11 @@ if __name__ == "__main__":
 
 import numpy as np
 
-from benchmarks.integrators.machine import conditions
 from hess_explorer.sweep import sweep
 from hess_mechanics import level
 from hess_mechanics.catalogue import find
 from hess_mechanics.suslov_hess.rotation_number import values_at
+from manual.integrators.machine import conditions
 from support.measured import write_measured
 
 README = Path(__file__).resolve().parents[2] / "app" / "hess_explorer" / "sweep" / "README.md"

@@ -1,4 +1,4 @@
-"""`python tests/benchmarks/bench.py`: compare the speed with other integrators, or measure the levels of accuracy."""
+"""`python tests/manual/bench.py`: compare the speed with other integrators, or measure the levels of accuracy."""
 
 import argparse
 import json
@@ -61,8 +61,8 @@ def _progress(text):
 
 
 def _run_trade(options):
-    from benchmarks.integrators.trade import Row, as_json, by_kind, heading, line_of, trade_of_catalogue
     from hess_mechanics.catalogue import catalogue
+    from manual.integrators.trade import Row, as_json, by_kind, heading, line_of, trade_of_catalogue
 
     in_text = options.format == "text"
     if in_text:
@@ -90,21 +90,21 @@ def _run(options):
     if options.trade:
         _run_trade(options)
         return
-    from benchmarks.integrators.threads import one_each
+    from manual.integrators.threads import one_each
 
     one_each()
     if options.picture is not None:
         # Better now than after minutes of measuring.
         _require_matplotlib()
-    from benchmarks.integrators.report import as_json, as_text
-    from benchmarks.integrators.run import run
+    from manual.integrators.report import as_json, as_text
+    from manual.integrators.run import run
 
     report = run(options.works, options.targets, options.quick, _progress)
     show(as_text(report).encode())
     if options.json is not None:
         write_file(options.json, _json(as_json(report)).encode())
     if options.picture is not None:
-        from benchmarks.integrators.picture import draw
+        from manual.integrators.picture import draw
 
         write_file(options.picture, draw(report, options.picture.suffix))
 

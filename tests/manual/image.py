@@ -1,4 +1,4 @@
-"""The image built and run by a container engine: `sudo python tests/image.py`, with Podman or Docker.
+"""The image built and run by a container engine: `sudo python tests/manual/image.py`, with Podman or Docker.
 
 Built is the Dockerfile as it stands.  Where its base image cannot be had, `--debian trixie` makes one by `debootstrap`,
 whose Python is that of the Debian release.  Run is one replica as compose.yaml asks for it; printed are its user, what
@@ -20,11 +20,11 @@ from urllib.request import urlopen
 import yaml
 
 if __name__ == "__main__":
-    sys.path[:0] = [str(Path(__file__).parent)]
+    sys.path[:0] = [str(Path(__file__).parents[1])]
 
 from support.serving import free_port
 
-PROJECT = Path(__file__).resolve().parents[1]
+PROJECT = Path(__file__).resolve().parents[2]
 NAME, BASE = "localhost/hess-explorer:try", "localhost/debian-python:try"
 PACKAGES = "python3,python3-venv,ca-certificates"
 PATH = "/opt/python/bin:/usr/local/bin:/usr/bin:/bin:/usr/sbin"

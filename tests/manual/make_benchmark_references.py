@@ -1,4 +1,4 @@
-"""Make tests/benchmarks/integrators/references.npz: `python tests/benchmarks/make_benchmark_references.py` (an hour).
+"""Make tests/manual/integrators/references.npz: `python tests/manual/make_benchmark_references.py` (an hour).
 
 The oracle computes everything twice, with other digits and so with other orders and steps; both must agree to 1e-30.
 """
@@ -16,7 +16,8 @@ if __name__ == "__main__":
 import numpy as np
 
 import oracle
-from benchmarks.integrators.works import (
+from hess_mechanics import systems
+from manual.integrators.works import (
     FIELD_BODY,
     FREE_BODY,
     MAP_TORUS,
@@ -26,7 +27,6 @@ from benchmarks.integrators.works import (
     long_end,
     phases,
 )
-from hess_mechanics import systems
 
 SUSLOV = systems()["suslov"]
 SAMPLES = 200

@@ -15,7 +15,7 @@ MAP_TORUS = (1.5, 0.6, 1.0)
 """(h, f, a) of the work C, units b = 1."""
 
 REFERENCES = Path(__file__).with_name("references.npz")
-"""Initial states and exact results, made by tests/benchmarks/make_benchmark_references.py."""
+"""Initial states and exact results, made by tests/manual/make_benchmark_references.py."""
 
 
 def dense_times():
