@@ -1,14 +1,11 @@
-"""`python tests/manual/benchmark_offline.py`: bytes, opening and dragging of pages without a server, and the site.
+"""Bytes, opening and dragging of pages without a server: `python tests/manual/benchmark_offline.py`.
 
-It rewrites the tables of app/hess_explorer/offline/README.md, with `--pages` all but the site's; `--quick` prints a
-trial with few states and no site.
+It rewrites the table of app/hess_explorer/offline/README.md.
 """
 
-import contextlib
 import statistics
 import sys
 import tempfile
-import time
 from pathlib import Path
 
 if __name__ == "__main__":
@@ -17,15 +14,11 @@ if __name__ == "__main__":
 from hess_explorer.headless.browser import launched
 from hess_explorer.lessons import shipped
 from hess_explorer.offline.pages import lesson_page, state_page
-from manual.integrators.machine import conditions
-from support.command_line import run
+from manual.timing import conditions
 from support.measured import table, write_measured
 
 README = Path(__file__).resolve().parents[2] / "app" / "hess_explorer" / "offline" / "README.md"
-QUICK = "--quick" in sys.argv
-SITE = "`hess-explorer site OUT`"
-COUNT = 6 if QUICK else 40
-ROUNDS = 1 if QUICK else 5
+COUNT, ROUNDS = 40, 5
 # In the page's own time, which begins with its address.
 READY = """new MutationObserver(() => {
     if (document.documentElement?.dataset.ready === "true") window.painted ??= performance.now()
@@ -78,45 +71,23 @@ def pages():
     yield f"lesson *{lesson.title}*, {COUNT} values", lesson_page(lesson, COUNT)
 
 
-def measured(folder):
+def main():
+    """Measure for some minutes."""
     rows = []
-    with launched() as browser:
+    with launched() as browser, tempfile.TemporaryDirectory() as folder:
         for i, (name, content) in enumerate(pages()):
             path = Path(folder) / f"{i}.html"
             path.write_bytes(content)
-            found = [opened(browser, path) for _ in range(ROUNDS)]
-            firsts, wholes, dragged = zip(*found, strict=True)
+            firsts, wholes, dragged = zip(*(opened(browser, path) for _ in range(ROUNDS)), strict=True)
             drags = [time for drag in dragged for time in drag or ()]
             rate = f"{1 / statistics.median(drags):.0f}" if drags else "–"
             seconds = [f"{statistics.median(times):.1f}" for times in (firsts, wholes)]
             rows.append([name, f"{len(content) / 1e6:.1f}", *seconds, rate])
-    return table(["page", "MB", "s to the first picture", "s to all", "states a second in a drag"], rows)
-
-
-def site(folder):
-    """The table of the site's pages."""
-    begun = time.perf_counter()
-    done = run("site", str(Path(folder) / "site"), "--values", str(COUNT), timeout=1200)
-    seconds = time.perf_counter() - begun
-    lines = [line.split() for line in done.stdout.decode().splitlines()]
-    rows = [[f"`{words[2]}`", f"{int(words[0].replace(',', '')) / 1e6:.1f}"] for words in lines[:-1]]
-    total = int(lines[-1][0].replace(",", "")) / 1e6
-    return f"{SITE}: {total:.0f} MB in {seconds:.0f} s.\n\n{table(['page', 'MB'], rows)}"
-
-
-def main():
-    with tempfile.TemporaryDirectory() as folder:
-        parts = [conditions(), measured(folder)]
-        if "--pages" in sys.argv:
-            parts.append(SITE + README.read_text().split(SITE)[1].split("\n\n<!--")[0])
-        elif not QUICK:
-            parts.append(site(folder))
-    text = "\n\n".join(parts)
+    head = ["page", "MB", "s to the first picture", "s to all", "states a second in a drag"]
+    text = f"{conditions()}.\n\n{table(head, rows)}"
     print(text)
-    if not QUICK:
-        write_measured(README, text)
+    write_measured(README, text)
 
 
 if __name__ == "__main__":
-    with contextlib.suppress(KeyboardInterrupt):
-        main()
+    main()

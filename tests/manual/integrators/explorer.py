@@ -10,12 +10,9 @@ from hess_mechanics.suslov_hess.circle_map import matrices
 from hess_mechanics.suslov_hess.circle_map_kernels import theta_of
 
 from .method import OURS, Method, half_decades, version
-from .threads import shared
 
 _ORDERS = (8, 10, 12, 14, 16, 18, 20, 22, 24)
 _MAX_STEPS = 1_000_000
-# Orbits of one call: enough to fill the lanes of the kernel, few enough for two threads to end together.
-_BLOCK = 64
 _MAX_CROSSINGS = 1000
 _LONGEST = math.inf
 """The field of the works is a polynomial, whose steps need no limit."""
@@ -25,7 +22,7 @@ def _ladders(work):
     return [tuple((order, tolerance) for tolerance in half_decades(2, 17)) for order in _ORDERS]
 
 
-def _orbit(work, order, tolerance, threads):
+def _orbit(work, order, tolerance):
     """A, A2."""
     integrate = systems()["suslov"].orbit
     start, p, out = work.initial[0], np.array(work.parameters), np.empty((work.times.size, 5))
@@ -38,7 +35,7 @@ def _orbit(work, order, tolerance, threads):
     return run
 
 
-def _free_ensemble(work, order, tolerance, threads):
+def _free_ensemble(work, order, tolerance):
     """B: all orbits have one ω, and γ̇ = γ × ω is linear, so three of them carry every γ."""
     integrate = systems()["suslov"].ensemble
     p, gamma = np.array(work.parameters), work.initial[:, 2:]
@@ -57,30 +54,21 @@ def _free_ensemble(work, order, tolerance, threads):
     return run
 
 
-def _ensemble(work, order, tolerance, threads):
+def _ensemble(work, order, tolerance):
     """B2."""
     integrate = systems()["suslov"].ensemble
     p, out = np.array(work.parameters), np.empty((len(work.initial), 1, 5))
     steps, ends = np.empty(len(out), np.int64), np.empty(len(out))
 
-    def part(thread):
-        for i in range(thread * _BLOCK, len(out), threads * _BLOCK):
-            block = slice(i, i + _BLOCK)
-            own = work.initial[block]
-            integrate(own, p, work.times, order, tolerance, _LONGEST, _MAX_STEPS, out[block], steps[block], ends[block])
-            if (steps[block] < 0).any():
-                out[block] = np.nan
-
-    all_parts = shared(part, threads)
-
     def run():
-        all_parts()
+        integrate(work.initial, p, work.times, order, tolerance, _LONGEST, _MAX_STEPS, out, steps, ends)
+        out[steps < 0] = np.nan
         return out[:, 0]
 
     return run
 
 
-def _circle_map(work, order, tolerance, threads):
+def _circle_map(work, order, tolerance):
     """C."""
     torus = np.array([work.h]), np.array([work.f])
     cos, sin, level = np.cos(work.phi), np.sin(work.phi), Level("benchmark", 0.0, tolerance, order)
@@ -95,25 +83,15 @@ def _circle_map(work, order, tolerance, threads):
     return run
 
 
-def _crossings(work, order, tolerance, threads):
-    """D; the crossings of several orbits one after the other."""
+def _crossings(work, order, tolerance):
+    """D."""
     cross = systems()["suslov"].cross
     p, normal, end = np.array(work.parameters), np.array([0.0, 0.0, 0.0, 0.0, 1.0]), float(work.times[0])
-    times = np.empty((len(work.initial), _MAX_CROSSINGS))
-    states = np.empty((len(work.initial), _MAX_CROSSINGS, 5))
-    found = np.zeros(len(work.initial), int)
-
-    def part(thread):
-        for i in range(thread, len(found), threads):
-            found[i], _ = cross(
-                work.initial[i], p, normal, 0.0, 1, end, order, tolerance, _LONGEST, _MAX_STEPS, times[i], states[i]
-            )
-
-    all_parts = shared(part, threads)
+    times, states = np.empty(_MAX_CROSSINGS), np.empty((_MAX_CROSSINGS, 5))
 
     def run():
-        all_parts()
-        return np.concatenate([own[: max(n, 0)] for own, n in zip(states, found, strict=True)])
+        found, _ = cross(work.initial[0], p, normal, 0.0, 1, end, order, tolerance, _LONGEST, _MAX_STEPS, times, states)
+        return states[: max(found, 0)]
 
     return run
 
@@ -128,11 +106,11 @@ _WAYS = {
 }
 
 
-def _prepare(work, setting, threads=1):
+def _prepare(work, setting):
     order, tolerance = setting
-    run = _WAYS[work.name](work, order, tolerance, threads)
+    run = _WAYS[work.name](work, order, tolerance)
     run()
     return run
 
 
-METHOD = Method(OURS, version("hess-explorer"), _ladders, _prepare, threaded=frozenset({"B2", "D"}))
+METHOD = Method(OURS, version("hess-explorer"), _ladders, _prepare)

@@ -1,7 +1,7 @@
 """A method in the benchmark: one way to integrate the test problems, at settings from coarse to fine."""
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Callable
+from dataclasses import dataclass
 from importlib import metadata
 
 OURS = "Hess Explorer"
@@ -14,16 +14,15 @@ class Method:
 
     name, version : as they are shown.
     ladders(work) : settings (names, orders, tolerances) from coarse to fine, each of which costs more than the last.
-    prepare(work, setting, threads=1) : compile, and return the run, which does the work from its initial data.
-    without : the works it does not do, and why; threaded : the works for which `prepare` heeds `threads`.
+    prepare(work, setting) : compile, and return the run, which does the work from its initial data.
+    without : names of the works that it does not do.
     """
 
     name: str
     version: str
     ladders: Callable
     prepare: Callable
-    without: Mapping[str, str] = field(default_factory=dict)
-    threaded: frozenset[str] = frozenset()
+    without: frozenset[str] = frozenset()
 
 
 def short(x):

@@ -1,15 +1,12 @@
 """heyoka: Taylor series by JIT-compiled automatic differentiation, of the order that the tolerance asks for."""
 
-from copy import deepcopy
-
 import heyoka
 import numpy as np
 
 from hess_mechanics import systems
 
-from ..method import Method, half_decades, version
-from ..moebius import field, half_period, start, theta_after
-from ..threads import shared
+from .method import Method, half_decades, version
+from .moebius import field, half_period, start, theta_after
 
 _ENSEMBLES = frozenset({"B", "B2"})
 
@@ -36,57 +33,39 @@ def _motion_equations(work):
     return list(zip(variables, systems()["suslov"].field(variables, work.parameters), strict=True))
 
 
-def _dense(work, setting, threads):
+def _orbit(work, setting):
     integrator = heyoka.taylor_adaptive(_motion_equations(work), work.initial[0], **_options(setting))
 
     def run():
         integrator.time = 0.0
         integrator.state[:] = work.initial[0]
-        states = integrator.propagate_grid(work.times)[-1]
-        return states
-
-    return run
-
-
-def _end(work, setting, threads):
-    integrator = heyoka.taylor_adaptive(_motion_equations(work), work.initial[0], **_options(setting))
-
-    def run():
-        integrator.time = 0.0
-        integrator.state[:] = work.initial[0]
+        if work.times.size > 1:
+            return integrator.propagate_grid(work.times)[-1]
         integrator.propagate_until(work.times[0])
-        state = integrator.state[None].copy()
-        return state
+        return integrator.state[None].copy()
 
     return run
 
 
-def _ensemble(work, setting, threads):
+def _ensemble(work, setting):
     """Batch after batch, each lane with its own step."""
     width = int(str(setting[-1]).split()[0])
     blocks = [work.initial[i : i + width].T.copy() for i in range(0, len(work.initial), width)]
     out = np.empty_like(work.initial)
-    first = heyoka.taylor_adaptive_batch(_motion_equations(work), blocks[0], **_options(setting))
-    integrators = [first, *(deepcopy(first) for _ in range(threads - 1))]
-
-    def part(thread):
-        integrator = integrators[thread]
-        for i in range(thread, len(blocks), threads):
-            integrator.set_time(0.0)
-            integrator.state[:] = blocks[i]
-            integrator.propagate_until(work.times[0])
-            out[width * i : width * (i + 1)] = integrator.state.T
-
-    all_parts = shared(part, threads)
+    integrator = heyoka.taylor_adaptive_batch(_motion_equations(work), blocks[0], **_options(setting))
 
     def run():
-        all_parts()
+        for i, block in enumerate(blocks):
+            integrator.set_time(0.0)
+            integrator.state[:] = block
+            integrator.propagate_until(work.times[0])
+            out[width * i : width * (i + 1)] = integrator.state.T
         return out
 
     return run
 
 
-def _circle_map(work, setting, threads):
+def _circle_map(work, setting):
     variables = heyoka.make_vars("w1", "w2", "n1", "n2", "n3", "ar", "ai", "br", "bi")
     equations = list(zip(variables, field(variables, 0.5 * work.a), strict=True))
     state, end, theta = start(work), half_period(work), theta_after(work.phi)
@@ -101,7 +80,7 @@ def _circle_map(work, setting, threads):
     return run
 
 
-def _crossings(work, setting, threads):
+def _crossings(work, setting):
     equations = _motion_equations(work)
     found = []
 
@@ -131,8 +110,8 @@ def _crossings(work, setting, threads):
 
 
 _WAYS = {
-    "A": _dense,
-    "A2": _end,
+    "A": _orbit,
+    "A2": _orbit,
     "B": _ensemble,
     "B2": _ensemble,
     "C": _circle_map,
@@ -140,8 +119,8 @@ _WAYS = {
 }
 
 
-def _prepare(work, setting, threads=1):
-    return _WAYS[work.name](work, setting, threads)
+def _prepare(work, setting):
+    return _WAYS[work.name](work, setting)
 
 
-METHOD = Method("heyoka", version("heyoka"), _ladders, _prepare, threaded=frozenset({"B2"}))
+METHOD = Method("heyoka", version("heyoka"), _ladders, _prepare)
