@@ -6,8 +6,8 @@ from fractions import Fraction
 
 import pytest
 
-from check_certificate import verify
 from hess_explorer.__main__ import main
+from manual.check_certificate import verify
 from support.command_line import typed
 
 TORUS = ("--a", "-0.5", "--h", "1.5", "--f", "1.7")

@@ -1,6 +1,6 @@
-"""The faults of `tests/mutate.py` can be seeded: sources change, and a fault that cannot be seeded tests nothing."""
+"""Each fault of `tests/manual/mutate.py` can be seeded: one whose source has changed tests nothing."""
 
-from mutate import ROOT, faults, not_found_once
+from manual.mutate import ROOT, faults, not_found_once
 
 
 def test_every_fault_can_be_seeded():

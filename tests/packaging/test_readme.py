@@ -19,22 +19,22 @@ DOCUMENTS = [
         "README.md",
         "app/README.md",
         "models/README.md",
-        "tests/benchmarks/integrators/README.md",
+        "tests/manual/integrators/README.md",
         "tests/models/README.md",
-        "tests/benchmarks/README.md",
+        "tests/manual/README.md",
         "app/hess_explorer/sweep/README.md",
         ".github/CONTRIBUTING.md",
         ".github/CHANGELOG.md",
     )
 ] + sorted((ROOT / "app/hess_explorer/docs").rglob("*.md"))
 MEASURED = {
-    "tests/benchmarks/README.md": "tests/benchmarks/benchmark_page.py",
-    "app/README.md": "tests/benchmarks/benchmark_trade.py",
-    "app/hess_explorer/scenes/speed_accuracy.md": "tests/benchmarks/benchmark_trade.py",
-    "app/hess_explorer/scenes/speed_accuracy_of_maps.md": "tests/benchmarks/benchmark_trade.py",
-    "tests/benchmarks/integrators/README.md": "tests/benchmarks/benchmark_peers.py",
-    "app/hess_explorer/sweep/README.md": "tests/benchmarks/benchmark_sweep.py",
-    "app/hess_explorer/offline/README.md": "tests/benchmarks/benchmark_offline.py",
+    "tests/manual/README.md": "tests/manual/benchmark_page.py",
+    "app/README.md": "tests/manual/benchmark_trade.py",
+    "app/hess_explorer/scenes/speed_accuracy.md": "tests/manual/benchmark_trade.py",
+    "app/hess_explorer/scenes/speed_accuracy_of_maps.md": "tests/manual/benchmark_trade.py",
+    "tests/manual/integrators/README.md": "tests/manual/benchmark_peers.py",
+    "app/hess_explorer/sweep/README.md": "tests/manual/benchmark_sweep.py",
+    "app/hess_explorer/offline/README.md": "tests/manual/benchmark_offline.py",
 }
 
 

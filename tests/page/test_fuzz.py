@@ -1,10 +1,10 @@
-"""A little of what `tests/fuzz.py` sends: links, messages and command lines at random, the same in every run."""
+"""A little of what `tests/manual/fuzz.py` sends: links, messages and command lines at random, the same in every run."""
 
 import random
 
 import pytest
 
-from support.fuzzing import fuzz_commands, fuzz_links, fuzz_messages
+from manual.fuzzing import fuzz_commands, fuzz_links, fuzz_messages
 from support.thorough import examples
 
 

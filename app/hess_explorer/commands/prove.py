@@ -41,7 +41,7 @@ COMMAND = Command(
     "= f_max(h) the torus degenerates to a circle of states; the command proves that it contains exactly two "
     "equilibria or is a periodic orbit.  Multipliers, fixed points and rotation number are enclosed in intervals.  The "
     "JSON output is a certificate with every Taylor step and the bound on its remainder, for an independent check such "
-    "as tests/check_certificate.py.  Requires: pip install 'hess-explorer[prove]'.",
+    "as tests/manual/check_certificate.py.  Requires: pip install 'hess-explorer[prove]'.",
     (
         *(
             option(f"--{name}", f"{what}; exact: 0.1, -2e-3 or 1/3", required=True, metavar="NUMBER")

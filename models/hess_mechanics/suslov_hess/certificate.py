@@ -1,7 +1,7 @@
 """Certificates of proofs: plain data with everything that an independent check needs.
 
 Numbers are strings, decimals or rationals p/q; a pair of strings is an interval that encloses a number.
-`tests/check_certificate.py` checks certificates with the intervals of mpmath and shares no code with the prover.
+`tests/manual/check_certificate.py` checks certificates with the intervals of mpmath and shares no code with the prover.
 """
 
 from __future__ import annotations

@@ -6,9 +6,9 @@ from itertools import product
 import mpmath
 import pytest
 
-from check_certificate import verify
 from hess_mechanics import certificate, prove, systems
 from hess_mechanics.suslov_hess.certificate import claim
+from manual.check_certificate import verify
 from support.thorough import sample
 
 # n3 and its root: where both are rational, so are h and f.

@@ -13,12 +13,12 @@ from mpmath import iv
 from pytest import approx, mark, raises
 
 import oracle
-from check_certificate import Refused, verify
 from hess_mechanics import EdgeProof, certificate, circle_map, curve_point, f_max, prove
 from hess_mechanics.errors import InvalidParameter, MissingLibrary, OutsideRegion, Separatrix, WorkLimit
 from hess_mechanics.numerics.balls import Enclosure, exact
 from hess_mechanics.numerics.patience import limited_by
 from hess_mechanics.suslov_hess.certificate import claim
+from manual.check_certificate import Refused, verify
 from oracle.kept import KEPT
 from support.mechanics import REFERENCE, ROOT, every_known_torus
 from support.refusals import refused
@@ -283,7 +283,7 @@ def test_a_forged_certificate_is_refused_with_a_sentence(torus, change, words):
 def test_the_checker_says_in_a_sentence_what_it_refuses(text, tmp_path):
     path = tmp_path / "certificate.json"
     path.write_text(text)
-    words = [sys.executable, ROOT / "tests" / "check_certificate.py", path]
+    words = [sys.executable, ROOT / "tests" / "manual" / "check_certificate.py", path]
     run = subprocess.run(words, capture_output=True, text=True, check=False)
     assert run.returncode == 1
     assert re.fullmatch(r"refused: .+\n", run.stderr)
