@@ -15,7 +15,7 @@ from hess_mechanics.euler_poisson.andoyer import AndoyerSection
 from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.euler_poisson.rotation import LineEnds, RotationProfile, on_line, rotation_along
 from hess_mechanics.numerics.accuracy import Accuracy, Kind, plan
-from hess_mechanics.numerics.arguments import as_level, as_pairs, as_whole
+from hess_mechanics.numerics.arguments import as_integer, as_level, as_pairs
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov_hess.rotation_number import TorusValues, values_at
 
@@ -77,7 +77,7 @@ def cloud(
         h,
         angle,
         spread,
-        as_whole("count", count, 1, 20_000),
+        as_integer("count", count, 1, 20_000),
         duration,
         None,
         as_level(accuracy),
@@ -180,11 +180,11 @@ def rotation_along_line(
     """
     section = AndoyerSection(body, h, f)
     first, last = as_pairs("ends", ends)
-    started = on_line(section, (first, last), as_whole("count", count, 1, _MOST_ORBITS))
+    started = on_line(section, (first, last), as_integer("count", count, 1, _MOST_ORBITS))
     if not started:
         raise OutsideRegion("No motion crosses the section on this line: choose another line, or a larger h.")
     chosen = plan(Kind.ROTATION, accuracy)
-    crossings = as_whole("crossings", crossings, 20, 10_000)
+    crossings = as_integer("crossings", crossings, 20, 10_000)
     found = section_crossings(section, [state for _, state in started], crossings, chosen.level)
     return rotation_along(
         (first, last),

@@ -18,7 +18,7 @@ from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.dynamics.attraction import arrivals
 from hess_mechanics.dynamics.basins import Contraction, SectionOrbits, attractors
 from hess_mechanics.dynamics.cells import Window, centres
-from hess_mechanics.dynamics.continuation import Branch, continued
+from hess_mechanics.dynamics.continuation import Branch, branch_from
 from hess_mechanics.dynamics.megno_map import corners, labels_of_cells, require_plane
 from hess_mechanics.dynamics.orbit_diagram import Cascade, Diagram, cascade, diagram_over
 from hess_mechanics.dynamics.periodic import MAX_PERIOD, PeriodicOrbit, find_periodic, place_units
@@ -30,7 +30,7 @@ from hess_mechanics.errors import InvalidParameter, OutsideRegion, WorkLimit
 from hess_mechanics.euler_poisson.andoyer import AndoyerSection
 from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.numerics.accuracy import Accuracy, Kind, plan
-from hess_mechanics.numerics.arguments import as_cells, as_level, as_number, as_pairs, as_place, as_whole
+from hess_mechanics.numerics.arguments import as_cells, as_integer, as_level, as_number, as_pairs, as_place
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.parallel import share
 from hess_mechanics.numerics.results import Array, angle_facts, frozen
@@ -170,11 +170,11 @@ def return_map(
     if isinstance(body, SuslovBody | BallBody):
         energy = "E" if h is None else "h"
         kind: type[AngleSection] = SuslovSection if isinstance(body, SuslovBody) else BallSection
-        found = kind(body, 0.0, as_whole("plane", plane, 1, 3)).moved(energy, *_given(asked, energy))
+        found = kind(body, 0.0, as_integer("plane", plane, 1, 3)).at_constant(energy, *_given(asked, energy))
         found.require_reached()
     elif isinstance(body, HeavyBody):
         at = _given(asked, "h", "f")
-        found = AndoyerSection(body, at[0], at[1], as_whole("sheet", sheet, 0, 2))
+        found = AndoyerSection(body, at[0], at[1], as_integer("sheet", sheet, 0, 2))
     elif isinstance(body, ParametrizedSystem):
         given = {name: value for name, value in asked.items() if value is not None}
         found = variable_section(body, {**given, **(integrals or {})}, surface, coordinates, window, sense)
@@ -229,11 +229,11 @@ def section_orbits(
     """
     section = map_.section
     require_plane(section)
-    count = as_whole("crossings", crossings, 1, _MOST_CROSSINGS)
+    count = as_integer("crossings", crossings, 1, _MOST_CROSSINGS)
     states = (
         np.array([map_.state_at(np.array(one)) for one in as_pairs("starts", starts)])
         if len(starts)
-        else np.array(section.spread(as_whole("orbits", orbits, 1, _MOST_ORBITS)))
+        else np.array(section.spread(as_integer("orbits", orbits, 1, _MOST_ORBITS)))
     )
     if not len(states):
         raise OutsideRegion("No motion crosses the section here: choose a larger energy.")
@@ -287,7 +287,7 @@ def periodic_orbit(map_: ReturnMap, at: Sequence[float], period: int | None = No
     >>> periodic_orbit(P, (-2.0,)).kind  # the stable limit cycle
     'stable node'
     """
-    found = find_periodic(map_, at, None if period is None else as_whole("period", period, 1, MAX_PERIOD))
+    found = find_periodic(map_, at, None if period is None else as_integer("period", period, 1, MAX_PERIOD))
     return replace(found, symmetric=tuple(map_.symmetries_of(found.places)))
 
 
@@ -331,16 +331,16 @@ def continued_orbit(map_: ReturnMap, orbit: PeriodicOrbit, parameter: str, to: f
     >>> branch.kinds[0], len(branch.bifurcations)
     ('stable node', 0)
     """
-    branch = continued(
-        partial(map_.moved, parameter),
+    branch = branch_from(
+        partial(map_.at_constant, parameter),
         orbit,
         parameter,
         map_.constant(parameter),
         to,
-        as_whole("points", points, 2, 2000),
+        as_integer("points", points, 2, 2000),
     )
     along = zip(branch.values.tolist(), branch.places, strict=True)
-    times = [abs(map_.moved(parameter, value).time_of(places)) for value, places in along]
+    times = [abs(map_.at_constant(parameter, value).time_of(places)) for value, places in along]
     return replace(branch, times=frozen(np.array(times)))
 
 
@@ -398,13 +398,13 @@ def orbit_diagram(
     """
     map_.constant(parameter)
     place = as_place(map_.names, at)
-    transient, kept = as_whole("transient", transient, 0, 20_000), as_whole("kept", kept, 1, 20_000)
+    transient, kept = as_integer("transient", transient, 0, 20_000), as_integer("kept", kept, 1, 20_000)
     if len(np.atleast_1d(values)) * kept > _MOST_PLACES:
         raise WorkLimit(f"An orbit diagram has at most {_MOST_PLACES} places: choose fewer values, or crossings kept.")
-    found = diagram_over(partial(map_.moved, parameter), parameter, values, place, transient, kept, follow)
+    found = diagram_over(partial(map_.at_constant, parameter), parameter, values, place, transient, kept, follow)
     if not any(map(len, found.places)):
         # Say why.
-        map_.moved(parameter, float(found.values[0])).state_at(np.array(place))
+        map_.at_constant(parameter, float(found.values[0])).state_at(np.array(place))
     return found
 
 
@@ -447,12 +447,12 @@ def period_doublings(map_: ReturnMap, orbit: PeriodicOrbit, parameter: str, to: 
     ([1], 2.126)
     """
     return cascade(
-        partial(map_.moved, parameter),
+        partial(map_.at_constant, parameter),
         parameter,
         orbit,
         map_.constant(parameter),
         to,
-        as_whole("most", most, 1, 6),
+        as_integer("most", most, 1, 6),
     )
 
 

@@ -14,7 +14,7 @@ from pytest import fixture, mark
 
 from hess_mechanics import circle_map, f_max
 from hess_mechanics.chaplygin_ball.equations import BallBody
-from hess_mechanics.chaplygin_ball.phase_cloud import carried, shell
+from hess_mechanics.chaplygin_ball.phase_cloud import cloud_of, shell
 from hess_mechanics.dynamics.basin_boundary import resolved, unsure
 from hess_mechanics.dynamics.birkhoff import rotation_number
 from hess_mechanics.dynamics.return_map import section_crossings
@@ -60,7 +60,7 @@ def followed():
         truth += exact
         for name, runs in rows.items():
             level = PLANS[Kind.SECTION][name].level
-            for run, one in zip(runs, (level, level.tightened()), strict=True):
+            for run, one in zip(runs, (level, level.tighter()), strict=True):
                 run.extend(places(body, starts, one))
         near = [tuple(np.array(start) + 1e-10 * np.array([1.0, 0.7, 0.0, 0.0, 0.0])) for start in starts]
         growth += map(e_folds, exact, places(body, near, REFERENCE, 13))
@@ -260,7 +260,7 @@ def clouds():
         body = BallBody(*random.uniform(0.5, 3.0, 2), *random.uniform(0.2, 1.0, 2), random.choice([0.0, 1.0, 5.0]))
         states = shell(body, random.uniform(0.5, 4.0), 0.1, 96)
         times = np.linspace(0.0, random.uniform(2.0, 10.0), 9)
-        found.append((body, states, times, carried(body, states, times, REFERENCE)))
+        found.append((body, states, times, cloud_of(body, states, times, REFERENCE)))
     return found
 
 
@@ -269,7 +269,7 @@ def test_a_cloud_is_as_exact_as_the_points_that_are_computed_twice_say(clouds, n
     level = PLANS[Kind.CLOUD][name].level
     errors, estimates = [], []
     for body, states, times, exact in clouds:
-        found = carried(body, states, times, level)
+        found = cloud_of(body, states, times, level)
         fastest = float(np.abs(exact.omega).max())
         units = {"log_s": 1.0, "gamma": 1.0, "along": fastest}
         errors.append(max(np.abs(getattr(found, one) - getattr(exact, one)).max() / units[one] for one in units))

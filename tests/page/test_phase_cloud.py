@@ -9,7 +9,7 @@ from pytest import approx
 
 from hess_mechanics import ensemble, level, systems
 from hess_mechanics.chaplygin_ball.equations import BallBody
-from hess_mechanics.chaplygin_ball.phase_cloud import carried, frame_times, patch
+from hess_mechanics.chaplygin_ball.phase_cloud import cloud_of, frame_times, patch
 from support.page import brought
 from support.phase_cloud import SCENE
 
@@ -56,7 +56,7 @@ def test_between_frames_nearly_all_points_are_right_to_a_pixel(cloud):
     for frame in (0, frames.size // 2, frames.size - 2):
         t = 0.5 * float(frames[frame] + frames[frame + 1])
         cloud.set_time(t)
-        exact = carried(body, states[::EVERY], np.array([0.0, -t]), level("precise"))
+        exact = cloud_of(body, states[::EVERY], np.array([0.0, -t]), level("precise"))
         there = ensemble(beside, states[::EVERY], [-t], level("precise"))
         expected = [np.hstack([exact.omega[:, 1], exact.gamma[:, 1]]), there.states[:, 0]]
         half = cloud.page.evaluate("hess.source('omega').data.half")

@@ -72,7 +72,7 @@ def test_attractors_and_repellers_are_what_their_examples_say(name, verdict):
     both = [settled(state.poincare, 32, 1500, 500, forward) for forward in (True, False)]
     starts = state.poincare.states_at(*both[0][:16, 0].T)[0]
     assert abs(deviations([lyapunov_spectrum(state.body, y, 8000.0).divergence for y in starts], div, error)) < 5.0
-    shared = np.array([set_distance(state.poincare.turns, *pair).shared for pair in zip(*both, strict=True)])
+    shared = np.array([set_distance(state.poincare.turns, *pair).overlap for pair in zip(*both, strict=True)])
     if name == "Touching":
         assert deviations(np.log(shared), log(0.005)) > 5.0
     elif verdict == "dissipative":

@@ -85,7 +85,7 @@ def test_a_periodic_orbit_of_the_suslov_problem_is_one_and_has_its_multipliers(p
 
 def test_a_manifold_ends_where_the_map_jumps_and_no_line_is_drawn_across():
     view = shown("suslov", "any period")
-    ends = [one for one in view.result.periodic_orbit.manifolds if "the map jumps" in one.ended]
+    ends = [one for one in view.result.periodic_orbit.manifolds if "the map jumps" in one.end_reason]
     assert len(ends) == 4
     assert any("the map jumps: an orbit touches the plane of the section" in note for note in view.report.notes)
     pixel = 1.0 / max(pixels_in(view.result.section.frame))

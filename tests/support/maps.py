@@ -22,7 +22,7 @@ class Formula:
     promise: float = 1e-12
     level: str = "reference"
     is_floor: bool = True
-    volume_kept: bool = False
+    preserves_volume: bool = False
     symmetries_of: Callable = lambda places, near: ()
 
     def image(self, place):
@@ -53,7 +53,7 @@ class Formula:
             raise NoReturn("This map has no inverse: follow it forwards.")
         return Formula(self.back, self.back_derivative, self.of, self.derivative, self.turns, self.names)
 
-    def tightened(self):
+    def tighter(self):
         return self
 
 

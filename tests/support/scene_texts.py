@@ -90,7 +90,7 @@ def shared(_step):
     """Return how much of the attractor of "Touching" is shared with the repeller, and its points, twice."""
     found = state("orbit-diagram", "Touching")
     both = [settled(found.poincare, 64, 1500, 500, forward) for forward in (True, False)]
-    parts = [point_sets.set_distance(found.poincare.turns, *pair).shared for pair in zip(*both, strict=True)]
+    parts = [point_sets.set_distance(found.poincare.turns, *pair).overlap for pair in zip(*both, strict=True)]
     points = len(example("orbit-diagram", "Touching", seen=("section",)).result.regime.sets[0])
     return (100.0 * np.array(parts), 5.0), points, points
 

@@ -13,7 +13,7 @@ from contextvars import ContextVar
 
 from hess_mechanics.errors import WorkLimit
 from hess_mechanics.numerics.jit import seconds_compiling
-from hess_mechanics.numerics.patience import limited_by
+from hess_mechanics.numerics.patience import work_limit
 
 __all__ = ["SECONDS", "WAIT", "Abandoned", "Budget", "OverBudget", "check", "limited"]
 
@@ -76,7 +76,7 @@ def limited(
     budget = Budget(left, seconds, wait, what)
     token = _budget.set(budget)
     try:
-        with limited_by(check, budget.spend):
+        with work_limit(check, budget.spend):
             yield budget
     finally:
         _budget.reset(token)

@@ -15,7 +15,7 @@ from hess_explorer.views.layers import Columns, Sources
 from hess_explorer.views.plot import Plot
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.labelled import Labels, Result
-from hess_mechanics.numerics.results import frozen, turning
+from hess_mechanics.numerics.results import angle_convention, frozen
 
 __all__ = ["Table", "columns_of"]
 
@@ -208,7 +208,7 @@ def angles_of(data: PictureData) -> dict[str, dict[str, str]]:
                     key, jumps = f"{layer}.{name}", np.abs(np.diff(known)).max(initial=0.0) > math.pi
                     wide = np.ptp(known) > _WIDEST
                     found[key] = found.get(key, False) or bool(wide or (is_track and not jumps))
-    return {"angles": {key: turning(counts) for key, counts in found.items()}} if found else {}
+    return {"angles": {key: angle_convention(counts) for key, counts in found.items()}} if found else {}
 
 
 def layers_of(data: PictureData) -> Sources:

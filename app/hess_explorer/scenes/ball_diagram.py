@@ -76,7 +76,7 @@ class BallDiagram(DiagramState):
     @cached_property
     def poincare(self) -> BallSection:
         """The section γ3 = 0."""
-        return BallSection(BallBody(**self.parameters), 0.0).moved("h", self.h)
+        return BallSection(BallBody(**self.parameters), 0.0).at_constant("h", self.h)
 
 
 SCENE = diagram_scene(

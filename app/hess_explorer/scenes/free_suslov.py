@@ -179,7 +179,7 @@ class FreeSuslov(State):
         """The second orbit."""
         return self._motion(
             self.work.need(
-                Task(free.turned_along_circle, self.body, self.omega, self.gamma, self.phi2 - self.phi, self.level)
+                Task(free.rotation_along_circle, self.body, self.omega, self.gamma, self.phi2 - self.phi, self.level)
             )
         )
 

@@ -167,9 +167,9 @@ class Kharlamova(State):
         return self.sampled[0]
 
     @cached_property
-    def missed(self) -> float:
+    def closure_error(self) -> float:
         """The distance of a periodic orbit from its start after one period."""
-        return self.work.need(Task(mechanics.missed, self.body, self.start, self.arc.period, self.level))
+        return self.work.need(Task(mechanics.closure_error, self.body, self.start, self.arc.period, self.level))
 
     @cached_property
     def periods(self) -> Array:
@@ -284,7 +284,7 @@ class Kharlamova(State):
             return Caption("T = ∞ in this direction.", "∫dτ/γ₃ diverges.")
         return Caption(
             f"T = {digits(self.arc.period)} in this direction.",
-            f"After T the orbit returns to its start, to {digits(self.missed, 1)}.",
+            f"After T the orbit returns to its start, to {digits(self.closure_error, 1)}.",
         )
 
     def derived(self) -> Iterator[str]:
@@ -294,7 +294,7 @@ class Kharlamova(State):
         yield f"Force = {vector((-self.b2 / self.body.axes[0], self.b1 / self.body.axes[1]))}"
         if self.arc.kind == "periodic":
             yield f"T = {digits(self.arc.period)}"
-            yield f"Back after T: {digits(self.missed, 1)}"
+            yield f"Back after T: {digits(self.closure_error, 1)}"
         else:
             yield "T = ∞" if self.arc.kind == "asymptotic" else "A fixed point"
         if self.known("sampled"):

@@ -103,7 +103,7 @@ class SuslovDiagram(DiagramState):
     @cached_property
     def poincare(self) -> SuslovSection:
         """The section γ3 = 0."""
-        return SuslovSection(SuslovBody(**self.parameters), 0.0).moved("h", self.h)
+        return SuslovSection(SuslovBody(**self.parameters), 0.0).at_constant("h", self.h)
 
 
 SCENE = diagram_scene(

@@ -127,7 +127,7 @@ class RotationNumber(State):
         """ρ of the other family at the same tori, once known; NaN where there is no torus."""
         plan, count = self.plan(Kind.LINE), self.tori.x.size
         turns = plan.part(mechanics.TURNS)
-        task = Task(mechanics.perturbed_along, self.on_line, count, self.epsilon, plan.level, turns)
+        task = Task(mechanics.perturbations_along, self.on_line, count, self.epsilon, plan.level, turns)
         return None if self.dragging else self.work.need(task, preview=None)
 
     @property
@@ -201,7 +201,7 @@ def _line(s: RotationNumber, plan: Plan) -> Array:
     """Return ρ of the tori on the line and of the other family."""
     places = plan.side(_ON_LINE)
     values = mechanics.along(s.on_line, places, plan.level)
-    perturbed = mechanics.perturbed_along(s.on_line, places, s.epsilon, plan.level, plan.part(mechanics.TURNS))
+    perturbed = mechanics.perturbations_along(s.on_line, places, s.epsilon, plan.level, plan.part(mechanics.TURNS))
     return np.stack([np.where(values.possible, values.rho, np.nan), perturbed])
 
 

@@ -164,7 +164,7 @@ class SingularMeasures(State):
     @property
     def on_show(self) -> Array:
         """Mean, minimum and maximum of the quantity in the fourth picture, (3, m)."""
-        course = self.clouds.course
+        course = self.clouds.history
         return course.divergence if self.along == "divergence" else course.log_growth
 
     @property
@@ -197,7 +197,7 @@ class SingularMeasures(State):
 
     def derived(self) -> Iterator[str]:
         """Yield the system, its invariant density and the change of volumes."""
-        course = self.clouds.course
+        course = self.clouds.history
         yield f"System: {'Chaplygin ball, b = 0' if self.D else 'free Suslov problem'}"
         yield "Invariant density: 1/|I₁₃ω₁ + I₂₃ω₂|"
         yield f"ξ = {vector(self.strip.xi)}"

@@ -13,7 +13,7 @@ from hess_explorer.sweep.errors import WorkersLost
 from hess_explorer.sweep.piece import PieceResult, compute, compute_sent, sendable
 from hess_explorer.sweep.plan import Region, SweepPlan, version
 from hess_mechanics.errors import InvalidParameter
-from hess_mechanics.numerics.arguments import as_whole
+from hess_mechanics.numerics.arguments import as_integer
 
 if TYPE_CHECKING:
     from distributed import Client, Worker
@@ -76,7 +76,7 @@ def results(client: Client | None, plan: SweepPlan, regions: Iterable[Region]) -
 def connected(workers: str | int | None, scheduler: str | Client | None) -> Iterator[Client | None]:
     """Yield a client of the workers, None for this thread.  Raises `InvalidParameter`, `WorkersLost`."""
     # Dask starts one worker for each core of this process without a number.
-    count = None if workers == "all" else as_whole("workers", workers or 1, 1, 1000)
+    count = None if workers == "all" else as_integer("workers", workers or 1, 1, 1000)
     if scheduler is None and count == 1:
         yield None
         return

@@ -47,7 +47,7 @@ class Number:
     reader : reads it from the result.  Raises `NoValue`.
     error_reader : reads its estimated error from the result; None without an estimate.
     turn : period of the values, for example 1 for rotation numbers; 0 if they are not periodic.
-    named : values that stand for categories, with their names.
+    categories : values that stand for categories, with their names.
     """
 
     symbol: str
@@ -56,7 +56,7 @@ class Number:
     unit: str = "1"
     error_reader: Reader | None = None
     turn: float = 0.0
-    named: Mapping[int, str] = field(default_factory=dict)
+    categories: Mapping[int, str] = field(default_factory=dict)
 
     def read(self, result: Any) -> float:
         """Return the number.  Raises `NoValue`."""

@@ -14,7 +14,7 @@ from hess_mechanics.chaplygin_ball.ball_scattering import ball_scattering
 from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.chaplygin_ball.integrable_cases import period
 from hess_mechanics.chaplygin_ball.phase_cloud import Cloud
-from hess_mechanics.chaplygin_ball.phase_cloud_density import course, density
+from hess_mechanics.chaplygin_ball.phase_cloud_density import density, history
 from hess_mechanics.computations import cloud
 from hess_mechanics.dynamics.motions import usual, whole
 from hess_mechanics.errors import OutsideRegion, Separatrix
@@ -138,7 +138,7 @@ COMPUTATIONS: tuple[Computation, ...] = (
                 "locked",
                 "mode locking",
                 lambda r: len(r.of.fixed_points) == 2,
-                named={0: "no limit cycle", 1: "two limit cycles"},
+                categories={0: "no limit cycle", 1: "two limit cycles"},
             ),
             "period": Number("T", "time of a return", "of.period", "time"),
             "image": Number("Θ", "angle Θ(φ) after a return", unit="rad", error_reader="error"),
@@ -264,12 +264,12 @@ COMPUTATIONS: tuple[Computation, ...] = (
     Computation(
         "cloud-history",
         "Volume and growth of a cloud of phase points over time",
-        course,
+        history,
         _CLOUD,
         {"growth": Number("ln s/s₀", "mean growth of small volumes", lambda r: r.log_growth[0, -1])},
         Kind.CLOUD,
         "log_growth",
-        lambda **values: course(_cloud(**values)),
+        lambda **values: history(_cloud(**values)),
         example=_SMALL,
     ),
     Computation(

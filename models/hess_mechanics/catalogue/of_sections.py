@@ -81,14 +81,14 @@ _OF_MOTION: Mapping[str, Number] = {
         "regime",
         "kind of the motion",
         _decided("kind"),
-        named={int(one): one.words for one in MotionKind if one not in _UNDECIDED},
+        categories={int(one): one.words for one in MotionKind if one not in _UNDECIDED},
     ),
     "period": Number("N", "period, 0 where none is seen", _decided("period")),
     "volume": Number(
         "±",
         "change of phase volume about the motion",
         _decided("volume"),
-        named={0: "kept", -1: "shrinks", 1: "grows"},
+        categories={0: "kept", -1: "shrinks", 1: "grows"},
     ),
     "megno": Number("Ȳ", "MEGNO", "megno"),
 }
@@ -196,7 +196,7 @@ def computations(example: PoincareSection, period: int) -> Iterator[Computation]
         _MEASURED,
         {
             "distance": Number("d", "distance of attractor and repeller", "distance", error_reader="distance_error"),
-            "shared": Number("s", "fraction of the places that both share", "shared"),
+            "shared": Number("s", "fraction of the places that both share", "overlap"),
         },
         Kind.INDICATOR,
         example={"transient": 60.0, "kept": 64.0, "duration": 50.0},

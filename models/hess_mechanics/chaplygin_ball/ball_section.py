@@ -87,7 +87,9 @@ SECTION = on_section(
     "Chaplygin ball, a point of a section",
     (*body_parameters(SYSTEM, 1.0, 3.0, 0.2, -0.1, 5.0, 0.5, 0.2, 0.8), usual(known.H_BALL, 2.5)),
     (usual(known.PSI, 1.5), usual(known.DELTA, 1.2)),
-    lambda values: BallSection(BallBody(*(values[name] for name in SYSTEM.parameters)), 0.0).moved("h", values["h"]),
+    lambda values: BallSection(BallBody(*(values[name] for name in SYSTEM.parameters)), 0.0).at_constant(
+        "h", values["h"]
+    ),
     SYSTEM,
 )
 """Motions from the section γ3 = 0."""

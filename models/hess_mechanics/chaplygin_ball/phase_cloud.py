@@ -41,7 +41,7 @@ from hess_mechanics.numerics.results import Array, Cost, facts_of, frozen, unit_
 from hess_mechanics.parameters import plain
 from hess_mechanics.rigid_body.inertia import require_finite
 
-__all__ = ["Cloud", "carried", "divergence", "frame_times", "histogram", "occupation", "patch", "shell"]
+__all__ = ["Cloud", "cloud_of", "divergence", "frame_times", "histogram", "occupation", "patch", "shell"]
 
 _CLOSEST = 1e-300
 """Smallest |s|: below it doubles lose digits."""
@@ -227,7 +227,7 @@ def _run(states: Array, p: Array, times: Array, level: Level, max_steps: int) ->
     return out, int(each.sum())
 
 
-def carried(body: BallBody, states: Array, times: Array, accuracy: Accuracy) -> Cloud:
+def cloud_of(body: BallBody, states: Array, times: Array, accuracy: Accuracy) -> Cloud:
     """Return the cloud of the phase points `states` (n, 5) at `times` (m,), all ≥ 0 or all ≤ 0, with b = 0.
 
     The error of every sixteenth point, and of those that start closest to s = 0, is estimated by a second run with a
@@ -253,7 +253,7 @@ def carried(body: BallBody, states: Array, times: Array, accuracy: Accuracy) -> 
     current = level
     while True:
         go_on()
-        finer = current.tightened()
+        finer = current.tighter()
         fine, steps = _run(nearby(first[checked]), p, t * nu, finer, 2 * max_steps)
         total += steps
         error = SAFETY * float(np.abs(out[checked] - fine).max()) + 2e-16

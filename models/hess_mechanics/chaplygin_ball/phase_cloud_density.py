@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hess_mechanics.chaplygin_ball.equations import BallBody
-from hess_mechanics.chaplygin_ball.phase_cloud import Cloud, carried, frame_times, histogram, occupation, patch, shell
+from hess_mechanics.chaplygin_ball.phase_cloud import Cloud, cloud_of, frame_times, histogram, occupation, patch, shell
 from hess_mechanics.dynamics.ensemble import complete, ensemble
 from hess_mechanics.numerics.accuracy import Accuracy
 from hess_mechanics.numerics.labelled import Labels, Result
@@ -22,7 +22,7 @@ from hess_mechanics.numerics.results import Array, Ensemble, frozen
 from hess_mechanics.suslov.additional_integral import of_body
 from hess_mechanics.suslov.equations import SuslovBody
 
-__all__ = ["BIN", "SMALLEST", "CloudHistory", "Clouds", "Density", "clouds", "course", "density", "sides"]
+__all__ = ["BIN", "SMALLEST", "CloudHistory", "Clouds", "Density", "clouds", "density", "history", "sides"]
 
 BIN = 0.25
 """Width of a bin of ln|s|."""
@@ -97,7 +97,7 @@ class Clouds:
     """A cloud and its evolution, see `sides`; `other` is the cloud of the body on a principal axis."""
 
     cloud: Cloud
-    course: CloudHistory
+    history: CloudHistory
     density: Density
     sides: tuple[int, int, int] | None
     other: Ensemble | None
@@ -111,7 +111,7 @@ class Clouds:
         return max(fastest, float(np.sqrt((self.other.states[..., :2] ** 2).sum(axis=2).max())))
 
 
-def course(cloud: Cloud) -> CloudHistory:
+def history(cloud: Cloud) -> CloudHistory:
     """Return the history of a cloud at all of its times.
 
     Parameters
@@ -126,8 +126,8 @@ def course(cloud: Cloud) -> CloudHistory:
 
     Examples
     --------
-    >>> from hess_mechanics import BallBody, cloud, course
-    >>> float(course(cloud(BallBody(2.0, 1.0, 0.3, 0.5, 0.0), 2.0, 1.0, count=20)).volume[0].round(6))
+    >>> from hess_mechanics import BallBody, cloud, history
+    >>> float(history(cloud(BallBody(2.0, 1.0, 0.3, 0.5, 0.0), 2.0, 1.0, count=20)).volume[0].round(6))
     1.0
     """
 
@@ -191,8 +191,8 @@ def clouds(
     one = count if field is None else count // 2
     states = shell(body, h, spread, one) if angle is None else patch(body, h, angle, spread, one)
     times = frame_times(body, states, duration, abs(field or 0.0))
-    cloud, other = carried(body, states, times, accuracy), None
+    cloud, other = cloud_of(body, states, times, accuracy), None
     if field is not None:
         principal = BallBody(body.I11, body.I22, 0.0, 0.0, body.D, 0.0, 0.0, field)
         other = complete(ensemble(principal, states, times, accuracy))
-    return Clouds(cloud, course(cloud), density(cloud), sides(cloud), other)
+    return Clouds(cloud, history(cloud), density(cloud), sides(cloud), other)

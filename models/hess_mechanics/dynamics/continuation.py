@@ -36,7 +36,7 @@ from hess_mechanics.numerics.measured import SAFETY
 from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array, Complex, frozen
 
-__all__ = ["Bifurcation", "Branch", "MapFamily", "continued", "gone_on"]
+__all__ = ["Bifurcation", "Branch", "MapFamily", "branch_from", "extension"]
 
 _FIRST, _LONGEST, _SHORTEST = 0.01, 0.1, 1e-7
 """Steps along the branch, in units of the coordinates and of the width of the parameter's range."""
@@ -109,7 +109,7 @@ class Branch(Result):
         Estimated errors of the points.
     bifurcations : tuple of Bifurcation
         Bifurcations along the branch.
-    ended : str
+    end_reason : str
         Reason why the branch ends.
     level : str
         Name of the accuracy level.
@@ -127,7 +127,7 @@ class Branch(Result):
     kinds: tuple[str, ...]
     errors: Array
     bifurcations: tuple[Bifurcation, ...]
-    ended: str
+    end_reason: str
     level: str
     times: Array | None = None
     heading: tuple[Array, float] | None = None
@@ -170,7 +170,7 @@ class Branch(Result):
                 "period": self.period,
                 "level": self.level,
                 "error_estimate": self.error_estimate,
-                "ended": self.ended,
+                "ended": self.end_reason,
                 "bifurcations": "; ".join(
                     f"{one.kind} at {one.value:.12g} ± {one.error:.1g}" for one in self.bifurcations
                 ),
@@ -230,7 +230,7 @@ class _Track:
     def point(self, z: Array, iterations: int = 0, better: bool = False) -> _Point:
         """Return F and its derivatives at z.  Raises as the family."""
         places, value = self.split(z)
-        map_ = self.at(value).tightened() if better else self.at(value)
+        map_ = self.at(value).tighter() if better else self.at(value)
         shot = shoot(map_, places)
         # Only Newton's steps and the tangent use this derivative; its error does not move the orbit.
         h = 1e-5 * self.width
@@ -295,7 +295,7 @@ def _happens(kind: str, before: _Point, after: _Point, values: tuple[float, floa
     return True
 
 
-def continued(
+def branch_from(
     family: MapFamily,
     orbit: PeriodicOrbit,
     parameter: str,
@@ -360,7 +360,7 @@ def continued(
     return _followed(track, point, point.tangent(along), points, min(_FIRST, longest), longest, until)
 
 
-def gone_on(
+def extension(
     family: MapFamily,
     branch: Branch,
     end: float,
@@ -370,10 +370,10 @@ def gone_on(
 ) -> Branch:
     """Return the continuation of a branch that has a `heading`, between the same ends of the range.
 
-    Its first point is the last one of `branch`.  Raises as `continued`.
+    Its first point is the last one of `branch`.  Raises as `branch_from`.
     """
     if branch.heading is None:
-        raise InvalidParameter(f"This branch cannot be continued: {branch.ended}")
+        raise InvalidParameter(f"This branch cannot be continued: {branch.end_reason}")
     shape, kept = branch.places.shape[1:], lru_cache(_MAPS)(family)
     track = _Track(kept, branch.parameter, branch.names, branch.level, (edge, end), shape)
     along, step = branch.heading

@@ -135,7 +135,7 @@ def ensemble(
     before, current = out[todo], level
     # As in `measured`, for the orbits that still miss the promise.
     while todo.size:
-        tighter = current.tightened()
+        tighter = current.tighter()
         found, more, _ = run(problems[tighter.aside], todo, tighter)
         total += int(np.maximum(more, 0).sum())
         difference = np.abs(before - found)
@@ -148,7 +148,7 @@ def ensemble(
             out[todo] = found
         if current.is_floor:
             todo = todo[scaled_errors[todo] > UNSURE]
-            third, more, _ = run(problems[current.aside], todo, current.varied())
+            third, more, _ = run(problems[current.aside], todo, current.variant())
             total += int(np.maximum(more, 0).sum())
             difference = np.abs(out[todo] - third)
             difference[more < 0] = np.inf

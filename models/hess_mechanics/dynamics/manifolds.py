@@ -70,7 +70,7 @@ class Manifold(Result):
         Largest distance between the curve and the polyline.
     error_estimate : float
         Estimated error of the points across the curve.
-    ended : str
+    end_reason : str
         Reason why the branch ends.
     level : str
         Name of the accuracy level.
@@ -88,7 +88,7 @@ class Manifold(Result):
     lengths: Array
     sagitta: float
     error_estimate: float
-    ended: str
+    end_reason: str
     level: str
     at: Callable[[float], Array]
 
@@ -124,7 +124,7 @@ class Manifold(Result):
                 "sagitta": self.sagitta,
                 "error_estimate": self.error_estimate,
                 "status": str(self.status),
-                "ended": self.ended,
+                "ended": self.end_reason,
                 "level": self.level,
             },
         )
@@ -361,7 +361,7 @@ def _cross(u: Array, v: Array) -> Array:
 
 def _error(curve: _Curve, points: Array, parameters: Array) -> float:
     """Return the largest distance, across the curve, of sampled points from those of a more accurate map."""
-    better = replace(curve, map_=curve.map_.tightened())
+    better = replace(curve, map_=curve.map_.tighter())
     off, last = -math.inf, len(points) - 1
     for i in np.unique(np.linspace(1, max(1, last - 1), _CHECKED).astype(int)):
         try:

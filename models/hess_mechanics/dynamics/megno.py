@@ -89,7 +89,7 @@ class Megno(Result):
         return np.asarray((self.values > CHAOTIC) & ~np.array(self.no_chaos, bool))
 
     @property
-    def attracted(self) -> Mask:
+    def dissipative(self) -> Mask:
         """True for each motion about which phase volume shrinks by more than three standard errors, shape (n,)."""
         return volume_sign(self.divergence, self.divergence_error) < 0
 

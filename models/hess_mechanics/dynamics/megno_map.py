@@ -125,7 +125,7 @@ def row_of_cells(
     out[1] = NOWHERE
     if there.any():
         found = megno(section, states[there], duration, accuracy, threads=1)
-        kinds = np.where(np.array(found.reasons, bool), ENDED, found.chaotic + 2 * found.attracted)
+        kinds = np.where(np.array(found.reasons, bool), ENDED, found.chaotic + 2 * found.dissipative)
         out[:, there] = found.values, kinds, found.ends
     return frozen(out)
 

@@ -10,7 +10,7 @@ import numpy as np
 from hess_mechanics.dynamics.system import Body, Problem, System
 from hess_mechanics.errors import InvalidParameter, MotionEnds, WorkLimit
 from hess_mechanics.numerics.accuracy import PRECISE, Accuracy, Level
-from hess_mechanics.numerics.arguments import as_level, as_whole
+from hess_mechanics.numerics.arguments import as_integer, as_level
 from hess_mechanics.numerics.field_values import Undefined
 from hess_mechanics.numerics.measured import measured
 from hess_mechanics.numerics.results import Array, Orbit, frozen
@@ -164,7 +164,7 @@ def unfinished(problem: Problem, code: int, t: float, state: Array, max_steps: i
 
 def as_max_steps(max_steps: int) -> int:
     """Return a limit of the number of steps.  Raises `InvalidParameter`."""
-    return as_whole("max_steps", max_steps, 1, _MOST_STEPS)
+    return as_integer("max_steps", max_steps, 1, _MOST_STEPS)
 
 
 def as_max_step(max_step: float | None, problem: Problem) -> float:
@@ -302,7 +302,7 @@ def solve(
     """
     level = as_level(accuracy)
     times = checked_times(
-        times if np.ndim(times) else np.linspace(0.0, times, as_whole("samples", samples, 2, MAX_SAMPLES))
+        times if np.ndim(times) else np.linspace(0.0, times, as_integer("samples", samples, 2, MAX_SAMPLES))
     )
     problem = Problem.of(body, [start])
     scaled_times = problem.times(times)

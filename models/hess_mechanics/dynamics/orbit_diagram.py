@@ -16,7 +16,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from hess_mechanics.dynamics.continuation import Bifurcation, continued
+from hess_mechanics.dynamics.continuation import Bifurcation, branch_from
 from hess_mechanics.dynamics.periodic import MAX_PERIOD, Map, PeriodicOrbit, apart, find_periodic, place_units, shoot
 from hess_mechanics.errors import InvalidParameter, ModelError, NotConverged, OutsideRegion, WorkLimit
 from hess_mechanics.numerics.labelled import Labels, Result, components
@@ -31,7 +31,7 @@ __all__ = [
     "Followed",
     "cascade",
     "diagram_over",
-    "doubling_seen",
+    "first_doubling",
     "period_of",
 ]
 
@@ -66,7 +66,7 @@ class Followed(Map, Protocol):
     """A map that can return a whole orbit at once."""
 
     @property
-    def volume_kept(self) -> bool:
+    def preserves_volume(self) -> bool:
         """True if the map preserves a volume and has no attractors."""
 
     def orbit(self, place: Array, count: int) -> Array:
@@ -215,7 +215,7 @@ def diagram_over(
         try:
             map_ = family(value)
             names, level = map_.names, map_.level
-            conservative[i] = map_.volume_kept
+            conservative[i] = map_.preserves_volume
             for origin in (place, anew) if follow else (anew,):
                 try:
                     orbit = _after_transient(map_, origin, transient, kept)
@@ -268,7 +268,7 @@ def _has_approached(map_: Followed, orbit: Array) -> bool:
     return False
 
 
-def doubling_seen(parts: Sequence[Diagram]) -> tuple[float, Array, float] | None:
+def first_doubling(parts: Sequence[Diagram]) -> tuple[float, Array, float] | None:
     """Return the first doubling of the smallest period in a diagram, or None if no period doubles between neighbours.
 
     Next to a doubling orbits settle slowly, so that a few values between may have no period.
@@ -309,7 +309,7 @@ class Cascade(Result):
         Period before each doubling.
     places : tuple of ndarray, shape (m, d)
         Points of the orbit at each doubling.
-    ended : str
+    end_reason : str
         Reason why there are no more doublings.
     level : str
         Name of the accuracy level.
@@ -321,7 +321,7 @@ class Cascade(Result):
     errors: Array
     periods: Whole
     places: tuple[Array, ...]
-    ended: str
+    end_reason: str
     level: str
 
     @property
@@ -369,7 +369,7 @@ class Cascade(Result):
                 "ratio error": (along, off),
             },
             {},
-            {"ended": self.ended, "limit": self.limit, "level": self.level},
+            {"ended": self.end_reason, "limit": self.limit, "level": self.level},
         )
 
 
@@ -379,7 +379,7 @@ def cascade(
     """Return the period doublings of an orbit of the map at λ = `start`, towards λ = `end`.
 
     The orbit is continued up to its flip; beyond it, Newton's method finds the orbit of twice the period in the
-    direction in which it is born; and so on.  Raises as `continued` for the first branch.
+    direction in which it is born; and so on.  Raises as `branch_from` for the first branch.
     """
     found: list[Bifurcation] = []
     direction = math.copysign(1.0, end - start)
@@ -388,7 +388,7 @@ def cascade(
     while len(found) < doublings:
         go_on()
         try:
-            branch = continued(family, orbit, parameter, at, far, _POINTS, until="flip")
+            branch = branch_from(family, orbit, parameter, at, far, _POINTS, until="flip")
         except NotConverged as error:
             if not found:
                 raise
@@ -396,7 +396,7 @@ def cascade(
             break
         flip = next((one for one in branch.bifurcations if one.kind == "flip"), None)
         if flip is None:
-            ended = f"The orbit of period {orbit.period} keeps its period: {branch.ended}"
+            ended = f"The orbit of period {orbit.period} keeps its period: {branch.end_reason}"
             break
         found.append(flip)
         if len(found) == doublings:

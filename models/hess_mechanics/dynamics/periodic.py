@@ -87,7 +87,7 @@ class Map(Protocol):
     def symmetries_of(self, places: Array, near: float) -> Sequence[str]:
         """Return the names of the symmetries that take an orbit (m, d) to itself, to within a distance."""
 
-    def tightened(self) -> Map:
+    def tighter(self) -> Map:
         """Return the same map, computed more accurately and with other roundings."""
 
 
@@ -443,7 +443,7 @@ def _measured(map_: Map, shot: Shot, iterations: int) -> PeriodicOrbit:
     current = map_
     shot = shoot(current, shot.places[: _least_period(current, shot.places, map_.promise)])
     while True:
-        better = current.tightened()
+        better = current.tighter()
         # The residuals of Newton's equations for the better map are the error of this one.
         there = shoot(better, shot.places)
         family = max(_FAMILY, current.promise)

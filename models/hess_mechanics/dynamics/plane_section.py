@@ -96,7 +96,7 @@ class Plane:
         """
         return np.array(self.normal)
 
-    def scaled(self, system: System, problem: Problem) -> tuple[Callable[..., tuple[int, int]], Array, float]:
+    def crossing_kernel(self, system: System, problem: Problem) -> tuple[Callable[..., tuple[int, int]], Array, float]:
         """Return the crossing kernel with the plane in the units of a problem.
 
         Parameters
@@ -183,7 +183,7 @@ class AnglePlane:
         """
         return np.array(np.arange(len(state)) == self.index, float)
 
-    def scaled(self, system: System, problem: Problem) -> tuple[Callable[..., tuple[int, int]], Array, float]:
+    def crossing_kernel(self, system: System, problem: Problem) -> tuple[Callable[..., tuple[int, int]], Array, float]:
         """Return the crossing kernel and its constants in the units of a problem.
 
         Parameters
@@ -222,7 +222,7 @@ class Surface(Protocol):
     def sense(self) -> int:
         """Crossings that count: 1 from below, −1 from above, 0 both."""
 
-    def scaled(self, system: System, problem: Problem) -> tuple[Callable[..., tuple[int, int]], Array, float]:
+    def crossing_kernel(self, system: System, problem: Problem) -> tuple[Callable[..., tuple[int, int]], Array, float]:
         """Return the crossing kernel, the normal and the offset in units in which the states are O(1)."""
 
 
@@ -260,7 +260,7 @@ class _Search:
         problem = Problem.of(body, states)
         if not hasattr(plane, "scaled"):
             raise InvalidParameter("A section needs a surface, such as Plane(normal, offset).")
-        plane.scaled(body.system, problem)
+        plane.crossing_kernel(body.system, problem)
         starts = np.array(states, float, ndmin=2)
         longest = as_max_step(max_step, problem)
         most = as_max_steps(max_steps)
@@ -270,7 +270,7 @@ class _Search:
         self, problem: Problem, start: Array, duration: float, level: Level, spent: int = 0
     ) -> tuple[tuple[Array, Array], int, WorkLimit | None]:
         """Return (times, states) of the crossings of the orbit of a problem from `start`, the steps, and its end."""
-        cross, normal, offset = self.plane.scaled(problem.system, problem)
+        cross, normal, offset = self.plane.crossing_kernel(problem.system, problem)
         longest = problem.system.longest_step(level, duration, self.max_step)
         room, total = min(self.crossings, _ROOM), 0
         while True:

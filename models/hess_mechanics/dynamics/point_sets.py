@@ -56,7 +56,7 @@ class SetDistance:
         Largest difference between the distance of quarters of the sets and the distance.
     grain : float
         Distance between the two halves of one set, the larger of the two; smaller distances are not resolved.
-    shared : float
+    overlap : float
         Fraction of the points of one set that are as close to the other set as the halves of one set are to each other,
         the smaller of the two.
     settled : bool
@@ -67,13 +67,13 @@ class SetDistance:
     distance: float
     error: float
     grain: float
-    shared: float
+    overlap: float
     settled: bool
 
     @property
     def apart(self) -> bool:
         """True if no point of one set is close to the other set, as far as the grain resolves this."""
-        return self.settled and self.shared < 0.005 and self.distance > self.grain + self.error
+        return self.settled and self.overlap < 0.005 and self.distance > self.grain + self.error
 
 
 def set_distance(turns: Sequence[float], a: Array, b: Array) -> SetDistance:

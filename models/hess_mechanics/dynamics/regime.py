@@ -36,12 +36,12 @@ from hess_mechanics.dynamics.system import Problem
 from hess_mechanics.dynamics.zero_one import LEAST, zero_one_of_bands
 from hess_mechanics.errors import ModelError, NoReturn, OutsideRegion, WorkLimit
 from hess_mechanics.numerics.accuracy import Status
-from hess_mechanics.numerics.arguments import as_place, as_whole
+from hess_mechanics.numerics.arguments import as_integer, as_place
 from hess_mechanics.numerics.labelled import Labels, Result, components
 from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array, frozen
 
-__all__ = ["Dynamics", "MotionKind", "Regime", "compared", "dynamics_of", "regime"]
+__all__ = ["Dynamics", "MotionKind", "Regime", "comparison", "dynamics_of", "regime"]
 
 _MEMBERS = 8
 """Number of orbits of an ensemble; the probability that all agree by chance is 1/2⁸."""
@@ -211,7 +211,7 @@ class _Evidence:
     winds: bool
 
     @property
-    def attracted(self) -> bool:
+    def dissipative(self) -> bool:
         """True if phase volume changes, so that the motion lies on an attractor or repeller."""
         return not self.winds and volume_sign(self.divergence, self.divergence_error) != 0
 
@@ -221,7 +221,7 @@ class _Evidence:
         if self.winds or self.irregular < _SMOOTH:
             return True
         linear = max(abs(self.early - 2.0), abs(self.late - 2.0)) < _LINEAR
-        return linear and not self.attracted and self.crossings >= _MANY
+        return linear and not self.dissipative and self.crossings >= _MANY
 
     @property
     def kind(self) -> MotionKind:
@@ -236,7 +236,7 @@ class _Evidence:
             return MotionKind.UNDECIDED
         if not self.settled:
             return MotionKind.SETTLING
-        if self.crossings >= (_MANY if self.attracted else _FEWEST) and self.smooth:
+        if self.crossings >= (_MANY if self.dissipative else _FEWEST) and self.smooth:
             return MotionKind.QUASI_PERIODIC
         return MotionKind.UNDECIDED
 
@@ -280,7 +280,10 @@ def regime(
     >>> regime(P, (0.3,), duration=100.0).kind.words  # it tends to the stable limit cycle
     'fixed point'
     """
-    transient, kept = as_whole("transient", transient, 0, _MOST_CROSSINGS), as_whole("kept", kept, 1, _MOST_CROSSINGS)
+    transient, kept = (
+        as_integer("transient", transient, 0, _MOST_CROSSINGS),
+        as_integer("kept", kept, 1, _MOST_CROSSINGS),
+    )
     start = as_place(map_.names, start)
     places = map_.orbit(np.array(start), transient + kept)
     if len(places) < transient + kept:
@@ -304,9 +307,9 @@ def regime(
         places, span = following, longer
         evidence = _evidence(map_, places, span)
     kind, measure = evidence.kind, map_.section.measure
-    if kind in _ON_ONE_SET and not (measure or evidence.attracted or map_.volume_kept):
+    if kind in _ON_ONE_SET and not (measure or evidence.dissipative or map_.preserves_volume):
         measure = _reversor(map_, places)
-    if kind is MotionKind.QUASI_PERIODIC and evidence.attracted and not _has_a_curve(map_, places[-1], span):
+    if kind is MotionKind.QUASI_PERIODIC and evidence.dissipative and not _has_a_curve(map_, places[-1], span):
         kind = MotionKind.NO_PERIOD
     divergence = (0.0, 0.0) if measure else (evidence.divergence, evidence.divergence_error)
     return Regime(
@@ -338,7 +341,7 @@ def _evidence(map_: ReturnMap, places: Array, duration: float) -> _Evidence:
         zero_one_of_bands(bounded_series(map_.turns, places).sum(axis=1)) if enough else math.nan,
         irregularity(map_.turns, places, _PRECISION * map_.promise) if enough else math.inf,
         float(mean),
-        0.0 if map_.volume_kept else float(error) + map_.promise,
+        0.0 if map_.preserves_volume else float(error) + map_.promise,
         winds or all(late.no_chaos),
         winds,
     )
@@ -478,19 +481,19 @@ class Dynamics(Result):
         return max(max(one.error, one.grain, abs(one.distance - self.distance)) for one in self.settled)
 
     @property
-    def shared(self) -> float:
+    def overlap(self) -> float:
         """Fraction of the points of one set that lie at the other, the mean over the settled orbits."""
-        return float(np.mean([one.shared for one in self.settled]))
+        return float(np.mean([one.overlap for one in self.settled]))
 
     @property
     def verdict(self) -> str:
         """The verdict: "conservative", "dissipative", "mixed" or "not told apart"."""
-        if self.motion.map_.volume_kept or self.motion.measure:
+        if self.motion.map_.preserves_volume or self.motion.measure:
             return "conservative"
         if sum(one.settled for one in self.comparisons) >= _ENOUGH and self.motion.volume < 0:
             if all(one.apart for one in self.settled):
                 return "dissipative"
-            if all(one.shared >= _TOUCHING for one in self.settled):
+            if all(one.overlap >= _TOUCHING for one in self.settled):
                 return "mixed"
         return "not told apart"
 
@@ -513,7 +516,7 @@ class Dynamics(Result):
                 "verdict": self.verdict,
                 "distance": self.distance,
                 "distance error": self.distance_error,
-                "shared": self.shared,
+                "shared": self.overlap,
                 "divergence": self.motion.divergence,
                 "divergence error": self.motion.divergence_error,
                 "level": self.motion.map_.level,
@@ -562,11 +565,11 @@ def dynamics_of(
     >>> dynamics_of(P, (0.3, 0.2), transient=60, kept=64, duration=100.0).verdict  # I₁₃ = I₂₃ = 0: the volume is kept
     'conservative'
     """
-    kept = as_whole("kept", kept, 8, _MOST_CROSSINGS)
-    return compared(map_, regime(map_, start, transient, min(kept, 400), duration), start, transient, kept)
+    kept = as_integer("kept", kept, 8, _MOST_CROSSINGS)
+    return comparison(map_, regime(map_, start, transient, min(kept, 400), duration), start, transient, kept)
 
 
-def compared(map_: ReturnMap, motion: Regime, start: Sequence[float] | Array, transient: int, kept: int) -> Dynamics:
+def comparison(map_: ReturnMap, motion: Regime, start: Sequence[float] | Array, transient: int, kept: int) -> Dynamics:
     """Return the same for a motion whose kind is already known."""
     origin = np.array(start, float)
     pairs: list[tuple[Array, Array]] = []

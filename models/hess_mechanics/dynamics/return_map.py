@@ -30,7 +30,7 @@ from hess_mechanics.dynamics.system import Problem, System
 from hess_mechanics.dynamics.variation import onto_surface
 from hess_mechanics.errors import InvalidParameter, NoReturn, OutsideRegion, WorkLimit
 from hess_mechanics.numerics.accuracy import Accuracy, Level
-from hess_mechanics.numerics.arguments import as_number, as_whole
+from hess_mechanics.numerics.arguments import as_integer, as_number
 from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array, Mask
 from hess_mechanics.parameters import plain
@@ -114,7 +114,7 @@ class PoincareSection(Protocol):
         """Smooth measure that all motions of the section preserve by a theorem, in words; empty if none is known."""
         return ""
 
-    def moved(self, name: str, value: float) -> PoincareSection:
+    def at_constant(self, name: str, value: float) -> PoincareSection:
         """Return the section at another value of a constant.  Raises a `ModelError` if there is none."""
 
     @property
@@ -216,7 +216,7 @@ class ReturnMap:
         """True at the last accuracy level."""
         return self.accuracy.is_floor
 
-    def tightened(self) -> ReturnMap:
+    def tighter(self) -> ReturnMap:
         """Return the same map with a hundredth of the tolerance and starts that differ by roundings.
 
         Returns
@@ -224,7 +224,7 @@ class ReturnMap:
         ReturnMap
             The more accurate map.
         """
-        return replace(self, accuracy=self.accuracy.tightened())
+        return replace(self, accuracy=self.accuracy.tighter())
 
     def inverse(self) -> ReturnMap:
         """Return the inverse map, backward in time.
@@ -236,7 +236,7 @@ class ReturnMap:
         """
         return replace(self, backward=not self.backward)
 
-    def moved(self, name: str, value: float) -> ReturnMap:
+    def at_constant(self, name: str, value: float) -> ReturnMap:
         """Return the map at another value of a constant of the section.
 
         Parameters
@@ -257,7 +257,7 @@ class ReturnMap:
             If there is no such constant.
         """
         self.constant(name)
-        return replace(self, section=self.section.moved(name, as_number(name, value)))
+        return replace(self, section=self.section.at_constant(name, as_number(name, value)))
 
     def constant(self, name: str) -> float:
         """Return the value of a constant of the section.
@@ -359,7 +359,7 @@ class ReturnMap:
         WorkLimit
             If the returns need too many steps.
         """
-        places, count = self._places(place), as_whole("count", count, 0, _MOST)
+        places, count = self._places(place), as_integer("count", count, 0, _MOST)
         if count == 0:
             return places
         problem, _, states = self._crossings(self.state_at(np.atleast_2d(places)), count, _LONGEST)
@@ -391,7 +391,7 @@ class ReturnMap:
         """
         section = self.section
         parts = [np.empty((0, len(self.turns)))]
-        left = as_whole("count", count, 0, _MOST)
+        left = as_integer("count", count, 0, _MOST)
         problem, search = self._search(np.atleast_2d(self.state_at(place)))
         start = problem.states[0]
         while left > 0:
@@ -414,7 +414,7 @@ class ReturnMap:
             inside = section.states_at(*places.T)[1]
             on = on[: len(on) if inside.all() else max(1, int(np.argmin(inside)))]
             again = not inside[0] and not self.is_floor
-            parts.append(self.tightened().orbit(place, 1) if again else places[: on.size])
+            parts.append(self.tighter().orbit(place, 1) if again else places[: on.size])
             # If the last crossings are on another sheet, the next call repeats them.
             left -= int(on[-1]) + 1
             if not len(parts[-1]):
@@ -567,7 +567,7 @@ class ReturnMap:
         problem = Problem.of(section, starts)
         problem = problem.nearby() if accuracy.aside else problem
         surface = section.surface
-        cross, normal, offset = surface.scaled(section.system, problem)
+        cross, normal, offset = surface.crossing_kernel(section.system, problem)
         direction = section.slowness * (-1.0 if self.backward else 1.0)
 
         def search(start: Array, wanted: int, longest: float) -> tuple[int, Array, Array]:
@@ -651,7 +651,7 @@ class ReturnMap:
         return np.asarray((np.tensordot(_WEIGHTS, moved, 1) / unit * sizes).swapaxes(1, 2))
 
     @cached_property
-    def volume_kept(self) -> bool:
+    def preserves_volume(self) -> bool:
         """True if the divergence of the field is 0 everywhere, so that nothing attracts where motions are bounded.
 
         It is computed at a few states in general position.
@@ -668,10 +668,10 @@ class ReturnMap:
         for state in self.section.spread(1):
             place = self.section.places_of(np.array([state]))[0]
             known = sign_symmetries(self.section.system, self.section.parameters)
-            return tuple(one for one in known if self.mirrored(one, place) is not None)
+            return tuple(one for one in known if self.mirror_image(one, place) is not None)
         return ()
 
-    def mirrored(self, mirror: Mirror, place: Array) -> Array | None:
+    def mirror_image(self, mirror: Mirror, place: Array) -> Array | None:
         """Return the mirror image of a point, or where the motion through the image crosses the section next.
 
         The image of a reversor must lie on the section itself.
@@ -727,7 +727,7 @@ class ReturnMap:
         """
         found = []
         for mirror in self.mirrors:
-            images = [self.mirrored(mirror, place) for place in places]
+            images = [self.mirror_image(mirror, place) for place in places]
             if all(
                 image is not None
                 and np.abs(apart(self.turns, places, image)).max(axis=1).min() < max(near, 1e3 * self.promise)

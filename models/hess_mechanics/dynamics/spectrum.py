@@ -399,7 +399,7 @@ def lyapunov_spectrum(
         columns, lengths = np.linalg.qr(found.vectors)
         diagonal = np.abs(np.diagonal(lengths, axis1=1, axis2=2))
         now = slice(i + 1, i + _SAMPLES + 1)
-        growth[now] = growth[i] + found.removed + np.log(np.maximum(diagonal, 1e-300))
+        growth[now] = growth[i] + found.log_growth + np.log(np.maximum(diagonal, 1e-300))
         volume[now] = volume[i] + found.volume
         y, frame = found.states[-1].copy(), columns[-1]
         i += _SAMPLES

@@ -48,7 +48,7 @@ def beyond(kind: Kind) -> Plan:
     """
     finest = PLANS[kind][REFERENCE.name]
     more = {name: 2.0 * getattr(finest, name) for name in (_TWICE[kind],)} if kind in _TWICE else {}
-    return replace(finest, level=finest.level.tightened(), **more)
+    return replace(finest, level=finest.level.tighter(), **more)
 
 
 def measure(

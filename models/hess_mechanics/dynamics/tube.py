@@ -36,7 +36,7 @@ from hess_mechanics.dynamics.polynomials import Along, Slope
 from hess_mechanics.dynamics.system import Body, Problem, System
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import Accuracy
-from hess_mechanics.numerics.arguments import as_whole
+from hess_mechanics.numerics.arguments import as_integer
 from hess_mechanics.numerics.balls import BALL_FUNCTIONS, ArbBall, Enclosure, enclosure, rational, working
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.patience import go_on
@@ -92,7 +92,7 @@ class Tube(Result):
         Elapsed time.
     variables : tuple of str
         Names of the variables.
-    spent : bool
+    work_limited : bool
         True if more work would have reached more times.
     digits : int
         Requested number of digits, with which `labels` writes the intervals.
@@ -107,7 +107,7 @@ class Tube(Result):
     bits: int
     seconds: float
     variables: tuple[str, ...] = ()
-    spent: bool = False
+    work_limited: bool = False
     digits: int = 18
 
     def labels(self) -> Labels:
@@ -252,7 +252,7 @@ def tube(
     >>> found.complete, found.width < 1e-18
     (True, True)
     """
-    as_whole("digits", digits, 1, 100)
+    as_integer("digits", digits, 1, 100)
     begun = time.perf_counter()
     asked = checked_times(times)
     problem, system = Problem.of(body, [start]), body.system
@@ -278,15 +278,15 @@ def tube(
             )
         following = 0 if best.complete else _more_bits(walk, digits, length, left)
         if following <= bits:
-            spent = not best.complete and (walk.spent or (bool(walk.t) and bits < _MOST_BITS))
-            return replace(best, seconds=time.perf_counter() - begun, spent=spent, digits=digits)
+            spent = not best.complete and (walk.work_limited or (bool(walk.t) and bits < _MOST_BITS))
+            return replace(best, seconds=time.perf_counter() - begun, work_limited=spent, digits=digits)
         bits = following
 
 
 def _more_bits(walk: _Walk, digits: int, length: float, left: float) -> int:
     """Return the bits that the rest of the time needs at a walk's rate of loss, or that the work left affords."""
     gone = float(abs(walk.t))
-    if walk.spent or gone == 0.0 or walk.bits >= _MOST_BITS:
+    if walk.work_limited or gone == 0.0 or walk.bits >= _MOST_BITS:
         return 0
     base, rate, pace = 3.33 * digits + _GUARD_BITS, 1.1 * walk.lost / gone, walk.steps / gone
     bits = _whole(min(_MOST_BITS, base + rate * length))
@@ -360,7 +360,7 @@ class _Walk:
         self.centre = [x.mid() for x in start]
         self.radius = _norm([x.rad() / size for x, size in zip(start, self.scale, strict=True)])
         self.t = Fraction(0)
-        self.steps, self.work, self.spent = 0, 0.0, False
+        self.steps, self.work, self.work_limited = 0, 0.0, False
         self.last = math.inf
 
     @property
@@ -397,13 +397,13 @@ class _Walk:
                 found.append(tuple(enclosure(x) for x in y))
                 self.work += self.terms
                 if self.work > most_work and len(found) < len(wanted):
-                    self.spent = True
+                    self.work_limited = True
                     return found, widest
             self._go_to(step, end)
             if 2.0 * float(self.radius) > tolerance:
                 break
             if self.work > most_work:
-                self.spent = True
+                self.work_limited = True
                 break
         return found, widest
 
@@ -438,7 +438,7 @@ class _Walk:
                 self.last = length
                 return _Step(along, length, radius)
             if self.work > most_work:
-                self.spent = True
+                self.work_limited = True
                 return None
             length *= 0.5
         return None

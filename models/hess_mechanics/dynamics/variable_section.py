@@ -105,7 +105,7 @@ class VariableSection(PoincareSection):
         """The parameters, and the values of the integrals."""
         return {**dict(zip(self.system.parameters, self.parameters, strict=True)), **dict(self.integrals)}
 
-    def moved(self, name: str, value: float) -> VariableSection:
+    def at_constant(self, name: str, value: float) -> VariableSection:
         """Return the section with another value of one constant."""
         if name in self.system.parameters:
             return replace(self, body=self.system.at(self.parameters, **{name: value}))

@@ -44,13 +44,13 @@ class Tangent:
     steps: int
     states: Array
     vectors: Array
-    removed: Array
+    log_growth: Array
     volume: Array
 
     @property
     def lengths(self) -> Array:
         """Logarithms (n, k) of the lengths of the vectors."""
-        return np.asarray(self.removed + np.log(np.linalg.norm(self.vectors, axis=1)))
+        return np.asarray(self.log_growth + np.log(np.linalg.norm(self.vectors, axis=1)))
 
 
 def one_direction(size: int) -> Array:

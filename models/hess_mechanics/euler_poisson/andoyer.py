@@ -95,7 +95,7 @@ class AndoyerPlane:
         M, g3 = state[:3], state[5]
         return np.array([*(2.0 * g3 * M[:2]), 2.0 * g3 * M[2] - self.f, 0.0, 0.0, M @ M])
 
-    def scaled(self, system: System, problem: Problem) -> tuple[Callable[..., tuple[int, int]], Array, float]:
+    def crossing_kernel(self, system: System, problem: Problem) -> tuple[Callable[..., tuple[int, int]], Array, float]:
         """Return the kernel of the surface with its constants in the units of a problem, see `section.Surface`.
 
         Parameters
@@ -199,7 +199,7 @@ class AndoyerSection(PoincareSection):
         """The integrable case of the body, see `HeavyBody.integrable_at`."""
         return self.body.integrable_at(self.f)
 
-    def moved(self, name: str, value: float) -> AndoyerSection:
+    def at_constant(self, name: str, value: float) -> AndoyerSection:
         """Return the section with another value of one constant."""
         return _section({**self.constants, "sheet": self.sheet, name: value})
 

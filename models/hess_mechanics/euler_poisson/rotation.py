@@ -32,13 +32,13 @@ class RotationProfile(Result):
     """Rotation numbers `rho` (n,) of orbits that start at `along` (n,) on a line, each in parts without a gap.
 
     They lie in (−½, ½] or, if all of them are within half a turn of one another modulo 1, in an unbroken range.
-    standing : (n,), starts of closed curves that do not wind round, and so have no rotation number.
+    librations : (n,), starts of closed curves that do not wind round, and so have no rotation number.
     sea : (n, 2), parts of the line whose orbits do not lie on closed curves, each from one place to another.
     """
 
     along: tuple[Array, ...]
     rho: tuple[Array, ...]
-    standing: Array
+    librations: Array
     sea: Array
 
     def labels(self) -> Labels:

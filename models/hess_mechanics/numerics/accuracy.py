@@ -115,7 +115,7 @@ class Level:
         """
         return abs(limit) * (_OTHER_STEP if self.aside else 1.0)
 
-    def tightened(self) -> Level:
+    def tighter(self) -> Level:
         """Return the same level with a hundredth of the tolerance, to measure the error of this one.
 
         The order differs too, so that a motion that fits into one step is not compared with itself; and so does the
@@ -133,7 +133,7 @@ class Level:
         tolerance = self.tolerance * 1e-2 if self.tolerance > 200.0 * FLOOR_TOLERANCE else FLOOR_TOLERANCE
         return Level(self.name, self.promise, tolerance, order, not self.aside)
 
-    def varied(self) -> Level:
+    def variant(self) -> Level:
         """Return a level as accurate as this one, whose runs make other roundings.
 
         Returns

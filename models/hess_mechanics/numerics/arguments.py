@@ -18,13 +18,13 @@ from hess_mechanics.numerics.accuracy import LEVELS, Accuracy, Level, level
 __all__ = [
     "as_a",
     "as_cells",
+    "as_integer",
     "as_level",
     "as_level_name",
     "as_number",
     "as_pairs",
     "as_parts",
     "as_place",
-    "as_whole",
     "typed",
     "unit_vector",
 ]
@@ -70,7 +70,7 @@ def as_number(name: str, value: Any) -> float:
     return number
 
 
-def as_whole(name: str, value: Any, low: int, high: int) -> int:
+def as_integer(name: str, value: Any, low: int, high: int) -> int:
     """Return an integer between `low` and `high`."""
     if isinstance(value, bool) or not isinstance(value, Integral) or not low <= int(value) <= high:
         raise InvalidParameter(f"{name} = {_short(value)} is not a whole number from {low} to {high}.")
@@ -89,7 +89,7 @@ def as_parts(name: str, value: Any, count: int | None = None) -> tuple[Any, ...]
 
 def as_cells(cells: Any) -> tuple[int, int]:
     """Return the numbers of cells of a window, across and up."""
-    m, n = (as_whole("cells", side, 1, _MOST_CELLS) for side in as_parts("cells", cells, 2))
+    m, n = (as_integer("cells", side, 1, _MOST_CELLS) for side in as_parts("cells", cells, 2))
     if m * n > _MOST_CELLS:
         raise InvalidParameter(f"{m * n} cells are too many: at most {_MOST_CELLS} are allowed.")
     return m, n
@@ -181,7 +181,7 @@ def _fitted(name: str, kind: Any, value: Any) -> Any:
     if kind is float:
         return as_number(name, value)
     if kind is int:
-        return as_whole(name, value, -_LARGEST, _LARGEST)
+        return as_integer(name, value, -_LARGEST, _LARGEST)
     if _is_class(kind) and not isinstance(value, (bool, np.bool_) if kind is bool else kind):
         raise InvalidParameter(f"{name} = {_short(value)} is not {_WORDS.get(kind, f'a {kind.__name__}')}.")
     return value

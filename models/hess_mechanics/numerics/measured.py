@@ -130,7 +130,7 @@ def measured(level: Level, run: Callable[[Level, int], tuple[R, int]], apart: Ca
     first, steps = run(current, 0)
     while True:
         go_on()
-        tighter = current.tightened()
+        tighter = current.tighter()
         second, taken = run(tighter, steps)
         steps += taken
         off = apart(first, second)
@@ -139,7 +139,7 @@ def measured(level: Level, run: Callable[[Level, int], tuple[R, int]], apart: Ca
         if error <= level.promise or current.is_floor:
             result, other = (second, first) if current.aside else (first, second)
             if current.is_floor and error > UNSURE:
-                third, taken = run(current.varied(), steps)
+                third, taken = run(current.variant(), steps)
                 steps += taken
                 further = apart(result, third)
                 if further > off:

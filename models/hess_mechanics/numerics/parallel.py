@@ -8,7 +8,7 @@ from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from contextvars import copy_context
 
-from hess_mechanics.numerics.patience import go_on, worked
+from hess_mechanics.numerics.patience import charge, go_on
 
 __all__ = ["THREADS", "share"]
 
@@ -37,7 +37,7 @@ def share(work: Callable[[int], None], count: int, threads: int = THREADS, at_on
         try:
             some(first, first + at_once)
         finally:
-            worked(time.thread_time() - begun)
+            charge(time.thread_time() - begun)
 
     # Each part has its own context, because two threads cannot enter the same one.
     list(_pool.map(lambda both: both[0].run(part, both[1]), [(copy_context(), i) for i in range(0, count, at_once)]))

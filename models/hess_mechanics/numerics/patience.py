@@ -6,13 +6,13 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 
-__all__ = ["go_on", "limited_by", "worked"]
+__all__ = ["charge", "go_on", "work_limit"]
 
 _asked: ContextVar[tuple[Callable[[], None], Callable[[float], None]] | None] = ContextVar("patience", default=None)
 
 
 @contextmanager
-def limited_by(check: Callable[[], None], spend: Callable[[float], None]) -> Iterator[None]:
+def work_limit(check: Callable[[], None], spend: Callable[[float], None]) -> Iterator[None]:
     """Run the body of the `with` statement under a limit.
 
     Computations inside call check() between their parts, which may raise, and report the CPU time of other threads to
@@ -32,7 +32,7 @@ def go_on() -> None:
         asked[0]()
 
 
-def worked(seconds: float) -> None:
+def charge(seconds: float) -> None:
     """Charge CPU seconds of a helper thread to the request."""
     asked = _asked.get()
     if asked is not None:

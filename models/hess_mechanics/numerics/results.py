@@ -21,10 +21,10 @@ __all__ = [
     "Orbit",
     "Sampled",
     "SectionCrossings",
+    "angle_convention",
     "angle_facts",
     "facts_of",
     "frozen",
-    "turning",
     "unit_of",
 ]
 
@@ -74,14 +74,14 @@ def facts_of(result: Any) -> dict[str, Any]:
     }
 
 
-def turning(counts: bool) -> str:
+def angle_convention(counts: bool) -> str:
     """Return what a table says of an angle: whether it counts on over full turns."""
     return "counts on over full turns" if counts else "within one turn"
 
 
 def angle_facts(angles: Iterable[str], counts: bool = True) -> dict[str, str]:
     """Return the facts of a table about its angles: whether they count on over full turns."""
-    return {f"angle {name}": turning(counts) for name in angles}
+    return {f"angle {name}": angle_convention(counts) for name in angles}
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ import numpy as np
 
 from hess_mechanics.numerics.results import Array, frozen
 
-__all__ = ["Attitude", "attitude_along", "orthonormal", "travelled"]
+__all__ = ["Attitude", "attitude_along", "contact_arc", "orthonormal"]
 
 
 @dataclass(frozen=True)
@@ -77,7 +77,7 @@ def attitude_along(times: Array, omega: Array, gamma: Array) -> Attitude:
     return Attitude(frozen(times[i] + share * step[i]), frozen(axes), defect)
 
 
-def travelled(axes: Array, at: Sequence[float] | Array, e: Sequence[float] | Array) -> Array:
+def contact_arc(axes: Array, at: Sequence[float] | Array, e: Sequence[float] | Array) -> Array:
     """Return the arc (n,) that the contact point of a wheel has travelled on the unit sphere, positive towards e.
 
     The contact `at` has the velocity ω × at, and its component along e is (ω, at × e).

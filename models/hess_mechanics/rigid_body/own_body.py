@@ -21,7 +21,7 @@ import numpy as np
 from hess_mechanics.dynamics.plane_section import Plane
 from hess_mechanics.dynamics.system import System
 from hess_mechanics.errors import InvalidParameter, NotPositiveDefinite, WorkLimit
-from hess_mechanics.numerics.arguments import as_parts, as_whole
+from hess_mechanics.numerics.arguments import as_integer, as_parts
 from hess_mechanics.parameters import plain
 from hess_mechanics.rigid_body.inertia import BodyCheck, require_finite
 
@@ -68,7 +68,7 @@ class Polynomial:
         if len(self.exponents) != len(self.coefficients) or len(self.exponents) > _TERMS:
             raise InvalidParameter(f"A polynomial has at most {_TERMS} terms, each with one coefficient.")
         for one in self.exponents:
-            if sum(as_whole("An exponent", n, 0, _DEGREE) for n in as_parts("A term", one, 3)) > _DEGREE:
+            if sum(as_integer("An exponent", n, 0, _DEGREE) for n in as_parts("A term", one, 3)) > _DEGREE:
                 raise InvalidParameter(f"The degree of a polynomial is at most {_DEGREE}.")
         require_finite(**{f"coefficient {i + 1}": one for i, one in enumerate(self.coefficients)})
 

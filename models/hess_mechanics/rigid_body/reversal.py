@@ -36,7 +36,7 @@ class Reversal:
         """Return the gradient of (ω, γ) (5,)."""
         return np.array([*state[2:4], *state[:2], 0.0])
 
-    def scaled(self, system: System, problem: Problem) -> tuple[Callable[..., tuple[int, int]], Array, float]:
+    def crossing_kernel(self, system: System, problem: Problem) -> tuple[Callable[..., tuple[int, int]], Array, float]:
         """Return the kernel of the surface, see `section.Surface`.
 
         Raises `InvalidParameter` for systems with other variables.

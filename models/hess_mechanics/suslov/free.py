@@ -54,11 +54,11 @@ __all__ = [
     "free_motion",
     "passage",
     "rotation",
+    "rotation_along_circle",
     "sample_times",
     "sampled_motion",
     "shape",
-    "turned_along_circle",
-    "turning",
+    "transfer",
     "vertical",
 ]
 
@@ -92,7 +92,7 @@ class PassageConstants:
         """The |u| beyond which A and B change by less than 1e-17."""
         return 39.0 + math.log(max(1.0, self.kappa))
 
-    def turned(self, u: Array | float, arc: int) -> Array:
+    def angle(self, u: Array | float, arc: int) -> Array:
         """Return Φ(u) = −K ln cosh u + σc gd u, the angle about ξ of the rotating frame; shape of u."""
         return -self.K * (np.abs(u) + _tail(u) - math.log(2.0)) + arc * self.c * _gd(u)
 
@@ -266,7 +266,7 @@ def _log(x: Fraction) -> float:
     return math.log(float(x / Fraction(2) ** shift)) + shift * math.log(2.0)
 
 
-def turning(of: PassageConstants, arc: int, u: Array, accuracy: Accuracy) -> tuple[Complex, Complex, float, int]:
+def transfer(of: PassageConstants, arc: int, u: Array, accuracy: Accuracy) -> tuple[Complex, Complex, float, int]:
     """Return A and B of M(u) M(u0)^−1 for u (m,) in any order, u0 = u[0], the estimated error and the steps.
 
     The error, of the rotation between any two, is estimated as in `orbit.solve`.  Raises `WorkLimit`.
@@ -308,9 +308,9 @@ def rotation(motion: Passage, elapsed: Array, accuracy: Accuracy) -> tuple[Array
     """
     of, arc, u0 = motion.shape, motion.arc, motion.u0
     u = u0 + elapsed
-    A, B, error, steps = turning(of, arc, np.concatenate([[u0, -of.end, of.end], u]), accuracy)
+    A, B, error, steps = transfer(of, arc, np.concatenate([[u0, -of.end, of.end], u]), accuracy)
     # From the rotating frame to that of the body.
-    before = float(of.turned(u0, arc))
+    before = float(of.angle(u0, arc))
     outside = -of.K * (_elapsed_size(u0, u, elapsed) + _tail(u) - _tail(u0)) + arc * of.c * (_gd(u) - _gd(u0))
     axes = np.column_stack([of.eta, [0.0, 0.0, 1.0], of.xi])
     limits = _gamma_row(A[1:3], B[1:3] * np.exp(1j * before)) @ axes.T
@@ -546,7 +546,7 @@ def sampled_motion(
     return free_motion(body, omega, gamma, sample_times(body, omega, duration, weights, SAGITTA, most), accuracy)
 
 
-def turned_along_circle(
+def rotation_along_circle(
     body: SuslovBody, omega: Sequence[float], gamma: Sequence[float], turn: float, accuracy: Accuracy
 ) -> tuple[float, float, float]:
     """Return γ(0), moved by `turn` radians along the circle of all γ(0) with the same ω(0) and the same limit Γ^(−).

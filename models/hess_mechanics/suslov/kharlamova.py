@@ -31,17 +31,17 @@ from hess_mechanics.numerics.arguments import as_place
 from hess_mechanics.numerics.results import Array, Orbit, frozen
 from hess_mechanics.suslov.equations import SYSTEM
 from hess_mechanics.suslov.kharlamova_kernels import arcs
-from hess_mechanics.suslov.plane_potential import MOST_SAMPLES, PlaneProblem, missed
+from hess_mechanics.suslov.plane_potential import MOST_SAMPLES, PlaneProblem, closure_error
 
 __all__ = [
     "Arc",
     "PlaneBody",
     "arc",
+    "closure_error",
     "equipotentials",
     "fixed_point_kinds",
     "forbidden",
-    "mirrored",
-    "missed",
+    "mirror_image",
     "periods_all_round",
     "rescaled_time",
     "sampled_orbit",
@@ -138,7 +138,7 @@ def state_at(body: PlaneBody, q: Sequence[float], p: Sequence[float]) -> tuple[f
     return (*omega.tolist(), *u.tolist(), math.sqrt(left))
 
 
-def mirrored(states: Array) -> Array:
+def mirror_image(states: Array) -> Array:
     """Return states (..., 5) under γ3 → −γ3, which together with t → −t maps orbits with b3 = 0 to orbits."""
     return np.asarray(states * np.array([1.0, 1.0, 1.0, 1.0, -1.0]))
 
@@ -334,4 +334,4 @@ def sampled_orbit(body: PlaneBody, start: Sequence[float], duration: float, accu
     """Return the orbit at the sample times of a plot, and the mirror image (m, 5) of its past at the same times."""
     weights = body.pixels_per_unit(body.energy(start))
     orbit = sampling.sampled_orbit(body, start, duration, weights, accuracy, MOST_SAMPLES)
-    return orbit, frozen(mirrored(solve(body, start, -orbit.times, accuracy).states))
+    return orbit, frozen(mirror_image(solve(body, start, -orbit.times, accuracy).states))

@@ -41,9 +41,9 @@ __all__ = [
     "PlaneMotion",
     "PlaneProblem",
     "PotentialBody",
+    "closure_error",
     "forbidden",
     "level_curve",
-    "missed",
     "motion_from",
     "separable_integral",
 ]
@@ -142,7 +142,7 @@ class PlaneProblem(Body):
         return self.place(states[:, 2:4]), states[:, :2] * np.array(self.axes)
 
 
-def missed(body: Body, start: Sequence[float], period: float, accuracy: Accuracy) -> float:
+def closure_error(body: Body, start: Sequence[float], period: float, accuracy: Accuracy) -> float:
     """Return the distance between the start (5,) of an orbit and its state after one period, in the maximum norm."""
     after = solve(body, start, [period], accuracy).states[0]
     return float(np.abs(after - np.array(start)).max())
@@ -269,7 +269,7 @@ class PlaneMotion:
     """One motion: its energy, and whether it is periodic.
 
     period : 2(t2 − t1) of two successive crossings of the equator, None if there are fewer;
-    missed : distance from the start after one period; fixed : True if the state is an equilibrium.
+    closure_error : distance from the start after one period; fixed : True if the state is an equilibrium.
     one_sided : True if its energy keeps it from the equator.
     integral : range of F2 of a quadratic potential along the motion, relative to its largest value.
     """
@@ -277,7 +277,7 @@ class PlaneMotion:
     orbit: Orbit
     energy: float
     period: float | None
-    missed: float
+    closure_error: float
     fixed: bool
     one_sided: bool
     integral: float
@@ -297,7 +297,7 @@ def motion_from(body: PotentialBody, start: tuple[float, ...], duration: float, 
         times = section(body, start, _EITHER_WAY, duration, accuracy, crossings=2).times
         if len(times) == 2:
             period = 2.0 * float(times[1] - times[0])
-            left = missed(body, start, period, accuracy)
+            left = closure_error(body, start, period, accuracy)
     energy = body.energy(start)
     one_sided = bool(np.all(body.potential(_ALL_ROUND) > energy))
     return PlaneMotion(orbit, energy, period, left, fixed, one_sided, integral)

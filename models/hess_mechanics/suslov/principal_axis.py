@@ -50,13 +50,13 @@ class Conformal:
     """One motion in the times t and τ.
 
     orbit : at equidistant times t; tau : τ (n,), 0 at t = 0; brackets : {ω1, γ3}, {ω2, γ3} (n, 2), ±∞ on the equator;
-    left_over : largest |ẋ − γ3{x, E}| off the equator, relative to the largest |ẋ|: round-off.
+    residual : largest |ẋ − γ3{x, E}| off the equator, relative to the largest |ẋ|: round-off.
     """
 
     orbit: Orbit
     tau: Array
     brackets: Array
-    left_over: float
+    residual: float
 
     @property
     def turns(self) -> int:
@@ -92,6 +92,6 @@ def conformal(body: SuslovBody, start: Sequence[float], duration: float, accurac
     with np.errstate(divide="ignore", invalid="ignore"):
         P, gradient = poisson_matrix(y, p), energy_gradient(y, p)
         by_brackets = np.array([g3 * sum(a * b for a, b in zip(row, gradient, strict=True)) for row in P])
-    left_over = np.abs(by_brackets - rates)[:, g3 != 0.0].max(initial=0.0) / max(np.abs(rates).max(), 1e-300)
+    residual = np.abs(by_brackets - rates)[:, g3 != 0.0].max(initial=0.0) / max(np.abs(rates).max(), 1e-300)
     tau = np.concatenate([[0.0], np.cumsum(pieces)])
-    return Conformal(orbit, frozen(tau), frozen(np.stack([P[0][4], P[1][4]], axis=-1)), float(left_over))
+    return Conformal(orbit, frozen(tau), frozen(np.stack([P[0][4], P[1][4]], axis=-1)), float(residual))

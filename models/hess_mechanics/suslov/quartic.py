@@ -380,7 +380,7 @@ class QuarticSection(PoincareSection):
         """The integrable case I11 = I22 in words, see `QuarticBody.integrable`, or an empty string."""
         return "the integrable case I₁₁ = I₂₂" if self.body.integrable else ""
 
-    def moved(self, name: str, value: float) -> QuarticSection:
+    def at_constant(self, name: str, value: float) -> QuarticSection:
         """Return the section with another value of one constant."""
         return QuarticSection(replace(self.body, **{name: value}))
 

@@ -37,7 +37,7 @@ from hess_mechanics.numerics.results import Array, Cost, facts_of, frozen
 from hess_mechanics.rigid_body.inertia import require_finite
 from hess_mechanics.suslov.additional_integral import I11_at
 from hess_mechanics.suslov.equations import SuslovBody
-from hess_mechanics.suslov.free import PassageConstants, equilibria, shape, turning, vertical
+from hess_mechanics.suslov.free import PassageConstants, equilibria, shape, transfer, vertical
 
 __all__ = ["Scattering", "cos_chi", "cos_chi_over", "scattering", "start", "theta_plus_grid"]
 
@@ -196,9 +196,9 @@ def scattering(body: SuslovBody, accuracy: Accuracy, arc: int = 1, distance: flo
     _check_arc(arc)
     of = shape(body)
     first = -of.end if distance is None else _u_at(of, float(distance))
-    A, B, error, steps = turning(of, arc, np.array([first, of.end]), level)
+    A, B, error, steps = transfer(of, arc, np.array([first, of.end]), level)
     # The azimuth at the start, transformed to the rotating frame.
-    before = 0.0 if distance is None else float(of.turned(first, arc))
+    before = 0.0 if distance is None else float(of.angle(first, arc))
     half = cmath.exp(0.5j * before)
     alpha, beta = complex(A[1]) * half, complex(B[1]) * half
     error += 3e-16 * abs(before)

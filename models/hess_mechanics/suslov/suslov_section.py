@@ -108,7 +108,7 @@ class AngleSection(PoincareSection):
         """The parameters of the body, and the energy as E and as h."""
         return {**vars(self.body), "E": self.E, "h": self.h}
 
-    def moved(self, name: str, value: float) -> Self:
+    def at_constant(self, name: str, value: float) -> Self:
         """Return the section with another value of one constant; E is kept when the body changes."""
         if name in vars(self.body):
             return replace(self, body=replace(self.body, **{name: value}))
@@ -233,7 +233,7 @@ class SuslovSection(AngleSection):
 
 def _section(values: Mapping[str, float]) -> SuslovSection:
     body = SuslovBody(*(values[name] for name in SYSTEM.parameters))
-    found = SuslovSection(body, 0.0, int(values["k"])).moved("h", values["h"])
+    found = SuslovSection(body, 0.0, int(values["k"])).at_constant("h", values["h"])
     found.require_reached()
     return found
 

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hess_mechanics.errors import InvalidParameter, OutsideRegion, Separatrix
-from hess_mechanics.numerics.arguments import as_number, as_whole
+from hess_mechanics.numerics.arguments import as_integer, as_number
 from hess_mechanics.numerics.results import Array, frozen
 from hess_mechanics.rigid_body.inertia import require_finite
 from hess_mechanics.suslov_hess.bifurcation_kernels import f_max_and_roots, largest_f_into
@@ -286,7 +286,7 @@ def curve(h_end: float, points: int = 200) -> Array:
            [ 2.    ,  2.0555]])
     """
     _check_h(h_end)
-    as_whole("points", points, 1, 100_000)
+    as_integer("points", points, 1, 100_000)
     n_end = 2.0 / (2.0 * h_end + 2.0 * math.sqrt(h_end * h_end + 3.0))
     n = 1.0 - (1.0 - n_end) * np.linspace(0.0, 1.0, points)
     return frozen(np.column_stack([(1 - 3 * n * n) / (2 * n), (1 - n * n) / np.sqrt(n)]))

@@ -28,7 +28,7 @@ from hess_mechanics.suslov_hess.bifurcation import TurningPoints, turning_points
 from hess_mechanics.suslov_hess.circle_map import CircleMap
 from hess_mechanics.suslov_hess.invariant_measure import zeta_at
 
-__all__ = ["CrossSection", "cross_section", "density_along", "embedded"]
+__all__ = ["CrossSection", "cross_section", "density_along", "embed"]
 
 
 @dataclass(frozen=True)
@@ -44,7 +44,7 @@ class CrossSection:
     times: Array
 
 
-def embedded(reduced: Array, h: float) -> Array:
+def embed(reduced: Array, h: float) -> Array:
     """Return the points (n, 3) of reduced states (n, 5) of the energy h, in units b = 1."""
     w1, w2, n1, n2, _ = reduced.T
     square = 2.0 * (h + 1.0)

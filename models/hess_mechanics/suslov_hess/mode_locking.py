@@ -14,7 +14,7 @@ import numpy as np
 from hess_mechanics.dynamics.cells import centres
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.accuracy import Accuracy, Level
-from hess_mechanics.numerics.arguments import as_level, as_whole
+from hess_mechanics.numerics.arguments import as_integer, as_level
 from hess_mechanics.numerics.parallel import share
 from hess_mechanics.numerics.results import Array, frozen
 from hess_mechanics.suslov_hess.bifurcation import f_max_each, turning_points
@@ -90,7 +90,7 @@ def lock_boundary(a: float, accuracy: Accuracy, points: int = 48) -> Array:
     """
     level = as_level(accuracy)
     check_a(a)
-    as_whole("points", points, 3, 100_000)
+    as_integer("points", points, 3, 100_000)
     if abs(a) > _MAX_A_OF_BOUNDARY:
         raise InvalidParameter(f"a = {a:g} is too large for the lock boundary: choose |a| ≤ {_MAX_A_OF_BOUNDARY:g}.")
     # h*, the end of the boundary on the bifurcation curve.
@@ -199,7 +199,7 @@ def rotation_number_window(
 
     # Near the separatrix the motion is slow and the saddle magnifies errors.
     near = np.abs(H - 1.0) + F < 1e-3
-    exact = level.tightened().tightened()
+    exact = level.tighter().tighter()
 
     def part(i: int) -> None:
         # Every second point, so that both threads get equally many slow points.

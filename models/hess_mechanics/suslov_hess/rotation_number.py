@@ -46,14 +46,14 @@ __all__ = [
     "Torus",
     "TorusValues",
     "along",
-    "closed_after",
     "lock_curve",
     "periodic_torus",
-    "perturbed_along",
+    "perturbations_along",
     "perturbed_rotation",
     "place_of",
     "plateaus",
     "possible_part",
+    "return_error",
     "rotation_errors",
     "rows",
     "rows_error",
@@ -203,7 +203,7 @@ def rotation_errors(a: Array | float, h: Array | float, f: Array | float, accura
     level = as_level(accuracy)
     energies, fs = np.broadcast_arrays(*np.atleast_1d(h, f))
     aside = neighbours(energies, fs, f_max_each(np.maximum(energies, -1.0)))
-    coarse, fine = values_at(a, h, f, level).rho, values_at(a, *aside, level.tightened()).rho
+    coarse, fine = values_at(a, h, f, level).rho, values_at(a, *aside, level.tighter()).rho
     return frozen(SAFETY * np.abs(coarse - fine) + 4e-16)
 
 
@@ -285,7 +285,7 @@ def place_of(rho: float, line: ParameterLine, accuracy: Accuracy) -> float | Non
     return float(brentq(difference, first, last, xtol=1e-15, rtol=1e-15))
 
 
-def closed_after(torus: Torus, q: int, accuracy: Accuracy) -> float:
+def return_error(torus: Torus, q: int, accuracy: Accuracy) -> float:
     """Return max |Θ^q(φ) − φ| over 64 phases, in radians: round-off if every orbit closes after q returns."""
     theta = circle_map(torus.a, torus.h, torus.f, accuracy)
     phi = np.linspace(-math.pi, math.pi, 64, endpoint=False)
@@ -335,7 +335,9 @@ def along(line: ParameterLine, count: int, accuracy: Accuracy) -> TorusValues:
     return values_at(**line.tori(line.places(count)), accuracy=accuracy)
 
 
-def perturbed_along(line: ParameterLine, count: int, epsilon: float, accuracy: Accuracy, turns: int = TURNS) -> Array:
+def perturbations_along(
+    line: ParameterLine, count: int, epsilon: float, accuracy: Accuracy, turns: int = TURNS
+) -> Array:
     """Return `perturbed_rotation` at equidistant points of a line, (count,); NaN if there is no torus."""
     x, possible = line.places(count), along(line, count, accuracy).possible
     out = np.full(count, np.nan)
@@ -350,7 +352,7 @@ def periodic_torus(rho: Fraction, line: ParameterLine, accuracy: Accuracy) -> Pe
     if place is None:
         return None
     found = Torus(**line.tori(place))
-    return PeriodicTorus(found, closed_after(found, rho.denominator, accuracy))
+    return PeriodicTorus(found, return_error(found, rho.denominator, accuracy))
 
 
 def plateaus(rho: Array, possible: Mask) -> list[Fraction]:

@@ -89,7 +89,7 @@ class TorusSection(PoincareSection):
                 return "the trace of the circle map is below 2, so the torus has a smooth invariant measure"
         return ""
 
-    def moved(self, name: str, value: float) -> TorusSection:
+    def at_constant(self, name: str, value: float) -> TorusSection:
         """Return the section with another value of one constant."""
         return replace(self, **{name: value})
 

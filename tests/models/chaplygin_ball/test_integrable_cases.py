@@ -8,7 +8,7 @@ from hess_mechanics import level, solve
 from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.chaplygin_ball.integrable_cases import area_integral, period
 from hess_mechanics.numerics.accuracy import LEVELS
-from hess_mechanics.suslov.kharlamova import PlaneBody, arc, mirrored
+from hess_mechanics.suslov.kharlamova import PlaneBody, arc, mirror_image
 from support.refusals import refused
 
 STATE = sympy.symbols("w1 w2 g1 g2 g3", real=True)
@@ -79,7 +79,7 @@ def test_after_a_period_a_motion_is_where_it_began_and_at_half_of_it_is_reflecte
     # About a crossing the motion is its own mirror image.
     at = np.array([0.3, 0.7])
     before, later = (solve(body, crossing, sign * at, "reference").states for sign in (-1, 1))
-    assert before == approx(mirrored(later), abs=1e-10)
+    assert before == approx(mirror_image(later), abs=1e-10)
 
 
 test_what_has_no_period_is_refused = refused(

@@ -12,7 +12,7 @@ from hess_explorer.scenes.framework.stage import Stage
 from hess_mechanics import ensemble, level, systems
 from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.chaplygin_ball.phase_cloud import (
-    carried,
+    cloud_of,
     divergence,
     frame_times,
     histogram,
@@ -65,7 +65,7 @@ def growth_in_closed_form(body, states, t):
 def test_points_are_carried_along_the_orbits_within_the_promise(body, sense, name):
     states = shell(body, 2.0, 0.3, 33)
     times = sense * np.array([0.0, 0.5, 3.0, 7.0])
-    found = carried(body, states, times, name)
+    found = cloud_of(body, states, times, name)
     nu = sqrt(2.0 * 2.6 / min(body.I11, body.I22))
     for i in (0, 16, 32):
         exact = np.array(oracle.orbit_in_decimals(BALL, list(states[i]), body.parameters, list(times), 40), float)
@@ -80,7 +80,7 @@ def test_points_are_carried_along_the_orbits_within_the_promise(body, sense, nam
 
 def test_s_keeps_its_digits_where_doubles_would_have_lost_it():
     states = shell(FREE, 2.0, 0.1, 64)
-    found = carried(FREE, states, np.array([0.0, 250.0]), "precise")
+    found = cloud_of(FREE, states, np.array([0.0, 250.0]), "precise")
     exact, _ = growth_in_closed_form(FREE, states, 250.0)
     assert np.all(found.log_s[:, 1] < -150.0)
     # The errors of the rate grow with time.
@@ -134,7 +134,7 @@ def test_a_patch_is_evenly_filled(body):
 def test_on_the_average_over_time_the_density_is_the_invariant_one():
     states = shell(FREE, 2.0, 0.1, 5000)
     times = np.linspace(0.0, 40.0, 161)
-    found = carried(FREE, states, times, "standard")
+    found = cloud_of(FREE, states, times, "standard")
     edges = np.arange(-40.0, 2.0, 1.0)
     share = occupation(found, edges)
     _, rate = growth_in_closed_form(FREE, states, 0.0)
@@ -165,7 +165,7 @@ def test_a_density_that_vanishes_where_F2_does_is_invariant_and_nothing_crosses_
         y = rng.normal(size=5)
         terms = [(flow(y + e)[i] - flow(y - e)[i]) / 2e-5 for i, e in enumerate(1e-5 * np.eye(5))]
         assert abs(sum(terms)) < 1e-7 * max(map(abs, terms))
-    found = carried(ODD, shell(ODD, 2.0, 0.1, 2000), np.linspace(0.0, 14.0, 29), "standard")
+    found = cloud_of(ODD, shell(ODD, 2.0, 0.1, 2000), np.linspace(0.0, 14.0, 29), "standard")
     values = F2_by_hand(found.omega, found.gamma)
     positive, negative, changed = sides(found)
     assert changed == 0
@@ -178,7 +178,7 @@ def test_a_density_that_vanishes_where_F2_does_is_invariant_and_nothing_crosses_
 @mark.parametrize("end", [6.0, -6.0])
 def test_the_entropy_gains_the_mean_of_the_logarithm(end):
     """−∫ρ ln ρ by its definition, of a density carried along: each point's is s(0)/s(t) times its first one."""
-    found = carried(FREE, shell(FREE, 2.0, 0.1, 2000), np.linspace(0.0, end, 13), "standard")
+    found = cloud_of(FREE, shell(FREE, 2.0, 0.1, 2000), np.linspace(0.0, end, 13), "standard")
     first = 0.3
     density = first * np.exp(found.log_s[:, :1] - found.log_s)
     entropy = -np.log(density).mean(axis=0)
@@ -194,7 +194,7 @@ def test_the_entropy_gains_the_mean_of_the_logarithm(end):
 
 @mark.parametrize("frame", [0, -1])
 def test_a_histogram_counts_the_points(frame):
-    found = carried(HEAVY, shell(HEAVY, 2.0, 0.1, 1000), np.linspace(0.0, 5.0, 9), "standard")
+    found = cloud_of(HEAVY, shell(HEAVY, 2.0, 0.1, 1000), np.linspace(0.0, 5.0, 9), "standard")
     edges = 0.25 * np.arange(-40, 9)
     counts, _ = np.histogram(found.log_s[:, frame], edges)
     assert histogram(found, frame, edges) == approx(counts / (1000 * 0.25))
@@ -218,10 +218,10 @@ START, ONE, DRAFT = np.array([0.8, -0.3, 0.48, 0.6, 0.64]), np.array([1.0]), LEV
 
 
 test_what_cannot_be_is_refused_with_a_sentence = refused(
-    (lambda: carried(BallBody(2.0, 1.0, 0.0, 0.0, 1.0), START[None], ONE, DRAFT), "\\w.*\\.$"),
-    (lambda: carried(FREE, np.array([[0.0, 0.0, 0.0, 0.0, 1.0]]), ONE, DRAFT), "\\w.*\\.$"),
-    (lambda: carried(FREE, START[None], np.array([0.0, 1.0, -1.0]), DRAFT), "\\w.*\\.$"),
-    (lambda: carried(HEAVY, np.repeat(START[None], 10000, 0), 3000.0 * ONE, DRAFT), "\\w.*\\.$", WorkLimit),
+    (lambda: cloud_of(BallBody(2.0, 1.0, 0.0, 0.0, 1.0), START[None], ONE, DRAFT), "\\w.*\\.$"),
+    (lambda: cloud_of(FREE, np.array([[0.0, 0.0, 0.0, 0.0, 1.0]]), ONE, DRAFT), "\\w.*\\.$"),
+    (lambda: cloud_of(FREE, START[None], np.array([0.0, 1.0, -1.0]), DRAFT), "\\w.*\\.$"),
+    (lambda: cloud_of(HEAVY, np.repeat(START[None], 10000, 0), 3000.0 * ONE, DRAFT), "\\w.*\\.$", WorkLimit),
     (lambda: shell(FREE, 0.0, 0.1, 10), "\\w.*\\.$"),
     (lambda: patch(FREE, 1.0, inf, 0.1, 10), "\\w.*\\.$"),
     (lambda: patch(FREE, 1.0, 0.0, 0.1, 0), "\\w.*\\.$"),

@@ -7,7 +7,7 @@ from math import asin, pi, sqrt
 import numpy as np
 from pytest import approx, mark, raises
 
-from hess_mechanics.dynamics.continuation import continued, gone_on
+from hess_mechanics.dynamics.continuation import branch_from, extension
 from hess_mechanics.dynamics.periodic import find_periodic
 from hess_mechanics.errors import InvalidParameter, NotConverged
 from support.maps import arnold, delayed_logistic, henon, pitchfork
@@ -16,7 +16,7 @@ B = 0.3
 
 
 def branch(family, start, place, end, period=1, **options):
-    return continued(family, find_periodic(family(start), place, period), "λ", start, end, **options)
+    return branch_from(family, find_periodic(family(start), place, period), "λ", start, end, **options)
 
 
 def the(found, kind):
@@ -36,7 +36,7 @@ def test_a_branch_goes_through_a_fold_and_comes_back():
     assert np.abs(found.multipliers[:, 0].real - (1.0 - 0.8 * np.cos(found.places[:, 0, 0]))).max() < 1e-12
     assert found.kinds[0] == "stable node"
     assert found.kinds[-1] == "unstable node"
-    assert "end of the range" in found.ended
+    assert "end of the range" in found.end_reason
     assert len(found.bifurcations) == 1
 
 
@@ -44,7 +44,7 @@ def test_a_branch_comes_in_parts_and_goes_on_past_where_it_began():
     # sin φ = ω/0.8 again, from ω = 0.1 up to the fold at 0.8, and back beyond the beginning.
     parts = [branch(arnold, 0.1, (0.3,), 1.0, points=6, edge=-0.5, longest=0.05)]
     while parts[-1].heading is not None:
-        parts.append(gone_on(arnold, parts[-1], 1.0, -0.5, points=6, longest=0.05))
+        parts.append(extension(arnold, parts[-1], 1.0, -0.5, points=6, longest=0.05))
     for before, after in pairwise(parts):
         assert after.values[0] == approx(before.values[-1], abs=1e-12)
         assert after.places[0] == approx(before.places[-1], abs=1e-12)
@@ -113,4 +113,4 @@ def test_what_cannot_be_continued_is_refused():
     with raises(InvalidParameter, match="two different finite"):
         branch(arnold, 0.1, (0.3,), 0.1)
     with raises(NotConverged, match="Start at a slightly different value"):
-        continued(arnold, find_periodic(arnold(0.1), (0.3,), 1), "λ", 0.9, 1.0)
+        branch_from(arnold, find_periodic(arnold(0.1), (0.3,), 1), "λ", 0.9, 1.0)

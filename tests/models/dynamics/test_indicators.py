@@ -59,7 +59,7 @@ def test_recurrent_motions_keep_their_verdict():
     assert set(found.no_chaos) == {""}
     assert found.divergence == approx(-10.0 - 1.0 - 8.0 / 3.0, abs=1e-9)
     assert np.all(np.abs(found.divergence + 10.0 + 1.0 + 8.0 / 3.0) <= 3.0 * found.divergence_error)
-    assert found.attracted.all()
+    assert found.dissipative.all()
 
 
 def logistic(r, x, count):

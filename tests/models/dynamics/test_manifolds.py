@@ -48,14 +48,14 @@ def test_points_are_as_dense_as_the_curvature_asks():
         off = np.abs(chords[:, 0] * away[:, 1] - chords[:, 1] * away[:, 0]) / np.linalg.norm(chords, axis=1)
         assert off.max() <= sagitta
     assert counts[0] < 0.6 * counts[1]
-    assert curve.ended == "At its length."
+    assert curve.end_reason == "At its length."
 
 
 def test_it_ends_after_so_many_returns():
     m = henon(1.4)
     saddle = find_periodic(m, (0.6, 0.2), 1)
     whole, cut = (manifold(m, saddle, 12.0, returns=returns) for returns in (1_000_000, 400))
-    assert cut.ended == "After 400 returns of the map."
+    assert cut.end_reason == "After 400 returns of the map."
     assert 0.0 < cut.length < 12.0 <= whole.length
     assert np.array_equal(cut.points, whole.points[: len(cut.points)])
 
@@ -126,6 +126,6 @@ def test_what_has_no_manifolds_is_refused():
     saddle = find_periodic(m, (0.1, 0.2), 1)
     with raises(InvalidParameter, match="The side must be 1"):
         manifold(m, saddle, 1.0, side=2)
-    assert manifold(m, saddle, 1e9, most=40).ended == "After 40 points."
+    assert manifold(m, saddle, 1e9, most=40).end_reason == "After 40 points."
     with raises(NoReturn):
         manifold(pitchfork(1.5), find_periodic(pitchfork(1.5), (0.01, 0.0), 1), 1.0, stable=True)

@@ -43,7 +43,7 @@ def test_the_doublings_of_the_map_of_henon_are_its_own_and_their_ratios_tend_to_
 def test_a_cascade_says_why_it_ends():
     found = cascade(henon, "a", find_periodic(henon(0.2), (0.6, 0.2), 1), 0.2, 0.9, 5)
     assert found.periods.tolist() == [1]
-    assert found.ended.startswith("The orbit of period 2 keeps its period")
+    assert found.end_reason.startswith("The orbit of period 2 keeps its period")
     assert math.isnan(found.limit)
 
 
@@ -83,11 +83,11 @@ def test_the_way_back_is_another_one_between_the_folds():
 
 def test_what_keeps_volume_says_that_nothing_attracts_there():
     P = return_map(SuslovBody(1.5, 1.0, 0.1, 0.0, 0.3, -0.5, 1.0), E=1.842, accuracy="draft")
-    found = diagram_over(lambda value: P.moved("I13", value), "I13", [0.1, 0.0], (0.3, 1.2), 10, 16)
+    found = diagram_over(lambda value: P.at_constant("I13", value), "I13", [0.1, 0.0], (0.3, 1.2), 10, 16)
     assert found.conservative.tolist() == [False, True]
-    assert return_map(HeavyBody.hess((1.0, 1.6, 4.0), 1.0), h=1.5, f=-0.7).volume_kept
-    assert return_map(BallBody(1.0, 3.0, 0.0, 0.0, 5.0, 0.5, 0.2, 0.8), E=2.0).volume_kept
-    assert not return_map(BallBody(1.0, 3.0, 0.2, -0.1, 5.0, 0.5, 0.2, 0.8), E=2.0).volume_kept
+    assert return_map(HeavyBody.hess((1.0, 1.6, 4.0), 1.0), h=1.5, f=-0.7).preserves_volume
+    assert return_map(BallBody(1.0, 3.0, 0.0, 0.0, 5.0, 0.5, 0.2, 0.8), E=2.0).preserves_volume
+    assert not return_map(BallBody(1.0, 3.0, 0.2, -0.1, 5.0, 0.5, 0.2, 0.8), E=2.0).preserves_volume
 
 
 def test_what_is_too_much_is_refused():

@@ -30,7 +30,7 @@ def test_circles_are_as_far_apart_as_their_radii(r, R):
     assert abs(found.distance - abs(R - r)) <= found.error + 1e-4
     assert abs(found.distance - abs(R - r)) < 1e-3
     assert found.apart
-    assert found.shared == 0.0
+    assert found.overlap == 0.0
     assert found.distance > found.grain + found.error
 
 
@@ -38,7 +38,7 @@ def test_one_set_twice_is_no_distance_apart_but_its_grain():
     found = set_distance(PLANE, circle(1.0), circle(1.0))
     assert found.settled
     assert found.distance <= found.grain + found.error
-    assert found.shared > 0.8
+    assert found.overlap > 0.8
     assert not found.apart
     # Two sets of n random places on a circle are about 2π/n · ln 20/2 apart, nineteen in twenty.
     assert found.distance == approx(pi * log(20.0) / 4000, rel=0.3)

@@ -43,7 +43,7 @@ def test_where_volume_is_kept_dynamics_are_conservative_and_curves_stay_curves()
     sea = dynamics_of(P, (1.0, 1.0), 100, 2400, 300.0)
     assert (sea.motion.kind, sea.motion.divergence, sea.verdict) == (MotionKind.CHAOTIC, 0.0, "conservative")
     assert all(one.settled for one in sea.comparisons)
-    assert deviations([one.shared for one in sea.comparisons], 0.8, of_each=True) > 5.0
+    assert deviations([one.overlap for one in sea.comparisons], 0.8, of_each=True) > 5.0
     assert deviations([one.distance / (one.grain + one.error) for one in sea.comparisons], 1.0, of_each=True) < -5.0
     curve = regime(return_map(SuslovBody(1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0), E=0.4), (0.3, 1.2), duration=300.0)
     # I11 = I22 with b along e: integrable (`QuarticBody.integrable`).
@@ -221,7 +221,7 @@ def test_a_reversor_that_takes_a_motion_to_itself_is_named():
     body = SuslovBody(1.5, 1.7, 0.03, -0.05, -0.3, 0.2, 2.0)
     found = regime(return_map(body, E=0.5), (2.66, 1.58))
     assert found.kind is MotionKind.QUASI_PERIODIC
-    assert not found.map_.volume_kept
+    assert not found.map_.preserves_volume
     assert "the reversor ω1, ω2, t → −" in found.measure
     # Attractors are mirrored to repellers.
     assert regime(return_map(REVERSAL, E=REVERSAL_E), (1.0, 1.0)).measure == ""

@@ -17,7 +17,7 @@ from hess_mechanics import (
 )
 from hess_mechanics.dynamics.periodic import find_periodic, shoot
 from hess_mechanics.errors import InvalidParameter, NotConverged, OutsideRegion
-from hess_mechanics.numerics.patience import limited_by
+from hess_mechanics.numerics.patience import work_limit
 from support.mechanics import differences
 
 HEAVY = HeavyBody.hess((1.0, 1.6, 4.0), 1.0)
@@ -75,8 +75,8 @@ def test_a_reversor_is_found_and_a_symmetric_orbit_known():
     # I13 = 0 and b1 = 0: ω1, γ1, t → −; on γ1 = 0 it is δ → π − δ.
     P = return_map(SuslovBody(1.5, 1.0, 0.0, 0.2, 0.0, -0.5, 1.0), E=3.0, plane=1)
     (mirror,) = [one for one in P.mirrors if one.reverses]
-    assert P.mirrored(mirror, np.array([0.3, 1.2])) == approx([0.3, math.pi - 1.2], abs=1e-13)
-    back = P.mirrored(mirror, P.image(P.mirrored(mirror, np.array([2.0, 1.2]))))
+    assert P.mirror_image(mirror, np.array([0.3, 1.2])) == approx([0.3, math.pi - 1.2], abs=1e-13)
+    back = P.mirror_image(mirror, P.image(P.mirror_image(mirror, np.array([2.0, 1.2]))))
     assert back == approx(P.inverse().image(np.array([2.0, 1.2])), abs=1e-9)
     assert return_map(SuslovBody(1.5, 1.0, 0.1, 0.2, 0.3, -0.5, 1.0), E=3.0, plane=1).mirrors == ()
 
@@ -94,7 +94,7 @@ def test_what_a_body_does_not_have_is_refused():
     P = return_map(body, E=1.842)
     # h is the energy above the lowest one, −|b|.
     assert P.section == return_map(body, h=1.842 + math.hypot(body.b1, body.b2, body.b3)).section
-    assert approx(2.092, abs=1e-14) == P.moved("h", P.section.h + 0.25).section.E
+    assert approx(2.092, abs=1e-14) == P.at_constant("h", P.section.h + 0.25).section.E
     with raises(InvalidParameter, match="There is no mass"):
         continued_orbit(P, periodic_orbit(return_map(tori(0.5), h=1.5, f=0.6), (-2.0,)), "mass", 2.0)
     with raises(OutsideRegion, match=r"ψ = 0\.3, δ = 4"):
@@ -113,6 +113,6 @@ def test_who_asks_is_asked_at_every_crossing_whether_to_go_on():
     orbit = np.concatenate([[place], map_.orbit(np.array(place), 5)])
     asked = []
     # At an extreme body one crossing may take a second, and Newton's method takes as many as the period at each step.
-    with limited_by(lambda: asked.append(1), lambda seconds: None):
+    with work_limit(lambda: asked.append(1), lambda seconds: None):
         shoot(map_, orbit)
     assert len(asked) >= 6

@@ -241,7 +241,7 @@ def test_a_run_that_finds_other_crossings_than_the_more_exact_one_is_replaced_by
                     10_000,
                     *room,
                 )
-                for rung in (careless, careless.tightened())
+                for rung in (careless, careless.tighter())
             )
             result = section(system.at(parameters), state, Plane(tuple(normal), offset, sense), 20.0, careless)
             assert result.cost.steps >= steps + other_steps

@@ -96,11 +96,11 @@ def test_work_is_counted_and_more_of_it_goes_farther():
     system = systems()["hess"]
     motion = system.at((187.0, 1.0)), (0.3, 1.42, -0.6, 0.0, 0.8), np.linspace(0.05, 2.0, 40)
     short, again, longer = (tube(*motion, most_work=work) for work in (3e4, 3e4, 1e5))
-    assert short.spent
-    assert longer.spent
+    assert short.work_limited
+    assert longer.work_limited
     assert short.times.tolist() == again.times.tolist()
     assert 0 < short.times.size < longer.times.size < 40
-    assert not tube(*motion[:2], [0.05]).spent
+    assert not tube(*motion[:2], [0.05]).work_limited
 
 
 def divides(field):

@@ -20,7 +20,7 @@ from hess_mechanics.dynamics.work_precision import (
 )
 from hess_mechanics.errors import WorkLimit
 from hess_mechanics.numerics.accuracy import LEVELS
-from hess_mechanics.numerics.patience import limited_by
+from hess_mechanics.numerics.patience import work_limit
 from support.board import ACCURACY, HESS, Board
 from support.mechanics import scipy_states
 
@@ -110,7 +110,7 @@ def test_a_method_of_scipy_asks_in_mid_run_whether_to_go_on():
         if len(asks) > 8:
             raise WorkLimit("enough")
 
-    with limited_by(end, lambda seconds: None), raises(WorkLimit, match="enough"):
+    with work_limit(end, lambda seconds: None), raises(WorkLimit, match="enough"):
         measure_others(*motion_of(span=40.0).named, SAMPLES)
 
 

@@ -31,15 +31,15 @@ def test_a_closed_curve_that_does_not_go_round_has_no_number():
     ends = ((0.0, -0.5), (0.0, 0.5))
     orbits = [circle(GOLDEN / 3.0, radius=radius) for radius in (0.1, 0.3)] + [rotating(0.3 * GOLDEN)]
     found = rotation_along(ends, [0.1, 0.2, 0.3], orbits, about_first=False, count=10)
-    assert found.standing == approx([-0.4, -0.3])
+    assert found.librations == approx([-0.4, -0.3])
     assert found.sea.size == 0
     assert found.numbers == approx([0.3 * GOLDEN], abs=1e-6)
     assert found.places == approx([-0.2])
     # About a centre inside, the same circle has one; about one outside, none.
     inside = rotation_along(((0.0, 0.0), (1.0, 0.0)), [0.3], [circle(GOLDEN / 3.0)], about_first=True, count=10)
-    assert (inside.standing.size, inside.numbers) == (0, approx([GOLDEN / 3.0], abs=1e-6))
+    assert (inside.librations.size, inside.numbers) == (0, approx([GOLDEN / 3.0], abs=1e-6))
     outside = rotation_along(((0.5, 0.0), (1.0, 0.0)), [0.3], [circle(GOLDEN / 3.0)], about_first=True, count=10)
-    assert (outside.standing.tolist(), outside.numbers.size) == ([approx(0.65)], 0)
+    assert (outside.librations.tolist(), outside.numbers.size) == ([approx(0.65)], 0)
 
 
 def test_numbers_on_both_sides_of_a_half_are_one_curve_and_what_is_far_apart_stays():
@@ -77,7 +77,7 @@ def test_in_gess_ris1_a_and_b_the_curves_through_the_line_do_not_go_round(h, f):
     orbits = section_crossings(section, [state for _, state in starts], 1000, STANDARD).states
     places = [coordinates(states) for states in orbits]
     found = rotation_along(line, [share for share, _ in starts], places, about_first=False, count=24)
-    assert found.standing.size >= 8
+    assert found.librations.size >= 8
     assert np.all(np.abs(found.numbers) > RESOLVED)
     # Orbits without a rotation number stay in a part of the circle of l.
     gaps = []
@@ -86,5 +86,5 @@ def test_in_gess_ris1_a_and_b_the_curves_through_the_line_do_not_go_round(h, f):
         gap = max(np.max(np.diff(l)), 2.0 * pi - (l[-1] - l[0]))
         if not np.any(np.isclose(found.places, -1.0 + 2.0 * share)):
             gaps.append(gap)
-    assert len(gaps) >= found.standing.size
+    assert len(gaps) >= found.librations.size
     assert np.median(gaps) > 0.5

@@ -53,7 +53,7 @@ def test_no_run_is_measured_by_one_that_takes_the_same_steps(name):
     """Each comparison run, down to the floor, has another order or at most a third of the tolerance."""
     rung = LEVELS[name]
     for _ in range(12):
-        finer = rung.tightened()
+        finer = rung.tighter()
         assert finer.order != rung.order or finer.tolerance < rung.tolerance / 3.0
         if rung.is_floor:
             return

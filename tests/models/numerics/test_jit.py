@@ -11,7 +11,7 @@ import hess_mechanics
 from hess_mechanics import System
 from hess_mechanics.numerics import jit
 from hess_mechanics.numerics.jit import announced, kernel
-from hess_mechanics.numerics.patience import limited_by
+from hess_mechanics.numerics.patience import work_limit
 
 PACKAGE = Path(hess_mechanics.__file__).parent
 PARTS = ("numerics", "dynamics", "rigid_body", "suslov", "suslov_hess", "chaplygin_ball", "euler_poisson")
@@ -170,7 +170,7 @@ def test_a_long_compilation_is_announced_and_ends_with_its_request(caplog, tmp_p
         if len(asked) == 5:
             raise Cancelled
 
-    with raises(Cancelled), limited_by(check, lambda seconds: None):
+    with raises(Cancelled), work_limit(check, lambda seconds: None):
         double(1.0)
     assert "Compiling a double takes about 100 s" in asked[0]
     caplog.clear()

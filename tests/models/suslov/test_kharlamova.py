@@ -14,7 +14,7 @@ from hess_mechanics.suslov.kharlamova import (
     PlaneBody,
     arc,
     fixed_point_kinds,
-    mirrored,
+    mirror_image,
     periods_all_round,
     rescaled_time,
     state_at,
@@ -38,7 +38,7 @@ def random_orbits(count, seed=1):
         q = (r1 * radius * cos(angle), r2 * radius * sin(angle))
         speed = rng.uniform(0.0, 2.5)
         state = np.array(state_at(body, q, (speed * cos(alpha), speed * sin(alpha))))
-        yield body, tuple(mirrored(state[None])[0]) if rng.uniform() < 0.5 else tuple(state)
+        yield body, tuple(mirror_image(state[None])[0]) if rng.uniform() < 0.5 else tuple(state)
 
 
 def orbit(body, state, times):

@@ -97,7 +97,7 @@ def test_a_motion_for_a_picture_knows_its_period_and_its_integral(name):
     found = motion_from(body, start, 40.0, "precise")
     both = section(body, start, Plane((0.0, 0.0, 0.0, 0.0, 1.0)), 400.0, "reference", 2)
     assert found.period == approx(float(both.times[1] - both.times[0]), abs=1e-8)
-    assert found.missed < 1e-8
+    assert found.closure_error < 1e-8
     assert (found.integral < 1e-10) is body.separates
     # A motion that stays on one side has no period.
     slow = motion_from(body, state_at(body, 0.999 * equator_energy(body), 0.1, 0.02), 40.0, "standard")

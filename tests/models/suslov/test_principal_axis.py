@@ -85,7 +85,7 @@ def test_tau_is_the_integral_of_gamma3(span):
     assert found.tau[[0, 10, 50, -1]] == approx(run.y[5], abs=1e-9)
     _, _, g1, g2, g3 = found.orbit.states.T
     assert found.brackets == approx(np.column_stack([g2 / (1.5 * g3), -g1 / g3]), rel=1e-12)
-    assert found.left_over < 1e-12
+    assert found.residual < 1e-12
     assert found.turns == np.count_nonzero(g3[1:] * g3[:-1] < 0.0)
 
 

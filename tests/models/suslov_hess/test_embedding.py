@@ -7,7 +7,7 @@ from pytest import approx, mark, raises
 
 from hess_mechanics import level, solve, systems, turning_points
 from hess_mechanics.errors import InvalidParameter
-from hess_mechanics.suslov_hess.embedding import cross_section, embedded
+from hess_mechanics.suslov_hess.embedding import cross_section, embed
 
 HESS = systems()["hess"]
 PRECISE = level("precise")
@@ -35,7 +35,7 @@ def test_every_point_is_one_state_of_the_torus(h, f):
         assert integrals["E"] == approx(np.full(33, h), abs=1e-10 * max(1.0, h))
         assert integrals["F1"] == approx(np.ones(33), abs=1e-10 * max(1.0, h))
         assert integrals["F2"] == approx(np.full(33, f), abs=1e-10)
-        assert embedded(states, h) == approx(points, abs=1e-12)
+        assert embed(states, h) == approx(points, abs=1e-12)
     assert np.all(np.hypot(found.radius, found.height) <= 1.0 + 1e-12)
 
 
@@ -46,7 +46,7 @@ def test_every_motion_passes_the_cross_section_at_its_times(h, f, a, phi):
     found = cross_section(h, turning, 33)
     assert found.times[-1] == approx(turning.period, rel=1e-12)
     orbit = solve(HESS.at((a, 1.0)), turning.state_at_lower_turn(phi), found.times, PRECISE)
-    x, y, z = embedded(orbit.states, h).T
+    x, y, z = embed(orbit.states, h).T
     assert np.column_stack([np.hypot(x, y), z]) == approx(np.column_stack([found.radius, found.height]), abs=1e-6)
 
 

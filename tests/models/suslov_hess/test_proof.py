@@ -16,7 +16,7 @@ import oracle
 from hess_mechanics import EdgeProof, certificate, circle_map, curve_point, f_max, prove
 from hess_mechanics.errors import InvalidParameter, MissingLibrary, OutsideRegion, Separatrix, WorkLimit
 from hess_mechanics.numerics.balls import Enclosure, exact
-from hess_mechanics.numerics.patience import limited_by
+from hess_mechanics.numerics.patience import work_limit
 from hess_mechanics.suslov_hess.certificate import claim
 from manual.check_certificate import Refused, verify
 from oracle.kept import KEPT
@@ -309,6 +309,6 @@ def test_a_proof_asks_before_each_step_whether_to_go_on():
         if len(asks) > 3:
             raise WorkLimit("enough")
 
-    with limited_by(end, lambda seconds: None), raises(WorkLimit, match="enough"):
+    with work_limit(end, lambda seconds: None), raises(WorkLimit, match="enough"):
         prove("0.5", "1.5", "0.6")
     assert len(asks) == 4

@@ -13,10 +13,10 @@ from hess_mechanics.suslov_hess.rotation_number import (
     PLANES,
     ParameterLine,
     Torus,
-    closed_after,
     lock_curve,
     perturbed_rotation,
     place_of,
+    return_error,
     values_at,
 )
 from support.rotation_number import iterated
@@ -87,16 +87,16 @@ def test_at_a_rational_number_every_orbit_is_periodic_and_not_elsewhere(p, q, na
     assert low < place < high
     found = torus.at(**{name: place})
     assert iterated(*vars(found).values(), count=1000 * q) == approx(p / q, abs=1e-6)
-    assert closed_after(found, q, REFERENCE) < 1e-12
-    assert closed_after(found, 2 * q, REFERENCE) < 1e-12
+    assert return_error(found, q, REFERENCE) < 1e-12
+    assert return_error(found, 2 * q, REFERENCE) < 1e-12
     # No smaller number of returns, and not beside it.
-    assert min(closed_after(found, n, REFERENCE) for n in range(1, q)) > 0.1
-    assert closed_after(found.at(**{name: place + 1e-4}), q, REFERENCE) > 1e-5
+    assert min(return_error(found, n, REFERENCE) for n in range(1, q)) > 0.1
+    assert return_error(found.at(**{name: place + 1e-4}), q, REFERENCE) > 1e-5
 
 
 def test_below_the_saddle_two_returns_close_where_f_vanishes():
     # f → 0, |h| < 1: the trace goes to 0.
-    assert closed_after(Torus(0.5, 0.3, 1e-12), 2, REFERENCE) < 1e-10
+    assert return_error(Torus(0.5, 0.3, 1e-12), 2, REFERENCE) < 1e-10
     assert abs(rho_of(0.5, 0.3, 1e-9)) == approx(0.5, abs=1e-8)
 
 

@@ -66,7 +66,7 @@ class PendulumSection(PoincareSection):
         fastest = sqrt(2.0 * max(0.0, self.E + self.g))
         return (-pi, pi), (-fastest, fastest)
 
-    def moved(self, name: str, value: float) -> PendulumSection:
+    def at_constant(self, name: str, value: float) -> PendulumSection:
         return replace(self, **{name: value})
 
     @property

@@ -112,7 +112,7 @@ class _Chart(Part[Any]):
         known, ends = values[np.isfinite(values)], None
         if number.turn:
             values, ends = values - number.turn * np.round(values / number.turn), (-number.turn / 2, number.turn / 2)
-        elif not number.named and known.size:
+        elif not number.categories and known.size:
             low, high = np.quantile(known, (_BEYOND, 1.0 - _BEYOND)).tolist()
             room = max(1e-6 * abs(low), 1e-9) if low == high else 0.0
             ends = low - room, high + room
@@ -138,7 +138,7 @@ class _Chart(Part[Any]):
         outcome, number = Outcome(int(status)), self.number
         if not math.isfinite(value):
             return f"No number: {(outcome if outcome >= Outcome.OUTSIDE_REGION else Outcome.NO_VALUE).words}."
-        said = number.named.get(round(value)) or (with_error(value, error) if error > 0.0 else digits(value))
+        said = number.categories.get(round(value)) or (with_error(value, error) if error > 0.0 else digits(value))
         unit = "" if number.unit == "1" else f" {number.unit}"
         return f"{number.symbol} = {said}{unit}{'' if outcome is Outcome.OK else f' ({outcome.words})'}."
 

@@ -38,7 +38,7 @@ def chart_picture(charts: Charts) -> Plot[Any]:
         layers=(
             _colours("numbers", Cividis256, "number of the chart, small to large", lambda one: not one.turn),
             _colours("turns", theme.TURN_MAP, "number of the chart, one turn", lambda one: one.turn > 0.0),
-            *(_kinds(i, one) for i, one in enumerate(named) if one.named),
+            *(_kinds(i, one) for i, one in enumerate(named) if one.categories),
             *target("here", lambda s: s.charting.here()),
         ),
     )
@@ -47,14 +47,14 @@ def chart_picture(charts: Charts) -> Plot[Any]:
 def _colours(name: str, palette: tuple[str, ...], label: str, shows: Callable[[catalogue.Number], bool]) -> Layer[Any]:
     def cells(s: Any) -> CellGrid | None:
         number = s.charting.number
-        return s.charting.cells if shows(number) and not number.named else None
+        return s.charting.cells if shows(number) and not number.categories else None
 
     sign = Sign(label, "box rho", f"background: {theme.gradient(palette)}")
     return image(name, cells, palette=palette, low=0.0, high=1.0, legend=(sign,))
 
 
 def _kinds(i: int, number: catalogue.Number) -> Layer[Any]:
-    least, most = min(number.named), max(number.named)
+    least, most = min(number.categories), max(number.categories)
     colours = tuple(_KINDS[i % len(_KINDS)] for i in range(most - least + 1))
     return image(
         f"kinds-{i}",
@@ -65,6 +65,6 @@ def _kinds(i: int, number: catalogue.Number) -> Layer[Any]:
         kinds=True,
         legend=tuple(
             Sign(name, "box", f"background: {colours[value - least]}", value - 0.5)
-            for value, name in number.named.items()
+            for value, name in number.categories.items()
         ),
     )

@@ -21,7 +21,7 @@ from hess_explorer.views.caption import Caption
 from hess_explorer.views.maps.branch import bifurcations
 from hess_explorer.views.text import conjugates, digits
 from hess_mechanics.dynamics import continuation as mechanics
-from hess_mechanics.dynamics.continuation import Bifurcation, continued, gone_on
+from hess_mechanics.dynamics.continuation import Bifurcation, branch_from, extension
 from hess_mechanics.dynamics.periodic import apart, find_periodic
 from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.errors import ModelError
@@ -230,7 +230,9 @@ class Continuation(Part[H_co]):
         open_ends = 2 - (self.begin.value in self.begin.ends)
         if whole and not failed and sum(one.heading is None for one in found) < open_ends:
             yield "The branch goes on: no more of it is computed."
-        ended = [one.ended for one in found if one.heading is None and "the end of the range" not in one.ended]
+        ended = [
+            one.end_reason for one in found if one.heading is None and "the end of the range" not in one.end_reason
+        ]
         yield from (f"The branch ends. {why}" for why in ended)
 
 
@@ -243,10 +245,10 @@ def _part(begin: Begin, upwards: bool, k: int) -> mechanics.Branch | NotFound:
     points = max(6, _TOGETHER // found.orbit.period)
     try:
         if k == 0:
-            return continued(family.map_at, found.orbit, family.symbol, begin.value, end, points, edge, _STEP)
+            return branch_from(family.map_at, found.orbit, family.symbol, begin.value, end, points, edge, _STEP)
         before = Task(_part, begin, upwards, k - 1).get()
         assert not isinstance(before, NotFound), "pieces are continued one after the other"
-        return gone_on(family.map_at, before, end, edge, points, _STEP)
+        return extension(family.map_at, before, end, edge, points, _STEP)
     except ModelError as error:
         go_on()
         return NotFound(str(error))

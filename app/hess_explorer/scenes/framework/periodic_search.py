@@ -136,7 +136,7 @@ def branch_of(search: Search, branch: BranchChoice, length: float, pixel: float)
             go_on()
             return NotFound(str(error))
         if curve.error_estimate < 0.5 * pixel:
-            return curve if part == _PARTS[0] else replace(curve, ended=_UNKNOWN)
+            return curve if part == _PARTS[0] else replace(curve, end_reason=_UNKNOWN)
     return NotFound(_UNKNOWN)
 
 

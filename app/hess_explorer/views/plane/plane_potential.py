@@ -37,7 +37,7 @@ def about(body: PotentialBody, motion: PlaneMotion) -> Caption:
     if motion.period is not None:
         return Caption(
             "Periodic: it crosses the equator twice.",
-            f"T = {digits(motion.period)}, back to the start to {digits(motion.missed, 1)}.",
+            f"T = {digits(motion.period)}, back to the start to {digits(motion.closure_error, 1)}.",
         )
     integral = (
         f"F₂ is constant to {digits(motion.integral, 1)}: integrable."

@@ -14,7 +14,7 @@ from hess_explorer.views.layers import Sign, Sources, column
 from hess_explorer.views.picture import Picture
 from hess_explorer.views.space.poisson_sphere import Circle, Direction, Mark, drawn
 from hess_mechanics.numerics.results import Array
-from hess_mechanics.rigid_body.attitude import Attitude, travelled
+from hess_mechanics.rigid_body.attitude import Attitude, contact_arc
 from hess_mechanics.rigid_body.inertia import paired_weights
 
 __all__ = ["BodyInSpace", "Curve", "Rod", "Shape", "Wheels", "seen_in_space"]
@@ -205,7 +205,7 @@ class BodyInSpace(Picture[S]):
         if self.wheels is not None and motion is not None:
             wheels = self.wheels
             columns["wheels"] = [*map(float, wheels.at), *map(float, wheels.e), wheels.look]
-            columns["arc"] = column(travelled(attitude.axes, wheels.at, wheels.e))
+            columns["arc"] = column(contact_arc(attitude.axes, wheels.at, wheels.e))
         trail = self.trail(state)
         if trail is not None:
             columns["trail"] = [*map(float, trail), "orbit"]

@@ -70,7 +70,7 @@ def status_of(clouds: Clouds) -> Iterator[str]:
 
 def about_history(clouds: Clouds, of_patch: bool) -> Caption:
     """Return the change of small volumes, or with `of_patch` of the volume of the patch."""
-    course = clouds.course
+    course = clouds.history
     if of_patch:
         text = f"The patch keeps {digits(course.volume[-1], 3)} of its volume"
     else:

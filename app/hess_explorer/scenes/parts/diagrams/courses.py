@@ -11,7 +11,7 @@ from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.families import Family
 from hess_explorer.scenes.framework.periodic_search import Place
 from hess_explorer.views.layers import Range
-from hess_mechanics.dynamics.orbit_diagram import Cascade, Diagram, cascade, diagram_over, doubling_seen
+from hess_mechanics.dynamics.orbit_diagram import Cascade, Diagram, cascade, diagram_over, first_doubling
 from hess_mechanics.dynamics.periodic import find_periodic
 from hess_mechanics.dynamics.return_map import ReturnMap
 from hess_mechanics.errors import ModelError, WorkLimit
@@ -83,7 +83,7 @@ def _reached(course: Course, number: int) -> Place:
 
 def doublings(course: Course) -> Cascade | str:
     """Return the doublings from the first one seen on a course, or why none was located; "" if none is seen."""
-    seen = doubling_seen([Task(piece, course, number).get() for number in course.pieces])
+    seen = first_doubling([Task(piece, course, number).get() for number in course.pieces])
     if seen is None:
         return ""
     value, places, end = seen

@@ -33,7 +33,7 @@ from hess_explorer.views.layers import Range
 from hess_explorer.views.plane.section_plane import joined
 from hess_explorer.views.text import digits
 from hess_mechanics.chaplygin_ball.ball_section import BallSection
-from hess_mechanics.dynamics.orbit_diagram import Cascade, Diagram, doubling_seen
+from hess_mechanics.dynamics.orbit_diagram import Cascade, Diagram, first_doubling
 from hess_mechanics.errors import OutsideRegion
 from hess_mechanics.numerics.accuracy import Kind, plan
 from hess_mechanics.numerics.results import Array
@@ -189,9 +189,9 @@ class OrbitDiagram(Part[DiagramControls]):
 
     @cached_property
     def doubling(self) -> tuple[float, Array, float] | None:
-        """The first doubling seen, see `doubling_seen`; None if unknown or none is seen."""
+        """The first doubling seen, see `first_doubling`; None if unknown or none is seen."""
         whole = self._locates and self.progress[RISING] == self.along_values.size
-        return doubling_seen(self.pieces[RISING]) if whole else None
+        return first_doubling(self.pieces[RISING]) if whole else None
 
     @cached_property
     def cascade(self) -> Cascade | str | None:

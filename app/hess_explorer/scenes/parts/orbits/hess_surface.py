@@ -20,7 +20,7 @@ from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.results import Array, Complex
 from hess_mechanics.suslov_hess.bifurcation import TurningPoints
 from hess_mechanics.suslov_hess.circle_map import CircleMap
-from hess_mechanics.suslov_hess.embedding import CrossSection, cross_section, density_along, embedded
+from hess_mechanics.suslov_hess.embedding import CrossSection, cross_section, density_along, embed
 from hess_mechanics.suslov_hess.torus import Track
 
 __all__ = ["INVARIANT", "HeavyTorus", "HessSurface", "OnTorus", "shaded_by", "surface_picture"]
@@ -140,9 +140,9 @@ class HessSurface(Part[OnTorus]):
         if self.section is None:
             return {}
         states, times = self.orbit()
-        found = {"orbit": Curve(embedded(states, self.host.h), times)}
+        found = {"orbit": Curve(embed(states, self.host.h), times)}
         for look, cycle in zip(("stable", "unstable"), self.host.cycles or (), strict=False):
-            found[look] = Curve(embedded(cycle.orbit.states, self.host.h))
+            found[look] = Curve(embed(cycle.orbit.states, self.host.h))
         return found
 
     def caption(self) -> Caption:

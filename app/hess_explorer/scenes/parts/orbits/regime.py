@@ -13,7 +13,7 @@ from hess_explorer.scenes.framework.part import Part, Sectioned
 from hess_explorer.scenes.framework.periodic_search import Place
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.text import digits
-from hess_mechanics.dynamics.regime import Dynamics, compared, regime
+from hess_mechanics.dynamics.regime import Dynamics, comparison, regime
 from hess_mechanics.dynamics.return_map import ReturnMap
 from hess_mechanics.errors import NoReturn
 from hess_mechanics.numerics.accuracy import Kind
@@ -78,7 +78,7 @@ class OrbitRegime(Part[_Host]):
             return Caption(
                 f"{kind}.", f"Attractor and repeller not distinguished; |mean div| < {digits(motion.bound, 1)}."
             )
-        if motion.map_.volume_kept:
+        if motion.map_.preserves_volume:
             return Caption(f"{kind}. Conservative: volume is preserved.")
         if motion.measure:
             return Caption(f"{kind}. Conservative: mean div = 0.", f"{motion.measure[0].upper()}{motion.measure[1:]}.")
@@ -103,7 +103,7 @@ def _dynamics(map_: ReturnMap, start: Place, transient: int, kept: int, duration
     """Classify the orbit from `start`; without comparisons if it does not return."""
     motion = regime(map_, start, transient, min(kept, 400), duration)
     try:
-        return compared(map_, motion, start, transient, kept)
+        return comparison(map_, motion, start, transient, kept)
     except NoReturn:
         return Dynamics(motion, motion.places[:0], motion.places[:0], ())
 

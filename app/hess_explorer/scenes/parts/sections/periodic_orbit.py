@@ -278,7 +278,7 @@ def _all(found: Sequence[T | None]) -> list[T] | None:
 
 
 def _ended(branch: Manifold | NotFound) -> str:
-    return branch.ended if isinstance(branch, Manifold) else branch.reason
+    return branch.end_reason if isinstance(branch, Manifold) else branch.reason
 
 
 class _Bounds(Protocol):

@@ -131,7 +131,7 @@ class RotationAcross(Part[_Host]):
             return ""
         return (
             "No closed curve here makes a turn"
-            if self.profile.standing.size
+            if self.profile.librations.size
             else "No orbit on the line is a closed curve"
         )
 
@@ -157,7 +157,7 @@ class RotationAcross(Part[_Host]):
         rho = self.profile.numbers
         # A line across the whole section meets orbits of many kinds: ρ is no single function of the place.
         turning = self.profile.extremum if self.about_middle else None
-        still = self.profile.standing.size
+        still = self.profile.librations.size
         standing = f"; {still} do not rotate" if still else ""
         low, high = self._turns(rho.min()), self._turns(rho.max())
         if low == high:
@@ -175,7 +175,7 @@ class RotationAcross(Part[_Host]):
 
 
 def _axis_of(found: RotationProfile) -> Range:
-    shown = np.concatenate([found.numbers, np.zeros(min(1, found.standing.size))])
+    shown = np.concatenate([found.numbers, np.zeros(min(1, found.librations.size))])
     return with_room(shown, 0.06, 1e-4) if found.numbers.size else (-0.56, 0.56)
 
 
@@ -216,7 +216,7 @@ def rotation_picture() -> Picture[Any]:
             ),
             points(
                 "standing",
-                lambda s: (s.rotation.profile.standing, np.zeros(s.rotation.profile.standing.size)),
+                lambda s: (s.rotation.profile.librations, np.zeros(s.rotation.profile.librations.size)),
                 size=7,
                 hollow=True,
                 color=theme.MUTED,

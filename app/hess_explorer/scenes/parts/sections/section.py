@@ -258,7 +258,7 @@ class Section(Part[_Host]):
         periodic, own = self.host.periodic_orbit, self.known.own
         if self.work.dragging or periodic.looking or periodic.closed is not None or not own:
             return None
-        level, step = self.work.plan(Kind.SECTION).level.tightened(), len(self.ways)
+        level, step = self.work.plan(Kind.SECTION).level.tighter(), len(self.ways)
         tasks = [self.batch((self.starts[-1],), level=level), *self._filling(level=level)[::step][:_COMPARED]]
         fine: list[OrbitBatch | None] = [self.work.need(task, preview=None) for task in tasks]
         counts = [
