@@ -258,7 +258,7 @@ class _Search:
         if not 1 <= crossings <= MAX_CROSSINGS:
             raise WorkLimit(f"The number of crossings must lie between 1 and {MAX_CROSSINGS}.")
         problem = Problem.of(body, states)
-        if not hasattr(plane, "scaled"):
+        if not hasattr(plane, "crossing_kernel"):
             raise InvalidParameter("A section needs a surface, such as Plane(normal, offset).")
         plane.crossing_kernel(body.system, problem)
         starts = np.array(states, float, ndmin=2)
