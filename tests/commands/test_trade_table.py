@@ -91,8 +91,7 @@ def test_the_tables_are_one_with_what_a_draft_computes():
     assert found.keys() == {str(trial.kind) for name in names() for trial in scenes()[name].trials}
     for kind, (computed, *_) in found.items():
         assert computed == _draft_computes(Kind(kind))
-    for words in ("speed_accuracy.md", "speed_accuracy_of_maps.md"):
-        assert measured_by_kind(f"app/hess_explorer/scenes/{words}") == found
+    assert measured_by_kind("app/hess_explorer/scenes/shared/levels.md") == found
 
 
 def test_the_page_and_the_command_print_the_table_of_the_levels(capsys):

@@ -182,8 +182,7 @@ def main():
         costliest = sorted(rows, key=lambda row: -row.samples[-1].ms)[:10]
         longest = heading() + "".join(map(line_of, costliest))
         write_measured(ROOT / "app" / "README.md", f"{conditions()}.\n\n{kinds}\n{longest}")
-        for file in (WORDS / "speed_accuracy.md", WORDS / "speed_accuracy_of_maps.md"):
-            write_measured(file, f"{conditions()}.\n\n{kinds}")
+        write_measured(WORDS / "shared" / "levels.md", f"{conditions()}.\n\n{kinds}")
     return len(failed)
 
 

@@ -30,8 +30,7 @@ DOCUMENTS = [
 MEASURED = {
     "tests/manual/README.md": "tests/manual/benchmark_page.py",
     "app/README.md": "tests/manual/benchmark_trade.py",
-    "app/hess_explorer/scenes/speed_accuracy.md": "tests/manual/benchmark_trade.py",
-    "app/hess_explorer/scenes/speed_accuracy_of_maps.md": "tests/manual/benchmark_trade.py",
+    "app/hess_explorer/scenes/shared/levels.md": "tests/manual/benchmark_trade.py",
     "tests/manual/integrators/README.md": "tests/manual/benchmark_peers.py",
     "app/hess_explorer/sweep/README.md": "tests/manual/benchmark_sweep.py",
     "app/hess_explorer/offline/README.md": "tests/manual/benchmark_offline.py",
