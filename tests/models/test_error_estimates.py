@@ -200,10 +200,8 @@ def maps(request):
     tori, phases = [random_torus(random, request.param) for _ in range(TORI)], random.uniform(-pi, pi, 16)
     # The oracle checks for itself that its digits are enough: the saddle takes some.
     exact = oracle.maps_by_three_orbits(tori, digits=30 if "separatrix" in request.param else 27)
-    theta, slope = (
-        np.array([[f(phi) for phi in phases] for f in fs])
-        for fs in zip(*[(m.theta, m.slope) for m in exact], strict=True)
-    )
+    theta = np.array([[m.theta(phi) for phi in phases] for m in exact])
+    slope = np.array([[m.slope(phi) for phi in phases] for m in exact])
     return tori, phases, theta, slope, np.exp([m.log_trace for m in exact])
 
 
