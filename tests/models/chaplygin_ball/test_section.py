@@ -21,6 +21,7 @@ from support.thorough import sample
 
 GENERAL = BallBody(1.5, 3.0, -0.3, 0.2, 1.0, 1.0, -0.7, 0.7)
 PLAIN = BallBody(1.0, 3.0, 0.0, 0.0, 5.0, 0.5, 0.0, 0.8)
+WHOLE = BallSection(PLAIN, 1.5)
 bodies = mark.parametrize(
     "body",
     [GENERAL, PLAIN, BallBody(1.0, 2.0, 0.1, 0.2, 0.0, 0.0, 0.0, 1.0)],
@@ -41,10 +42,6 @@ def example(name):
     return body, values["h"] - hypot(body.b1, body.b2)
 
 
-def places_of(body, states):
-    return BallSection(body, 0.0).places_of(states)
-
-
 # ---- coordinates ------------------------------------------------------------------------------------------------
 
 
@@ -54,14 +51,15 @@ def test_a_state_of_the_section_has_its_energy_and_its_coordinates(body):
     for _ in range(50):
         E = random.uniform(0.1, 3.0) + hypot(body.b1, body.b2)
         psi, delta = random.uniform(-pi, pi), random.uniform(1e-6, pi - 1e-6)
-        state = BallSection(body, E).state_at(psi, delta)
+        section = BallSection(body, E)
+        state = section.state_at(psi, delta)
         assert SYSTEM.integrals(state, body.parameters) == approx({"E": E, "F1": 1.0}, rel=1e-13)
         w1, w2, g1, g2, g3 = state
         assert (g1, g2, g3) == approx((cos(psi), sin(psi), 0.0), abs=1e-15)
         # γ̇3 = γ1ω2 − γ2ω1 = |ω| sin δ.
         assert g1 * w2 - g2 * w1 == approx(hypot(w1, w2) * sin(delta), rel=1e-9)
         assert SYSTEM.field(state, body.parameters)[4] > 0.0
-        assert places_of(body, np.array([state]))[0] == approx((psi, delta), abs=1e-9)
+        assert section.places_of(np.array([state]))[0] == approx((psi, delta), abs=1e-9)
 
 
 test_what_is_no_point_of_the_section_is_refused = refused(
@@ -73,6 +71,7 @@ test_what_is_no_point_of_the_section_is_refused = refused(
         )
         for place in ((0.0, pi), (nan, 1.0))
     ),
+    (lambda: section_crossings(WHOLE, WHOLE.spread(9), 40, "draft", most_steps=60), "more than 60 steps", WorkLimit),
 )
 
 
@@ -135,13 +134,6 @@ def test_cells_are_counted_as_those_of_a_histogram():
     assert occupied_cells(np.empty((0, 2)), ranges) == 0
 
 
-def test_more_steps_than_allowed_are_refused_in_a_sentence():
-    section = BallSection(PLAIN, 1.5)
-    with raises(WorkLimit, match="more than 60 steps"):
-        section_crossings(section, section.spread(9), 40, "draft", most_steps=60)
-    assert [len(one) for one in section_crossings(section, section.spread(9), 40, "draft").states] == [40] * 9
-
-
 def test_an_orbit_that_stops_crossing_is_not_followed_to_the_end():
     # Without a field ω comes to rest along the line, and γ turns about it: those with γ3 = 0 for ever cross no more.
     body = BallBody(1.0, 1.5, 0.7, 1.2, 1.0, 0.0, 0.0, 0.0)
@@ -161,7 +153,7 @@ def test_mixed_some_orbits_lie_on_curves_and_others_fill_a_sea():
     assert max(points.drift.values()) <= 1e-4
     assert all(len(states) == 1200 for states in points.states)
     # A curve once round passes 32 cells or a few more.  An orbit of the sea may stay beside an island until the end.
-    counts = np.array([len(occupied(places_of(body, states[600:]))) for states in points.states])
+    counts = np.array([len(occupied(section.places_of(states[600:]))) for states in points.states])
     curve, sea = counts <= 80, counts >= 120
     assert deviations(curve, 0.2) > 5.0
     assert deviations(sea, 0.1) > 5.0

@@ -1,10 +1,9 @@
 """The Euler–Poisson equations against integrals and motions known in closed form."""
 
-from math import nan, sin, sqrt
+from math import nan, sqrt
 
 import numpy as np
 from pytest import approx, mark, param
-from scipy.special import ellipj, ellipk
 
 from hess_mechanics import solve
 from hess_mechanics.errors import ModelError, NotPositiveDefinite
@@ -45,25 +44,6 @@ def test_the_relation_is_invariant_in_the_hess_case_and_in_no_other(moments):
 
 
 # ---- Motions and integrals known in closed form ------------------------------------------------------------------
-
-
-def test_a_plane_pendulum_is_that_of_the_elliptic_functions():
-    """M along the second axis, γ across it: θ̈ = −a2 μ|r| sin θ."""
-    body = HeavyBody((1.3, 0.8, 2.1), (0.6, 0.0, 0.8), 2.5)
-    omega0, amplitude = sqrt(body.a[1] * 2.5), 2.0
-    m = sin(amplitude / 2.0) ** 2
-    times = np.linspace(0.0, 40.0, 101)
-    sn, cn, _, _ = ellipj(omega0 * times + ellipk(m), m)
-    theta = 2.0 * np.arcsin(sqrt(m) * sn)
-    speed = 2.0 * omega0 * sqrt(m) * cn
-    # r × e2 = (−r3, 0, r1): from r towards it the angle of γ grows at the rate a2 M2.
-    first = np.array(body.r)
-    second = np.array([-first[2], 0.0, first[0]])
-    gamma = np.outer(np.cos(theta), first) + np.outer(np.sin(theta), second)
-    M = np.column_stack([np.zeros_like(theta), speed / body.a[1], np.zeros_like(theta)])
-    expected = np.column_stack([M, gamma])
-    found = solve(body, expected[0], times, "reference")
-    assert found.states == approx(expected, abs=1e-10)
 
 
 def orbits(body, count=4, span=30.0):

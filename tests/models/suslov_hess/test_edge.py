@@ -6,9 +6,7 @@ from itertools import product
 import mpmath
 import pytest
 
-from hess_mechanics import certificate, prove, systems
-from hess_mechanics.suslov_hess.certificate import claim
-from manual.check_certificate import verify
+from hess_mechanics import prove, systems
 from support.thorough import sample
 
 # n3 and its root: where both are rational, so are h and f.
@@ -80,15 +78,3 @@ def test_what_is_proved_of_the_circle_is_what_the_field_does(a, sign, where):
             slope = mpmath.diff(lambda x: speed(x)[0], phi)
             assert (slope < 0) == attracts
             assert abs(slope - number(rate.low)) < 1e-12
-
-
-@pytest.mark.parametrize(
-    ("a", "words"), [("0.5", "exactly two equilibria, one attracts and one repels"), ("0.1", "is one periodic orbit")]
-)
-def test_the_words_say_that_there_is_no_torus_and_the_certificate_holds(a, words):
-    proof = prove(a, "13/8", "-15/8")
-    said = claim(proof)
-    assert "no torus and no limit cycle" in said
-    assert words in said
-    assert "h = 1.625, f = -1.875" in said
-    verify(certificate(proof))

@@ -26,13 +26,9 @@ def off_scipy(body, orbit):
 
 
 @mark.parametrize(("body", "torus"), list(zip(BODIES, TORI, strict=True)))
-def test_a_track_solves_the_suslov_problem_of_its_body(body, torus):
-    assert off_scipy(body, track(body, *torus, 0.7, 12.0, REFERENCE, 4.0)) < 1e-8
-
-
-@mark.parametrize(("body", "torus"), list(zip(BODIES, TORI, strict=True)))
-def test_a_track_lies_on_its_torus(body, torus):
+def test_a_track_solves_the_suslov_problem_of_its_body_and_lies_on_its_torus(body, torus):
     (h, f), orbit = torus, track(body, *torus, -2.0, 20.0, REFERENCE, 4.0)
+    assert off_scipy(body, orbit) < 1e-8
     w1, w2, n1, n2, n3 = body.in_units_of_b(body.to_reduced(states_of(orbit))).T
     assert np.abs((w1**2 + w2**2) / 2 - n3 - h).max() < 1e-12
     assert np.abs(w1 * n1 + w2 * n2 - f).max() < 1e-12
