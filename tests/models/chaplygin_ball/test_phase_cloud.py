@@ -10,7 +10,7 @@ from scipy.stats import kstest, ttest_ind
 import oracle
 from hess_explorer.protocol.wire import Wire
 from hess_explorer.scenes.framework.stage import Stage
-from hess_mechanics import ensemble, level, systems
+from hess_mechanics import level, systems
 from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.chaplygin_ball.phase_cloud import (
     carried,
@@ -234,41 +234,32 @@ def numbers_in(text):
 
 
 @mark.parametrize("preset", sample(SCENE.presets, 2), ids=lambda preset: preset.name)
-def test_the_captions_say_what_the_general_equations_give(preset):
-    values = {**SCENE.defaults(), **preset.values}
-    body = BallBody(*(values[name] for name in ("I11", "I22", "I13", "I23", "D")))
-    count = 5000 if values["beside"] != "nothing" else 10_000
-    is_patch = values["start"] == "small patch"
-    make, where = (patch, ("h", "angle", "spread")) if is_patch else (shell, ("h", "spread"))
-    states = make(body, *(values[name] for name in where), count)
-    span = values["span"] * (-1.0 if values["direction"] == "backward" else 1.0)
+def test_the_captions_say_what_the_points_give(preset):
+    values = SCENE.defaults() | preset.values
+    said, found = captions(values), complete(values).clouds.cloud
+    s, gamma = np.exp(found.log_s[:, [0, -1]]), found.gamma[:, [0, -1]]
+    xi = np.array([values["I23"], -values["I13"], 0.0]) / hypot(values["I13"], values["I23"])
     # The captions have three digits.
-    end = ensemble(body, states, [span], "standard").states[:, 0]
-    s = [np.abs(body.I13 * y[:, 0] + body.I23 * y[:, 1]) for y in (states, end)]
-    xi = np.array([body.I23, -body.I13, 0.0]) / hypot(body.I13, body.I23)
-    said = captions(values)
-    assert numbers_in(said["omega"]) == approx([count, *(np.median(one) for one in s)], rel=6e-3)
+    assert numbers_in(said["omega"]) == approx([len(s), *np.median(s, axis=0)], rel=6e-3)
     spread = numbers_in(said["sphere"])
     # A mean that stays is said once.
-    assert spread * (3 - len(spread)) == approx([((y[:, 2:] @ xi) ** 2).mean() for y in (states, end)], rel=6e-3)
-    if not is_patch:
-        mean = [float(divergence(body, y[:, :2], y[:, 2:]).mean()) for y in (states, end)]
-        numbers = numbers_in(said["divergence"])
-        assert [*numbers[:2], numbers[-1]] == approx([*mean, np.log(s[1] / s[0]).mean()], rel=6e-3)
+    assert spread * (3 - len(spread)) == approx(((gamma @ xi) ** 2).mean(axis=0), rel=6e-3)
+    if values["start"] != "small patch":
+        first, last, *_, growth = numbers_in(said["divergence"])
+        assert [first, last] == approx(found.divergence[:, [0, -1]].mean(axis=0), rel=6e-3)
+        assert growth == approx(found.log_growth[:, -1].mean(), rel=6e-3)
     place, share, height = numbers_in(said["density"])
-    assert s[1].min() < place < s[0].max()
+    assert s[:, 1].min() < place < s[:, 0].max()
     assert share == approx(height, rel=0.03)
 
 
 def test_fewer_points_until_all_of_them_are_known():
-    values = {**SCENE.defaults(), "I11": 2.015, "beside": "principal axis", "b3": 1.0, "points": "3000"}
-    first, whole = SCENE.compute(values, SCENE.pictures, False), complete(values)
-    assert (len(first.work.todo), first.work.pieces) == (1, 1)
-    assert [one.clouds.cloud.signs.size for one in (first, whole)] == [500, 1500]
-    assert [one.clouds.other.states.shape[0] for one in (first, whole)] == [500, 1500]
-    # So few are computed at once.
-    few = SCENE.compute({**values, "points": "900"}, SCENE.pictures, False)
-    assert (few.clouds.cloud.signs.size, few.work.todo) == (450, [])
+    values = {**SCENE.defaults(), "beside": "principal axis", "b3": 1.0}
+    few, first = (SCENE.compute({**values, "points": count}, SCENE.pictures, False) for count in ("900", "3000"))
+    whole = complete({**values, "points": "3000"})
+    assert [one.clouds.cloud.signs.size for one in (few, first, whole)] == [450, 500, 1500]
+    assert [one.clouds.other.states.shape[0] for one in (few, first, whole)] == [450, 500, 1500]
+    assert [len(one.work.todo) for one in (few, first, whole)] == [0, 1, 0]
 
 
 def test_a_click_in_the_plane_chooses_a_patch_there():

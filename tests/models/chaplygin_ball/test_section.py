@@ -134,14 +134,6 @@ def test_cells_are_counted_as_those_of_a_histogram():
     assert occupied_cells(np.empty((0, 2)), ranges) == 0
 
 
-def test_an_orbit_that_stops_crossing_is_not_followed_to_the_end():
-    # Without a field ω comes to rest along the line, and γ turns about it: those with γ3 = 0 for ever cross no more.
-    body = BallBody(1.0, 1.5, 0.7, 1.2, 1.0, 0.0, 0.0, 0.0)
-    section = BallSection(body, 1.0)
-    many = section_crossings(section, section.spread(9), 200, "standard")
-    assert [len(one) for one in many.states] == [200] * 9
-
-
 # ---- what the examples are --------------------------------------------------------------------------------------
 
 

@@ -61,11 +61,11 @@ def test_below_the_lowest_energy_nothing_is_possible_and_above_it_something(k):
     gamma = np.zeros((3, psi.size))
     gamma[[i for i in range(3) if i != k - 1]] = np.cos(psi), np.sin(psi)
     assert lowest == approx(np.min(np.array([BODY.b1, BODY.b2, BODY.b3]) @ gamma), abs=1e-8)
-    assert not SuslovSection(BODY, lowest - 1e-9, k).possible(psi).any()
-    assert SuslovSection(BODY, lowest + 1e-6, k).possible(psi).any()
-    assert SuslovSection(BODY, lowest, k).spread(5) == ()
+    below, above = (SuslovSection(BODY, lowest + away, k) for away in (-1e-9, 1e-6))
+    assert (below.possible(psi).any(), above.possible(psi).any()) == (False, True)
+    assert below.spread(5) == ()
     with raises(OutsideRegion, match="choose another place, or a larger energy"):
-        SuslovSection(BODY, lowest - 1e-9, k).state_at(0.0, 1.0)
+        below.state_at(0.0, 1.0)
 
 
 test_what_is_no_point_or_too_much_is_refused = refused(
@@ -96,10 +96,8 @@ def test_seeds_are_as_many_as_asked_for_wherever_the_energy_allows_any(k, above,
         assert len(found) == 0
         return
     assert len(found) == len({tuple(state) for state in found}) == 25
-    for state in found:
-        assert energy(BODY, state) == approx(E, abs=1e-12 * max(1.0, E))
-        assert field(BODY, state)[k + 1] > 0.0
     psi, delta = SuslovSection(BODY, 0.0, k).places_of(found).T
+    assert SuslovSection(BODY, E, k).states_at(psi, delta)[0] == approx(found, abs=1e-7 * max(1.0, E))
     turns = np.abs(psi[:, None] + 2.0 * pi * np.arange(-3, 4) - 0.5 * (psi0 + psi1))
     assert np.all(turns.min(axis=1) <= (psi1 - psi0) / 2 + 1e-9)
     assert np.all((delta > delta0) & (delta < delta1 + 1e-9))

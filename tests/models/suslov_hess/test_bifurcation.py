@@ -1,7 +1,7 @@
 """The region of (h, f), its edge, and the turning points, against multiple precision."""
 
 from functools import cache
-from math import atan2, log10, nan, pi, remainder
+from math import cos, log10, nan, pi, sin, sqrt
 
 import mpmath
 import numpy as np
@@ -153,9 +153,7 @@ def test_the_state_at_the_lower_turn_is_on_the_torus_and_turns_there(torus, phi)
     assert found["F2"] == approx(f, rel=1e-6 if abs(share) > 0.999 else 1e-13, abs=1e-300)
     assert hess.field(y, (0.7, 1.0))[4] == approx(0.0, abs=1e-15 * (1 + turning.initial_rho))
     assert y[4] == turning.roots[1] <= turning.roots[2]
-    if turning.initial_rho > 0:
-        assert remainder(atan2(y[0], y[1]) - phi, 2 * pi) == approx(0.0, abs=1e-15)
-    assert turning.initial_rho**2 == approx(turning.w_squared, rel=1e-15)
+    assert y[:2] == approx(sqrt(turning.w_squared) * np.array([sin(phi), cos(phi)]), rel=1e-14, abs=1e-300)
 
 
 @given(st.floats(0.0, 1.0, exclude_min=True).filter(lambda n: n > 1e-6))

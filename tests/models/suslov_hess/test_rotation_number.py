@@ -25,20 +25,17 @@ from support.rotation_number import iterated
 # ---- ρ and where it locks ----------------------------------------------------------------------------------------
 
 
-def test_values_agree_whatever_their_shape_and_order():
+def test_values_are_those_of_the_circle_map_of_each_torus():
     rng = np.random.default_rng(1)
-    a, h, f = rng.choice([0.1, 0.5, 1.0], 20), rng.uniform(-0.9, 3.0, 20), rng.uniform(-2.0, 2.0, 20)
-    together = values_at(a, h, f, STANDARD)
-    assert 5 < together.possible.sum() < 20
-    for i, torus in enumerate(zip(a.tolist(), h.tolist(), f.tolist(), strict=True)):
-        alone = values_at(*torus, STANDARD)
-        assert (alone.rho[0], alone.trace[0]) == approx((together.rho[i], together.trace[i]), rel=1e-9, nan_ok=True)
-        assert together.possible[i] == (abs(torus[2]) <= f_max(torus[1])) == np.isfinite(together.rho[i])
-        if together.possible[i]:
-            exact = circle_map(*torus, REFERENCE)
-            assert together.trace[i] == approx(exact.trace, rel=1e-6)
-            assert together.locked[i] == (exact.kind == "hyperbolic")
-            assert together.rho[i] == approx(exact.rotation_number, abs=1e-6)
+    tori = np.column_stack([rng.choice([0.1, 0.5, 1.0], 20), rng.uniform(-0.9, 3.0, 20), rng.uniform(-2.0, 2.0, 20)])
+    found = values_at(*tori.T, STANDARD)
+    possible = [abs(f) <= f_max(h) for _, h, f in tori]
+    assert 5 < sum(possible) < 20
+    assert found.possible.tolist() == np.isfinite(found.rho).tolist() == possible
+    maps = [circle_map(*torus, REFERENCE) for torus in tori[possible]]
+    assert found.rho[possible] == approx([one.rotation_number for one in maps], abs=1e-6)
+    assert found.trace[possible] == approx([one.trace for one in maps], rel=1e-6)
+    assert found.locked[possible].tolist() == [one.kind == "hyperbolic" for one in maps]
 
 
 def test_at_the_separatrix_there_is_no_map():
