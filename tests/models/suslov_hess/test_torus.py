@@ -55,13 +55,6 @@ def test_a_long_span_is_cut_at_the_most_returns():
     assert np.all(np.diff(orbit.times) > 0)
 
 
-def test_on_the_separatrix_the_orbit_comes_to_rest():
-    orbit = track(BODIES[0], 1.0, 0.0, 0.4, 100.0, REFERENCE, 4.0)
-    assert orbit.n3[0] == 1.0
-    assert orbit.n3[-1] == approx(-1.0, abs=1e-10)
-    assert np.hypot(*orbit.omega[-1]) < 1e-5
-
-
 @mark.parametrize(("body", "torus"), list(zip(BODIES, TORI, strict=True)))
 def test_the_ring_holds_the_orbit_and_is_touched_by_it(body, torus):
     h, f = torus
