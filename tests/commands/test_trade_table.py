@@ -57,20 +57,6 @@ def row(scene, kind, times=(1.0, 2.0, 3.0, 4.0), errors=(0.1, 0.01, 0.001, 0.0))
     )
 
 
-def test_the_table_by_kind_has_the_least_and_most_ratio_and_the_largest_error():
-    table = by_kind(
-        [
-            row("a", "section", (1.0, 2.0, 3.0, 20.0), (0.1, 0.5, 0.001, 0.0)),
-            row("b", "orbit"),
-            row("c", "section", errors=(0.3, 0.01, 0.002, 0.0)),
-        ]
-    )
-    assert table.splitlines()[2:] == [
-        "| orbit | as much | 4 × | 0.1 | 0.01 | 0.001 | 0 | pixels |",
-        "| section | 25 % of the crossings | 4 to 20 × | 0.3 | 0.5 | 0.002 | 0 | pixels |",
-    ]
-
-
 def test_a_row_without_a_measurement_says_so():
     """The section of the Suslov problem had error 0 at every level, of 0 orbits."""
     rows = [row("a", "section", errors=(nan,) * 4), row("b", "section", errors=(nan, 0.2, 0.1, 0.0))]

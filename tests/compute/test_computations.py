@@ -312,30 +312,24 @@ def test_while_dragging_scipy_never_runs_and_when_let_go_it_does(cache, monkeypa
 def test_from_scene_to_scene_each_computes_its_own_and_the_way_back_is_free(cache):
     browser = Browser(HESS, SHORT)
     assert cache.take() == MOTION | ZONES
-    browser.ask(1, scene=ACCURACY.name)
+    # A new scene is computed whole, whatever was hidden in the old one.
+    browser.ask(1, hidden=["omega", "sphere", "circle"], scene=ACCURACY.name)
     assert cache.take() == STUDY
     browser.ask(2, scene=HESS.name)
     browser.ask(3, scene=ACCURACY.name)
     assert cache.take() == set()
-    browser.ask(4, values={"f": 0.5})
-    assert cache.take() == STUDY
+    browser.ask(4, hidden=["growth", "drift", "pixels"], values={"f": 0.5})
+    assert cache.take() == {LEVELS, OTHERS}
     browser.ask(5, scene=HESS.name)
     assert cache.take() == MOTION
 
 
-def test_a_new_scene_is_computed_whole_whatever_was_hidden_in_the_old_one(cache):
-    browser = Browser(HESS, SHORT)
-    browser.ask(1, hidden=["omega", "sphere", "circle"])
-    cache.take()
-    browser.ask(2, hidden=["omega", "sphere", "circle"], scene=ACCURACY.name)
-    assert cache.take() == STUDY
-    # The browser repeats what it does not see there.
-    browser.ask(3, hidden=["growth", "drift", "pixels"], values={"h": 1.25})
-    assert cache.take() == {LEVELS, OTHERS}
+def test_warming_up_computes_the_first_state_of_every_scene_but_one_that_refuses_it(cache, monkeypatch, caplog):
+    def refuse(*_):
+        raise WorkLimit("Too many steps: choose a shorter time span.")
 
-
-def test_warming_up_computes_the_first_state_of_every_scene(cache, monkeypatch):
-    tasks, chosen = [], sample(SCENES.values(), 3)
+    tasks, (first, other, last) = [], sample(SCENES.values(), 3)[:3]
+    chosen = (first, variant(other, compute=refuse), last)
     monkeypatch.setattr(warm, "scenes", lambda: {scene.name: scene for scene in chosen})
     # One request of each kind that can wait; its duration does not matter here.
     later = types.SimpleNamespace(get=lambda function, *arguments: tasks.append((function, arguments)), asked=0)
@@ -343,28 +337,14 @@ def test_warming_up_computes_the_first_state_of_every_scene(cache, monkeypatch):
     monkeypatch.setattr(warm, "QUIET_SECONDS", 0.0)
     warm.warm()
     assert gc.isenabled()
+    assert caplog.messages == [f"{other.name}: Too many steps: choose a shorter time span."]
     cache.calls.clear()
-    for scene in chosen:
+    for scene in (first, last):
         Browser(scene)
         assert cache.take() == set(), scene.name
         left = {task.function for task in Board(scene).show(compute(scene, scene.defaults())).todo}
         assert left <= {function for function, _ in tasks}, scene.name
     assert tasks
-
-
-def test_a_scene_that_refuses_its_first_state_keeps_no_other_from_being_ready(cache, monkeypatch, caplog):
-    def refuse(*_):
-        raise WorkLimit("Too many steps: choose a shorter time span.")
-
-    scenes = [*SCENES.values()]
-    refusing = [variant(scene, compute=refuse) if i == 1 else scene for i, scene in enumerate(scenes[:3])]
-    monkeypatch.setattr(warm, "scenes", lambda: {scene.name: scene for scene in refusing})
-    monkeypatch.setattr(warm, "QUIET_SECONDS", 0.0)
-    warm.warm()
-    assert caplog.messages == [f"{scenes[1].name}: Too many steps: choose a shorter time span."]
-    cache.calls.clear()
-    Browser(scenes[2])
-    assert cache.take() == set()
 
 
 def test_warming_up_stands_back_while_the_page_is_used(cache, monkeypatch):

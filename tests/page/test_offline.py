@@ -2,6 +2,7 @@
 
 import io
 import json
+import re
 from dataclasses import replace
 from urllib.parse import parse_qsl
 
@@ -164,7 +165,7 @@ def test_the_file_says_what_it_cannot_show_and_keeps_its_place(browser, tmp_path
         assert float(page.locator(".param-h input.exact").input_value()) > 2
         change(page, page.keyboard.press, "Control+z")
         assert page.locator(".param-f input.exact").input_value() == "0"
-        page.wait_for_timeout(600)
+        page.wait_for_url(re.compile(r"h=1\.2&f=0(\.0)?&"))
         address = page.url
     assert "#v=1&scene=suslov-hess" in address
     with opened(browser, address) as page:

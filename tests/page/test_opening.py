@@ -68,7 +68,6 @@ def test_a_scene_begins_in_gentle_motion_until_the_first_touch_and_asks_for_noth
     touches = {
         HESS: lambda: page.mouse.click(800, 5),
         "scattering": lambda: page.mouse.wheel(0, 10),
-        "kharlamova": lambda: page.keyboard.press("Space"),
     }
     for scene, touch in touches.items():
         if scene != HESS:

@@ -118,7 +118,7 @@ def test_a_guess_of_the_audience_from_the_invitation_to_how_far_it_was_off(lectu
     for name, columns in drawn.items():
         if name not in POINTS:
             assert columns == [lengths(column) for column in tab.data(name).values()], name
-    # How far one is off is measured in "test_lessons".
+    # How far one is off is measured in "static/guess.test.mjs".
     assert re.fullmatch(r"3 guesses from the audience\. Median distance: \S+ in .* and \S+ in .*\.", said)
     # The next step takes the guesses away.
     while page.locator(".lesson .count").inner_text().startswith(f"{STEP} "):

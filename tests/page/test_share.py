@@ -79,7 +79,6 @@ def test_the_dialog_gives_link_and_code_and_what_embeds_opens_the_same_state(exp
     framed, there = Explorer(outer, server), "document.documentElement.dataset.state"
     framed.page = inner
     assert framed.data("data-orbit") == tab.data("data-orbit")
-    # It is as alive as the page.
     # All that was chosen is in its frame.
     wide, high = inner.evaluate("[innerWidth, innerHeight]")
     boxes = inner.evaluate(BOXES)

@@ -415,6 +415,9 @@ def brought_on_phone(phone_tab, scene=HESS):
     """The page on a phone in the first state of a scene, with its first picture."""
     page = phone_tab.page
     phone_tab.leave_lesson()
+    phone_tab.turn_theme(is_dark=False)
+    if page.viewport_size != dict(zip(("width", "height"), PHONE, strict=True)):
+        phone_tab.resize(*PHONE)
     if page.evaluate("document.documentElement.dataset.scene") != scene:
         phone_tab.change(lambda: page.evaluate("scene => hess.tell('scene', scene)", scene))
     first = page.locator(".chips .chip").first
