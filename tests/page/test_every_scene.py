@@ -4,7 +4,7 @@ import pytest
 
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.periodic_search import NONE
-from support.page import brought, chosen, flat
+from support.page import chosen, flat
 from support.painted import SOURCES, assert_drawn, assert_painted
 from support.thorough import sample
 
@@ -23,7 +23,7 @@ EXAMPLES = [
 
 @pytest.mark.parametrize("scene, preset", sample(EXAMPLES, 2))
 def test_an_example_is_drawn_as_the_scene_computes_it(tab, scene, preset):
-    explorer = brought(tab, scene)
+    explorer = tab.fresh(scene.name)
     values = chosen(explorer, scene, preset)
     assert explorer.chosen("preset") == preset.name
     if "indicator" in values:
@@ -36,15 +36,14 @@ def test_an_example_is_drawn_as_the_scene_computes_it(tab, scene, preset):
     assert_painted(explorer, scene)
 
 
-def test_a_refusal_is_said_in_every_picture_and_nothing_stale_stays(tab):
-    scene = SCENES["chaplygin-ball"]
-    explorer = brought(tab, scene)
+@pytest.mark.parametrize("scene", ["chaplygin-ball"])
+def test_a_refusal_is_said_in_every_picture_and_nothing_stale_stays(explorer, scene):
     for name in ("I13", "I23"):
         explorer.change(explorer.type, name, "0")
     whole = explorer.text("status").split(" · ")[0]
     assert whole.startswith("I13 = I23 = 0: there is no line of equilibria.")
     assert explorer.text("derived") == ""
-    assert {explorer.caption(picture) for picture in scene.pictures} == {whole}
+    assert {explorer.caption(picture) for picture in SCENES[scene].pictures} == {whole}
     for source in explorer.page.evaluate(SOURCES):
         found = flat(explorer.data(source))
         if source.endswith("-message"):
@@ -53,4 +52,4 @@ def test_a_refusal_is_said_in_every_picture_and_nothing_stale_stays(tab):
             # Names of axes are blanks.
             assert set(found) <= {" "}, source
     explorer.change(explorer.page.locator(".param-reset").click)
-    assert_painted(explorer, scene)
+    assert_painted(explorer, SCENES[scene])

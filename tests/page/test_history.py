@@ -63,14 +63,14 @@ def test_back_and_forward_go_by_scenes_and_examples_and_do_not_reload(explorer):
         before = explorer.state
         page.evaluate("history.back()")
         wait_ready(page, after=before)
-        assert page.evaluate("document.documentElement.dataset.scene") == name
+        assert explorer.scene == name
         assert numbers(explorer, "h", "f") == (h, f)
         assert explorer.wait_url(h=str(h), f=str(f))["scene"] == HESS
     for name in (HESS, "loxodrome"):
         before = explorer.state
         page.evaluate("history.forward()")
         wait_ready(page, after=before)
-        assert page.evaluate("document.documentElement.dataset.scene") == name
+        assert explorer.scene == name
     assert page.evaluate("history.length") == length
     assert page.evaluate("window.kept")
     # Going back is a change as any other: it can be undone.

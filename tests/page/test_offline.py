@@ -135,7 +135,7 @@ def test_sliders_show_what_the_served_page_shows(browser, explorer, tmp_path, na
             slider = page.locator(f".param-{names[step // 2]} .hand").first
             change(page, slider.press, "Home" if step % 2 == 0 else "ArrowRight")
             address = address_of(page)
-            explorer.change(explorer.page.evaluate, "query => hess.tell('restore', query)", address)
+            explorer.change(explorer.tell, "restore", address)
             there = captions(explorer.page)
             # Another test may have unfolded a picture there.
             assert captions(page) == {name: there[name] for name in scenes()[name].open_pictures}

@@ -2,16 +2,10 @@
 
 import pytest
 
-from hess_explorer.scenes import scenes
-from support.page import brought
-
-SCENE = scenes()["own-body"]
-
 
 @pytest.fixture
-def explorer(tab):
-    yield brought(tab, SCENE)
-    tab.assert_quiet()
+def scene():
+    return "own-body"
 
 
 def test_a_typed_potential_is_shown_and_goes_into_the_link(explorer):

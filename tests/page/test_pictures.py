@@ -103,7 +103,7 @@ def test_the_moving_point_is_at_the_state_seen_from_there(explorer):
     for t in (0.0, 3.1, 9.4):
         explorer.set_time(t)
         right, up = projected(vertical(exact_states(DEFAULTS, [t])[0]), turn)
-        explorer.page.evaluate("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
+        wait_frames(explorer, 2)
         pixels = picture(explorer, (box["x"], box["y"], box["width"], box["height"]))
         rows, columns = np.nonzero(like(pixels, theme.POINT))
         assert rows.size > 40

@@ -28,7 +28,6 @@ def scrolled(phone):
 
 @pytest.mark.parametrize("picture", ["sphere", "body"])
 def test_a_sphere_turns_under_a_finger_and_the_page_stays(phone, picture):
-    phone = phone()
     turn_to(phone, picture)
     before, canvas = scrolled(phone), phone.picture(picture).locator("canvas[tabindex]")
     x, y = middle(canvas.bounding_box())
@@ -39,7 +38,6 @@ def test_a_sphere_turns_under_a_finger_and_the_page_stays(phone, picture):
 
 
 def test_a_finger_moves_a_slider_and_its_name(phone):
-    phone = phone()
     for item, start in ((phone.slider("h"), None), (phone.page.locator(".param-h .label"), 0.5)):
         item.scroll_into_view_if_needed()
         box, (before, _) = item.bounding_box(), phone.shown("h")
@@ -59,7 +57,6 @@ def test_a_finger_moves_a_slider_and_its_name(phone):
     sample([(HESS, "omega"), (HESS, "sphere"), (HESS, "bifurcation"), ("rotation-number", "map"), (HESS, "body")], 2),
 )
 def test_two_fingers_zoom_and_choose_nothing(phone, scene, picture):
-    phone = phone(scene)
     turn_to(phone, picture, scene)
     x, y = middle(phone.picture(picture).locator(".host").bounding_box())
     before, finger = phone.link(), Finger(phone.page)
@@ -76,7 +73,6 @@ def test_two_fingers_zoom_and_choose_nothing(phone, scene, picture):
 
 @pytest.mark.parametrize("last", ["touchEnd", "touchCancel"])
 def test_the_ring_follows_a_finger_and_the_caption_says_where_it_is(phone, last):
-    phone = phone()
     turn_to(phone, "bifurcation")
     (x, y), _ = at(phone, "bifurcation", *phone.here())
     # A finger is wider than the ring.
@@ -91,7 +87,6 @@ def test_the_ring_follows_a_finger_and_the_caption_says_where_it_is(phone, last)
 
 
 def test_a_finger_away_from_the_ring_or_on_the_text_chooses_nothing(phone):
-    phone = phone()
     turn_to(phone, "bifurcation")
     reader = phone.page.locator(".reader")
     reader.evaluate("item => { item.scrollTop = 0 }")
@@ -118,7 +113,6 @@ TAPPED = [
 
 @pytest.mark.parametrize(("scene", "picture"), sample(TAPPED, 2))
 def test_a_finger_taps_every_picture_that_takes_clicks(phone, scene, picture):
-    phone = phone(scene)
     turn_to(phone, picture, scene)
     left, top, right, bottom = frame(phone, picture)
     # The place gives a new state, or a note on why there is none.
