@@ -303,6 +303,8 @@ def test_what_is_found_may_ask_for_more(free_gate):
 def test_a_section_fills_while_one_asks_for_more(gate):
     browser = Browser(EP, SMALL)
     assert browser.state["progress"] == [0, PIECES]
+    # Where no piece has come nothing is drawn again.
+    assert not any(browser.ask(1)["tree"].values())
     seen = []
     for done in range(1, 6):
         gate.let()
@@ -323,22 +325,6 @@ def test_a_section_fills_while_one_asks_for_more(gate):
     assert other.state["progress"] is None
     assert plain(other, "section") == plain(browser, "section")
     assert other.texts["section"] == browser.texts["section"]
-
-
-def test_where_no_piece_has_come_nothing_is_drawn_again(gate):
-    browser = Browser(EP, SMALL)
-    stage, drawn = browser.session.stage, []
-    show = stage.show
-    stage.show = lambda *given, **named: (drawn.append(1), show(*given, **named))[1]
-    for requested in (1, 2):
-        state = browser.ask(requested)
-        assert (state["answers"], state["progress"]) == (requested, [0, PIECES])
-        assert not any(state["tree"].values())
-    assert not drawn
-    gate.let()
-    wait_until(lambda: browser.session.background.left == PIECES - 1)
-    assert browser.ask(3)["progress"] == [1, PIECES]
-    assert drawn == [1]
 
 
 def test_stop_leaves_what_is_drawn_says_how_much_and_begins_nothing_again(gate):

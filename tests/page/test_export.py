@@ -2,7 +2,6 @@
 
 import io
 import re
-import time
 from pathlib import Path
 from urllib.error import HTTPError
 from urllib.parse import urlsplit
@@ -19,6 +18,7 @@ from hess_explorer.export.picture_data import address, picture_data
 from hess_explorer.export.table import as_csv
 from hess_explorer.headless.drawing import png_of
 from support.accessible import assert_accessible
+from support.asynchronous import wait_until
 from support.command_line import typed
 from support.films import frames_of, tags_of
 
@@ -172,19 +172,11 @@ def test_a_film_is_made_with_progress_and_is_stopped(explorer):
     loop = typed("--format webm --loop dark --seconds 30 --out suslov-hess-sphere.webm")
     assert command_of(dialog)[-len(loop) :] == loop
     dialog.get_by_role("button", name="Save file").click()
-    wait_for(filming)
+    wait_until(filming, 300.0)
     dialog.get_by_role("button", name="Stop").click()
     expect(dialog.locator(".why")).to_have_text("Stopped.")
-    wait_for(lambda: not filming())
+    wait_until(lambda: not filming(), 300.0)
     page.keyboard.press("Escape")
-
-
-def wait_for(what, seconds=300.0):
-    """Until it holds; fails after so long."""
-    end = time.monotonic() + seconds
-    while not what():
-        assert time.monotonic() < end
-        time.sleep(0.1)
 
 
 def test_the_server_gives_files(server):

@@ -204,7 +204,7 @@ def test_a_picture_that_is_folded_is_not_computed(explorer):
 
 
 def test_axes_that_depend_on_the_state_have_their_names_from_the_first_one_on(browser, server):
-    names = """() => hess.plots.filter(({ model }) => model.name === "diagram")
+    names = """() => hess.plots.filter(({ model }) => model.name === "line")
       .map(({ model }) => [model.below[0].axis_label, model.left[0].axis_label])"""
     with own_tab(browser, server) as explorer:
-        assert explorer.open("scene=orbit-diagram&accuracy=draft").page.evaluate(names) == [["I₂₃", "ψ"]]
+        assert explorer.open("scene=rotation-number").page.evaluate(names) == [["f", "ρ"]]

@@ -135,7 +135,7 @@ def test_a_scene_changes_in_place_and_back_with_all_that_was_chosen(explorer):
     assert explorer.page.get_by_role("heading", level=1).inner_text() == SCENES[STUDY].title
     assert_drawn(explorer, STUDY, values)
     assert {name: explorer.shown(name)[0] for name in CHANGED} == CHANGED
-    assert (explorer.accuracy, explorer.time) == ("precise", approx(7.5))
+    assert (explorer.chosen("accuracy"), explorer.time) == ("precise", approx(7.5))
     link = explorer.wait_url(scene=STUDY)
     assert {name: float(link[name]) for name in CHANGED} == CHANGED
     assert explorer.sphere.count() == 0
@@ -144,7 +144,7 @@ def test_a_scene_changes_in_place_and_back_with_all_that_was_chosen(explorer):
     assert explorer.page.evaluate("window.same")
     assert_drawn(explorer, HESS, values)
     assert {name: explorer.shown(name)[0] for name in CHANGED} == CHANGED
-    assert (explorer.accuracy, explorer.time) == ("precise", approx(7.5))
+    assert (explorer.chosen("accuracy"), explorer.time) == ("precise", approx(7.5))
     assert_turned(explorer.sphere, HOME[0], HOME[1] + STEP)
     assert explorer.page.locator(".param-speed").input_value() == "2"
 

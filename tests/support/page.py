@@ -193,11 +193,6 @@ class Explorer:
         """The name of the scene on show."""
         return self.page.evaluate("document.documentElement.dataset.scene")
 
-    @property
-    def accuracy(self):
-        """The level in the menu."""
-        return self.chosen("accuracy")
-
     def chosen(self, menu):
         """The option that a menu shows, in its words."""
         return self.menu(menu).evaluate("menu => menu.selectedOptions[0]?.textContent ?? null")
