@@ -325,9 +325,10 @@ def test_warming_up_computes_the_first_state_of_every_scene_but_one_that_refuses
     chosen = (first, variant(other, compute=refuse), last)
     monkeypatch.setattr(warm, "scenes", lambda: {scene.name: scene for scene in chosen})
     # One request of each kind that can wait; its duration does not matter here.
-    later = types.SimpleNamespace(get=lambda function, *arguments: tasks.append((function, arguments)), asked=0)
+    later = types.SimpleNamespace(get=lambda function, *arguments: tasks.append((function, arguments)), lookups=0)
     monkeypatch.setattr(warm, "CACHE", later)
-    monkeypatch.setattr(warm, "QUIET_SECONDS", 0.0)
+    for name in ("QUIET_SECONDS", "PAGE_SECONDS"):
+        monkeypatch.setattr(warm, name, 0.0)
     warm.warm()
     assert gc.isenabled()
     assert caplog.messages == [f"{other.name}: Too many steps: choose a shorter time span."]

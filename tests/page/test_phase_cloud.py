@@ -45,7 +45,7 @@ CHANGED = {
 def test_between_frames_nearly_all_points_are_right_to_a_pixel(explorer):
     values = {**SCENE.defaults(), **CHANGED}
     body = BallBody(*(values[name] for name in ("I11", "I22", "I13", "I23", "D")))
-    states = patch(body, values["h"], values["angle"], values["spread"], 5000)
+    states = patch(body, values["h"], values["angle"], values["spread"], 10_000)
     frames = frame_times(body, states, values["span"], values["b3"])
     explorer.give(**CHANGED)
     for frame in (0, frames.size // 2, frames.size - 2):

@@ -158,8 +158,7 @@ def test_who_has_not_the_key_cannot_lead_and_followers_cannot_steer(base):
         await Lecturer.show(follower, query(2.0))
         await follower.say({"end": True})
         late = await Follower.follow(base, lecturer.code)
-        await late.hear()
-        assert "h=1.25" in late.state["query"]
+        await late.until(shows("h=1.25"))
         before = follower.states
         await lecturer.show(query(1.5))
         await follower.until(shows("h=1.5"))

@@ -5,13 +5,13 @@ import re
 import signal
 import subprocess
 import sys
+import time
 
 import psutil
 import pytest
 
 from hess_explorer.sweep import WorkersLost, sweep
 from hess_explorer.sweep import workers as working
-from support.asynchronous import wait_until
 from support.cluster import local_cluster
 from support.command_line import typed
 from support.processes import interruptible
@@ -83,14 +83,13 @@ def test_no_process_is_left_whatever_they_compute(end):
         process = psutil.Popen(
             words, start_new_session=True, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True
         )
-
-    def compute():
-        found = [one for one in process.children() if "spawn_main" in " ".join(one.cmdline())]
-        # In a thread of their own, the fourth one.  Workers that have not started yet would say more.
-        return len(found) == 2 and all(one.num_threads() >= 4 for one in found)
-
-    wait_until(compute)
+    deadline = time.monotonic() + 60.0
+    while sum("spawn_main" in " ".join(one.cmdline()) for one in process.children()) < 2:
+        assert time.monotonic() < deadline
+        time.sleep(0.1)
     children = process.children(recursive=True)
+    # Workers that have not started yet would say more.
+    time.sleep(6.0)
     os.killpg(process.pid, end) if end == signal.SIGINT else process.kill()
     _, said = process.communicate(timeout=30.0)
     assert process.returncode == (130 if end == signal.SIGINT else -signal.SIGKILL)
