@@ -3,9 +3,7 @@
 import io
 import re
 from pathlib import Path
-from urllib.error import HTTPError
 from urllib.parse import urlsplit
-from urllib.request import urlopen
 
 import numpy as np
 import pytest
@@ -179,11 +177,11 @@ def test_a_film_is_made_with_progress_and_is_stopped(explorer):
     page.keyboard.press("Escape")
 
 
-def test_the_server_gives_files(server):
-    with urlopen(f"{server}/export?{DRAFT}&picture=circle") as answer:
-        assert answer.headers["Content-Type"].startswith("text/csv")
-        assert answer.headers["Content-Disposition"] == 'attachment; filename="suslov-hess-circle.csv"'
-        assert answer.read().decode() == as_csv(picture_data(DRAFT, "circle"))
+def test_the_server_gives_files(tab):
+    answer = tab.page.request.get(f"{tab.base}/export?{DRAFT}&picture=circle")
+    assert answer.headers["content-type"].startswith("text/csv")
+    assert answer.headers["content-disposition"] == 'attachment; filename="suslov-hess-circle.csv"'
+    assert answer.text() == as_csv(picture_data(DRAFT, "circle"))
 
 
 @pytest.mark.parametrize(
@@ -194,11 +192,9 @@ def test_the_server_gives_files(server):
         ("scene=chaplygin-ball&I13=0&I23=0", "no line of equilibria"),
     ],
 )
-def test_what_cannot_be_made_is_refused_with_a_sentence(server, query, sentence):
-    with pytest.raises(HTTPError) as refused:
-        urlopen(f"{server}/export?{query}")
-    assert refused.value.code == 400
-    assert refused.value.headers["Content-Type"].startswith("text/plain")
-    said = refused.value.read().decode()
-    assert sentence in said
-    assert said.endswith(".")
+def test_what_cannot_be_made_is_refused_with_a_sentence(tab, query, sentence):
+    refused = tab.page.request.get(f"{tab.base}/export?{query}")
+    assert refused.status == 400
+    assert refused.headers["content-type"].startswith("text/plain")
+    assert sentence in refused.text()
+    assert refused.text().endswith(".")

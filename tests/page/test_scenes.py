@@ -223,12 +223,6 @@ def test_a_control_that_is_moved_on_is_not_moved_back_by_an_older_answer_and_the
 # --- What is in sight --------------------------------------------------------------------------------
 
 
-def turn_to(explorer, scene, picture):
-    """Choose a picture by its number."""
-    number = 1 + SCENES[scene].pictures.index(picture)
-    explorer.page.locator(".chips .chip").nth(number - 1).click()
-
-
 def test_on_a_phone_one_control_is_at_hand_and_the_picture_stays_while_it_moves(phone):
     explorer = phone
     explorer.change(explorer.tell, "change", {"h": 0.75})
@@ -239,7 +233,7 @@ def test_on_a_phone_one_control_is_at_hand_and_the_picture_stays_while_it_moves(
 
     assert at_hand() == ["param-h"]
     at_rest = listeners(explorer)
-    explorer.change(turn_to, explorer, HESS, "omega")
+    explorer.turn_to("omega")
     picture = explorer.picture("omega").bounding_box()
     box = explorer.slider("h").bounding_box()
     # Under the thumb, and as large as a thumb.

@@ -280,6 +280,12 @@ class Explorer:
         """Open the menu of scenes."""
         self.page.locator(".param-scenes").click()
 
+    def turn_to(self, picture):
+        """Choose a picture on a phone, which shows one."""
+        chip = self.page.locator(".chips .chip").nth(scenes()[self.scene].pictures.index(picture))
+        if chip.get_attribute("aria-pressed") != "true":
+            self.change(chip.click)
+
     def begin_lesson(self, name, step=1):
         """Choose a lesson from the menu, which may be folded, and go on to a step."""
         self.change(self.page.locator(f".param-lesson-{name}").dispatch_event, "click")
@@ -421,9 +427,7 @@ def brought_on_phone(phone_tab, scene=HESS):
     if page.viewport_size != dict(zip(("width", "height"), PHONE, strict=True)):
         phone_tab.resize(*PHONE)
     phone_tab.show(scene)
-    first = page.locator(".chips .chip").first
-    if first.get_attribute("aria-pressed") != "true":
-        phone_tab.change(first.click)
+    phone_tab.turn_to(scenes()[scene].pictures[0])
     page.evaluate(HOMEWARDS)
     phone_tab.change(phone_tab.tell, "reset")
     return phone_tab
