@@ -54,7 +54,12 @@ def memory(pid):
     """Return the bytes of memory; pages shared between processes count once."""
     total = 0
     for one in below(pid):
-        for line in Path(f"/proc/{one}/smaps_rollup").read_text().splitlines():
+        try:
+            lines = Path(f"/proc/{one}/smaps_rollup").read_text().splitlines()
+        except OSError:
+            # It has ended, and nobody has asked for its exit code yet.
+            continue
+        for line in lines:
             if line.startswith("Pss:"):
                 total += 1024 * int(line.split()[1])
     return total
