@@ -31,7 +31,7 @@ MEASURED = {
     "tests/manual/README.md": "tests/manual/benchmark_page.py",
     "app/README.md": "tests/manual/benchmark_trade.py",
     "app/hess_explorer/scenes/shared/levels.md": "tests/manual/benchmark_trade.py",
-    "tests/manual/integrators/README.md": "tests/manual/benchmark_peers.py",
+    "tests/manual/integrators/README.md": "tests/manual/bench.py",
     "app/hess_explorer/sweep/README.md": "tests/manual/benchmark_sweep.py",
     "app/hess_explorer/offline/README.md": "tests/manual/benchmark_offline.py",
 }
