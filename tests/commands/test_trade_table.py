@@ -56,11 +56,10 @@ def measured_by_kind(file):
 
 
 def test_the_tables_are_one_with_what_a_draft_computes():
-    found = measured_by_kind("app/README.md")
+    found = measured_by_kind("app/hess_explorer/scenes/shared/levels.md")
     assert found.keys() == {str(trial.kind) for name in names() for trial in scenes()[name].trials}
     for kind, (computed, *_) in found.items():
         assert computed == _draft_computes(Kind(kind))
-    assert measured_by_kind("app/hess_explorer/scenes/shared/levels.md") == found
 
 
 def test_the_page_and_the_command_print_the_table_of_the_levels(capsys):
