@@ -10,7 +10,7 @@ from hess_explorer.assets import STATIC
 
 __all__ = ["bundle"]
 
-# All forms that the modules use; "tests/offline/test_bundle.py" checks that.
+# All forms that the modules use: with any other one the bundle is a syntax error, and no page starts.
 _IMPORT = re.compile(r'^import \{([^}]*)\} from "(\.{1,2}/[\w./]+\.js)"$', re.MULTILINE)
 _EXPORT = re.compile(r"^export ((?:async )?(?:function|const|class)) (\w+)", re.MULTILINE)
 

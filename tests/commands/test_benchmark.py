@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 from pytest import approx
 
-from hess_mechanics import level, solve, systems
 from manual import bench
 from manual import make_benchmark_references as maker
 from manual.integrators.works import works
@@ -16,7 +15,7 @@ from support import thorough
 
 def test_a_stored_ensemble_is_what_its_maker_makes():
     work, some = works()["B2"], [77]
-    found = maker.ends(maker.FIELD_BODY, work.initial[some], maker.RUNS[0])
+    found = maker.ends(work.initial[some], maker.RUNS[0])
     assert found.astype(float) == approx(work.reference[some], abs=1e-30)
 
 
@@ -26,13 +25,6 @@ def test_the_stored_long_orbit_begins_as_its_maker_makes_it():
     assert np.array_equal(states.astype(float), work.reference[:20])
     assert len(crossings) > 0
     assert np.array_equal(crossings.astype(float), works()["D"].reference[: len(crossings)])
-
-
-@pytest.mark.parametrize("name, bound", [("A", 1e-11), ("A2", 1e-8)])
-def test_models_agree_with_the_stored_long_orbit(name, bound):
-    work = works()[name]
-    orbit = solve(systems()["suslov"].at(work.parameters), work.initial[0], work.times, level("reference"))
-    assert work.error(orbit.states) < bound
 
 
 def test_a_peer_that_is_not_installed_is_named(monkeypatch, capsys):
@@ -48,18 +40,17 @@ def test_a_peer_that_is_not_installed_is_named(monkeypatch, capsys):
 )
 def test_every_method_does_every_work_it_says_it_does(method, name):
     work = works()[name]
-    if name not in method.without:
-        for ladder in method.ladders(work):
-            # About 1e-7.
-            setting = ladder[len(ladder) // 2]
-            assert work.error(method.prepare(work, setting)()) < 1e-2, setting
+    for ladder in method.ladders(work):
+        # About 1e-7.
+        setting = ladder[len(ladder) // 2]
+        assert work.error(method.prepare(work, setting)()) < 1e-2, setting
 
 
 @pytest.mark.thorough
 def test_the_table_says_what_each_method_takes(capsys):
-    bench.main(["--works", "C", "--targets", "1e-3"])
+    bench.main(["--works", "A", "--targets", "1e-3"])
     text = capsys.readouterr().out
-    assert "| C | 1e-3 | " in text
+    assert "| A | 1e-3 | " in text
 
 
 @pytest.mark.parametrize("name", sorted(one.stem for one in Path(bench.__file__).parent.glob("*.py")))

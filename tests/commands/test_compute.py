@@ -29,43 +29,12 @@ from hess_mechanics import System
 SYSTEM = System("spring", lambda y, p: (y[1], -p[0] * y[0]), "x v", {"k": 4.0}, example=(1.0, 0.0))
 """
 
-# 40-digit Taylor series, rounded to double.
-THETA_0, TRACE, PERIOD = -1.846842405836762766371, 4.381325585713531995065, 3.668400280441695618498
-STATE = [-1.4371975558069667, 1.0002904454089423, -0.2723685171956202, -0.19917972328798356, -0.9413515967329006]
-
-
-QUICK = ("hess", "torus", "quartic", "")
-
-
-def once():
-    """One computation of each name, of a system that is computed quickly."""
-    ordered = sorted(catalogue().values(), key=lambda one: QUICK.index(one.system) if one.system in QUICK else 9)
-    return [one.key for one in {one.name: one for one in reversed(ordered)}.values()]
-
 
 def example(what):
     return [*what.key.split(), *typed(command_of(what).example), "--accuracy", "draft"]
 
 
 # Values
-
-
-def test_circle_map(answer):
-    found = answer(*CIRCLE_MAP)
-    numbers, facts = found["numbers"], found["facts"]
-    assert found["Θ"][found["φ"].index(0.0)] == approx(THETA_0, abs=1e-12)
-    assert (numbers["trace"], numbers["period"]) == approx((TRACE, PERIOD), rel=1e-12)
-    # The multipliers are the squares of the eigenvalues of a matrix with determinant 1.
-    assert 2.0 * math.cosh(numbers["log-multiplier"] / 2.0) == approx(TRACE, rel=1e-12)
-    assert (facts["kind"], numbers["locked"], found["notes"]) == ("hyperbolic", 1, [])
-    assert 0 < facts["error_estimate"] < 1e-12
-
-
-def test_orbit(answer):
-    found = answer(*SUSLOV)
-    assert [found["numbers"][name] for name in ("w1", "w2", "g1", "g2", "g3")] == approx(STATE, abs=1e-11)
-    assert found["t"] == [0.0, 5.0, 10.0]
-    assert 0 < found["errors"]["w1"] == found["facts"]["error_estimate"] < 1e-10
 
 
 def test_what_double_precision_cannot_hold_is_null_with_a_note(answer, as_table):
@@ -90,9 +59,9 @@ def test_moments_of_no_body_are_noted_and_computed(answer, words):
 # Every command
 
 
-@pytest.mark.parametrize("key", once())
-def test_the_example_of_a_computation_says_the_same_as_json_and_as_csv(key, answer, as_table):
-    what = find(key)
+@pytest.mark.parametrize("key", ["circle-map", "spectrum hess", "megno ball", "tube suslov"])
+def test_all_formats_say_the_same(key, answer, as_table, capsys, tmp_path):
+    what, file = find(key), tmp_path / "out.nc"
     found, result = answer(*example(what)), what.compute(what.example, "draft")
     facts, header, rows = as_table(*example(what))
     frame = result.to_pandas()
@@ -104,18 +73,12 @@ def test_the_example_of_a_computation_says_the_same_as_json_and_as_csv(key, answ
     assert list(found["numbers"]) == list(what.numbers)
     assert {name: found[name] for name in facts} == facts
     assert set(found["facts"]) == set(result.labels().facts)
-
-
-@pytest.mark.parametrize("key", ["circle-map", "spectrum hess", "megno ball", "tube suslov"])
-def test_netcdf_and_text_have_the_same_numbers(key, capsys, tmp_path):
-    what, file = find(key), tmp_path / "out.nc"
     assert main([*example(what), "--format", "netcdf", "--out", str(file)]) == 0
     assert capsys.readouterr().out == ""
-    expected = what.compute(what.example, "draft").to_xarray()
+    expected = result.to_xarray()
     with xr.open_dataset(file, engine="scipy") as data:
-        assert {one.attrs["long_name"] for one in data.variables.values()} == set(expected.variables)
-        for one in data.variables.values():
-            assert one.values.tolist() == expected[one.attrs["long_name"]].values.tolist()
+        found = {one.attrs["long_name"]: one.values.tolist() for one in data.variables.values()}
+        assert found == {name: one.values.tolist() for name, one in expected.variables.items()}
         assert {"computation", "parameters", "numbers", "facts"} <= set(data.attrs)
     assert main(example(what)) == 0
     out = capsys.readouterr().out
@@ -158,8 +121,10 @@ def test_a_system_of_ones_own(answer, refusal, tmp_path):
         "assert not hasattr(hess_mechanics, 'nothing'); from hess_mechanics import *; circle_map; proved_orbit",
         "parsed(['serve']); assert not unused('numpy', 'hess_mechanics')",
         f"main({CIRCLE_MAP}); assert not unused('panel', 'bokeh', 'holoviews', 'playwright')",
+        "import hess_explorer.server.serving; "
+        "assert not unused('holoviews', 'matplotlib', 'panel_material_ui', 'hess_explorer.sweep')",
     ],
-    ids=["package", "serve", "circle-map"],
+    ids=["package", "serve", "circle-map", "server"],
 )
 def test_nothing_is_imported_that_is_not_used(script):
     first = (
@@ -197,6 +162,7 @@ def test_refusals(refusal, words, part):
     "words, library, extra",
     [
         (["tube", "suslov"], "flint", "prove"),
+        (["prove", "--a", "-0.5", "--h", "1.5", "--f", "1.7"], "flint", "prove"),
         ([*CIRCLE_MAP, "--format", "netcdf", "--out", "circle.nc"], "xarray", "data"),
     ],
 )

@@ -1,7 +1,6 @@
 """`hess-explorer prove`: words, a certificate that a checker accepts, and a one-sentence message for every error."""
 
 import json
-import sys
 from fractions import Fraction
 
 import pytest
@@ -49,8 +48,3 @@ def test_undecided_is_said_with_the_bits(capsys):
 )
 def test_bad_numbers_are_refused_with_a_sentence(refusal, words, said):
     assert said in refusal("prove", *TORUS, *words)
-
-
-def test_without_the_library_it_says_what_to_install(refusal, monkeypatch):
-    monkeypatch.setitem(sys.modules, "flint", None)
-    assert "pip install 'hess-explorer[prove]'" in refusal("prove", *TORUS)

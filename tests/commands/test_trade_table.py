@@ -8,19 +8,15 @@ import pytest
 from hess_explorer.__main__ import main
 from hess_explorer.scenes import scenes
 from hess_mechanics import LEVELS
-from hess_mechanics.catalogue import find
 from hess_mechanics.dynamics.trade import LevelCost
 from hess_mechanics.numerics.accuracy import PLANS, Kind, levels_table
-from manual import benchmark_trade
 from manual.benchmark_trade import (
-    Failed,
     Row,
     _draft_computes,
     _example,
     by_kind,
     line_of,
     names,
-    trade_of_catalogue,
 )
 from support.measured import line
 from support.mechanics import ROOT
@@ -34,19 +30,6 @@ def test_every_computation_of_every_scene_is_shown_by_some_state(name):
         assert trial.shown(_example(scene, trial)), trial.kind
 
 
-def test_a_computation_that_is_impossible_is_said_and_the_others_stay(monkeypatch):
-    of = find("circle-map")
-    beyond = replace(
-        of, parameters=tuple(replace(one, default=-0.999) if one.name == "h" else one for one in of.parameters)
-    )
-    every = {"circle-map": beyond, "cos-chi": find("cos-chi")}
-    monkeypatch.setattr(benchmark_trade, "find", every.get)
-    failed, measured = trade_of_catalogue(every)
-    assert isinstance(failed, Failed)
-    assert line_of(failed).startswith("| circle-map | map | – | – | – | – | – | – | No motion has h = -0.999")
-    assert line_of(measured).startswith("| cos-chi | map | ")
-
-
 def row(scene, kind, times=(1.0, 2.0, 3.0, 4.0), errors=(0.1, 0.01, 0.001, 0.0)):
     return Row(
         scene,
@@ -55,20 +38,6 @@ def row(scene, kind, times=(1.0, 2.0, 3.0, 4.0), errors=(0.1, 0.01, 0.001, 0.0))
         tuple(LevelCost(name, ms, error, True) for name, ms, error in zip(LEVELS, times, errors, strict=True)),
         "standard",
     )
-
-
-def test_the_table_by_kind_has_the_least_and_most_ratio_and_the_largest_error():
-    table = by_kind(
-        [
-            row("a", "section", (1.0, 2.0, 3.0, 20.0), (0.1, 0.5, 0.001, 0.0)),
-            row("b", "orbit"),
-            row("c", "section", errors=(0.3, 0.01, 0.002, 0.0)),
-        ]
-    )
-    assert table.splitlines()[2:] == [
-        "| orbit | as much | 4 × | 0.1 | 0.01 | 0.001 | 0 | pixels |",
-        "| section | 25 % of the crossings | 4 to 20 × | 0.3 | 0.5 | 0.002 | 0 | pixels |",
-    ]
 
 
 def test_a_row_without_a_measurement_says_so():
@@ -87,12 +56,10 @@ def measured_by_kind(file):
 
 
 def test_the_tables_are_one_with_what_a_draft_computes():
-    found = measured_by_kind("app/README.md")
+    found = measured_by_kind("app/hess_explorer/scenes/shared/levels.md")
     assert found.keys() == {str(trial.kind) for name in names() for trial in scenes()[name].trials}
     for kind, (computed, *_) in found.items():
         assert computed == _draft_computes(Kind(kind))
-    for words in ("speed_accuracy.md", "speed_accuracy_of_maps.md"):
-        assert measured_by_kind(f"app/hess_explorer/scenes/{words}") == found
 
 
 def test_the_page_and_the_command_print_the_table_of_the_levels(capsys):

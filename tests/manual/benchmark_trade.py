@@ -1,7 +1,7 @@
 """Cost and error of every level: `python tests/manual/benchmark_trade.py` measures the pictures of all scenes.
 
-The table of all kinds of computation goes to app/README.md, with the ten scenes and kinds that take longest, and to the
-words of "Speed and accuracy".  `--catalogue KEY…` prints the table of these computations of the catalogue instead.
+The table of all kinds of computation goes to the words of "Speed and accuracy", the ten scenes and kinds that take
+longest to app/README.md.  `--catalogue KEY…` prints the table of these computations of the catalogue instead.
 """
 
 import argparse
@@ -181,9 +181,8 @@ def main():
     if keys is None and not failed:
         costliest = sorted(rows, key=lambda row: -row.samples[-1].ms)[:10]
         longest = heading() + "".join(map(line_of, costliest))
-        write_measured(ROOT / "app" / "README.md", f"{conditions()}.\n\n{kinds}\n{longest}")
-        for file in (WORDS / "speed_accuracy.md", WORDS / "speed_accuracy_of_maps.md"):
-            write_measured(file, f"{conditions()}.\n\n{kinds}")
+        write_measured(ROOT / "app" / "README.md", f"{conditions()}.\n\n{longest}")
+        write_measured(WORDS / "shared" / "levels.md", f"{conditions()}.\n\n{kinds}")
     return len(failed)
 
 

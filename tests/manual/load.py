@@ -1,23 +1,22 @@
 """A class at once: `python tests/manual/load.py 10 50 200` prints the cost of so many sessions.
 
-Each session opens a scene, the scenes in turn, and changes one of its sliders every 2 s.  Then the same with one more
-that asks for the dearest scene at `reference` without a pause.  `--drag 20`: all pages show the first scene, so many
-drag a slider without a pause, and the others change one every 20 s.  `--leave 2000`: what is left of closed sessions.
+Each session opens a scene, the scenes in turn, and changes one of its sliders every 2 s; then the same beside one that
+asks for the dearest scene at `reference` without a pause.  `--drag 20`: all pages show the first scene, so many drag a
+slider without a pause, and the others change one every 20 s.  `--leave 2000`: what is left of closed sessions.
 `--followers 300`: a lecturer drags a slider for 20 s, in an empty room and in one of so many followers.
-On a quiet machine: `python tests/manual/load.py 10 50 200 500 --workers 1 2 --leave 2000 --write`.
 """
 
 import argparse
 import asyncio
-import gc
 import itertools
-import multiprocessing
 import os
 import random
 import statistics
 import sys
 import time
+from concurrent.futures import ProcessPoolExecutor
 from contextlib import asynccontextmanager, nullcontext
+from multiprocessing import get_context
 from pathlib import Path
 
 if __name__ == "__main__":
@@ -28,16 +27,26 @@ from tornado.httpclient import AsyncHTTPClient
 from hess_explorer.headless.screenshot import server_process
 from hess_explorer.protocol.specs import NumberSpec
 from hess_explorer.scenes import scenes
-from support.measured import write_measured
+from manual.timing import conditions
+from support.measured import line, table
 from support.processes import memory, worked
 from support.room import Follower, Lecturer
-from support.visitor import Visitor
+from support.visitor import Closed, Visitor
 
 EVERY, RARELY, FRAME, PIECES = 2.0, 20.0, 0.016, 0.08
-LOG = Path(os.devnull)
-README = Path(__file__).resolve().parents[2] / "app" / "hess_explorer" / "server" / "README.md"
-TURNS = 4
 DEAREST = "scene=euler-poisson&accuracy=reference"
+MB = 2**20
+
+
+async def sixteen_at_a_time(count, make):
+    """Await make(i) for each i, sixteen at a time, as browsers do that come within a few seconds."""
+    door = asyncio.Semaphore(16)
+
+    async def one(i):
+        async with door:
+            return await make(i)
+
+    return await asyncio.gather(*map(one, range(count)))
 
 
 class Crowd:
@@ -45,69 +54,63 @@ class Crowd:
 
     def __init__(self, base, names=()):
         self.base, self.visitors, self.errors = base, [], 0
-        self.opened, self.answered, self.dragged = [], [], []
         self.names = names or [name for name, scene in scenes().items() if scene.origin is None]
 
+    def failed(self, error):
+        """Count an error, whatever it is."""
+        self.errors += 1
+        print(f"{error!r}", file=sys.stderr)
+
     async def open(self, count):
-        """Sixteen at a time, as browsers do that come within a few seconds."""
-        room = asyncio.Semaphore(16)
+        """Open the pages; return the seconds until all are there."""
 
         async def one(i):
-            async with room:
-                begun = time.monotonic()
-                try:
-                    visitor = await Visitor.open(self.base, f"scene={self.names[i % len(self.names)]}", timeout=120.0)
-                    self.opened.append(time.monotonic() - begun)
-                    self.visitors.append((self.names[i % len(self.names)], visitor))
-                # Whatever it is, it counts.
-                except Exception as error:
-                    self.errors += 1
-                    print(f"open: {error!r}", file=sys.stderr)
+            name = self.names[i % len(self.names)]
+            try:
+                self.visitors.append((name, await Visitor.open(self.base, f"scene={name}", timeout=120.0)))
+            except Exception as error:
+                self.failed(error)
 
         begun = time.monotonic()
-        await asyncio.gather(*(one(i) for i in range(count)))
+        await sixteen_at_a_time(count, one)
         return time.monotonic() - begun
 
-    async def use(self, seconds, seed, pause=EVERY, drag=0):
-        """Change a value once in a pause, in the first `drag` pages every 16 ms; keep the times to the answers."""
-        self.answered, self.dragged = [], []
-        ends = time.monotonic() + seconds
+    async def use(self, seconds, pause=EVERY, drag=0):
+        """Change a value once in a pause, in the first `drag` pages every 16 ms; return the times to the answers."""
+        answered, dragged, ends = [], [], time.monotonic() + seconds
 
         async def one(i, name, visitor):
-            chance = random.Random(1000 * seed + i)
-            every, answered = (FRAME, self.dragged) if i < drag else (pause, self.answered)
+            held = i < drag
+            every, times = (FRAME, dragged) if held else (pause, answered)
             specs = {spec.name: spec for spec in scenes()[name].specs}
             spec = next(specs[one] for one in scenes()[name].essential if isinstance(specs[one], NumberSpec))
-            await asyncio.sleep(every * chance.random())
+            low, high = spec.softbounds
+            await asyncio.sleep(every * random.random())
             while time.monotonic() < ends:
                 begun = time.monotonic()
+                value = spec.default + 0.05 * (high - low) * (random.random() - 0.5)
                 try:
-                    low, high = spec.softbounds
-                    value = spec.default + 0.05 * (high - low) * (chance.random() - 0.5)
                     values = {spec.name: round(min(max(value, low), high), 6)}
-                    await visitor.ask(timeout=60.0, values=values, held=i < drag)
-                    answered.append(time.monotonic() - begun)
-                    if i >= drag:
+                    await visitor.ask(timeout=60.0, values=values, held=held)
+                    times.append(time.monotonic() - begun)
+                    if not held:
                         await rest(visitor, lambda: time.monotonic() > ends)
                 except Exception as error:
-                    self.errors += 1
-                    print(f"{name}: {error!r}", file=sys.stderr)
+                    self.failed(error)
                     return
-                now = time.monotonic()
-                await asyncio.sleep(max(0.0, min(begun + every, ends) - now))
+                await asyncio.sleep(max(0.0, min(begun + every, ends) - time.monotonic()))
 
         await asyncio.gather(*(one(i, *pair) for i, pair in enumerate(self.visitors)))
+        return answered, dragged
 
     async def leave(self):
         """Close all pages."""
         await asyncio.gather(*(visitor.leave() for _, visitor in self.visitors), return_exceptions=True)
+        self.visitors.clear()
 
 
 async def rest(visitor, over):
-    """Ask again as a page does at rest, upon which the server computes further, until all is known or it is over.
-
-    The pauses are those of "page/client.js", but for the first one, which is shorter there.
-    """
+    """Ask again as a page does at rest (`static/page/client.js`), until all is known or it is over."""
     progress, news, took = visitor.state["progress"], time.monotonic(), 0.0
     while progress is not None and not over():
         await asyncio.sleep(max(PIECES, took, 0.25 * (time.monotonic() - news)))
@@ -120,137 +123,120 @@ async def rest(visitor, over):
 
 @asynccontextmanager
 async def beside_dearest(base):
-    """While the most expensive scene is in use."""
-    until = asyncio.Event()
-    other = asyncio.create_task(dear(base, until))
+    """While another session requests the most expensive scene without a pause."""
+    over = asyncio.Event()
+
+    async def ask():
+        visitor = await Visitor.open(base, DEAREST, timeout=120.0)
+        while not over.is_set():
+            await visitor.ask(timeout=300.0, values={"h": round(random.uniform(40.0, 60.0), 6)})
+            await rest(visitor, over.is_set)
+        await visitor.leave()
+
+    asking = asyncio.create_task(ask())
     try:
         yield
     finally:
-        until.set()
-        # It closes its page unless an answer takes long.
-        await asyncio.wait({other}, timeout=1.0)
-        other.cancel()
+        over.set()
+        await asyncio.wait({asking}, timeout=1.0)
+        asking.cancel()
 
 
-async def dear(base, until):
-    """Send the most expensive request without a pause."""
-    visitor = await Visitor.open(base, DEAREST, timeout=120.0)
-    chance = random.Random(7)
-    while not until.is_set():
-        try:
-            await visitor.ask(timeout=300.0, values={"h": round(chance.uniform(40.0, 60.0), 6)})
-            await rest(visitor, until.is_set)
-        except TimeoutError:
-            continue
-    await visitor.leave()
+def _ms(times):
+    """Return median and 95th percentile in milliseconds, as a text."""
+    if not times:
+        return "–"
+    late = sorted(times)[int(0.95 * (len(times) - 1))]
+    return f"{1e3 * statistics.median(times):.0f}, {1e3 * late:.0f} ms"
 
 
-def _row(times):
-    times = sorted(times) or [float("nan")]
-    return statistics.median(times), times[min(len(times) - 1, int(0.95 * len(times)))]
-
-
-async def _warm(base):
-    """Let every process compute each scene with its background work, which is loaded once, not for a session."""
-    warm = Crowd(base)
-    await warm.open(5 * len(warm.names))
-    await warm.use(4.0 * EVERY, 99)
-    await asyncio.sleep(5.0)
-    await warm.leave()
-
-
-async def drags(base, pid, counts, drag, seconds):
-    """Yield one line for each count of pages in the first scene, some of which drag its slider."""
-    await _warm(base)
-    await _prepared(pid)
-    yield "| pages | dragging | states a second | p95 of those | p95 of others | worst | cores | memory each | errors |"
-    yield "|---|---|---|---|---|---|---|---|---|"
-    for count in counts:
-        await _expired(base)
-        before, crowd = memory(pid), Crowd(base, [next(iter(scenes()))])
-        await crowd.open(count)
-        for beside in ("", ", beside one at reference"):
-            async with beside_dearest(base) if beside else nullcontext():
-                cpu, begun = worked(pid), time.monotonic()
-                # Other values each time, which no cache holds.
-                await crowd.use(seconds, count + bool(beside), RARELY, drag)
-                share = (worked(pid) - cpu) / (time.monotonic() - begun)
-                held = memory(pid)
-            (_, dragged), (_, others) = _row(crowd.dragged), _row(crowd.answered)
-            worst = max(crowd.answered + crowd.dragged)
-            yield (
-                f"| {count}{beside} | {drag} | {len(crowd.dragged) / seconds:.0f} | {1e3 * dragged:.0f} ms | "
-                f"{1e3 * others:.0f} ms | {1e3 * worst:.0f} ms | {share:.2f} | "
-                f"{(held - before) / count / 2**20:.2f} MB | {crowd.errors} |"
-            )
-        await crowd.leave()
-
-
-async def measure(base, pid, counts, seconds):
-    """Yield one line of the table for each count."""
-    await _warm(base)
-    yield "| sessions | opened in | median | p95 | cores | memory each | beside one at reference | errors |"
-    yield "|---|---|---|---|---|---|---|---|"
-    for count in counts:
-        # The end of earlier sessions must not be measured.
-        await _expired(base)
-        before, crowd = memory(pid), Crowd(base)
-        opening = await crowd.open(count)
-        held, cpu, begun = memory(pid), worked(pid), time.monotonic()
-        await crowd.use(seconds, count)
-        share = (worked(pid) - cpu) / (time.monotonic() - begun)
-        median, late = _row(crowd.answered)
-        async with beside_dearest(base):
-            await crowd.use(seconds, count + 1)
-        both = _row(crowd.answered)
-        await crowd.leave()
-        yield (
-            f"| {count} | {opening:.1f} s | {1e3 * median:.0f} ms | {1e3 * late:.0f} ms | {share:.2f} | "
-            f"{(held - before) / max(1, count) / 2**20:.2f} MB | {1e3 * both[0]:.0f}, {1e3 * both[1]:.0f} ms | "
-            f"{crowd.errors} |"
-        )
-
-
-async def counters(base):
-    """Return the counters from `/metrics`."""
-    answer = await AsyncHTTPClient().fetch(f"{base}/metrics")
-    pairs = (line.split() for line in answer.body.decode().splitlines())
-    return {name.partition("{")[0].removeprefix("hess_explorer_"): int(value) for name, value in pairs}
+async def _quiet(pid):
+    """Wait until the server has prepared its scenes and rests."""
+    share = 1.0
+    while share > 0.02:
+        before = worked(pid)
+        await asyncio.sleep(5.0)
+        share = (worked(pid) - before) / 5.0
 
 
 async def _expired(base):
-    """Return the `counters` after closed sessions have expired."""
+    """Return the counters of `/metrics` once closed sessions have expired."""
     ends = time.monotonic() + 240.0
-    while (found := await counters(base))["sessions"] > 0 and time.monotonic() < ends:
+    while True:
+        answer = await AsyncHTTPClient().fetch(f"{base}/metrics")
+        pairs = (one.split() for one in answer.body.decode().splitlines())
+        found = {name.partition("{")[0].removeprefix("hess_explorer_"): int(value) for name, value in pairs}
+        if found["sessions"] == 0 or time.monotonic() > ends:
+            return found
         await asyncio.sleep(2.0)
-    return found
+
+
+async def crowds(base, pid, counts, drag, seconds):
+    """Yield the lines of the table of classes, alone and beside the most expensive scene."""
+    # Every process loads each scene once, not for a session.
+    warm = Crowd(base)
+    await warm.open(5 * len(warm.names))
+    await warm.use(4.0 * EVERY)
+    await warm.leave()
+    await _quiet(pid)
+    head = ["sessions", "dragging", "opened in", "median, p95", "of those who drag", "states a second", "cores"]
+    yield "\n" + table([*head, "memory each", "errors"], [])
+    for count in counts:
+        await _expired(base)
+        before, crowd = memory(pid), Crowd(base, [next(iter(scenes()))] if drag else ())
+        opened = await crowd.open(count)
+        for beside in ("", ", beside one at reference"):
+            async with beside_dearest(base) if beside else nullcontext():
+                cpu = worked(pid)
+                answered, dragged = await crowd.use(seconds, RARELY if drag else EVERY, drag)
+                cores, each = (worked(pid) - cpu) / seconds, (memory(pid) - before) / count / MB
+            cells = [f"{count}{beside}", str(drag), f"{opened:.1f} s", _ms(answered), _ms(dragged)]
+            rate = f"{len(dragged) / seconds:.0f}" if drag else "–"
+            yield line([*cells, rate, f"{cores:.2f}", f"{each:.2f} MB", str(crowd.errors)])
+        await crowd.leave()
 
 
 async def leave(base, pid, count):
     """Open and close this many sessions; yield a table of the resources that remain after they expire."""
-    warm = Crowd(base)
-    await warm.open(len(warm.names))
-    await warm.leave()
-    yield "| opened and left | memory | sessions | websockets | threads | errors |"
-    yield "|---|---|---|---|---|---|"
-    done = errors = 0
-    for part in (0, *[count // 4] * 4):
-        crowd = Crowd(base)
-        while len(crowd.opened) + crowd.errors < part:
+    yield "\n" + table(["opened and left", "memory", "sessions", "websockets", "threads", "errors"], [])
+    crowd, done = Crowd(base), 0
+    for part in (len(crowd.names), *[count // 4] * 4):
+        for first in range(0, part, 50):
             # No more at a time than find room, and each as short as it can be.
-            await crowd.open(min(50, part - len(crowd.opened) - crowd.errors))
+            await crowd.open(min(50, part - first))
             await crowd.leave()
-            crowd.visitors.clear()
-        done, errors = done + len(crowd.opened), errors + crowd.errors
+        done += part
         found = await _expired(base)
-        yield (
-            f"| {done} | {memory(pid) / 2**20:.0f} MB | {found['sessions']} | {found['websockets']} | "
-            f"{found['threads']} | {errors} |"
-        )
+        left = [str(found[name]) for name in ("sessions", "websockets", "threads")]
+        yield line([str(done), f"{memory(pid) / MB:.0f} MB", *left, str(crowd.errors)])
 
 
-async def drag(visitor, lecturer, seconds):
-    """Drag a slider to and fro, as a browser does; return the times to the answers and the last state."""
+def audience(base, code, count):
+    """Follow a room until it ends, in a process of its own; return each follower's last query and when it came."""
+    os.nice(19)
+
+    async def one(_):
+        await AsyncHTTPClient().fetch(f"{base}/r/{code}")
+        return await Follower.follow(base, code)
+
+    async def last(follower):
+        found = None, 0.0
+        try:
+            while True:
+                told = await follower.hear(timeout=600.0)
+                if "state" in told:
+                    found = told["state"]["query"], time.monotonic()
+        except Closed:
+            return found
+
+    async def follow():
+        return await asyncio.gather(*map(last, await sixteen_at_a_time(count, one)))
+
+    return asyncio.run(follow())
+
+
+async def drag_to(visitor, lecturer, seconds):
+    """Drag a slider to and fro, as a browser does; return the times to the answers and the last query."""
     answered, shown, ends = [], 0.0, time.monotonic() + seconds
     values = itertools.cycle([round(1.0 + 0.005 * abs(i), 3) for i in range(-100, 100)])
     while time.monotonic() < ends:
@@ -261,141 +247,38 @@ async def drag(visitor, lecturer, seconds):
         if begun - shown > 0.25:
             shown = begun
             await lecturer.show(state["query"], picture="omega")
-        await asyncio.sleep(0.016)
+        await asyncio.sleep(FRAME)
     await lecturer.show(state["query"], picture="omega")
     return answered, state["query"]
-
-
-class Audience:
-    """The followers of a room, and when each of them had the state that it shows."""
-
-    def __init__(self):
-        self.followers, self.reading, self.errors = [], [], 0
-        self.arrived = {}
-
-    async def join(self, base, code, count):
-        """Open the page and the websocket, sixteen at a time."""
-        door = asyncio.Semaphore(16)
-
-        async def one():
-            async with door:
-                await AsyncHTTPClient().fetch(f"{base}/r/{code}")
-                follower = await Follower.follow(base, code)
-                self.followers.append(follower)
-                self.reading.append(asyncio.create_task(self._read(follower)))
-
-        begun = time.monotonic()
-        await asyncio.gather(*(one() for _ in range(count)))
-        return time.monotonic() - begun
-
-    async def _read(self, follower):
-        try:
-            while True:
-                told = await follower.hear(timeout=600.0)
-                if "state" in told:
-                    self.arrived[follower] = told["state"]["query"], time.monotonic()
-        # Whatever it is, it counts.
-        except Exception as error:
-            self.errors += 1
-            print(f"follower: {error!r}", file=sys.stderr)
-
-    async def all_at(self, query, since, timeout=30.0):
-        """Return how long after `since` each follower had a state."""
-        ends = time.monotonic() + timeout
-        while sum(shown == query for shown, _ in self.arrived.values()) < len(self.followers):
-            if time.monotonic() > ends:
-                break
-            await asyncio.sleep(0.05)
-        return [when - since for shown, when in self.arrived.values() if shown == query]
-
-
-async def _follow(pipe, base, code, count):
-    audience = Audience()
-    pipe.send(await audience.join(base, code, count))
-    query, since = await asyncio.get_running_loop().run_in_executor(None, pipe.recv)
-    pipe.send((await audience.all_at(query, since), audience.errors))
-    await asyncio.get_running_loop().run_in_executor(None, pipe.recv)
-    # The connections end with this process, which is no error.
-    for reading in audience.reading:
-        reading.cancel()
-
-
-def _audience(pipe, base, code, count):
-    """Hold an audience in a process of its own: phones take no time of the lecturer's browser, nor of the server."""
-    os.nice(19)
-    gc.disable()
-    asyncio.run(_follow(pipe, base, code, count))
-
-
-async def _prepared(pid, timeout=600.0):
-    """Wait until the server has prepared its scenes and rests: at first that takes more time than a lecture."""
-    ends, share = time.monotonic() + timeout, 1.0
-    while share > 0.02 and time.monotonic() < ends:
-        before, begun = worked(pid), time.monotonic()
-        await asyncio.sleep(5.0)
-        share = (worked(pid) - before) / (time.monotonic() - begun)
 
 
 async def lecture(base, pid, count, seconds):
     """Yield a table: a lecturer who drags a slider in an empty room and before an audience, in turn."""
     visitor = await Visitor.open(base, "scene=suslov-hess", timeout=120.0)
     empty, full = await Lecturer.open(base), await Lecturer.open(base)
-    # As a browser does; otherwise pings have no answer.
-    heard = [asyncio.create_task(lecturer.end(3600.0)) for lecturer in (empty, full)]
-    await drag(visitor, empty, 5.0)
-    await _prepared(pid)
-    yield "| followers | joined in | alone | with them | p95 ratio | cores | at the last state | memory each | errors |"
-    yield "|---|---|---|---|---|---|---|---|---|"
+    await drag_to(visitor, empty, 5.0)
+    await _quiet(pid)
+    yield "\n" + table(["followers", "alone: median, p95", "with them", "last state: median, p95", "memory each"], [])
     before = memory(pid)
-    pipe, theirs = multiprocessing.Pipe()
-    hall = multiprocessing.get_context("spawn").Process(target=_audience, args=(theirs, base, full.code, count))
-    hall.start()
-    wait = asyncio.get_running_loop().run_in_executor
-    joined = await wait(None, pipe.recv)
-    # In turn, so that other work on the machine slows down both.
-    answered, cores = {empty: [], full: []}, {empty: 0.0, full: 0.0}
-    for lecturer in [empty, full] * TURNS:
-        cpu = worked(pid)
-        times, query = await drag(visitor, lecturer, seconds / TURNS)
+    with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as pool:
+        followers = asyncio.get_running_loop().run_in_executor(pool, audience, base, full.code, count)
+        await full.until(lambda one: one.followers == count, timeout=120.0)
+        # As a browser does; otherwise pings have no answer.
+        heard = [asyncio.create_task(lecturer.end(3600.0)) for lecturer in (empty, full)]
+        answered = {empty: [], full: []}
+        for lecturer in [empty, full] * 4:
+            times, query = await drag_to(visitor, lecturer, seconds / 4)
+            answered[lecturer] += times
         since = time.monotonic()
-        answered[lecturer] += times
-        cores[lecturer] += (worked(pid) - cpu) / seconds
-    pipe.send((query, since))
-    times, errors = await wait(None, pipe.recv)
-    errors += sum(one.done() for one in heard)
-    held, late, alone, together = memory(pid), _row(times), _row(answered[empty]), _row(answered[full])
-    pipe.send("end")
-    hall.join()
-    yield (
-        f"| {len(times)} of {count} | {joined:.1f} s | {1e3 * alone[0]:.0f}, {1e3 * alone[1]:.0f} ms | "
-        f"{1e3 * together[0]:.0f}, {1e3 * together[1]:.0f} ms | {together[1] / alone[1]:.2f} | "
-        f"{cores[empty]:.2f}, {cores[full]:.2f} | "
-        f"{late[0]:.2f}, {late[1]:.2f} s | {(held - before) / count / 2**20:.2f} MB | {errors} |"
-    )
+        await asyncio.sleep(30.0)
+        each = (memory(pid) - before) / count / MB
+        await full.say({"end": True})
+        late = [when - since for shown, when in await followers if shown == query]
+    cells = [f"{len(late)} of {count}", _ms(answered[empty]), _ms(answered[full]), _ms(late), f"{each:.2f} MB"]
+    yield line(cells)
     await visitor.leave()
     for one in heard:
         one.cancel()
-
-
-async def _printed(rows, kept):
-    async for row in rows:
-        print(row, flush=True)
-        kept.append(row)
-
-
-def _processor():
-    """Ticks of all cores until now: in all, and those that the host of a virtual machine gave to others."""
-    ticks = [*map(int, Path("/proc/stat").read_text().splitlines()[0].split()[1:9])]
-    return sum(ticks), ticks[7]
-
-
-def _machine(before, ticks):
-    total, stolen = (now - then for now, then in zip(_processor(), ticks, strict=True))
-    return (
-        f"{os.cpu_count()} cores, on which the visitors ran too, {100.0 * stolen / total:.0f} % of them taken by "
-        f"the host; load of the machine before {before:.1f}, after {os.getloadavg()[0]:.1f}; "
-        f"{time.strftime('%Y-%m-%d')}."
-    )
 
 
 def main():
@@ -406,51 +289,22 @@ def main():
     parser.add_argument("--drag", type=int, default=0, metavar="N", help="so many pages of one scene drag its slider")
     parser.add_argument("--leave", type=int, default=0, metavar="N", help="also open and leave so many sessions")
     parser.add_argument("--followers", type=int, default=0, metavar="N", help="also hold a lecture before so many")
-    parser.add_argument("--workers", type=int, nargs="+", default=[1], help="processes that serve, one table for each")
-    parser.add_argument("--write", action="store_true", help="keep what is printed in the README of the server")
+    parser.add_argument("--workers", type=int, default=1, help="processes that serve")
     options = parser.parse_args()
-    # The visitors stand for two hundred browsers, which do not stop all at once to look for garbage.
-    gc.disable()
-    kept, before, ticks = [], os.getloadavg()[0], _processor()
 
-    def serve(title, rows, workers=1):
-        """Start a server, and print and keep the rows of a table; rows(base, pid) yields them."""
-        kept.extend([title, ""])
-        with server_process(LOG, options=["--workers", str(workers)]) as (process, base):
-            time.sleep(2.0)
-            asyncio.run(_ready(base))
-            asyncio.run(_printed(rows(base, process.pid), kept))
-        kept.append("")
+    async def show(rows):
+        async for row in rows:
+            print(row, flush=True)
 
-    for workers in options.workers:
-        served = f"served by {workers} process{'es' * (workers > 1)}"
-        if options.drag:
-            dragged = f"All pages in one scene, some of them dragging, {served}:"
-            serve(dragged, lambda *server: drags(*server, options.counts, options.drag, options.seconds), workers)
-        elif options.counts:
-            serve(f"A class, {served}:", lambda *server: measure(*server, options.counts, options.seconds), workers)
-    if options.followers:
-        lectured = "A lecture, served by 1 process (median, p95; cores of the server):"
-        serve(lectured, lambda *server: lecture(*server, options.followers, options.seconds))
-    if options.leave:
-        left = f"{options.leave} sessions opened and left, after each quarter has expired:"
-        serve(left, lambda *server: leave(*server, options.leave))
-    kept.append(_machine(before, ticks))
-    print(kept[-1])
-    if options.write:
-        write_measured(README, "\n".join(kept))
-
-
-async def _ready(base):
-    """Wait until the server answers."""
-    ends = time.monotonic() + 120.0
-    while True:
-        try:
-            return await (await Visitor.open(base)).leave()
-        except OSError:
-            if time.monotonic() > ends:
-                raise
-            await asyncio.sleep(0.2)
+    print(f"{conditions()}, load {os.getloadavg()[0]:.1f}; {options.workers} serving.\n")
+    with server_process(Path(os.devnull), options=["--workers", str(options.workers)]) as (process, base):
+        there = base, process.pid
+        if options.counts:
+            asyncio.run(show(crowds(*there, options.counts, options.drag, options.seconds)))
+        if options.followers:
+            asyncio.run(show(lecture(*there, options.followers, options.seconds)))
+        if options.leave:
+            asyncio.run(show(leave(*there, options.leave)))
 
 
 if __name__ == "__main__":

@@ -7,7 +7,6 @@ import decimal
 import sys
 from decimal import Decimal
 from functools import reduce
-from math import pi
 from pathlib import Path
 
 if __name__ == "__main__":
@@ -17,16 +16,7 @@ import numpy as np
 
 import oracle
 from hess_mechanics import systems
-from manual.integrators.works import (
-    FIELD_BODY,
-    FREE_BODY,
-    MAP_TORUS,
-    REFERENCES,
-    dense_times,
-    end,
-    long_end,
-    phases,
-)
+from manual.integrators.works import BODY, DENSE, END, LONG_END, REFERENCES
 
 SUSLOV = systems()["suslov"]
 SAMPLES = 200
@@ -43,7 +33,7 @@ def value(c, s):
 
 def steps(state, until, digits):
     """Yield (t, length of the step, series of each variable) in decimals of the current context."""
-    y, p = (oracle.as_decimals(list(some))[:, None] for some in (state, FIELD_BODY))
+    y, p = (oracle.as_decimals(list(some))[:, None] for some in (state, BODY))
     t, order = Decimal(0), round(1.15 * digits)
     while t < until:
         c = oracle.coefficients(SUSLOV.field, y, p, order)[:, :, 0]
@@ -77,53 +67,40 @@ def long_orbit(state, times, digits):
     return np.array(states), np.array(crossings)
 
 
-def ends(body, initial, digits):
-    """Return the end states of B or B2."""
-    found = [oracle.orbit_in_decimals(SUSLOV, start.tolist(), body, end().tolist(), digits)[0] for start in initial]
+def ends(initial, digits):
+    """Return the end states of B2."""
+    found = [oracle.orbit_in_decimals(SUSLOV, start.tolist(), BODY, END.tolist(), digits)[0] for start in initial]
     return np.array(found)
 
 
-def angles(phi, digits):
-    """Θ(φ) of work C."""
-    h, f, a = MAP_TORUS
-    return np.array(list(map(oracle.map_by_three_orbits(a, h, f, digits).theta, phi)))
-
-
 def initial_states():
-    """Return the initial states of A (A2, D), B and B2, which are stored: sines and roots differ between machines."""
+    """Return the initial states of A (A2, D) and B2, which are stored: sines and roots differ between machines."""
     gamma = np.array([0.3, 0.2, 0.93])
-    # B: the circle at π/2 about ξ = (I23, −I13, 0)/|…|.
-    xi, axis = np.array([FREE_BODY[3], -FREE_BODY[2], 0.0]), np.array([0.0, 0.0, 1.0])
-    phi = np.linspace(0.0, 2 * pi, 512, endpoint=False)[:, None]
-    circle = np.cos(phi) * np.cross(axis, xi / np.linalg.norm(xi)) + np.sin(phi) * axis
     # B2: normal ω, γ uniform on the sphere.
     random = np.random.default_rng(1)
     omega, sphere = random.standard_normal((512, 2)), random.standard_normal((512, 3))
     return {
         "A_initial": np.array([[0.8, -0.4, *gamma / np.linalg.norm(gamma)]]),
-        "B_initial": np.hstack([np.tile([2.0, 1e-5], (512, 1)), circle]),
         "B2_initial": np.hstack([omega, sphere / np.linalg.norm(sphere, axis=1, keepdims=True)]),
     }
 
 
 def compute(initial, rows, digits, long):
     """Return all results, with these digits."""
-    states, crossings = long_orbit(initial["A_initial"][0], [*dense_times()[rows], *long_end()], long)
+    states, crossings = long_orbit(initial["A_initial"][0], [*DENSE[rows], *LONG_END], long)
     return {
         "A": states[:-1],
         "A2": states[-1:],
         "D": crossings,
-        "B": ends(FREE_BODY, initial["B_initial"], digits),
-        "B2": ends(FIELD_BODY, initial["B2_initial"], digits),
-        "C": angles(phases(), digits),
+        "B2": ends(initial["B2_initial"], digits),
     }
 
 
 def main():
     """Compute everything twice, compare, store."""
     initial = initial_states()
-    inside = np.random.default_rng(0).choice(dense_times().size - 1, SAMPLES - 1, replace=False)
-    rows = np.sort(np.append(inside, dense_times().size - 1))
+    inside = np.random.default_rng(0).choice(DENSE.size - 1, SAMPLES - 1, replace=False)
+    rows = np.sort(np.append(inside, DENSE.size - 1))
     first, second = (compute(initial, rows, *digits) for digits in zip(RUNS, LONG_RUNS, strict=True))
     for name, one in first.items():
         if one.shape != second[name].shape or np.abs(one - second[name]).max() > 1e-30:

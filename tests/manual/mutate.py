@@ -1,31 +1,42 @@
 """Which tests notice a fault?  `python tests/manual/mutate.py [words…]` seeds the faults of "faults.toml" in turn.
 
-Each fault is put into a copy of the repository, the tests named beside it run until the first fails, and that test has
-to pass without the fault.  A table is printed: fault, file, the test that noticed it, seconds.  With words only the
-faults whose names contain one of them; `--write` keeps the table in "README.md".  The exit code is the number of faults
-that nobody noticed or that could not be seeded.
+Each fault is put into a copy of the repository, and the tests named beside it run until the first fails, which has to
+pass without the fault.  With words only the faults whose names contain one of them.  `--random 30 --seed 1` draws
+faults by operator and constant from the mechanics and the scenes instead, and runs the tests of the changed module, of
+its folder and of its layer.  The exit code is the number of faults that nobody noticed.
 """
 
 import argparse
+import ast
 import os
+import random
 import re
 import shutil
 import subprocess
 import sys
 import tempfile
-import time
 import tomllib
 from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
 
 TESTS = Path(__file__).resolve().parents[1]
 ROOT = TESTS.parent
-README = TESTS / "README.md"
-MARKS = "<!-- faults -->", "<!-- end of faults -->"
-SECONDS = 900
-"""The longest that the tests of a fault may take."""
-NOTICED, CLEAN = 1, 0
-"""Exit codes of pytest: a test failed; all passed."""
+DRAWN = "models/hess_mechanics", "app/hess_explorer/scenes"
+SWAPS = {
+    ast.Add: ("+", "-"),
+    ast.Sub: ("-", "+"),
+    ast.Mult: ("*", "/"),
+    ast.Div: ("/", "*"),
+    ast.Lt: ("<", "<="),
+    ast.LtE: ("<=", "<"),
+    ast.Gt: (">", ">="),
+    ast.GtE: (">=", ">"),
+    ast.Eq: ("==", "!="),
+    ast.NotEq: ("!=", "=="),
+    ast.And: ("and", "or"),
+    ast.Or: ("or", "and"),
+}
 
 
 @dataclass(frozen=True)
@@ -39,23 +50,13 @@ class Fault:
     tests: list[str]
 
 
-@dataclass(frozen=True)
-class Outcome:
-    """`by`: the test that failed first, or what went wrong; `ok`: a test noticed the fault."""
-
-    fault: Fault
-    ok: bool
-    by: str
-    seconds: float
-
-
-def faults(words: list[str]) -> list[Fault]:
+def faults(words):
     """Return the faults of "faults.toml" whose names contain one of the words, or all."""
     every = [Fault(**one) for one in tomllib.loads((TESTS / "faults.toml").read_text("utf-8"))["fault"]]
     return [one for one in every if not words or any(word in one.name for word in words)]
 
 
-def not_found_once(chosen: list[Fault]) -> list[str]:
+def not_found_once(chosen):
     """Return the names of faults that cannot be seeded: the file is missing, or the text does not occur just once."""
     return [
         one.name
@@ -64,15 +65,72 @@ def not_found_once(chosen: list[Fault]) -> list[str]:
     ]
 
 
-def copied(folder: Path) -> Path:
+# ---- random faults ----------------------------------------------------------------------------------------------
+
+
+def changes(source):
+    """Yield (start, end, old, new) for each operator and number: bytes `start` to `end` contain `old` once."""
+    lines = [0]
+    for line in source.splitlines(keepends=True):
+        lines.append(lines[-1] + len(line))
+
+    def start(node):
+        return lines[node.lineno - 1] + node.col_offset
+
+    def end(node):
+        return lines[node.end_lineno - 1] + node.end_col_offset
+
+    tree = ast.parse(source)
+    # Before Python 3.12 these have no positions of their own.
+    formatted = {part for node in ast.walk(tree) if isinstance(node, ast.JoinedStr) for part in ast.walk(node)}
+    for node in ast.walk(tree):
+        if node in formatted:
+            continue
+        match node:
+            case ast.Constant(value=int() | float() as number) if not isinstance(number, bool):
+                other = number + 1 if isinstance(number, int) else 2.0 * number or 1.0
+                yield start(node), end(node), source[start(node) : end(node)].decode(), repr(other)
+                operands, operators = [], []
+            case ast.BinOp(left=left, op=op, right=right):
+                operands, operators = [left, right], [op]
+            case ast.BoolOp(op=op, values=operands):
+                operators = [op] * (len(operands) - 1)
+            case ast.Compare(left=left, ops=operators, comparators=others):
+                operands = [left, *others]
+            case _:
+                continue
+        for (left, right), op in zip(pairwise(operands), operators, strict=True):
+            old, new = SWAPS.get(type(op), ("", ""))
+            if old and source[end(left) : start(right)].count(old.encode()) == 1:
+                yield end(left), start(right), old, new
+
+
+def tests_of(file):
+    """Return the tests of the module, of its folder and of its layer, in this order."""
+    layer, folder = TESTS / ("models" if file.startswith("models") else "scenes"), Path(file).parent.name
+    own = sorted(layer.rglob(f"test_*{Path(file).stem.removesuffix('_kernels')}*.py"))
+    found = [*own, *([layer / folder] if (layer / folder).is_dir() else []), layer]
+    return [str(path.relative_to(ROOT)) for path in found]
+
+
+def drawn(count, seed):
+    """Return this many random faults, the same for the same sources."""
+    files = sorted(path for folder in DRAWN for path in (ROOT / folder).rglob("*.py"))
+    every = [(path, *change) for path in files for change in changes(path.read_bytes())]
+    for path, start, end, old, new in random.Random(seed).sample(every, count):
+        source, file = path.read_bytes(), path.relative_to(ROOT).as_posix()
+        changed = source[:start] + source[start:end].replace(old.encode(), new.encode()) + source[end:]
+        line = source[:start].count(b"\n") + 1
+        yield Fault(f"{file}:{line} {old} → {new}", file, source.decode(), changed.decode(), tests_of(file))
+
+
+# ---- seeding ----------------------------------------------------------------------------------------------------
+
+
+def copied(folder):
     """Copy all files that git tracks or would add."""
-    listed = subprocess.run(
-        ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
-        cwd=ROOT,
-        check=True,
-        capture_output=True,
-        text=True,
-    ).stdout
+    listing = ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"]
+    listed = subprocess.run(listing, cwd=ROOT, check=True, capture_output=True, text=True).stdout
     for name in filter(None, listed.split("\0")):
         if (ROOT / name).is_file():
             (folder / name).parent.mkdir(parents=True, exist_ok=True)
@@ -80,94 +138,67 @@ def copied(folder: Path) -> Path:
     return folder
 
 
-def pytest_in(copy: Path, mechanics: Path, tests: list[str]) -> tuple[int, str]:
-    """Exit code and output of the tests in the copy, with these mechanics, until the first fails."""
-    # Nothing compiled is kept: a copy with the time stamps of another fault would be taken for this one.
+def failure(copy, mechanics, tests, limit):
+    """Return the first test that fails in the copy with these mechanics, or None if all pass."""
     env = {
         **os.environ,
         "PYTHONPATH": os.pathsep.join(map(str, (copy / "app", mechanics))),
+        # A copy with the time stamps of another fault would be taken for this one.
         "PYTHONDONTWRITEBYTECODE": "1",
     }
     command = [sys.executable, "-m", "pytest", "-x", "-q", "-n", "0", "-p", "no:cacheprovider", "--tb=line", *tests]
-    try:
-        run = subprocess.run(command, cwd=copy, env=env, capture_output=True, text=True, timeout=SECONDS, check=False)
-    except subprocess.TimeoutExpired:
-        return -1, f"took longer than {SECONDS} s"
-    return run.returncode, run.stdout + run.stderr
+    run = subprocess.run(command, cwd=copy, env=env, capture_output=True, text=True, timeout=limit, check=False)
+    if run.returncode == 0:
+        return None
+    failed = re.search(r"^(?:FAILED|ERROR) (tests/[^\s\[]+)", run.stdout, re.MULTILINE)
+    if failed is None:
+        raise RuntimeError(run.stdout[-300:] + run.stderr[-300:])
+    return failed[1]
 
 
-def seeded(fault: Fault, copy: Path) -> Outcome:
-    """Run the tests on the copy with this fault, restore the file, and return the outcome."""
-    path, begun = copy / fault.file, time.monotonic()
-    if not path.exists():
-        return Outcome(fault, False, "NO SUCH FILE", 0.0)
+def seeded(fault, copy, limit):
+    """Seed the fault, run its tests, restore the file; return whether one notices it, and what happened."""
+    path = copy / fault.file
     text = path.read_text("utf-8")
-    if (count := text.count(fault.old)) != 1:
-        return Outcome(fault, False, f"THE TEXT STANDS THERE {count} TIMES", 0.0)
     path.write_text(text.replace(fault.old, fault.new), "utf-8")
     try:
         # Kernels belong to the folder of their source: where that is whole, those that are there already will do.
-        whole = not fault.file.startswith("models/")
-        code, said = pytest_in(copy, (ROOT if whole else copy) / "models", fault.tests)
+        mechanics = (copy if fault.file.startswith("models/") else ROOT) / "models"
+        failed = failure(copy, mechanics, fault.tests, limit)
+    except (subprocess.TimeoutExpired, RuntimeError) as error:
+        return False, f"NOT KNOWN: {error}"
     finally:
         path.write_text(text, "utf-8")
-    seconds = time.monotonic() - begun
-    if code == CLEAN:
-        return Outcome(fault, False, "NOBODY", seconds)
-    failed = re.search(r"^(?:FAILED|ERROR) (tests/.+?)(?: - .*)?$", said, re.MULTILINE)
-    if code != NOTICED or failed is None:
-        return Outcome(fault, False, f"PYTEST DID NOT RUN ({code}): {said.strip().splitlines()[-1]}", seconds)
+    if failed is None:
+        return False, "NOT NOTICED"
     # A machine that is too busy, or a test that fails anyway, has noticed nothing.
-    test = failed[1].split("[")[0]
-    code, _ = pytest_in(copy, ROOT / "models", [test])
-    if code != CLEAN:
-        return Outcome(fault, False, f"FAILS WITHOUT THE FAULT TOO: {test}", seconds)
-    return Outcome(fault, True, test.removeprefix("tests/"), seconds)
+    if ".py::" in failed and failure(copy, ROOT / "models", [failed], limit) is not None:
+        return False, f"FAILS WITHOUT THE FAULT TOO: {failed}"
+    return True, f"noticed by {failed}"
 
 
-def table(outcomes: list[Outcome]) -> str:
-    """The outcomes as a table of Markdown."""
-    rows = [
-        f"| {one.fault.name} | `{one.fault.file}` | {f'`{one.by}`' if one.ok else f'**{one.by}**'} "
-        f"| {one.seconds:.0f} |"
-        for one in outcomes
-    ]
-    noticed = sum(one.ok for one in outcomes)
-    return "\n".join(
-        [
-            f"{noticed} of {len(outcomes)} faults are noticed.",
-            "",
-            "| fault | file | noticed by | s |",
-            "|---|---|---|---:|",
-            *rows,
-        ]
-    )
-
-
-def main() -> int:
-    """Seed the faults, run the tests, print the table."""
+def main():
+    """Seed the faults, run the tests, print what happened."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("words", nargs="*", help="only faults whose names contain one of these")
-    parser.add_argument("--write", action="store_true", help=f"keep the table in {README.name}")
-    parser.add_argument("--anchors", action="store_true", help="only look whether each fault can be seeded")
-    given = parser.parse_args()
-    chosen = faults(given.words)
-    if given.anchors:
-        missing = not_found_once(chosen)
-        print("\n".join(f"NOT FOUND ONCE: {name}" for name in missing) or f"All {len(chosen)} are found.")
-        return len(missing)
-    outcomes = []
+    parser.add_argument("--random", type=int, metavar="N", help="draw so many faults instead")
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--limit", type=float, default=1800.0, help="seconds that the tests of a fault may take")
+    parser.add_argument("--list", action="store_true", help="only print the faults and their tests")
+    options = parser.parse_args()
+    chosen = list(drawn(options.random, options.seed)) if options.random else faults(options.words)
+    if options.list:
+        print("\n".join(f"{one.name}: {' '.join(one.tests)}" for one in chosen))
+        return 0
+    noticed = 0
     with tempfile.TemporaryDirectory() as folder:
         copy = copied(Path(folder))
         for fault in chosen:
-            outcomes.append(seeded(fault, copy))
-            print(f"{outcomes[-1].by}: {fault.name} ({outcomes[-1].seconds:.0f} s)", file=sys.stderr, flush=True)
-    print(table(outcomes))
-    if given.write:
-        before, rest = README.read_text("utf-8").split(MARKS[0])
-        after = rest.split(MARKS[1])[1]
-        README.write_text(f"{before}{MARKS[0]}\n{table(outcomes)}\n{MARKS[1]}{after}", "utf-8")
-    return sum(not one.ok for one in outcomes)
+            ok, said = seeded(fault, copy, options.limit)
+            noticed += ok
+            print(f"{fault.name}: {said}", flush=True)
+    print(f"{noticed} of {len(chosen)} are noticed.")
+    return len(chosen) - noticed
 
 
 if __name__ == "__main__":

@@ -8,7 +8,6 @@ from pytest import approx, mark, raises
 
 import hess_mechanics as hm
 from hess_mechanics.errors import InvalidParameter, ModelError
-from hess_mechanics.euler_poisson.andoyer import AndoyerSection
 
 SUSLOV = hm.SuslovBody(1.5, 1.0, 0.4, 0.0, 0.3, -0.5, 1.0)
 HEAVY = hm.HeavyBody.hess((1.0, 1.5, 2.0), 1.0)
@@ -27,28 +26,11 @@ def test_an_orbit_has_names_and_units():
     assert np.array_equal([whole[name] for name in ("ω1", "ω2", "γ1", "γ2", "γ3")], found.states.T)
     assert (whole["ω1"].attrs["units"], whole["t"].attrs["units"]) == ("rad/T", "T")
     assert whole.attrs["error_estimate"] == found.error_estimate
-    frame = found.to_pandas()
-    assert list(frame) == ["t", *found.variables]
-    assert np.array_equal(frame["γ3"], found.states[:, 4])
+    assert list(found.to_pandas()) == ["t", *found.variables]
     assert "ω1" in found._repr_html_()
     panels = found.plot()
     assert len(panels) == 5
     assert np.array_equal(panels.traverse(lambda one: one, [hv.Path])[0].dimension_values("ω1"), found.states[:, 0])
-
-
-def test_points_lie_on_their_sections_at_their_energies():
-    P = hm.return_map(HEAVY, h=2.0, f=0.5, accuracy="standard")
-    found = hm.section_orbits(P, starts=[(0.3, 0.4)], crossings=40)
-    assert found.orbits[0].shape == (40, 2)
-    assert found.to_xarray().attrs["angle l"] == "within one turn"
-    assert np.abs(found.orbits[0][:, 0]).max() <= np.pi
-    states, possible = AndoyerSection(HEAVY, 2.0, 0.5).states_at(*found.orbits[0].T)
-    # Each of the points is a state of that energy, whose angle and momentum are the point's.
-    assert possible.all()
-    G = np.linalg.norm(states[:, :3], axis=1)
-    assert states[:, 2] / G == approx(found.orbits[0][:, 1], abs=1e-9)
-    integrals = HEAVY.system.integrals(list(states.T), HEAVY.parameters)
-    assert integrals["H"] == approx(np.full(40, 2.0), abs=1e-8)
 
 
 def test_basins_clouds_and_maps_have_coordinates():
@@ -66,7 +48,6 @@ def test_basins_clouds_and_maps_have_coordinates():
     ("call", "sentence"),
     [
         (lambda: hm.solve(SUSLOV, STATE, "long"), "times = 'long' is not a number; write it like 1.5 or -2e-3."),
-        (lambda: hm.SuslovBody("2", 1.0, 0.3, 0.5), "I11 = '2' is not a number"),
         (lambda: hm.rotation_numbers("a", 1.0, 0.2), "a = 'a' is not a number"),
         (
             lambda: hm.section_orbits(hm.return_map(SUSLOV, E=1.8), starts=[1.0, 2.0]),

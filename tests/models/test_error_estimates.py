@@ -43,29 +43,20 @@ def parameters_of(row):
     return [*p["I"], *p["b"]] if row["system"] == "suslov" else [p["a"], p["b"]]
 
 
-def quickest(name):
-    """Return the two stored calls of this function that run fastest."""
-    of_this = (question for question in oracle.KEPT if f'"{name}"' in question and "sha256" not in question)
-    return sorted(of_this, key=lambda question: oracle.KEPT[question][0])[:2]
-
-
 @mark.parametrize(
     "name", [param(name, marks=in_long_double if "long_double" in name else ()) for name in oracle.FUNCTIONS]
 )
 def test_what_is_kept_is_what_the_oracle_finds(name):
-    questions = quickest(name)
+    """The two stored calls that ran fastest."""
+    kept = (question for question in oracle.KEPT if f'"{name}"' in question and "sha256" not in question)
+    questions = sorted(kept, key=lambda question: oracle.KEPT[question][0])[:2]
     assert questions
-    # Of 34 or 40 decimals the last ones follow the order of the sums in the field; of a long double, see below.
+    # Of 34 or 40 decimals the last ones follow the order of the sums in the field, and of a long double too.
     within = Decimal("1e-13" if "long_double" in name else "1e-31")
     for question in questions:
-        assert agree(oracle.found_anew(question), oracle.KEPT[question][1], within)
-
-
-def agree(found, kept, within):
-    """Return whether two answers are equal, decimals within a tolerance."""
-    if isinstance(found, list):
-        return len(found) == len(kept) and all(agree(*pair, within) for pair in zip(found, kept, strict=True))
-    return abs(Decimal(found) - Decimal(kept)) <= within if isinstance(found, str) else found == kept
+        found, kept = (np.ravel(answer) for answer in (oracle.found_anew(question), oracle.KEPT[question][1]))
+        assert len(found) == len(kept)
+        assert all(abs(Decimal(one) - Decimal(other)) <= within for one, other in zip(found, kept, strict=True))
 
 
 @mark.parametrize("row", REFERENCE["trajectories"], ids=lambda row: row["name"])
@@ -143,15 +134,11 @@ def test_the_error_estimates_of_orbits_are_right(orbits, name):
     system, states, parameters, times, exact = orbits
     found = [solve(system.at(p), y, t, name) for y, p, t in zip(states, parameters, times, strict=True)]
     true = np.array([np.max(oracle.distances(orbit.states, truth)) for orbit, truth in zip(found, exact, strict=True)])
-    scale = np.maximum(1.0, np.max(np.abs(exact), axis=(1, 2)))
+    estimated = np.array([orbit.error_estimate for orbit in found])
     # Two runs of a chaotic motion may err alike.  Of the Euler–Poisson equations, which are chaotic for most bodies,
     # 5 in 300 did at `precise`.
-    check(
-        true,
-        np.array([orbit.error_estimate for orbit in found]),
-        scale,
-        share=0.02 if system.name == "euler-poisson" else 0.01,
-    )
+    share = 0.02 if system.name == "euler-poisson" else 0.01
+    check(true, estimated, np.maximum(1.0, np.max(np.abs(exact), axis=(1, 2))), share)
 
 
 # ---- times of crossings -----------------------------------------------------------------------------------------
@@ -213,10 +200,8 @@ def maps(request):
     tori, phases = [random_torus(random, request.param) for _ in range(TORI)], random.uniform(-pi, pi, 16)
     # The oracle checks for itself that its digits are enough: the saddle takes some.
     exact = oracle.maps_by_three_orbits(tori, digits=30 if "separatrix" in request.param else 27)
-    theta, slope = (
-        np.array([[f(m, phi) for phi in phases] for m in exact])
-        for f in (oracle.MoebiusMap.theta, oracle.MoebiusMap.slope)
-    )
+    theta = np.array([[m.theta(phi) for phi in phases] for m in exact])
+    slope = np.array([[m.slope(phi) for phi in phases] for m in exact])
     return tori, phases, theta, slope, np.exp([m.log_trace for m in exact])
 
 

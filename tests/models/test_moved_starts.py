@@ -18,7 +18,7 @@ from hess_mechanics import (
 from hess_mechanics.dynamics.basins import mean_divergence
 from hess_mechanics.dynamics.system import Problem
 from support.deviations import deviations, mean_of
-from support.moved import FARTHEST, from_moved_starts, moved_starts
+from support.moved import FARTHEST, from_moved_starts
 
 BODY, START = systems()["suslov"].example_motion
 POINT = (0.3, 1.2)
@@ -29,15 +29,13 @@ MAP = return_map(SuslovBody(1.5, 1.0, 0.4, 0.0, 0.3, -0.5, 1.0), E=1.842, accura
 def test_every_component_moves_by_a_few_ulps_and_0_stays_0():
     states = np.array([(0.5, -1.2, 0.6, 0.0, 0.8), (0.7, 3.0, 0.0, -0.8, 0.6), (0.5, -1.2, 0.6, 0.0, 0.8)])
     plain = Problem.of(BODY, states).states
-    with moved_starts(1):
-        one = Problem.of(BODY, states).states
-    with moved_starts(2):
-        other = Problem.of(BODY, states).states
+    one, other = from_moved_starts(lambda: Problem.of(BODY, states).states, 2)
     assert np.array_equal(Problem.of(BODY, states).states, plain)
     assert np.array_equal(one == 0.0, plain == 0.0)
-    away = np.abs(one / np.where(plain, plain, 1.0) - 1.0)[plain != 0.0] * 2.0**52
+    moves = plain != 0.0
+    away = np.abs(one[moves] / plain[moves] - 1.0) * 2.0**52
     assert np.all((away >= 1.0) & (away <= FARTHEST + 1.0))
-    assert not np.any(one[plain != 0.0] == other[plain != 0.0])
+    assert not np.any(one[moves] == other[moves])
     assert np.array_equal(one[0], one[2])
 
 
@@ -52,12 +50,10 @@ ENTRIES = {
 
 @mark.parametrize("name", ENTRIES)
 def test_every_computation_of_a_motion_begins_at_a_moved_start(name):
-    plain = ENTRIES[name]()
-    moved, again = from_moved_starts(ENTRIES[name], 6), from_moved_starts(ENTRIES[name], 1)[0]
-    assert np.array_equal(moved[0], again)
+    plain, moved = ENTRIES[name](), from_moved_starts(ENTRIES[name], 6)
     # A single number may be the same by chance, but not six times.
-    assert not all(np.array_equal(one, plain) for one in moved)
-    assert not all(np.array_equal(one, moved[0]) for one in moved)
+    for one in (plain, moved[0]):
+        assert not all(np.array_equal(one, other) for other in moved)
 
 
 def test_deviations_are_those_of_the_mean_of_a_share_and_of_one_value():

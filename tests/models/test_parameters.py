@@ -34,10 +34,3 @@ def test_a_whole_number_is_required_where_only_such_ones_mean_something():
     assert parameters.SHEET.check(1.0) == 1.0
     with pytest.raises(InvalidParameter, match="is not a whole number between 0 and 2"):
         parameters.SHEET.check(0.5)
-
-
-def test_parameters_with_one_label_that_mean_different_things_say_so():
-    by_label = {}
-    for known in TABLE.values():
-        by_label.setdefault((known.name, known.label), set()).add((known.means, known.doc))
-    assert all(len(said) == len({means for means, _ in said}) for said in by_label.values())

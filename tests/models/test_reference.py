@@ -6,23 +6,13 @@ from hess_mechanics import circle_map, critical_a
 from hess_mechanics.numerics.accuracy import Status
 from support.mechanics import REFERENCE
 
-ladder = mark.parametrize(
-    ("name", "bound"), [("draft", 1e-3), ("standard", 1e-6), ("precise", 1e-9), ("reference", 1e-9)]
+
+@mark.parametrize(("name", "bound"), [("draft", 1e-3), ("standard", 1e-6), ("precise", 1e-9), ("reference", 1e-9)])
+@mark.parametrize(
+    "row", REFERENCE["lock_boundary"] + REFERENCE["a_critical"], ids=lambda row: f"h={row['h']},f={row['f']}"
 )
-
-
-@ladder
-@mark.parametrize("row", REFERENCE["lock_boundary"], ids=lambda row: f"a={row['a']},h={row['h']}")
-def test_the_lock_boundary_agrees_with_the_reference(row, name, bound):
-    a = critical_a(float(row["h"]), float(row["f"]), name)
-    assert a == approx(float(row["a"]), abs=bound)
-
-
-@ladder
-@mark.parametrize("row", REFERENCE["a_critical"], ids=lambda row: f"h={row['h']},f={row['f']}")
-def test_the_critical_a_agrees_with_the_reference(row, name, bound):
-    a = critical_a(float(row["h"]), float(row["f"]), name)
-    assert a == approx(float(row["a"]), abs=bound)
+def test_the_critical_a_of_the_lock_boundary_agrees_with_the_reference(row, name, bound):
+    assert critical_a(float(row["h"]), float(row["f"]), name) == approx(float(row["a"]), abs=bound)
 
 
 @mark.parametrize("h", [1.000001, 0.999999])

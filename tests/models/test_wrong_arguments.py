@@ -17,6 +17,7 @@ from pytest import mark, raises
 
 import hess_mechanics as hm
 from hess_mechanics.errors import InvalidParameter, ModelError
+from hess_mechanics.numerics.accuracy import DRAFT, Kind, Level, plan
 from hess_mechanics.numerics.labelled import Printed, Result
 
 WRONG = (0, -1, 5e-324, 1e300, 10**400, math.nan, math.inf, "x", "", None, True, 1j, [], [[1.0]], {}, object())
@@ -108,3 +109,21 @@ def test_a_result_prints_on_ten_lines(name):
         assert lines[0].startswith(f"{type(result).__name__}:")
     else:
         assert not is_dataclass(result) or len(str(result)) < 1000
+
+
+def test_every_accuracy_is_a_level_or_its_name():
+    """By their annotations; the type checker verifies that each function reads either."""
+    accuracies = {
+        name: inspect.signature(getattr(hm, name)).parameters["accuracy"].annotation
+        for name in FUNCTIONS
+        if "accuracy" in inspect.signature(getattr(hm, name)).parameters
+    }
+    assert len(accuracies) > 15
+    assert set(accuracies.values()) == {"Accuracy"}
+
+
+def test_a_level_of_ones_own_is_used_as_it_is():
+    own = Level("own", 1e-5, 1e-7, 14)
+    assert plan(Kind.BASINS, own).level is own
+    assert plan(Kind.BASINS, DRAFT) is plan(Kind.BASINS, "draft")
+    assert hm.solve(*hm.systems()["suslov"].example_motion, [2.0], own).level == "own"

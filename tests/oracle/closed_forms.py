@@ -42,21 +42,14 @@ def pendulum(a, h, phi, times, since=0.0, digits=40):
         return np.array(rows, dtype=float)
 
 
-def turned(gamma, omega, t):
-    """γ after the time t of γ̇ = γ × ω with constant ω, by the formula of Rodrigues; matrices and numbers of mpmath."""
-    speed = mpmath.norm(omega)
-    axis, angle = omega / speed, speed * t
-    along = axis * mpmath.fdot(axis, gamma)
-    (g1, g2, g3), (e1, e2, e3) = gamma, axis
-    across = mpmath.matrix([g2 * e3 - g3 * e2, g3 * e1 - g1 * e3, g1 * e2 - g2 * e1])
-    return along + (gamma - along) * mpmath.cos(angle) + across * mpmath.sin(angle)
-
-
 def steady_rotation(omega, gamma, times, digits=40):
-    """The motion with constant ω = (ω1, ω2, 0), the state of `Biz131`, doubles (n, 5)."""
+    """The motion with constant ω = (ω1, ω2, 0), the state of `Biz131`, doubles (n, 5): γ(t) = e^{−t[ω]×} γ."""
+    w1, w2 = omega
     with mpmath.workdps(digits):
-        w, g = mpmath.matrix([*omega, 0]), mpmath.matrix(gamma)
-        return np.array([[*omega, *turned(g, w, mpmath.mpf(t))] for t in times], dtype=float)
+        back = mpmath.matrix([[0, 0, -w2], [0, 0, w1], [w2, -w1, 0]])
+        return np.array(
+            [[*omega, *(mpmath.expm(mpmath.mpf(t) * back) * mpmath.matrix(gamma))] for t in times], dtype=float
+        )
 
 
 def cos_chi(I11, I22, I13, I23, digits=40):

@@ -8,7 +8,6 @@ import pytest
 
 from hess_explorer.__main__ import main, parsed
 from hess_explorer.commands.output import PATIENCE
-from hess_explorer.scenes import scenes
 from support.measured import write_measured
 from support.mechanics import ROOT
 
@@ -30,9 +29,8 @@ DOCUMENTS = [
 MEASURED = {
     "tests/manual/README.md": "tests/manual/benchmark_page.py",
     "app/README.md": "tests/manual/benchmark_trade.py",
-    "app/hess_explorer/scenes/speed_accuracy.md": "tests/manual/benchmark_trade.py",
-    "app/hess_explorer/scenes/speed_accuracy_of_maps.md": "tests/manual/benchmark_trade.py",
-    "tests/manual/integrators/README.md": "tests/manual/benchmark_peers.py",
+    "app/hess_explorer/scenes/shared/levels.md": "tests/manual/benchmark_trade.py",
+    "tests/manual/integrators/README.md": "tests/manual/bench.py",
     "app/hess_explorer/sweep/README.md": "tests/manual/benchmark_sweep.py",
     "app/hess_explorer/offline/README.md": "tests/manual/benchmark_offline.py",
 }
@@ -54,17 +52,10 @@ COMMANDS = [
 @pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: str(path.relative_to(ROOT)))
 def test_its_links_lead_somewhere(document):
     text = document.read_text(encoding="utf-8")
-    links = re.findall(r"\]\(([^)#\s]+)\)", text) + re.findall(r'(?:src|href)="([^"#]+)"', text)
+    links = re.findall(r"\]\(([^)#\s]+)\)", text) + re.findall(r'(?:src|srcset|href)="([^"#]+)"', text)
     for link in links:
         if "://" not in link:
             assert (document.parent / link).exists(), link
-
-
-def test_every_scene_is_there_with_its_picture_and_words():
-    for scene in scenes().values():
-        if scene.origin is None:
-            for theme in ("light", "dark"):
-                assert f'static/thumbnails/{scene.name}-{theme}.jpg"' in README, scene.name
 
 
 def test_pictures_are_light():

@@ -1,18 +1,22 @@
 """The page that the browser tests of a process share."""
 
-from functools import partial
-
 import pytest
 
-from support.page import PHONE, TOUCHED, Websocket, brought_on_phone, one_tab, own_tab
+from support.page import HESS, PHONE, TOUCHED, Websocket, brought_on_phone, one_tab, own_tab
 
 tab = pytest.fixture(scope="session")(one_tab)
 
 
 @pytest.fixture
-def explorer(tab):
-    """Return the page in its default state; at the end assert no errors and no requests to other hosts."""
-    tab.fresh()
+def scene():
+    """Return the name of the scene in `explorer` and `phone`; a module overrides it, or a parameter of a test."""
+    return HESS
+
+
+@pytest.fixture
+def explorer(tab, scene):
+    """Return the page in the first state of its scene; at the end assert no errors and no requests to other hosts."""
+    tab.fresh(scene)
     tab.assert_quiet()
     yield tab
     tab.assert_quiet()
@@ -26,10 +30,10 @@ def phone_tab(browser, server):
 
 
 @pytest.fixture
-def phone(phone_tab):
-    """phone(scene) → `brought_on_phone`; at the end assert no errors and no requests to other hosts."""
+def phone(phone_tab, scene):
+    """Return the page on a phone, as `explorer`."""
     phone_tab.assert_quiet()
-    yield partial(brought_on_phone, phone_tab)
+    yield brought_on_phone(phone_tab, scene)
     phone_tab.assert_quiet()
 
 

@@ -113,13 +113,11 @@ OWN = sorted(
 
 
 @pytest.mark.parametrize("scene", sample(OWN, 1))
-def test_a_state_reached_by_hand_looks_as_the_one_its_link_opens(tab, artefacts, scene):
-    tab.fresh(scene)
+def test_a_state_reached_by_hand_looks_as_the_one_its_link_opens(explorer, artefacts, scene):
     # All levels draw the same picture.
-    tab.change(tab.choose, "accuracy", "draft")
-    through_examples(tab)
-    through_pictures(tab)
+    explorer.change(explorer.choose, "accuracy", "draft")
+    through_examples(explorer)
+    through_pictures(explorer)
     # Last, for numbers change axes.
-    through_numbers(tab)
-    assert_same_by_link(tab, artefacts, scene)
-    tab.assert_quiet()
+    through_numbers(explorer)
+    assert_same_by_link(explorer, artefacts, scene)

@@ -5,15 +5,17 @@ from pytest import approx
 
 from support.pointer import at, click_on
 
-TORI = "rotation-number"
+
+@pytest.fixture
+def scene():
+    return "rotation-number"
 
 
 @pytest.fixture
-def page(tab):
-    found = tab.fresh(TORI)
-    found.unfold("chart")
-    found.change(found.choose, "chart", "trace")
-    return found
+def page(explorer):
+    explorer.unfold("chart")
+    explorer.change(explorer.choose, "chart", "trace")
+    return explorer
 
 
 def drag(page, start, end):
@@ -46,7 +48,6 @@ def test_a_box_zooms_in_a_click_and_a_drag_choose_and_all_of_it_is_undone(page):
     assert page.shown("h")[0] == approx(1.0, abs=dx)
     page.change(page.page.locator(".param-clear").click)
     assert page.axes("chart") == approx(whole)
-    page.assert_quiet()
 
 
 def test_its_choices_are_there_while_it_is(page):

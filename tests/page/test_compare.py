@@ -49,7 +49,6 @@ def test_while_a_slider_is_held_the_state_before_it_is_seen_and_no_longer(explor
     page.mouse.down()
     sent = len(explorer.sent)
     explorer.change(page.mouse.move, box["x"] + 0.6 * box["width"], middle)
-    # The plane, the diagram and the circle map.
     # The plane, the sphere, the diagram, the circle map and the torus.
     assert painted(explorer) == 5
     before = page.evaluate(GHOSTS)
@@ -123,7 +122,6 @@ def test_a_pinned_state_is_seen_beside_others_named_in_numbers_and_gone_back_to(
     assert pin.get_attribute("aria-pressed") == "true"
     assert rows(explorer) == {}
     explorer.change(lambda: explorer.slide(h=1.8))
-    # The plane, the sphere, the diagram, the circle map and the torus.
     assert painted(explorer) == 5
     found = rows(explorer)
     assert found["h"] == ("1.5", "1.8")
@@ -135,7 +133,6 @@ def test_a_pinned_state_is_seen_beside_others_named_in_numbers_and_gone_back_to(
     # There and back, by the key and the button.
     explorer.change(page.keyboard.press, "c")
     assert_orbit(explorer, DEFAULTS)
-    # The plane, the sphere, the diagram, the circle map and the torus.
     assert painted(explorer) == 5
     explorer.change(page.locator(".param-flip").click)
     assert_orbit(explorer, {**DEFAULTS, "h": 1.8})

@@ -7,7 +7,7 @@ from playwright.sync_api import expect
 
 from hess_explorer.headless.screenshot import server_process
 from support.euler_poisson import EP
-from support.page import brought, one_tab
+from support.page import one_tab
 from support.processes import UNWARMED
 
 SMALL = {"orbits": 8.0, "count": 40.0, "long": 20.0, "span": 5.0, "indicator": "nothing"}
@@ -52,7 +52,7 @@ def long_section(held_back, gate):
     """long_section(h) → the page while a section of that energy is computed, of which six pieces come."""
 
     def begin(h):
-        brought(held_back, EP).give(**SMALL)
+        held_back.fresh(EP.name).give(**SMALL)
         gate.touch()
         held_back.type("count", "4000")
         held_back.type("h", str(h))

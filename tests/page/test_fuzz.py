@@ -4,7 +4,7 @@ import random
 
 import pytest
 
-from manual.fuzzing import fuzz_commands, fuzz_links, fuzz_messages
+from manual.fuzz import fuzz_commands, fuzz_links, fuzz_messages
 from support.thorough import examples
 
 

@@ -1,6 +1,8 @@
 """The introduction that a first visitor sees."""
 
-from support.page import VISITOR, WIDE, own_tab
+from playwright.sync_api import expect
+
+from support.page import VISITOR, own_tab
 
 IN_SIGHT = ".gallery:not(.away) .picture:visible"
 
@@ -11,7 +13,7 @@ def in_sight(page):
 
 def test_a_first_visitor_sees_one_dark_picture_then_one_more_at_a_time_then_the_page_and_never_again(browser, server):
     with own_tab(browser, server, script=VISITOR) as explorer:
-        page, (width, height) = explorer.page, WIDE
+        page = explorer.page
         explorer.goto("/")
         introduction = page.get_by_role("region", name="Lesson", exact=True)
         assert explorer.dark
@@ -22,11 +24,9 @@ def test_a_first_visitor_sees_one_dark_picture_then_one_more_at_a_time_then_the_
             sentences.append(introduction.locator(".title").text_content())
             page.locator(f"{IN_SIGHT}.picture-{picture}").wait_for()
             assert len(in_sight(page)) == number
-            boxes = [introduction.bounding_box(), *(one.bounding_box() for one in page.locator(IN_SIGHT).all())]
-            for box in boxes:
-                assert box["x"] >= 0
-                assert box["x"] + box["width"] <= width + 1
-                assert box["y"] + box["height"] <= height + 1
+            for one in (introduction, *page.locator(IN_SIGHT).all()):
+                # Edges lie between pixels.
+                expect(one).to_be_in_viewport(ratio=0.997)
             if number == 1:
                 explorer.change(lambda: introduction.locator(".param-phi0 input[type=range]").press("ArrowRight"))
                 page.mouse.wheel(0, 100)

@@ -2,6 +2,7 @@
 
 import io
 import json
+import re
 from dataclasses import replace
 from urllib.parse import parse_qsl
 
@@ -134,7 +135,7 @@ def test_sliders_show_what_the_served_page_shows(browser, explorer, tmp_path, na
             slider = page.locator(f".param-{names[step // 2]} .hand").first
             change(page, slider.press, "Home" if step % 2 == 0 else "ArrowRight")
             address = address_of(page)
-            explorer.change(explorer.page.evaluate, "query => hess.tell('restore', query)", address)
+            explorer.change(explorer.tell, "restore", address)
             there = captions(explorer.page)
             # Another test may have unfolded a picture there.
             assert captions(page) == {name: there[name] for name in scenes()[name].open_pictures}
@@ -164,7 +165,7 @@ def test_the_file_says_what_it_cannot_show_and_keeps_its_place(browser, tmp_path
         assert float(page.locator(".param-h input.exact").input_value()) > 2
         change(page, page.keyboard.press, "Control+z")
         assert page.locator(".param-f input.exact").input_value() == "0"
-        page.wait_for_timeout(600)
+        page.wait_for_url(re.compile(r"h=1\.2&f=0(\.0)?&"))
         address = page.url
     assert "#v=1&scene=suslov-hess" in address
     with opened(browser, address) as page:

@@ -68,19 +68,17 @@ def test_a_scene_begins_in_gentle_motion_until_the_first_touch_and_asks_for_noth
     touches = {
         HESS: lambda: page.mouse.click(800, 5),
         "scattering": lambda: page.mouse.wheel(0, 10),
-        "kharlamova": lambda: page.keyboard.press("Space"),
     }
     for scene, touch in touches.items():
-        if scene != HESS:
-            explorer.change(lambda name: page.evaluate("name => hess.tell('scene', name)", name), scene)
-            assert explorer.playing, scene
+        explorer.show(scene)
+        assert explorer.playing, scene
         touch()
         # A wheel turns a moment after it is told to.
         expect(page.locator(".player[role=group]")).not_to_have_attribute("data-playing", "true")
         assert not moves(explorer)
         assert explorer.time > 0
     # No animation starts a second time, and a link with a time opens at that time; a speed not offered is put right.
-    explorer.change(lambda: page.evaluate("name => hess.tell('scene', name)", HESS))
+    explorer.show(HESS)
     assert not explorer.playing
     # A click among parameters leaves the time as it is; one that chooses a start starts the motion.
     explorer.set_time(5.0)
@@ -119,8 +117,7 @@ def test_the_one_handle_says_drag_me_once_and_what_the_mouse_does_is_said_where_
         ("scattering", "body", "grab", "turns"),
         ("free-suslov", "omega", "pointer", "Click"),
     ):
-        if explorer.page.evaluate("document.documentElement.dataset.scene") != scene:
-            explorer.change(lambda name: page.evaluate("name => hess.tell('scene', name)", name), scene)
+        explorer.show(scene)
         box = explorer.picture(picture).locator(".host").bounding_box()
         place = [box["x"] + 0.6 * box["width"], box["y"] + 0.4 * box["height"]]
         page.mouse.move(*place)

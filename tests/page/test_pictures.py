@@ -4,14 +4,13 @@ from io import BytesIO
 from math import cos, pi, sin
 
 import numpy as np
-import pytest
 from PIL import Image
 from pytest import approx
 
 from hess_explorer.views import theme
 from support.page import DEFAULTS, FIND, PICTURES, flat, own_tab, wait_frames
 from support.pointer import HOME, STEP, assert_turned, at
-from support.suslov_hess import assert_orbit, body_of, exact_states
+from support.suslov_hess import assert_orbit, exact_states
 
 a = DEFAULTS["I23"] / DEFAULTS["I22"]
 
@@ -54,7 +53,7 @@ def test_a_click_in_the_bifurcation_diagram_chooses_the_torus_under_it(explorer)
     assert (columns.mean() - 8.5, rows.mean() - 8.5) == approx((0, 0), abs=1.5)
 
 
-# --- The sphere and the torus ------------------------------------------------------------------------
+# --- The sphere -------------------------------------------------------------------------------------
 
 
 def vertical(state):
@@ -62,29 +61,13 @@ def vertical(state):
     return state[2:]
 
 
-def on_torus(state):
-    """(w1, w2, ṅ3/ρ0)/ρ0 for the energy of the defaults, in the ball about the torus."""
-    w1, w2, n1, n2, _ = body_of(DEFAULTS).in_units_of_b(body_of(DEFAULTS).to_reduced(state))
-    largest = (2.0 * (DEFAULTS["h"] + 1.0)) ** 0.5
-    return np.array([w1, w2, (n1 * w2 - n2 * w1) / largest]) / largest
-
-
-every_turnable = pytest.mark.parametrize("kind, place", [("sphere", vertical), ("torus", on_torus)])
-
-
-def in_space(explorer, kind):
-    """The canvas of a picture that turns."""
-    return explorer.sphere if kind == "sphere" else explorer.page.locator(f".gallery:not(.away) canvas.{kind}")
-
-
 def radius(explorer):
-    """The radius of the sphere on the screen, as large as that of the torus: 0.84 of half the canvas."""
+    """The radius of the sphere on the screen: 0.84 of half the canvas."""
     return 0.42 * explorer.sphere.bounding_box()["width"]
 
 
-@every_turnable
-def test_a_picture_in_space_turns_with_the_mouse_as_if_it_were_held(explorer, kind, place):
-    box, mouse = in_space(explorer, kind).bounding_box(), explorer.page.mouse
+def test_a_picture_in_space_turns_with_the_mouse_as_if_it_were_held(explorer):
+    box, mouse = explorer.sphere.bounding_box(), explorer.page.mouse
     state, sent = explorer.state, len(explorer.sent)
     x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
     mouse.move(x, y)
@@ -94,9 +77,9 @@ def test_a_picture_in_space_turns_with_the_mouse_as_if_it_were_held(explorer, ki
     mouse.up()
     mouse.move(x - 80, y)
     turned = (HOME[0] - 60 / radius(explorer), HOME[1] - 25 / radius(explorer))
-    assert_turned(in_space(explorer, kind), *turned)
-    in_space(explorer, kind).press("Home")
-    assert_turned(in_space(explorer, kind), *HOME)
+    assert_turned(explorer.sphere, *turned)
+    explorer.sphere.press("Home")
+    assert_turned(explorer.sphere, *HOME)
     assert (explorer.state, len(explorer.sent)) == (state, sent)
 
 
@@ -109,19 +92,18 @@ def projected(point, turn):
     return float(np.dot(point, right)), float(np.dot(point, up))
 
 
-@every_turnable
-def test_the_moving_point_is_at_the_state_seen_from_there(explorer, kind, place):
+def test_the_moving_point_is_at_the_state_seen_from_there(explorer):
     keys = ["ArrowUp"] * 6 + ["ArrowRight"] * 4
-    in_space(explorer, kind).focus()
+    explorer.sphere.focus()
     for key in keys:
-        in_space(explorer, kind).press(key)
+        explorer.sphere.press(key)
     turn = (HOME[0] - STEP * keys.count("ArrowRight"), HOME[1] + STEP * keys.count("ArrowUp"))
-    assert_turned(in_space(explorer, kind), *turn)
-    box = in_space(explorer, kind).bounding_box()
+    assert_turned(explorer.sphere, *turn)
+    box = explorer.sphere.bounding_box()
     for t in (0.0, 3.1, 9.4):
         explorer.set_time(t)
-        right, up = projected(place(exact_states(DEFAULTS, [t])[0]), turn)
-        explorer.page.evaluate("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
+        right, up = projected(vertical(exact_states(DEFAULTS, [t])[0]), turn)
+        wait_frames(explorer, 2)
         pixels = picture(explorer, (box["x"], box["y"], box["width"], box["height"]))
         rows, columns = np.nonzero(like(pixels, theme.POINT))
         assert rows.size > 40
@@ -222,7 +204,7 @@ def test_a_picture_that_is_folded_is_not_computed(explorer):
 
 
 def test_axes_that_depend_on_the_state_have_their_names_from_the_first_one_on(browser, server):
-    names = """() => hess.plots.filter(({ model }) => model.name === "diagram")
+    names = """() => hess.plots.filter(({ model }) => model.name === "line")
       .map(({ model }) => [model.below[0].axis_label, model.left[0].axis_label])"""
     with own_tab(browser, server) as explorer:
-        assert explorer.open("scene=orbit-diagram&accuracy=draft").page.evaluate(names) == [["I₂₃", "ψ"]]
+        assert explorer.open("scene=rotation-number").page.evaluate(names) == [["f", "ρ"]]

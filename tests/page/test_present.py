@@ -1,6 +1,7 @@
 """Present mode for a lecture hall."""
 
 import pytest
+from playwright.sync_api import expect
 
 from hess_explorer.scenes import scenes
 from support.accessible import assert_accessible
@@ -43,12 +44,10 @@ STROKES = """item => new Promise((resolve) => {
 
 
 @pytest.fixture
-def plain(tab):
+def plain(explorer):
     """The page as it is at first, its controls folded."""
-    tab.fresh()
-    tab.fold_controls()
-    yield tab
-    tab.assert_quiet()
+    explorer.fold_controls()
+    return explorer
 
 
 def test_what_is_presented_is_read_from_afar_and_the_link_keeps_it(plain):
@@ -80,11 +79,10 @@ def test_what_is_presented_is_read_from_afar_and_the_link_keeps_it(plain):
     assert len(numbers) == len(essential)
     assert all(f"param-{name}" in " ".join(numbers) for name in essential)
     # All of it is in sight.
-    boxes = [tab.picture(name).bounding_box() for name in scenes()[HESS].open_pictures]
-    boxes += [item.bounding_box() for item in page.locator(".number:visible").all()]
-    for box in boxes:
-        assert 0 <= box["x"] < box["x"] + box["width"] <= size[0]
-        assert 0 <= box["y"] < box["y"] + box["height"] <= size[1]
+    pictures = [tab.picture(name) for name in scenes()[HESS].open_pictures]
+    for item in (*pictures, *page.locator(".number:visible").all()):
+        # Edges lie between pixels.
+        expect(item).to_be_in_viewport(ratio=0.999)
     # The spot goes with the pointer.
     page.mouse.move(200, 300)
     page.mouse.move(500, 320)

@@ -54,7 +54,7 @@ def test_print_has_the_pictures_and_the_text_on_white_and_no_controls(on_screen,
     explorer.fold_controls()
     explorer.turn_theme(is_dark=theme == "dark")
     # Painted once more, as it is after a print: lines over lines differ by a shade.
-    page.evaluate("hess.tell('turn', ['body', 0.6, 0.35])")
+    explorer.tell("turn", ["body", 0.6, 0.35])
     wait_frames(explorer, 4)
     # The sentence above the pictures may still tell what the changes before did.
     page.locator(".moves").evaluate("sentence => sentence.replaceChildren()")

@@ -118,7 +118,7 @@ def test_a_guess_of_the_audience_from_the_invitation_to_how_far_it_was_off(lectu
     for name, columns in drawn.items():
         if name not in POINTS:
             assert columns == [lengths(column) for column in tab.data(name).values()], name
-    # How far one is off is measured in "test_lessons".
+    # How far one is off is measured in "static/guess.test.mjs".
     assert re.fullmatch(r"3 guesses from the audience\. Median distance: \S+ in .* and \S+ in .*\.", said)
     # The next step takes the guesses away.
     while page.locator(".lesson .count").inner_text().startswith(f"{STEP} "):
@@ -141,7 +141,7 @@ def test_a_follower_plays_alone_and_comes_back_and_the_room_outlives_a_reload(le
 
     page.keyboard.press("Escape")
     tab.leave_lesson()
-    tab.change(lambda: page.evaluate("hess.tell('scene', 'loxodrome')"))
+    tab.show("loxodrome")
     follows(small, "scene=loxodrome")
     assert small.locator(".lesson").is_hidden()
     # Gestures do not steer.
@@ -151,24 +151,22 @@ def test_a_follower_plays_alone_and_comes_back_and_the_room_outlives_a_reload(le
     wait_ready(small)
     alone = {name: one for name, [one] in parse_qs(urlsplit(small.url).query).items()}
     assert alone["scene"] == "loxodrome"
-    before = phone.state
-    small.evaluate("hess.tell('scene', 'kharlamova')")
-    wait_ready(small, after=before)
+    phone.show("kharlamova")
     # The lecturer does not notice, goes on, and reloads the page.
-    tab.change(lambda: page.evaluate("hess.tell('scene', 'free-suslov')"))
+    tab.show("free-suslov")
     page.reload()
     wait_ready(page)
     page.locator(".param-invite[aria-pressed=true]").wait_for()
-    assert page.evaluate("document.documentElement.dataset.scene") == "free-suslov"
+    assert tab.scene == "free-suslov"
     small.route_web_socket(re.compile("/rooms/"), connect)
     small.get_by_role("link", name="Back to the lecture").tap()
     follows(small, "scene=free-suslov")
-    tab.change(lambda: page.evaluate("hess.tell('scene', 'scattering')"))
+    tab.show("scattering")
     follows(small, "scene=scattering")
     # A phone that loses its connection finds the last state when it is back.
     sockets.pop().close(code=1001)
     small.get_by_text("Connection lost.").wait_for()
-    tab.change(lambda: page.evaluate("hess.tell('scene', 'loxodrome')"))
+    tab.show("loxodrome")
     follows(small, "scene=loxodrome")
     assert len(sockets) == 1
     page.get_by_role("button", name="Invite").click()

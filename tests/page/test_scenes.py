@@ -2,8 +2,6 @@
 
 import json
 
-import numpy as np
-import pytest
 from pytest import approx
 
 from hess_explorer.headless.browser import wait_ready
@@ -18,15 +16,11 @@ from support.page import (
 )
 from support.painted import assert_drawn
 from support.pointer import HOME, STEP, assert_turned
-from support.suslov_hess import exact_states
-from support.thorough import sample
 
 SCENES = scenes()
 # The menu offers only the accuracy page of the current scene.
 OFFERED = [name for name, scene in SCENES.items() if scene.origin in (None, HESS)]
 GROUPS = list(dict.fromkeys(SCENES[name].group for name in OFFERED))
-OFFERED_IN_GROUPS = sorted(OFFERED, key=lambda name: GROUPS.index(SCENES[name].group))
-PIXELS = 600
 """The width of the pictures that samples and levels are right for."""
 
 
@@ -54,9 +48,11 @@ def listeners(explorer):
 # --- The menu of scenes ------------------------------------------------------------------------------
 
 
-def test_the_menu_offers_the_scenes_in_groups_and_says_where_to_begin_and_which_is_on_show(explorer):
+def test_the_menu_offers_the_scenes_in_groups_with_pictures_and_says_where_to_begin_and_which_is_on_show(explorer):
+    page = explorer.page
+    explorer.turn_theme(is_dark=True)
     explorer.open_menu()
-    menu = explorer.page.get_by_role("dialog", name="Scenes", exact=True)
+    menu = page.get_by_role("dialog", name="Scenes", exact=True)
     assert menu.locator("h3").all_text_contents() == GROUPS
     for group in GROUPS:
         tiles = menu.get_by_role("region", name=group, exact=True).get_by_role("button").all()
@@ -68,23 +64,13 @@ def test_the_menu_offers_the_scenes_in_groups_and_says_where_to_begin_and_which_
             assert SCENES[name].summary in words
             assert ("start here" in words) == (name == FIRST)
             assert tile.get_attribute("aria-pressed") == str(name == HESS).lower()
-    explorer.page.keyboard.press("Escape")
-    assert menu.count() == 0
-
-
-def test_the_menu_has_a_picture_of_each_scene_in_both_themes(explorer):
-    page = explorer.page
-    explorer.turn_theme(is_dark=True)
-    explorer.open_menu()
-    tiles = page.locator(".scene").all()
-    for tile, name in zip(tiles, OFFERED_IN_GROUPS, strict=True):
-        picture = tile.locator("img")
-        assert picture.get_attribute("src").endswith(f"/{'speed-accuracy' if name == STUDY else name}-dark.jpg")
-        picture.scroll_into_view_if_needed()
-        page.wait_for_function("item => item.complete && item.naturalWidth === 320", arg=picture.element_handle())
-    explorer.change(page.get_by_role("button", name="Loxodromic pendulum").click)
+            picture = tile.locator("img")
+            assert picture.get_attribute("src").endswith(f"/{'speed-accuracy' if name == STUDY else name}-dark.jpg")
+            picture.scroll_into_view_if_needed()
+            page.wait_for_function("item => item.complete && item.naturalWidth === 320", arg=picture.element_handle())
+    explorer.change(menu.get_by_role("button", name="Loxodromic pendulum").click)
     assert explorer.scene == "loxodrome"
-    assert not page.get_by_role("dialog", name="Scenes").count()
+    assert menu.count() == 0
 
 
 FOCUSED = """() => {
@@ -144,25 +130,21 @@ def test_a_scene_changes_in_place_and_back_with_all_that_was_chosen(explorer):
     explorer.sphere.press("ArrowUp")
     assert_turned(explorer.sphere, HOME[0], HOME[1] + STEP)
     values = {**DEFAULTS, **CHANGED, "accuracy": "precise"}
-    assert_drawn(explorer, HESS, values)
-
     explorer.enter(STUDY)
-    assert explorer.scene == STUDY
     assert explorer.page.title() == f"Hess Explorer · {SCENES[STUDY].title}"
     assert explorer.page.get_by_role("heading", level=1).inner_text() == SCENES[STUDY].title
     assert_drawn(explorer, STUDY, values)
     assert {name: explorer.shown(name)[0] for name in CHANGED} == CHANGED
-    assert (explorer.accuracy, explorer.time) == ("precise", approx(7.5))
+    assert (explorer.chosen("accuracy"), explorer.time) == ("precise", approx(7.5))
     link = explorer.wait_url(scene=STUDY)
     assert {name: float(link[name]) for name in CHANGED} == CHANGED
     assert explorer.sphere.count() == 0
 
     explorer.enter(HESS)
-    assert explorer.scene == HESS
     assert explorer.page.evaluate("window.same")
     assert_drawn(explorer, HESS, values)
     assert {name: explorer.shown(name)[0] for name in CHANGED} == CHANGED
-    assert (explorer.accuracy, explorer.time) == ("precise", approx(7.5))
+    assert (explorer.chosen("accuracy"), explorer.time) == ("precise", approx(7.5))
     assert_turned(explorer.sphere, HOME[0], HOME[1] + STEP)
     assert explorer.page.locator(".param-speed").input_value() == "2"
 
@@ -171,27 +153,21 @@ def test_the_pictures_of_a_scene_are_built_while_the_mouse_rests_on_it(tab):
     page = tab.open(f"scene={HESS}")
     built = "name => hess.has(name)"
     card = page.page.locator
-    passed = next(name for name in OFFERED if name not in (HESS, STUDY))
+    other = next(name for name in OFFERED if name not in (HESS, STUDY))
     page.open_menu()
     card(f".param-scene-{STUDY}").hover()
     page.page.wait_for_function(built, arg=STUDY)
-    # Whom it only passes by is not built, unless the keyboard comes to it.
-    page.page.mouse.move(5, 5)
-    card(f".param-scene-{passed}").evaluate("""card => {
-      for (const name of ["pointerenter", "pointerleave"]) card.dispatchEvent(new PointerEvent(name))
-    }""")
-    page.page.evaluate("new Promise((done) => setTimeout(done, 300))")
-    assert not page.page.evaluate(built, passed)
-    card(f".param-scene-{passed}").focus()
-    page.page.wait_for_function(built, arg=passed)
+    # Also where the keyboard comes to it.
+    card(f".param-scene-{other}").focus()
+    page.page.wait_for_function(built, arg=other)
     # It is not visible.
     assert page.scene == HESS
     assert page.page.locator(".gallery:not(.away)").count() == 1
     assert_drawn(page, HESS, DEFAULTS)
     page.page.keyboard.press("Escape")
-    page.enter(passed)
-    assert page.scene == passed
-    assert all(page.caption(name) for name in SCENES[passed].open_pictures)
+    page.enter(other)
+    assert page.scene == other
+    assert all(page.caption(name) for name in SCENES[other].open_pictures)
     page.assert_quiet()
 
 
@@ -225,45 +201,6 @@ def test_ten_changes_in_quick_succession_leave_one_scene_and_nothing_of_the_othe
     assert explorer.time == approx(0.2, rel=1e-5)
 
 
-def clicks(explorer, *names, change=None):
-    """Change values and click on scenes before the browser does anything else; return its `data-ready`."""
-    return explorer.page.locator(".scenes").evaluate(
-        """(menu, [names, detail]) => {
-          if (detail) hess.tell("change", detail)
-          for (const name of names) menu.querySelector(`.param-scene-${name}`).click()
-          return document.documentElement.dataset.ready
-        }""",
-        [names, change],
-    )
-
-
-def test_a_choice_that_is_taken_back_at_once_changes_nothing(explorer):
-    before = explorer.state
-    assert clicks(explorer, HESS) == "true"
-    assert clicks(explorer, STUDY, HESS) == "false"
-    wait_ready(explorer.page, after=before)
-    assert explorer.scene == HESS
-    explorer.change(lambda: explorer.slide(h=0.75))
-    assert_drawn(explorer, HESS, {**DEFAULTS, "h": 0.75})
-
-
-def test_the_last_scene_that_was_clicked_counts_even_while_another_is_computed(with_websocket):
-    explorer, websocket = with_websocket
-    websocket.hold()
-    before = explorer.state
-    explorer.page.locator(f".param-scene-{STUDY}").dispatch_event("click")
-    wait_frames(explorer, 3)
-    assert not explorer.ready
-    assert explorer.scene == HESS
-    explorer.page.locator(f".param-scene-{HESS}").dispatch_event("click")
-    wait_frames(explorer, 3)
-    websocket.release()
-    # One answer for each click.
-    wait_ready(explorer.page, after=before + 1)
-    assert explorer.scene == HESS
-    assert_drawn(explorer, HESS, DEFAULTS)
-
-
 def test_a_control_that_is_moved_on_is_not_moved_back_by_an_older_answer_and_the_others_follow(with_websocket):
     explorer, websocket = with_websocket
     websocket.hold()
@@ -283,33 +220,12 @@ def test_a_control_that_is_moved_on_is_not_moved_back_by_an_older_answer_and_the
         assert explorer.shown(name) == (value, value)
 
 
-def test_values_that_change_on_the_way_to_another_scene_arrive_there(explorer):
-    before = explorer.state
-    explorer.slide(h=0.9)
-    clicks(explorer, STUDY, change={"phi0": 1.0})
-    wait_ready(explorer.page, after=before)
-    assert explorer.scene == STUDY
-    assert_drawn(explorer, STUDY, {**DEFAULTS, "h": 0.9, "phi0": 1.0})
-    assert explorer.shown("h") == (0.9, 0.9)
-
-
 # --- What is in sight --------------------------------------------------------------------------------
 
 
-def turn_to(explorer, scene, picture):
-    """Choose a picture by its number."""
-    number = 1 + SCENES[scene].pictures.index(picture)
-    explorer.page.locator(".chips .chip").nth(number - 1).click()
-
-
-def send(explorer, **values):
-    """Change numbers as their controls do, of which one is at hand on a phone."""
-    explorer.change(lambda: explorer.page.evaluate("detail => hess.tell('change', detail)", values))
-
-
 def test_on_a_phone_one_control_is_at_hand_and_the_picture_stays_while_it_moves(phone):
-    explorer = phone()
-    send(explorer, h=0.75)
+    explorer = phone
+    explorer.change(explorer.tell, "change", {"h": 0.75})
     page = explorer.page
 
     def at_hand():
@@ -317,7 +233,7 @@ def test_on_a_phone_one_control_is_at_hand_and_the_picture_stays_while_it_moves(
 
     assert at_hand() == ["param-h"]
     at_rest = listeners(explorer)
-    explorer.change(turn_to, explorer, HESS, "omega")
+    explorer.turn_to("omega")
     picture = explorer.picture("omega").bounding_box()
     box = explorer.slider("h").bounding_box()
     # Under the thumb, and as large as a thumb.
@@ -338,64 +254,3 @@ def test_on_a_phone_one_control_is_at_hand_and_the_picture_stays_while_it_moves(
     assert listeners(explorer) == at_rest
     explorer.enter(STUDY)
     assert_drawn(explorer, STUDY, {**DEFAULTS, "h": 0.2, "f": 0.5}, "precision")
-    explorer.assert_quiet()
-
-
-def pixels_off(explorer, found, exact):
-    """Return the distance between two states (ω1, ω2, γ1, γ2, γ3) in pixels, the larger of plane and sphere."""
-    left, right, *_ = explorer.axes("omega")
-    difference = np.asarray(found) - exact
-    plane = np.hypot(difference[:, 0], difference[:, 1]) * PIXELS / (right - left)
-    sphere = np.linalg.norm(difference[:, 2:], axis=1) * PIXELS / 2
-    return np.maximum(plane, sphere)
-
-
-STATE = ("omega1", "omega2", "g1", "g2", "g3")
-
-
-# --- Between two samples -----------------------------------------------------------------------------
-
-# Messages of the player to the sphere, and the points in the other pictures, at each of these times.
-TOLD = """(slider, times) => {
-  const of = (name) => { const { x, y } = hess.source(name).data; return [x[0], y[0]] }
-  let told = null
-  hess.listen("time", (detail) => { told = detail })
-  return times.map((t) => {
-    slider.value = t
-    slider.dispatchEvent(new Event("input"))
-    return { ...told.state, t: told.t, points: ["omega-point", "bifurcation-point", "circle-point"].map(of) }
-  })
-}"""
-
-
-@pytest.mark.parametrize(
-    "values",
-    sample(
-        [
-            pytest.param({}, id="default"),
-            pytest.param({"span": 200.0}, id="long"),
-            pytest.param({"h": 1.001, "f": 0.02, "span": 100.0}, id="near the separatrix"),
-            pytest.param({"I22": 0.5, "I23": 1.5}, id="strong contraction"),
-            pytest.param({"h": 0.3, "f": 0.001}, id="through w = 0"),
-            pytest.param({"b3": -3.0, "h": 3.9, "f": 0.1}, id="fast"),
-            pytest.param({"h": -0.98, "f": 0.01}, id="small"),
-        ],
-        2,
-    ),
-)
-def test_the_moving_point_is_right_to_half_a_pixel_at_any_time(explorer, values):
-    explorer.change(lambda: explorer.page.evaluate("detail => hess.tell('change', detail)", {"h": 0.5, **values}))
-    values = {**DEFAULTS, "h": 0.5, **values}
-    samples = np.array(explorer.data("data-orbit")["t"])
-    # The samples follow the curve: they are not even in time.
-    gaps = np.diff(samples)
-    assert gaps.max() > 1.2 * gaps.min()
-    among = np.random.default_rng(5).uniform(0.0, samples[-1], 200)
-    times = np.sort([0.0, *among, *samples[1 : -1 : len(samples) // 20], samples[-1]])
-    told = explorer.page.locator("input.param-t").evaluate(TOLD, times.tolist())
-    assert [moment["t"] for moment in told] == approx(times, abs=1e-9)
-    exact = exact_states(values, times)
-    found = np.array([[moment[name] for name in STATE] for moment in told])
-    assert np.max(pixels_off(explorer, found, exact)) < 0.5
-    points = np.array([moment["points"][0] for moment in told])
-    assert points == approx(found[:, :2])

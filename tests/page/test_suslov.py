@@ -8,7 +8,7 @@ from PIL import Image
 
 from hess_explorer.scenes import scenes
 from hess_mechanics.dynamics.cells import centres
-from support.page import brought, said
+from support.page import said
 from support.painted import assert_painted
 from support.pointer import frame
 
@@ -19,10 +19,8 @@ FEW = {"orbits": 8, "count": 40, "long": 50}
 
 
 @pytest.fixture
-def suslov(tab):
-    brought(tab, SUSLOV).give(**FEW)
-    yield tab
-    tab.assert_quiet()
+def scene():
+    return SUSLOV.name
 
 
 def colours_of_cells(explorer, picture, shape):
@@ -34,23 +32,20 @@ def colours_of_cells(explorer, picture, shape):
     return shot[y.astype(int), x.astype(int)]
 
 
-def test_cells_of_megno_are_seen_in_their_colours_under_the_points(suslov):
-    suslov.change(
-        lambda: suslov.page.evaluate(
-            "detail => hess.tell('change', detail)",
-            {"I13": 0.0, "I23": 0.0, "h": 4.0, "accuracy": "draft", "indicator": "nothing"},
-        )
-    )
-    before = colours_of_cells(suslov, "section", (12, 18))
-    suslov.change(suslov.choose, "indicator", "MEGNO")
-    kinds = np.array(suslov.data("section-megno")["image"][0]).reshape(12, 18) - 1.5
-    chaotic = said(suslov, "section", "# % chaotic.")
+def test_cells_of_megno_are_seen_in_their_colours_under_the_points(explorer):
+    explorer.give(**FEW)
+    chosen = {"I13": 0.0, "I23": 0.0, "h": 4.0, "accuracy": "draft", "indicator": "nothing"}
+    explorer.change(explorer.tell, "change", chosen)
+    before = colours_of_cells(explorer, "section", (12, 18))
+    explorer.change(explorer.choose, "indicator", "MEGNO")
+    kinds = np.array(explorer.data("section-megno")["image"][0]).reshape(12, 18) - 1.5
+    chaotic = said(explorer, "section", "# % chaotic.")
     assert chaotic == [pytest.approx(100.0 * np.mean(kinds[kinds >= 0.0] % 2.0 == 1.0), abs=0.51)]
     assert set(kinds[kinds >= 0.0]) == {0.0, 1.0}
-    after = colours_of_cells(suslov, "section", (12, 18))
+    after = colours_of_cells(explorer, "section", (12, 18))
     for kind in (0.0, 1.0):
         colour, share = KINDS[int(kind)]
         mixed = (1.0 - share) * before[kinds == kind] + share * np.array(colour)
         # All but the cells over whose middles a point stands.
         assert np.mean(np.abs(after[kinds == kind] - mixed).max(axis=1) < 4.0) > 0.8
-    assert_painted(suslov, SUSLOV)
+    assert_painted(explorer, SUSLOV)

@@ -9,14 +9,6 @@ from support.pointer import HOME, Finger, assert_turned, at, frame
 from support.thorough import sample
 
 
-def turn_to(phone, picture, scene=HESS):
-    """Choose a picture by its number."""
-    number = 1 + scenes()[scene].pictures.index(picture)
-    chip = phone.page.locator(".chips .chip").nth(number - 1)
-    if chip.get_attribute("aria-pressed") != "true":
-        phone.change(chip.click)
-
-
 def middle(box):
     return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
 
@@ -28,8 +20,7 @@ def scrolled(phone):
 
 @pytest.mark.parametrize("picture", ["sphere", "body"])
 def test_a_sphere_turns_under_a_finger_and_the_page_stays(phone, picture):
-    phone = phone()
-    turn_to(phone, picture)
+    phone.turn_to(picture)
     before, canvas = scrolled(phone), phone.picture(picture).locator("canvas[tabindex]")
     x, y = middle(canvas.bounding_box())
     Finger(phone.page).draw((x, y), (x - 40, y + 30))
@@ -39,7 +30,6 @@ def test_a_sphere_turns_under_a_finger_and_the_page_stays(phone, picture):
 
 
 def test_a_finger_moves_a_slider_and_its_name(phone):
-    phone = phone()
     for item, start in ((phone.slider("h"), None), (phone.page.locator(".param-h .label"), 0.5)):
         item.scroll_into_view_if_needed()
         box, (before, _) = item.bounding_box(), phone.shown("h")
@@ -58,9 +48,8 @@ def test_a_finger_moves_a_slider_and_its_name(phone):
     ("scene", "picture"),
     sample([(HESS, "omega"), (HESS, "sphere"), (HESS, "bifurcation"), ("rotation-number", "map"), (HESS, "body")], 2),
 )
-def test_two_fingers_zoom_and_choose_nothing(phone, scene, picture):
-    phone = phone(scene)
-    turn_to(phone, picture, scene)
+def test_two_fingers_zoom_and_choose_nothing(phone, picture):
+    phone.turn_to(picture)
     x, y = middle(phone.picture(picture).locator(".host").bounding_box())
     before, finger = phone.link(), Finger(phone.page)
     finger.send("touchStart", (x - 20, y))
@@ -76,8 +65,7 @@ def test_two_fingers_zoom_and_choose_nothing(phone, scene, picture):
 
 @pytest.mark.parametrize("last", ["touchEnd", "touchCancel"])
 def test_the_ring_follows_a_finger_and_the_caption_says_where_it_is(phone, last):
-    phone = phone()
-    turn_to(phone, "bifurcation")
+    phone.turn_to("bifurcation")
     (x, y), _ = at(phone, "bifurcation", *phone.here())
     # A finger is wider than the ring.
     start = (x + 12, y - 8)
@@ -91,8 +79,7 @@ def test_the_ring_follows_a_finger_and_the_caption_says_where_it_is(phone, last)
 
 
 def test_a_finger_away_from_the_ring_or_on_the_text_chooses_nothing(phone):
-    phone = phone()
-    turn_to(phone, "bifurcation")
+    phone.turn_to("bifurcation")
     reader = phone.page.locator(".reader")
     reader.evaluate("item => { item.scrollTop = 0 }")
     before, finger = phone.here(), Finger(phone.page)
@@ -117,9 +104,8 @@ TAPPED = [
 
 
 @pytest.mark.parametrize(("scene", "picture"), sample(TAPPED, 2))
-def test_a_finger_taps_every_picture_that_takes_clicks(phone, scene, picture):
-    phone = phone(scene)
-    turn_to(phone, picture, scene)
+def test_a_finger_taps_every_picture_that_takes_clicks(phone, picture):
+    phone.turn_to(picture)
     left, top, right, bottom = frame(phone, picture)
     # The place gives a new state, or a note on why there is none.
     phone.change(phone.page.touchscreen.tap, 0.45 * left + 0.55 * right, 0.5 * (top + bottom))

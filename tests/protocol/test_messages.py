@@ -111,3 +111,8 @@ def test_a_frame_holds_what_is_told_and_nothing_else(block, has_state):
 def test_a_click_or_box_with_a_number_that_is_not_finite_is_none(place):
     assert parse({"requested": 1, "picked": ["section", *place]}).picked is None
     assert parse({"requested": 1, "picked": ["section", *(1.0 for _ in place)]}).picked is not None
+
+
+@pytest.mark.parametrize("count", [0, 1, 3, 5, 6])
+def test_what_has_not_the_numbers_of_a_click_or_a_box_is_none(count):
+    assert parse({"requested": 1, "picked": ["section", *[0.5] * count]}).picked is None

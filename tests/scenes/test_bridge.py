@@ -1,6 +1,6 @@
 """The scenes "leak off the Hess manifold" and "bridge": captions of the examples agree with the results.
 
-The numbers are held against closed forms; the motions are in `models/euler_poisson/test_hess_isomorphism.py`.
+The numbers are held against closed forms; the motions are in `models/extremes/test_special_motions.py`.
 """
 
 from functools import cache

@@ -13,7 +13,7 @@ from tornado.websocket import websocket_connect
 
 from hess_explorer.headless.screenshot import server_process
 from hess_explorer.server.room_socket import SEVERAL
-from support.asynchronous import finished
+from support.asynchronous import finished, wait_until
 from support.processes import UNWARMED, assert_gone, below
 from support.room import Follower, Lecturer, new_code
 from support.visitor import Visitor
@@ -98,10 +98,8 @@ def test_the_compiler_beside_a_server_holds_none_of_its_pipes_and_ends_with_it(t
     environment = {**os.environ, "NUMBA_CACHE_DIR": str(tmp_path)}
     with subprocess.Popen([sys.executable, "-c", COMPILES], env=environment, stdout=subprocess.PIPE) as server:
         assert server.stdout.readline() == b"begun\n"
-        ends = time.monotonic() + 60.0
-        while not (compilers := below(server.pid)[1:]) or not list(tmp_path.rglob("*.nbi")):
-            assert time.monotonic() < ends, "nothing is compiled"
-            time.sleep(0.1)
+        wait_until(lambda: below(server.pid)[1:] and list(tmp_path.rglob("*.nbi")))
+        compilers = below(server.pid)[1:]
         server.kill()
         killed = time.monotonic()
         assert server.stdout.read() == b""

@@ -13,7 +13,7 @@ from tornado.websocket import websocket_connect
 
 from hess_explorer.page import connection
 from hess_explorer.protocol.messages import ALIVE
-from support.asynchronous import finished
+from support.asynchronous import finished, wait_until
 from support.serving import served
 from support.visitor import Closed, Visitor
 
@@ -26,6 +26,10 @@ def test_a_session_that_is_left_is_freed_and_nothing_watches_for_it(monkeypatch)
         def __init__(self, *arguments):
             super().__init__(*arguments)
             opened.append(weakref.ref(self))
+
+    def freed():
+        gc.collect()
+        return not any(one() for one in opened)
 
     monkeypatch.setattr(connection, "Session", Recorded)
     watchers = pn.state.param.watchers
@@ -42,11 +46,7 @@ def test_a_session_that_is_left_is_freed_and_nothing_watches_for_it(monkeypatch)
 
     with served(unused_session_lifetime_milliseconds=500, check_unused_sessions_milliseconds=50) as base:
         finished(visit(base))
-        end = time.monotonic() + 60.0
-        while any(one() is not None for one in opened):
-            assert time.monotonic() < end, [gc.get_referrers(one()) for one in opened if one() is not None]
-            time.sleep(0.05)
-            gc.collect()
+        wait_until(freed)
     assert len(opened) == 3
     assert len(watchers.get("busy", {}).get("value", ())) == before
 

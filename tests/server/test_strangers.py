@@ -96,7 +96,7 @@ def test_requests_for_another_host_are_refused_whatever_their_path(caplog):
 
 def test_the_page_runs_its_own_scripts_and_only_its_parts_are_shown_elsewhere():
     with served(embedders=("example.org",)) as base:
-        whole, part, again = fetched(base, "", "?embed=1", "")
+        whole, part, again, dark, forged = fetched(base, "", "?embed=1", "", "?theme=dark", "?theme=%22%3E")
         with pytest.raises(HTTPClientError, match="403"):
             finished(Visitor.open(base, origin="http://example.org"))
     policies = [
@@ -118,18 +118,12 @@ def test_the_page_runs_its_own_scripts_and_only_its_parts_are_shown_elsewhere():
     assert (policies[0]["frame-ancestors"], whole.headers["X-Frame-Options"]) == ("'self'", "SAMEORIGIN")
     assert policies[1]["frame-ancestors"] == "example.org"
     assert "frame-ancestors" not in policy("", ("*",))
+    # The first frame has the theme of the link.
+    for answer, schemes in ((whole, "light dark"), (dark, "dark"), (forged, "light dark")):
+        assert f'<meta name="color-scheme" content="{schemes}">' in answer.body.decode()
     replace_handlers([])
     assert policy("", GuardedDocument.embedders).endswith("frame-ancestors 'none'")
     assert "X-Frame-Options" not in part.headers
-
-
-@pytest.mark.parametrize(
-    ("query", "schemes"), [("", "light dark"), ("theme=dark", "dark"), ("theme=%22%3E", "light dark")]
-)
-def test_the_first_frame_has_the_theme_of_the_link(query, schemes):
-    with served() as base:
-        (page,) = fetched(base, f"?{query}")
-    assert f'<meta name="color-scheme" content="{schemes}">' in page.body.decode()
 
 
 @pytest.mark.parametrize(

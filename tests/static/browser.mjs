@@ -19,4 +19,5 @@ export function point(type, target, pointerType = "mouse") {
 
 Object.assign(globalThis, {
   Element, document: new EventTarget(), window: new EventTarget(), location: { search: "" },
+  matchMedia: () => Object.assign(new EventTarget(), { matches: false }),
 })

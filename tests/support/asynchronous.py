@@ -12,8 +12,8 @@ def finished(coroutine):
 
 
 def wait_until(condition, seconds=60.0):
-    """Wait for what another thread brings about."""
+    """Wait for what another thread or process brings about."""
     end = time.monotonic() + seconds
     while not condition():
         assert time.monotonic() < end, "it does not come about"
-        time.sleep(0.002)
+        time.sleep(0.01)

@@ -95,13 +95,11 @@ class Explorer:
             return self.open(f"scene={scene}")
         self.leave_lesson()
         self.turn_theme(is_dark=False)
-        if page.evaluate("document.documentElement.dataset.scene") != scene:
-            # Without the menu, which offers of the scenes that look into another one only that of the scene on show.
-            self.change(lambda: page.evaluate("scene => hess.tell('scene', scene)", scene))
+        self.show(scene)
         page.evaluate(AT_REST)
         # No picture is enlarged.
         page.keyboard.press("Escape")
-        self.change(lambda: page.evaluate("hess.tell('reset')"))
+        self.change(self.tell, "reset")
         self.set_time(0.0)
         page.mouse.move(5, 5)
         return self
@@ -124,7 +122,7 @@ class Explorer:
         if self.dark == is_dark:
             return
         before = self.page.evaluate(COLOURS)
-        self.page.evaluate("hess.tell('theme')")
+        self.tell("theme")
         self.page.wait_for_function(f"before => ({COLOURS}).every((colour, i) => colour !== before[i])", arg=before)
         wait_frames(self, 3)
 
@@ -195,11 +193,6 @@ class Explorer:
         """The name of the scene on show."""
         return self.page.evaluate("document.documentElement.dataset.scene")
 
-    @property
-    def accuracy(self):
-        """The level in the menu."""
-        return self.chosen("accuracy")
-
     def chosen(self, menu):
         """The option that a menu shows, in its words."""
         return self.menu(menu).evaluate("menu => menu.selectedOptions[0]?.textContent ?? null")
@@ -269,6 +262,15 @@ class Explorer:
         action(*arguments)
         wait_ready(self.page, after=before)
 
+    def tell(self, name, detail=None):
+        """Send a message on the page's bus, as the controls do, also while they are out of sight."""
+        self.page.evaluate("([name, detail]) => hess.tell(name, detail)", [name, detail])
+
+    def show(self, scene):
+        """Change to a scene, also to one that the menu does not offer at the scene on show."""
+        if self.scene != scene:
+            self.change(self.tell, "scene", scene)
+
     def enter(self, scene):
         """Choose a scene from the menu."""
         self.open_menu()
@@ -277,6 +279,12 @@ class Explorer:
     def open_menu(self):
         """Open the menu of scenes."""
         self.page.locator(".param-scenes").click()
+
+    def turn_to(self, picture):
+        """Choose a picture on a phone, which shows one."""
+        chip = self.page.locator(".chips .chip").nth(scenes()[self.scene].pictures.index(picture))
+        if chip.get_attribute("aria-pressed") != "true":
+            self.change(chip.click)
 
     def begin_lesson(self, name, step=1):
         """Choose a lesson from the menu, which may be folded, and go on to a step."""
@@ -415,13 +423,13 @@ def brought_on_phone(phone_tab, scene=HESS):
     """The page on a phone in the first state of a scene, with its first picture."""
     page = phone_tab.page
     phone_tab.leave_lesson()
-    if page.evaluate("document.documentElement.dataset.scene") != scene:
-        phone_tab.change(lambda: page.evaluate("scene => hess.tell('scene', scene)", scene))
-    first = page.locator(".chips .chip").first
-    if first.get_attribute("aria-pressed") != "true":
-        phone_tab.change(first.click)
+    phone_tab.turn_theme(is_dark=False)
+    if page.viewport_size != dict(zip(("width", "height"), PHONE, strict=True)):
+        phone_tab.resize(*PHONE)
+    phone_tab.show(scene)
+    phone_tab.turn_to(scenes()[scene].pictures[0])
     page.evaluate(HOMEWARDS)
-    phone_tab.change(lambda: page.evaluate("hess.tell('reset')"))
+    phone_tab.change(phone_tab.tell, "reset")
     return phone_tab
 
 
@@ -487,13 +495,6 @@ def wait_frames(explorer, count=6):
 def wait_time(explorer, condition):
     """Wait until t on the time slider fulfils a condition."""
     explorer.page.wait_for_function(f"() => {{ const {{ t }} = ({MOMENT})({list(POINTS)!r}); return {condition} }}")
-
-
-def brought(tab, scene):
-    """The tab with the defaults of a scene, at t = 0."""
-    tab.fresh(scene.name)
-    tab.assert_quiet()
-    return tab
 
 
 def said(explorer, picture, pattern):

@@ -1,7 +1,6 @@
 """Serve the page in the test's process, so that leftover objects can be counted."""
 
 import logging
-import time
 from contextlib import contextmanager
 
 import panel as pn
@@ -12,6 +11,7 @@ from hess_explorer.headless.screenshot import free_port
 from hess_explorer.server.handlers import replace_handlers
 from hess_explorer.server.liveness import is_alive
 from hess_explorer.server.serving import create_server
+from support.asynchronous import wait_until
 
 
 @contextmanager
@@ -32,10 +32,7 @@ def served(embedders=("*",), sessions=1000, lessons=(), address="127.0.0.1", ori
     # What pytest keeps of a log holds what it speaks of.
     logging.disable(logging.INFO)
     try:
-        end = time.monotonic() + 30.0
-        while not is_alive("127.0.0.1", port):
-            assert time.monotonic() < end, "the server does not answer"
-            time.sleep(0.02)
+        wait_until(lambda: is_alive("127.0.0.1", port), 30.0)
         yield f"http://127.0.0.1:{port}"
     finally:
         logging.disable(logging.NOTSET)

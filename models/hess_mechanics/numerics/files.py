@@ -11,8 +11,10 @@ from pathlib import Path
 __all__ = ["write_whole"]
 
 
-def write_whole(path: str | Path, content: bytes) -> None:
+def write_whole(path: str | Path, content: bytes, modified: float | None = None) -> None:
     """Write a file at once: an earlier one stays as it is until the new one is complete.
+
+    `modified` is the file's time of modification, in seconds since 1970, by default the present.
 
     Raises `OSError`, for example if the disk is full, and leaves no part of the new file.
     """
@@ -29,6 +31,8 @@ def write_whole(path: str | Path, content: bytes) -> None:
             file.flush()
             # Some file systems report only here that the disk is full.
             os.fsync(file.fileno())
+        if modified is not None:
+            os.utime(part, (modified, modified))
         if target.exists():
             shutil.copymode(target, part)
         part.replace(target)

@@ -307,7 +307,9 @@ def derived_kernel(name: str, source: str, module: str, **names: Any) -> Callabl
         if not kept:
             with suppress(OSError):
                 folder.mkdir(mode=0o700, exist_ok=True)
-                write_whole(path, source.encode())
+                # To Numba, a file of another time is another source.  This one is named by its hash, and two processes
+                # that begin together both write it.
+                write_whole(path, source.encode(), modified=0.0)
             kept = _holds(path, source)
     namespace: dict[str, Any] = {"__name__": module, **names}
     exec(compile(source, file, "exec"), namespace)

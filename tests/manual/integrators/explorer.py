@@ -5,9 +5,6 @@ import math
 import numpy as np
 
 from hess_mechanics import systems
-from hess_mechanics.numerics.accuracy import Level
-from hess_mechanics.suslov_hess.circle_map import matrices
-from hess_mechanics.suslov_hess.circle_map_kernels import theta_of
 
 from .method import OURS, Method, half_decades, version
 
@@ -35,25 +32,6 @@ def _orbit(work, order, tolerance):
     return run
 
 
-def _free_ensemble(work, order, tolerance):
-    """B: all orbits have one ω, and γ̇ = γ × ω is linear, so three of them carry every γ."""
-    integrate = systems()["suslov"].ensemble
-    p, gamma = np.array(work.parameters), work.initial[:, 2:]
-    axes = np.hstack([np.tile(work.initial[0, :2], (3, 1)), np.eye(3)])
-    carried, out = np.empty((3, 1, 5)), np.empty(work.initial.shape)
-    steps, ends = np.empty(3, np.int64), np.empty(3)
-
-    def run():
-        integrate(axes, p, work.times, order, tolerance, _LONGEST, _MAX_STEPS, carried, steps, ends)
-        if (steps < 0).any():
-            carried.fill(np.nan)
-        out[:, :2] = carried[0, 0, :2]
-        np.matmul(gamma, carried[:, 0, 2:], out=out[:, 2:])
-        return out
-
-    return run
-
-
 def _ensemble(work, order, tolerance):
     """B2."""
     integrate = systems()["suslov"].ensemble
@@ -64,21 +42,6 @@ def _ensemble(work, order, tolerance):
         integrate(work.initial, p, work.times, order, tolerance, _LONGEST, _MAX_STEPS, out, steps, ends)
         out[steps < 0] = np.nan
         return out[:, 0]
-
-    return run
-
-
-def _circle_map(work, order, tolerance):
-    """C."""
-    torus = np.array([work.h]), np.array([work.f])
-    cos, sin, level = np.cos(work.phi), np.sin(work.phi), Level("benchmark", 0.0, tolerance, order)
-    theta = np.empty(work.phi.size)
-
-    def run():
-        # As `circle_map` does: numbers of Python, which a kernel takes faster than those of NumPy.
-        re, im, im_beta = matrices(work.a, *torus, level)[0, :3].tolist()
-        theta_of(re, im, im_beta, work.phi, cos, sin, theta)
-        return theta
 
     return run
 
@@ -99,9 +62,7 @@ def _crossings(work, order, tolerance):
 _WAYS = {
     "A": _orbit,
     "A2": _orbit,
-    "B": _free_ensemble,
     "B2": _ensemble,
-    "C": _circle_map,
     "D": _crossings,
 }
 

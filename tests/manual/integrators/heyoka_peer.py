@@ -6,9 +6,6 @@ import numpy as np
 from hess_mechanics import systems
 
 from .method import Method, half_decades, version
-from .moebius import field, half_period, start, theta_after
-
-_ENSEMBLES = frozenset({"B", "B2"})
 
 
 def _ladders(work):
@@ -16,7 +13,7 @@ def _ladders(work):
     ladder = (*plain, *((tolerance, "high accuracy") for tolerance in half_decades(15, 18)))
     if work.name == "D":
         return [tuple((*setting, kind) for setting in ladder) for kind in ("nt_event", "t_event")]
-    if work.name in _ENSEMBLES:
+    if work.name == "B2":
         # Twice the recommended width is often faster still.
         width = heyoka.recommended_simd_size()
         return [tuple((*setting, f"{lanes} lanes") for setting in ladder) for lanes in (width, 2 * width)]
@@ -65,21 +62,6 @@ def _ensemble(work, setting):
     return run
 
 
-def _circle_map(work, setting):
-    variables = heyoka.make_vars("w1", "w2", "n1", "n2", "n3", "ar", "ai", "br", "bi")
-    equations = list(zip(variables, field(variables, 0.5 * work.a), strict=True))
-    state, end, theta = start(work), half_period(work), theta_after(work.phi)
-    integrator = heyoka.taylor_adaptive(equations, state, **_options(setting))
-
-    def run():
-        integrator.time = 0.0
-        integrator.state[:] = state
-        integrator.propagate_until(end)
-        return theta(integrator.state)
-
-    return run
-
-
 def _crossings(work, setting):
     equations = _motion_equations(work)
     found = []
@@ -112,9 +94,7 @@ def _crossings(work, setting):
 _WAYS = {
     "A": _orbit,
     "A2": _orbit,
-    "B": _ensemble,
     "B2": _ensemble,
-    "C": _circle_map,
     "D": _crossings,
 }
 

@@ -15,14 +15,12 @@ class Method:
     name, version : as they are shown.
     ladders(work) : settings (names, orders, tolerances) from coarse to fine, each of which costs more than the last.
     prepare(work, setting) : compile, and return the run, which does the work from its initial data.
-    without : names of the works that it does not do.
     """
 
     name: str
     version: str
     ladders: Callable
     prepare: Callable
-    without: frozenset[str] = frozenset()
 
 
 def short(x):

@@ -61,4 +61,4 @@ def _prepare(work, setting):
     return (_crossings if work.name == "D" else _motion)(work, setting)
 
 
-METHOD = Method("SciPy", version("scipy"), _ladders, _prepare, without=frozenset({"C"}))
+METHOD = Method("SciPy", version("scipy"), _ladders, _prepare)

@@ -5,12 +5,14 @@ from fractions import Fraction
 
 import numpy as np
 import sympy
-from pytest import approx, mark, param, raises
+from pytest import approx, mark, param
 
 from hess_mechanics import ensemble
 from hess_mechanics.chaplygin_ball.energy_surface import Strip, line_of_rest, lowest_energy, omega_of_energy
 from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody
-from hess_mechanics.errors import InvalidParameter, NotPositiveDefinite, OutsideRegion
+from hess_mechanics.errors import NotPositiveDefinite, OutsideRegion
+from support.ball import energy_of, rates
+from support.refusals import refused
 
 
 def random_body(random, field=True, decades=1.0):
@@ -29,18 +31,11 @@ def random_states(random, count):
 
 def test_the_field_solves_the_matrix_equation():
     random = np.random.default_rng(1)
-    for w1, w2, g1, g2, g3 in random_states(random, 200):
+    for y in random_states(random, 200):
         body = random_body(random)
-        I11, I22, I13, I23, D, b1, b2, b3 = body.parameters
-        s = I13 * w1 + I23 * w2
-        matrix = np.array([[I11 + D * (g2**2 + g3**2), -D * g1 * g2], [-D * g1 * g2, I22 + D * (g1**2 + g3**2)]])
-        right = np.array([-s * w2 + b3 * g2 - b2 * g3, s * w1 + b1 * g3 - b3 * g1])
-        rates = np.array(SYSTEM.field((w1, w2, g1, g2, g3), body.parameters))
-        assert rates[:2] == approx(np.linalg.solve(matrix, right), rel=1e-11, abs=1e-11)
-        assert rates[2:] == approx(np.cross((g1, g2, g3), (w1, w2, 0.0)), abs=1e-14)
-        kinetic = 0.5 * np.array([w1, w2]) @ matrix @ [w1, w2] + np.dot((b1, b2, b3), (g1, g2, g3))
-        energy = SYSTEM.integrals((w1, w2, g1, g2, g3), body.parameters)["E"]
-        assert energy == approx(kinetic, rel=1e-12, abs=1e-12)
+        assert SYSTEM.field(y, body.parameters) == approx(rates(vars(body))(0.0, y), rel=1e-11, abs=1e-11)
+        energy = SYSTEM.integrals(y, body.parameters)["E"]
+        assert energy == approx(energy_of(vars(body), y), rel=1e-12, abs=1e-12)
 
 
 # ---- invariant measures -----------------------------------------------------------------------------------------
@@ -131,36 +126,21 @@ def test_motions_go_from_the_unstable_half_of_the_line_to_the_stable_one():
         assert SYSTEM.field((*omega, 0.48, 0.6, 0.64), body.parameters)[:2] == approx((0.0, 0.0), abs=1e-13)
 
 
-def test_an_energy_without_motion_is_refused_in_a_sentence():
-    body, free, up = (
-        BallBody(2.0, 1.0, 0.3, 0.5, 3.0, 0.0, 0.0, 1.0),
-        BallBody(2.0, 1.0, 0.0, 0.0, 3.0),
-        (0.0, 0.0, 1.0),
-    )
-    assert omega_of_energy(body, (3.0, 4.0), up, 1.0) == (0.0, 0.0)
-    assert lowest_energy(body) == approx(-1.0)
-    for request_, error, words in (
-        (lambda: omega_of_energy(body, (1.0, 0.0), up, 0.99), OutsideRegion, "choose h above"),
-        (lambda: omega_of_energy(body, (0.0, 0.0), up, 2.0), InvalidParameter, "direction"),
-        (lambda: Strip(body, 1.0), InvalidParameter, "b1 = b2 = b3 = 0"),
-        (lambda: Strip(free, 0.0), InvalidParameter, "choose h > 0"),
-        (lambda: Strip(free, 1.0).stable, InvalidParameter, "a nonzero I13 or I23"),
-    ):
-        with raises(error, match=words):
-            request_()
+IN_FIELD, FREE, UP = BallBody(2.0, 1.0, 0.3, 0.5, 3.0, 0.0, 0.0, 1.0), BallBody(2.0, 1.0, 0.0, 0.0, 3.0), (0, 0, 1)
 
 
-# ---- edges ------------------------------------------------------------------------------------------------------
+def test_at_the_lowest_energy_of_a_position_the_ball_is_at_rest():
+    assert omega_of_energy(IN_FIELD, (3.0, 4.0), UP, 1.0) == (0.0, 0.0)
+    assert lowest_energy(IN_FIELD) == approx(-1.0)
 
 
-@mark.parametrize(
-    ("values", "error", "match"),
-    [
-        ({"D": -1e-9}, InvalidParameter, "𝒟 ≥ 0"),
-        ({"I11": 0.0}, NotPositiveDefinite, "I11 > 0"),
-        ({"b2": np.inf}, InvalidParameter, "b2 is not a finite"),
-    ],
+test_what_is_no_motion_or_no_ball_is_refused_in_a_sentence = refused(
+    (lambda: omega_of_energy(IN_FIELD, (1.0, 0.0), UP, 0.99), "choose h above", OutsideRegion),
+    (lambda: omega_of_energy(IN_FIELD, (0.0, 0.0), UP, 2.0), "direction"),
+    (lambda: Strip(IN_FIELD, 1.0), "b1 = b2 = b3 = 0"),
+    (lambda: Strip(FREE, 0.0), "choose h > 0"),
+    (lambda: Strip(FREE, 1.0).stable, "a nonzero I13 or I23"),
+    (lambda: BallBody(1.0, 1.0, 0.0, 0.0, -1e-9), "𝒟 ≥ 0"),
+    (lambda: BallBody(0.0, 1.0, 0.0, 0.0, 1.0), "I11 > 0", NotPositiveDefinite),
+    (lambda: BallBody(1.0, 1.0, 0.0, 0.0, 1.0, 0.0, np.inf), "b2 is not a finite"),
 )
-def test_what_is_no_ball_is_refused_in_a_sentence(values, error, match):
-    with raises(error, match=match):
-        BallBody(**({"I11": 1.0, "I22": 1.0, "I13": 0.0, "I23": 0.0, "D": 1.0} | values))

@@ -7,7 +7,7 @@ from itertools import pairwise
 from math import acos, cos, inf, pi, remainder, sqrt
 
 import numpy as np
-from pytest import approx, mark, raises
+from pytest import approx, mark
 from scipy.optimize import brentq
 
 from hess_mechanics import section, solve, systems
@@ -80,12 +80,9 @@ def test_a_state_of_the_section_has_g_h_f_and_its_place(body, h, f):
 def test_seeds_are_in_their_window_spread_evenly_and_on_the_section():
     window = ((-1.0, -0.6), (2.0, 0.4))
     found = AndoyerSection(GESS1, 50.0, 5.0).spread(64, window)
-    assert len(found) == 64
-    l, x = coordinates(np.array(found)).T
-    assert -1.0 < l.min() < -0.9 < 1.9 < l.max() < 2.0
-    assert -0.6 < x.min() < -0.55 < 0.35 < x.max() < 0.4
-    cells = set(zip(((l + 1.0) / 3.0 * 4).astype(int), ((x + 0.6) * 4).astype(int), strict=True))
-    assert len(cells) == 16
+    counts, _, _ = np.histogram2d(*coordinates(np.array(found)).T, bins=4, range=np.transpose(window))
+    assert counts.sum() == 64
+    assert counts.min() >= 1
     # Fewer than asked for where most of the window is impossible, and none beyond it.
     few = AndoyerSection(RIS, -0.5, 0.0).spread(50)
     assert 0 < len(few) <= 50
@@ -121,7 +118,9 @@ def test_a_state_is_a_start_where_g_grows_and_nowhere_else(body, h, f):
     seen = set()
     for sheet in range(SHEETS):
         states, G, ok = states_at(body, h, f, l, x, sheet)
-        for i in np.flatnonzero(np.isfinite(G)):
+        there = np.isfinite(G)
+        assert np.all(AndoyerSection(body, h, f).sheet_of(states[there]) == sheet)
+        for i in np.flatnonzero(there):
             step = 1e-6 / float(SYSTEM.frequency(states[i], np.array(body.parameters)))
             before, after = (angles(solve(body, states[i], [t], PRECISE).states)[1][0] for t in (-step, step))
             grows = remainder(after - before, 2.0 * pi)
@@ -151,19 +150,8 @@ def test_a_third_momentum_exists():
     assert third.size > 5
     for i in third[:5]:
         assert found[i] == approx(all_roots(RIS, 0.5, 0.3, l[i], x[i]), rel=1e-9)
-    states, G, _ = states_at(RIS, 0.5, 0.3, l[third], x[third], 2)
-    assert np.all(np.isfinite(G))
-    assert np.array_equal(AndoyerSection(RIS, 0.5, 0.3).sheet_of(states), np.full(third.size, 2))
-
-
-@mark.parametrize(("body", "h", "f"), SHEETED)
-def test_a_state_is_on_the_sheet_that_it_was_asked_for_on(body, h, f):
-    l, x = scattered(1500, seed=7)
-    for sheet in range(SHEETS):
-        states, G, _ = states_at(body, h, f, l, x, sheet)
-        there = np.isfinite(G)
-        assert there.any() or sheet
-        assert np.array_equal(AndoyerSection(body, h, f).sheet_of(states[there]), np.full(there.sum(), sheet))
+    states, _, _ = states_at(RIS, 0.5, 0.3, l[third], x[third], 2)
+    assert np.all(AndoyerSection(RIS, 0.5, 0.3).sheet_of(states) == 2)
 
 
 # ---- Crossings --------------------------------------------------------------------------------------------------
@@ -180,40 +168,24 @@ def test_crossings_are_those_that_scipy_finds_from_the_angle(body, h, f):
         if len(times):
             assert result.times == approx(times, abs=1e-7 * end)
             assert result.states == approx(states, abs=1e-6 * np.max(np.abs(states)))
-            # On the plane and on their levels they are to more digits.
-            assert np.max(np.abs(energy(body, result.states) - h)) < 1e-9 * max(1.0, abs(h))
-            assert np.max(np.abs(area(result.states) - f)) < 1e-9 * max(1.0, abs(f))
-            # If M is vertical g is undefined: the distance from the plane counts.
-            G = np.linalg.norm(result.states[:, :3], axis=1)
-            tilt = np.sqrt(np.maximum(0.0, 1.0 - (f / G) ** 2)) * np.sqrt(1.0 - coordinates(result.states)[:, 1] ** 2)
-            assert np.max(np.abs(np.cos(angles(result.states)[1])) * tilt) < 1e-9
         found += len(times)
     assert found >= 3
 
 
 @mark.chaotic
-def test_no_orbit_of_gess1_changes_the_sign_of_r_M_in_10000_crossings():
-    random = np.random.default_rng(50)
-    l, x = random.uniform(-pi, pi, 120), random.uniform(-0.99, 0.99, 120)
-    states, _, growing = states_at(GESS1, 50.0, 5.0, l, x)
-    starts = np.array(sample(states[growing][:50], 6))
-    # Orbits come as close to the Hess manifold as 1e-5, far beyond the error of this level.
-    points = section_crossings(AndoyerSection(GESS1, 50.0, 5.0), starts, 10_000, PRECISE)
-    assert [len(states) for states in points.states] == [10_000] * len(starts)
-    signs = np.sign(3.0 * starts[:, 0] + 4.0 * starts[:, 2])
-    assert 0.2 < np.mean(signs > 0) < 0.8
-    for states, sign in zip(points.states, signs, strict=True):
-        assert np.all(sign * (3.0 * states[:, 0] + 4.0 * states[:, 2]) > 0.0)
-    assert max(points.drift.values()) < 1e-4
-
-
-@mark.chaotic
-def test_away_from_hess_the_same_orbits_do_change_it():
+def test_orbits_change_the_sign_of_r_M_away_from_the_hess_case_only():
     away = HeavyBody.hess((1.0, 0.625, 0.375), 9.975, 0.02)
     starts = AndoyerSection(away, 50.0, 5.0).spread(20)
     points = section_crossings(AndoyerSection(away, 50.0, 5.0), starts, 1000, STANDARD)
     changed = [np.ptp(np.sign(relation(away, states))) > 0 for states in points.states]
     assert deviations(np.array(changed), 0.1) > 5.0
+    # Orbits come as close to the Hess manifold as 1e-5, far beyond the error of this level.
+    starts = AndoyerSection(GESS1, 50.0, 5.0).spread(6)
+    points = section_crossings(AndoyerSection(GESS1, 50.0, 5.0), starts, 10_000, PRECISE)
+    signs = np.sign([states[:, :3] @ np.array([3.0, 0.0, 4.0]) for states in points.states])
+    assert signs.shape == (6, 10_000)
+    assert np.all(signs == signs[:, :1])
+    assert set(signs[:, 0]) == {-1.0, 1.0}
 
 
 def test_points_of_a_picture_are_the_crossings_of_the_orbit_one_after_the_other():
@@ -230,6 +202,11 @@ def test_points_of_a_picture_are_the_crossings_of_the_orbit_one_after_the_other(
 # ---- Refusals ---------------------------------------------------------------------------------------------------
 
 
+def crossings_of_gess1(count, **options):
+    section_ = AndoyerSection(GESS1, 50.0, 5.0)
+    return section_crossings(section_, [section_.state_at(0.0, 0.2)], count, STANDARD, **options)
+
+
 test_a_request_that_means_nothing_is_refused_in_a_sentence = refused(
     (
         lambda: AndoyerSection(GESS1, -9.9, 5.0).state_at(0.0, 0.2),
@@ -244,16 +221,10 @@ test_a_request_that_means_nothing_is_refused_in_a_sentence = refused(
     (lambda: AndoyerSection(GESS1, 50.0, 5.0, sheet=3).state_at(0.0, 0.2), "at most 3 sheets: choose one from 0 to 2"),
     (lambda: AndoyerSection(GESS1, 50.0, 5.0).state_at(0.0, 1.5), "lies between −1 and 1"),
     (lambda: AndoyerSection(GESS1, inf, 5.0).state_at(0.0, 0.5), "h is not a finite number"),
+    (lambda: crossings_of_gess1(1000, most_steps=50), "shorter time span", WorkLimit),
+    (lambda: crossings_of_gess1(10**6), "between 1 and 100000", WorkLimit),
     (
         lambda: section(*systems()["suslov"].example_motion, AndoyerPlane(1.0), 1.0, STANDARD),
         "only for the Euler–Poisson equations",
     ),
 )
-
-
-def test_too_much_work_is_refused():
-    start = [AndoyerSection(GESS1, 50.0, 5.0).state_at(0.0, 0.2)]
-    with raises(WorkLimit, match="shorter time span"):
-        section_crossings(AndoyerSection(GESS1, 50.0, 5.0), start, 1000, STANDARD, most_steps=50)
-    with raises(WorkLimit, match="between 1 and 100000"):
-        section_crossings(AndoyerSection(GESS1, 50.0, 5.0), start, 10**6, STANDARD)

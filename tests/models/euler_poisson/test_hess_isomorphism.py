@@ -1,22 +1,19 @@
 """The Hess manifold of Euler–Poisson is the Suslov–Hess case for all signs; and orbits leave it."""
 
-from dataclasses import replace
-from math import copysign, exp, hypot, log, pi, sqrt
+from math import copysign, hypot, log, sqrt
 
 import numpy as np
 from pytest import approx, mark, raises
-from scipy.integrate import solve_ivp
 
 from hess_mechanics import level, systems, turning_points
 from hess_mechanics.errors import NoField, WorkLimit
 from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.euler_poisson.hess_isomorphism import Bridge, share_of
-from hess_mechanics.euler_poisson.hess_manifold import FreeRun, Leak, exact_motion, run_free
+from hess_mechanics.euler_poisson.hess_manifold import FreeRun, Leak, run_free
 from hess_mechanics.suslov_hess.equations import HessBody
-from support.mechanics import scipy_states
 from support.refusals import refused
 
-HEAVY, REDUCED, SUSLOV = (systems()[name] for name in ("euler-poisson", "hess", "suslov"))
+HEAVY, REDUCED = systems()["euler-poisson"], systems()["hess"]
 FLOOR = level("reference")
 # Both orders of the moments, all signs of r1, r3 and μ, another length of r; and a ≤ 1, a > 1.
 BODIES = [
@@ -50,11 +47,6 @@ def on_torus(bridge, H, F1, phi=0.5):
     turning = turning_points(h, f)
     reduced = bridge.hess.from_units_of_b(turning.state_at_lower_turn(phi))
     return tuple(bridge.from_reduced(reduced)), turning.period / bridge.hess.frequency_unit
-
-
-def to_suslov(bridge, states):
-    """The states of the general Suslov problem."""
-    return bridge.hess.from_reduced(bridge.to_reduced(states))
 
 
 # ---- two equations of the paper that nothing here uses -----------------------------------------------------------
@@ -125,42 +117,20 @@ def test_the_riccati_equation_of_z_ends_with_the_square_of_K(seed):
 @every_body
 def test_the_field_of_euler_poisson_on_the_manifold_is_that_of_the_reduced_suslov_problem(body):
     bridge = Bridge.of_heavy(body)
+    assert abs(bridge.hess.a) == approx(body.hess_a, rel=1e-13)
     for seed in range(5):
         reduced = somewhere(seed)
         state = bridge.from_reduced(reduced)
         assert state[:3] @ np.array(body.r) == approx(0.0, abs=1e-14)
+        assert bridge.to_reduced(state) == approx(reduced, abs=1e-14 * (1.0 + np.max(np.abs(state))))
+        away = bridge.hess.in_units_of_b(reduced) + np.array([0.0, 0.0, 0.01, 0.0, 0.0])
+        assert bridge.distance(state[None], away[None]) == approx(0.01, rel=1e-6)
+        assert bridge.from_suslov(bridge.hess.from_reduced(reduced)) == approx(state, rel=1e-13, abs=1e-13)
         rate = np.array(HEAVY.field(state, body.parameters))
         # The translation is linear: what it makes of the rate is the rate of what it makes.
         expected = REDUCED.field(reduced, (bridge.hess.a, bridge.hess.b))
         assert bridge.to_reduced(rate) == approx(np.array(expected), abs=2e-14 * np.max(np.abs(rate)) + 2e-14)
         assert rate[:3] @ np.array(body.r) == approx(0.0, abs=1e-13 * np.max(np.abs(rate)))
-
-
-@every_body
-def test_the_same_motion_in_the_general_suslov_problem_has_the_same_energy_and_area_integral(body):
-    bridge = Bridge.of_heavy(body)
-    state = bridge.from_reduced(somewhere(7))
-    there = to_suslov(bridge, state)
-    p = bridge.hess.suslov.parameters
-    of_heavy, of_suslov = HEAVY.integrals(state, body.parameters), SUSLOV.integrals(there, p)
-    assert of_suslov["E"] == approx(of_heavy["H"], rel=1e-13, abs=1e-13)
-    I11, I22, _, I23 = p[:4]
-    w1, w2, g1, g2, g3 = there
-    area = I11 * w1 * g1 + I22 * w2 * g2 + I23 * w2 * g3
-    assert area == approx(-of_heavy["F1"], rel=1e-13, abs=1e-13)
-    # I11 ω1 is a component of the momentum, and the field of Biz131 that of hh01.
-    assert I11 * w1 == approx(state[1], rel=1e-13)
-    rate = np.array(HEAVY.field(state, body.parameters))
-    assert to_suslov(bridge, rate) == approx(np.array(SUSLOV.field(there, p)), abs=1e-12)
-
-
-@every_body
-def test_states_come_back(body):
-    bridge = Bridge.of_heavy(body)
-    states = np.array([bridge.from_reduced(somewhere(seed)) for seed in range(4)])
-    room = 1e-14 * (1.0 + np.max(np.abs(states)))
-    assert bridge.from_suslov(to_suslov(bridge, states)) == approx(states, abs=room)
-    assert abs(bridge.hess.a) == approx(body.hess_a, rel=1e-13)
 
 
 @every_body
@@ -192,45 +162,7 @@ test_bodies_that_have_no_counterpart_are_refused = refused(
 )
 
 
-# ---- along an orbit ----------------------------------------------------------------------------------------------
-
-
-def test_the_held_orbit_is_the_one_of_another_method():
-    start, period = on_torus(GESS1, 50.0, 5.0)
-    run = run_free(GESS1.heavy, start, 3.0 * period, 97, FLOOR, held=True)
-    other = scipy_states(HEAVY, start, GESS1.heavy.parameters, run.times, 1e-13, 1e-13)
-    assert np.max(np.abs(run.states - other)) < 1e-9
-
-
 # ---- the leak ----------------------------------------------------------------------------------------------------
-
-
-@every_body
-def test_off_the_manifold_r_M_grows_with_minus_the_integral_of_b_M2(body):
-    bridge = Bridge.of_heavy(body)
-    state = bridge.from_reduced(somewhere(11)) + 0.1 * np.array([*body.r, 0.0, 0.0, 0.0])
-    b = bridge.hess.a * body.a[1]
-
-    def extended(t, y):
-        return [*HEAVY.field(y[:6], body.parameters), -b * y[1]]
-
-    end = solve_ivp(extended, (0.0, 3.0), [*state, 0.0], "DOP853", rtol=1e-11, atol=1e-12).y[:, -1]
-    before, after = (float(y[:3] @ np.array(body.r)) for y in (state, end))
-    assert after == approx(before * exp(end[6]), rel=1e-7)
-
-
-def test_the_leak_of_the_loxodromic_pendulum_grows_by_2_pi_a():
-    bridge = Bridge.of_heavy(HeavyBody.hess((1.0, 1.5, 2.0), sqrt(0.5)))
-    start, period = on_torus(bridge, 2.0, 0.0)
-    growth = Leak(bridge, run_free(bridge.heavy, start, 30.0 * period, 30 * 96 + 1, FLOOR), None, 96).growth
-    assert growth.per_period == approx(2.0 * pi * abs(bridge.hess.a), rel=1e-4)
-
-
-def test_without_cycles_nothing_grows():
-    start, period = on_torus(GESS1, 5.0, 0.8)
-    run = run_free(GESS1.heavy, start, 100.0 * period, 100 * 96 + 1, FLOOR)
-    assert np.max(np.abs(run.off)) < 3e-14
-    assert Leak(GESS1, run, None, 96).growth is None
 
 
 def leak_of(off, samples=8):
@@ -246,10 +178,8 @@ def test_growth_sees_through_a_wiggle_and_refuses_what_is_not_straight():
     seen = log(1e-15) + 1.7 * t + wiggle
     growth = leak_of(np.exp(seen)).growth
     assert growth.per_period == approx(1.7, rel=1e-12)
-    # From the first period that is all above 3e-14 to the last that is all below 1e-3.
-    periods = seen[:-1].reshape(20, 8)
-    inside = np.flatnonzero(np.all((periods >= log(3e-14)) & (periods <= log(1e-3)), axis=1))
-    assert (growth.first, growth.periods) == (inside[0], len(inside))
+    # All above ln 3e-14 = −31.1 from the period 3 on (2.75: −31.9), all below ln 1e-3 = −6.9 up to 14 (15.25: −6.6).
+    assert (growth.first, growth.periods) == (3, 12)
     assert leak_of(np.full(t.size, 1e-16)).growth is None
     assert leak_of(np.exp(log(1e-15) + 20.0 * t)).growth is None
 
@@ -259,14 +189,3 @@ def test_too_long_a_run_is_refused(held):
     start, _ = on_torus(GESS1, 50.0, 5.0)
     with raises(WorkLimit, match=r"choose a shorter (time span|one)"):
         run_free(GESS1.heavy, start, 1e9, 3, "draft", held)
-
-
-def test_a_leak_is_as_far_from_the_exact_motion_as_the_bridge_says():
-    start, period = on_torus(GESS1, 50.0, 5.0)
-    run = run_free(GESS1.heavy, start, period, 97, FLOOR)
-    reduced = GESS1.hess.in_units_of_b(GESS1.to_reduced(np.array(start)))
-    exact = exact_motion(GESS1.hess.a, tuple(reduced.tolist()), period * GESS1.hess.frequency_unit, 97)
-    leak = Leak(GESS1, run, exact, 96)
-    assert leak.apart.max() < 1e-11
-    shifted = replace(leak, exact=replace(exact, states=exact.states + np.array([0.0, 0.0, 0.01, 0.0, 0.0])))
-    assert shifted.apart == approx(0.01, rel=1e-6)

@@ -66,13 +66,11 @@ def test_the_separatrices_part_as_melnikovs_integral_says(torus):
 def test_the_saddles_are_the_cycles_of_the_moebius_matrix():
     torus = TORI[1]
     body = HeavyBody.hess(torus.moments, torus.strength)
-    found = saddles(torus, PRECISE)
-    for places in (found.repels, found.attracts):
-        assert places[0, 1] == approx(hess_curve(body, places[:1, 0])[0], abs=1e-9)
-        assert torus.map_at(0.0, PRECISE).after(places[0], len(places)) == approx(places[0], abs=1e-7)
-    # Along the Hess curve one repels and the other attracts.
-    P = torus.map_at(0.0, PRECISE)
+    found, P = saddles(torus, PRECISE), torus.map_at(0.0, PRECISE)
     for places, repels in ((found.repels, True), (found.attracts, False)):
+        assert places[0, 1] == approx(hess_curve(body, places[:1, 0])[0], abs=1e-9)
+        assert P.after(places[0], len(places)) == approx(places[0], abs=1e-7)
+        # Along the Hess curve one repels and the other attracts.
         l = places[0, 0] + 1e-4
         moved = P.image(np.array([l, hess_curve(body, np.array([l]))[0]]))
         assert (abs(remainder(moved[0] - places[0, 0], 2.0 * pi)) > 1e-4) is repels

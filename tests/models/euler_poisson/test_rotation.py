@@ -3,13 +3,9 @@
 from math import pi, sqrt
 
 import numpy as np
-from pytest import approx, mark
+from pytest import approx
 
-from hess_mechanics.dynamics.return_map import section_crossings
-from hess_mechanics.euler_poisson.andoyer import AndoyerSection, coordinates
-from hess_mechanics.euler_poisson.rotation import RESOLVED, on_line, rotation_along
-from hess_mechanics.numerics.accuracy import STANDARD
-from support.andoyer import RIS
+from hess_mechanics.euler_poisson.rotation import rotation_along
 
 
 def circle(turn, count=400, centre=(0.0, 0.0), radius=0.3):
@@ -67,24 +63,3 @@ def test_parts_of_the_line_at_sea_reach_half_way_to_the_closed_curves():
     found = rotation_along(ends, (np.arange(6) + 0.5) / 6, orbits, about_first=False, count=6)
     assert found.sea == approx(np.array([[-1.0, -1.0 / 3.0], [0.0, 1.0 / 3.0], [2.0 / 3.0, 1.0]]))
     assert found.places == approx([-1.0 / 6.0])
-
-
-@mark.parametrize(("h", "f"), [(0.0, 0.0), (-0.4, 0.0)])
-def test_in_gess_ris1_a_and_b_the_curves_through_the_line_do_not_go_round(h, f):
-    section = AndoyerSection(RIS, h, f)
-    line = ((2.8, -1.0), (2.8, 1.0))
-    starts = on_line(section, line, 24)
-    orbits = section_crossings(section, [state for _, state in starts], 1000, STANDARD).states
-    places = [coordinates(states) for states in orbits]
-    found = rotation_along(line, [share for share, _ in starts], places, about_first=False, count=24)
-    assert found.librations.size >= 8
-    assert np.all(np.abs(found.numbers) > RESOLVED)
-    # Orbits without a rotation number stay in a part of the circle of l.
-    gaps = []
-    for (share, _), points in zip(starts, places, strict=True):
-        l = np.sort(points[:, 0])
-        gap = max(np.max(np.diff(l)), 2.0 * pi - (l[-1] - l[0]))
-        if not np.any(np.isclose(found.places, -1.0 + 2.0 * share)):
-            gaps.append(gap)
-    assert len(gaps) >= found.librations.size
-    assert np.median(gaps) > 0.5

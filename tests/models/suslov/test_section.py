@@ -23,16 +23,10 @@ from support.suslov import divergence as divergence_of_field
 from support.suslov import energy, field
 
 BODY = SuslovBody(1.5, 3.0, 0.4, -0.7, -0.5, 0.6, 0.7)
-SEA = SuslovBody(1.5, 3.0, 0.4, 0.4, -0.5, -0.5, 0.7), 0.005
 
-TWO = SuslovBody(1.5, 1.0, 0.4, 0.0, 0.3, -0.5, 1.0), 1.842
+
 SEEN = SuslovSection(BODY, 0.6, 3)
 WHOLE = ((-pi, 0.0), (pi, pi))
-
-
-def random_places(count, seed):
-    rng = np.random.default_rng(seed)
-    return rng.uniform(-pi, pi, count), rng.uniform(0.01, pi - 0.01, count)
 
 
 # ---- coordinates -------------------------------------------------------------------------------------------------
@@ -40,7 +34,7 @@ def random_places(count, seed):
 
 @mark.parametrize(("k", "E"), [(1, -0.3), (2, 50.0), (3, 0.4)])
 def test_states_are_on_the_plane_have_the_energy_and_grow_and_coordinates_bring_them_back(k, E):
-    psi, delta = random_places(400, seed=k)
+    psi, delta = np.random.default_rng(k).uniform((-pi, 0.01), (pi, pi - 0.01), (400, 2)).T
     states, ok = SuslovSection(BODY, E, k).states_at(psi, delta)
     gamma_energy = states[:, 2:] @ [BODY.b1, BODY.b2, BODY.b3]
     assert np.array_equal(ok, gamma_energy < E)
@@ -61,11 +55,11 @@ def test_below_the_lowest_energy_nothing_is_possible_and_above_it_something(k):
     gamma = np.zeros((3, psi.size))
     gamma[[i for i in range(3) if i != k - 1]] = np.cos(psi), np.sin(psi)
     assert lowest == approx(np.min(np.array([BODY.b1, BODY.b2, BODY.b3]) @ gamma), abs=1e-8)
-    assert not SuslovSection(BODY, lowest - 1e-9, k).possible(psi).any()
-    assert SuslovSection(BODY, lowest + 1e-6, k).possible(psi).any()
-    assert SuslovSection(BODY, lowest, k).spread(5) == ()
+    below, above = (SuslovSection(BODY, lowest + away, k) for away in (-1e-9, 1e-6))
+    assert (below.possible(psi).any(), above.possible(psi).any()) == (False, True)
+    assert below.spread(5) == ()
     with raises(OutsideRegion, match="choose another place, or a larger energy"):
-        SuslovSection(BODY, lowest - 1e-9, k).state_at(0.0, 1.0)
+        below.state_at(0.0, 1.0)
 
 
 test_what_is_no_point_or_too_much_is_refused = refused(
@@ -96,10 +90,8 @@ def test_seeds_are_as_many_as_asked_for_wherever_the_energy_allows_any(k, above,
         assert len(found) == 0
         return
     assert len(found) == len({tuple(state) for state in found}) == 25
-    for state in found:
-        assert energy(BODY, state) == approx(E, abs=1e-12 * max(1.0, E))
-        assert field(BODY, state)[k + 1] > 0.0
     psi, delta = SuslovSection(BODY, 0.0, k).places_of(found).T
+    assert SuslovSection(BODY, E, k).states_at(psi, delta)[0] == approx(found, abs=1e-7 * max(1.0, E))
     turns = np.abs(psi[:, None] + 2.0 * pi * np.arange(-3, 4) - 0.5 * (psi0 + psi1))
     assert np.all(turns.min(axis=1) <= (psi1 - psi0) / 2 + 1e-9)
     assert np.all((delta > delta0) & (delta < delta1 + 1e-9))
@@ -110,7 +102,7 @@ def test_seeds_are_as_many_as_asked_for_wherever_the_energy_allows_any(k, above,
 
 @mark.parametrize(("k", "forward", "count"), [(1, True, 3), (2, False, 8), (3, True, 8), (3, False, 8)])
 def test_the_first_points_are_those_of_scipy(k, forward, count):
-    body = SEA[0]
+    body = SuslovBody(1.5, 3.0, 0.4, 0.4, -0.5, -0.5, 0.7)
     start = SuslovSection(body, 0.4, k).state_at(-0.3, 0.9)
     found = section_crossings(SuslovSection(body, 0.4, k), [start], 8, PRECISE, not forward).states[0][:count]
     # Along a backward run γ_k falls where it grows in t.
@@ -123,13 +115,10 @@ def test_the_first_points_are_those_of_scipy(k, forward, count):
 # ---- exponents ---------------------------------------------------------------------------------------------------
 
 
-SHRINKING = SuslovBody(1.5, 1.7, 0.1, -0.3, -1.7, 1.0, 2.0)
-
-
 @mark.chaotic
 def test_the_chaotic_seas_of_the_scenes_keep_no_volume():
     """The example “A chaotic sea” of the orbit diagram."""
-    body = SHRINKING
+    body = SuslovBody(1.5, 1.7, 0.1, -0.3, -1.7, 1.0, 2.0)
     section = SuslovSection(body, 1.9 - hypot(body.b1, body.b2, body.b3), 3)
     starts = [section.state_at(*place) for place in settled(section, 48, 1, 100)[:, 0]]
     slopes = np.array([divergence_of_field(body, one) for one in np.eye(5)])
@@ -145,8 +134,8 @@ def test_the_chaotic_seas_of_the_scenes_keep_no_volume():
 
 
 def test_the_basins_of_the_example_are_those_that_scipy_finds():
-    body, E = TWO
-    orbits = SectionOrbits(SuslovSection(body, E, 3), DRAFT)
+    body = SuslovBody(1.5, 1.0, 0.4, 0.0, 0.3, -0.5, 1.0)
+    orbits = SectionOrbits(SuslovSection(body, 1.842, 3), DRAFT)
     starts = orbits.section.spread(6)
     which = arrivals(
         orbits, attractors(orbits.section, 1000.0, DRAFT).sets, *orbits.section.places_of(np.array(starts)).T

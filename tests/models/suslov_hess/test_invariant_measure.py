@@ -4,7 +4,6 @@ from math import atan2, pi, remainder
 
 import numpy as np
 from pytest import approx, mark
-from scipy.integrate import quad
 
 from hess_mechanics import circle_map, level, solve, systems, turning_points
 from hess_mechanics.suslov_hess.invariant_measure import (
@@ -37,21 +36,10 @@ def seen_from(phi, zeta):
 
 
 @every_torus
-def test_the_density_is_invariant_under_the_circle_map(a, h, f):
-    theta = circle_map(a, h, f, REFERENCE)
-    measure = invariant_measure(theta)
-    step = 1e-4
-    around = [np.unwrap(np.array([theta.theta([phi + k * step])[0] for k in (-2, -1, 1, 2)])) for phi in PHASES]
-    slope = np.array([(x[0] - 8.0 * x[1] + 8.0 * x[2] - x[3]) / (12.0 * step) for x in around])
-    assert measure.density(theta.theta(PHASES)) * slope == approx(measure.density(PHASES), rel=1e-9)
-    assert quad(lambda phi: float(measure.density([phi])[0]), -pi, pi)[0] == approx(1.0, abs=1e-9)
-    assert abs(measure.zeta) < 1.0
-
-
-@every_torus
 def test_in_the_angle_of_the_measure_the_map_is_a_rotation(a, h, f):
     theta = circle_map(a, h, f, REFERENCE)
     measure = invariant_measure(theta)
+    assert abs(measure.zeta) < 1.0
     turned = seen_from(theta.theta(PHASES), measure.zeta) - seen_from(PHASES, measure.zeta)
     assert angle_between(turned, 2.0 * pi * theta.rotation_number) <= 1e-10
     # The density is the slope of that angle.
@@ -80,24 +68,6 @@ test_where_there_are_limit_cycles_there_is_none = refused(
 
 
 # ---- on the torus -----------------------------------------------------------------------------------------------
-
-
-@every_torus
-def test_in_its_angles_the_flow_is_linear(a, h, f):
-    theta = circle_map(a, h, f, REFERENCE)
-    turning = turning_points(h, f)
-    times = np.append(np.linspace(0.0, 1.7 * turning.period, 60), 2.0 * turning.period)
-    zeta = zeta_at(theta, times, REFERENCE)
-    assert zeta[[0, -1]] == approx(np.full(2, invariant_measure(theta).zeta), abs=1e-10)
-    turned = []
-    for phi0 in (-2.5, 0.4, 1.9):
-        states = solve(HESS.at((a, 1.0)), turning.state_at_lower_turn(phi0), times, REFERENCE).states
-        psi = seen_from(np.arctan2(states[:, 0], states[:, 1]), zeta)
-        turned.append(psi - psi[0])
-    # All orbits turn through one angle δ(s), which is 2πρ after each return.
-    assert angle_between(turned[1], turned[0]) <= 1e-9
-    assert angle_between(turned[2], turned[0]) <= 1e-9
-    assert angle_between(turned[0][-1], 4.0 * pi * theta.rotation_number) <= 1e-9
 
 
 @every_torus

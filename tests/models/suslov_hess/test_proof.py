@@ -13,7 +13,7 @@ from mpmath import iv
 from pytest import approx, mark, raises
 
 import oracle
-from hess_mechanics import EdgeProof, certificate, circle_map, curve_point, f_max, prove
+from hess_mechanics import certificate, circle_map, curve_point, f_max, prove
 from hess_mechanics.errors import InvalidParameter, MissingLibrary, OutsideRegion, Separatrix, WorkLimit
 from hess_mechanics.numerics.balls import Enclosure, exact
 from hess_mechanics.numerics.patience import work_limit
@@ -108,13 +108,13 @@ def test_cycles_and_rotation_numbers_are_those_of_the_map_to_forty_digits():
                 assert abs(2 * mpmath.cospi(share)) == approx(float(proof.trace.low), abs=1e-14)
 
 
-@mark.parametrize("a", ["0", "-2", "100"])
+@mark.parametrize("a", ["-2", "100"])
 def test_a_pendulum_that_goes_round_has_the_trace_of_its_closed_form(a):
     """f = 0, h > 1: 2 cosh(πa), whatever h."""
     proof = prove(a, "1.7", "0", 64)
     with mpmath.workdps(60):
         assert rational(2 * mpmath.cosh(mpmath.pi * mpmath.mpf(a))) in proof.trace
-    assert proof.statement == ("undecided" if a == "0" else "two cycles")
+    assert proof.statement == "two cycles"
 
 
 # ---- what is exact, and what is refused -------------------------------------------------------------------------
@@ -159,7 +159,6 @@ def test_the_edge_is_told_exactly_from_both_sides():
         prove("0.5", h, f + tiny)
     assert prove("0.5", h, f - tiny).statement == "two cycles"
     on_it = prove("0.5", h, f)
-    assert isinstance(on_it, EdgeProof)
     assert on_it.statement == "two equilibria"
     assert "no torus and no limit cycle" in claim(on_it)
 
@@ -167,10 +166,8 @@ def test_the_edge_is_told_exactly_from_both_sides():
 def test_where_the_trace_is_2_nothing_is_claimed():
     """a = 0, f = 0: Θ is the identity, and the trace exactly 2."""
     proof = prove("0", "1.5", "0", 64)
-    assert proof.statement == "undecided"
-    assert proof.bits == 64
+    assert (proof.statement, proof.bits) == ("undecided", 64)
     assert 2 in proof.trace
-    assert "Undecided at 64 bits" in claim(proof)
     verify(certificate(proof))
 
 

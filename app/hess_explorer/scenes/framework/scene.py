@@ -31,6 +31,9 @@ __all__ = ["Motion", "Preset", "Report", "Scene", "State"]
 S = TypeVar("S", bound="State")
 T = TypeVar("T")
 
+_INCLUDED = re.compile(r"^```\{include\} (\S+)\n```$", re.MULTILINE)
+"""A file whose text several scenes have, as MyST writes it."""
+
 
 class Preset:
     """A named state: the differences from the scene's defaults."""
@@ -227,8 +230,11 @@ class Scene(Generic[S]):
 
     @cached_property
     def _text(self) -> tuple[str, str]:
-        """The front matter of the Markdown file and its body; the body keeps the line numbers of the file."""
-        text = Path(self.module).with_suffix(".md").read_text(encoding="utf-8")
+        """The front matter of the Markdown file and its body, which has the text of the files that it includes."""
+        path = Path(self.module).with_suffix(".md")
+        text = _INCLUDED.sub(
+            lambda part: (path.parent / part[1]).read_text(encoding="utf-8").rstrip(), path.read_text(encoding="utf-8")
+        )
         found = re.match(r"---\nmoves: (.+)\n---\n", text)
         assert found is not None, self.module
         return found[1], "\n" * found[0].count("\n") + text[found.end() :]
