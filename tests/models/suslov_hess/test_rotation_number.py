@@ -13,10 +13,10 @@ from hess_mechanics.suslov_hess.rotation_number import (
     PLANES,
     ParameterLine,
     Torus,
-    return_error,
     lock_curve,
     perturbed_rotation,
     place_of,
+    return_error,
     values_at,
 )
 from support.refusals import refused
