@@ -278,7 +278,8 @@ class _LongCompilations(event.Listener):  # type: ignore[misc]  # numba has no t
     def on_end(self, event: Any) -> None:
         if _announcement(event):
             self.of.runs = False
-        if event.is_failed and event.kind == "numba:compile":
+        # Not `event.is_failed`, which in some versions of Numba says the contrary.
+        if event.kind == "numba:compile" and tuple(event.data["args"]) not in event.data["dispatcher"].overloads:
             let_go(event.data["dispatcher"])
 
 

@@ -34,7 +34,10 @@ class KernelFiles(FunctionCache):  # type: ignore[misc]  # numba has no types
     @property
     def _lock(self) -> FileLock:
         """The lock of the kernel in this process: one made before a fork may not be used after it."""
-        return self._locks.setdefault(os.getpid(), FileLock(self._path, timeout=PATIENCE))
+        process = os.getpid()
+        if process not in self._locks:
+            self._locks[process] = FileLock(self._path, timeout=PATIENCE)
+        return self._locks[process]
 
     def load_overload(self, sig: Any, target_context: Any) -> Any:
         """Return the kernel for these argument types, if need be that which another process is compiling.

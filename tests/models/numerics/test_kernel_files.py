@@ -8,7 +8,9 @@ import subprocess
 import sys
 from pathlib import Path
 
-from pytest import fixture, mark
+from numba.core.caching import FunctionCache
+from numba.core.errors import TypingError
+from pytest import fixture, mark, raises
 
 import hess_mechanics
 from hess_mechanics.numerics import jit
@@ -85,6 +87,22 @@ def test_a_derived_source_cut_short_is_written_again(kernels):
     # The machine code of the same source stays valid, as it must for two processes that write it one after the other.
     assert (mended(1.5), read(mended)) == (4.0, 1)
     assert source.read_text() == SOURCE
+
+
+def test_a_kernel_is_locked_until_its_code_is_stored_or_its_compilation_fails(kernels, monkeypatch):
+    locked, store = [], FunctionCache.save_overload
+
+    def watched(files, signature, data):
+        locked.append(files._lock.is_locked)
+        store(files, signature, data)
+
+    monkeypatch.setattr(FunctionCache, "save_overload", watched)
+    kernel = kernels()
+    kernel(1.5)
+    assert (locked, kernel._cache._lock.is_locked) == ([True], False)
+    with raises(TypingError):
+        kernel("text")
+    assert (locked, kernel._cache._lock.is_locked) == ([True], False)
 
 
 @mark.parametrize("said", ["", "[]", '{"errors.py": [1, 2]}'])
