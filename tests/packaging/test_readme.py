@@ -2,6 +2,7 @@
 
 import re
 import shlex
+import subprocess
 import tomllib
 
 import pytest
@@ -56,6 +57,13 @@ def test_its_links_lead_somewhere(document):
     for link in links:
         if "://" not in link:
             assert (document.parent / link).exists(), link
+
+
+def test_the_runs_on_other_processors_name_tests_that_exist():
+    words = " ".join(re.findall(r"tests/[\w/.{},]+", (ROOT / ".ci/processors").read_text(encoding="utf-8")))
+    paths = subprocess.run(["bash", "-c", f"echo {words}"], capture_output=True, text=True, check=True).stdout.split()
+    assert len(paths) > 4
+    assert [path for path in paths if not (ROOT / path).exists()] == []
 
 
 def test_pictures_are_light():
