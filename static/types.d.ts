@@ -161,7 +161,8 @@ interface SceneDescription {
   essential: string[]
   handle: Handle | null
   moves: string
-  opening: string
+  /** Names of the pictures that lead. */
+  lead: string[]
   groups: string[]
   drawn: boolean
   presets: string[]
@@ -274,8 +275,8 @@ interface Drawn extends Partial<Ghost> {
 /** The pictures of a scene, built. */
 interface Scene {
   name: string
-  /** Name of the picture that a phone shows first. */
-  opening: string
+  /** Names of the pictures that lead; a phone shows the first. */
+  lead: string[]
   grid: HTMLElement
   sources: Map<string, Source>
   /** Returns a source, a new one under a new name. */
@@ -446,6 +447,8 @@ interface PageEvents {
   // From the player
   time: { t: number, state: Record<string, number> | null }
   fold: string
+  /** Something beside the answer is unfolded, or folded: "details" or "text". */
+  unfolding: { name: string, on: boolean }
   folded: { name: string, folded: boolean }
   // From a picture and to it: [picture, azimuth, elevation]
   turned: [string, number, number]

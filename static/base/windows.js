@@ -9,6 +9,8 @@ const [width, height] = isPart ? [480, 320] : PAGE
 export const PHONE = matchMedia(`(max-width: ${width - 1}px), (max-height: ${height - 1}px)`)
 // Controls and text share a column as tabs.
 export const NARROW = matchMedia("(max-width: 1499px)")
+// The text has room beside the pictures.
+export const ROOMY = matchMedia("(min-width: 1800px)")
 export const CALM = matchMedia("(prefers-reduced-motion: reduce)")
 
 /** Return a style sheet with the sizes of this page: the sheets have those of a whole one. @param {string} sheet */

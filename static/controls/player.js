@@ -9,7 +9,6 @@ import { within } from "../base/numbers.js"
 import { gallery } from "../pictures/gallery.js"
 import { stateAt } from "../pictures/moment.js"
 import { CALM } from "../base/windows.js"
-import { isFolded } from "../pictures/picture.js"
 import { opening } from "./opening.js"
 
 const SPEEDS = [0.25, 0.5, 1, 2, 4, 8]
@@ -25,11 +24,6 @@ const FORWARD = "M18 7v10M6 7v10l8-5z"
 /** @param {string} name @param {string} path @param {string} title @param {() => void} onclick */
 const transport = (name, path, title, onclick) => (
   button(`transport.param-${name}`, onclick, { innerHTML: icon(path, "1.6em"), title, ariaLabel: title }))
-
-/** Return the button that unfolds a picture or folds it again. @param {PictureDescription} picture */
-const unfolding = ({ name, folded: label }) => button(`button.unfold.unfold-${name}`, () => tell("fold", name), {
-  title: label, ariaLabel: label, ariaExpanded: !isFolded(gallery.cell(name)),
-}, label.replace(/^Show (the )?/, ""))
 
 /** Render the player. @param {{el: HTMLElement}} part */
 export function render({ el }) {
@@ -48,9 +42,8 @@ export function render({ el }) {
   const back = transport("back", BACK, "Step back (←)", () => step(-1))
   const toggle = transport("play", PLAY, "Play (Space)", () => play(!playing))
   const forward = transport("forward", FORWARD, "Step forward (→)", () => step(1))
-  const folds = element("span.folds")
   const items = [back, toggle, forward, slider, output, speed]
-  const bar = element("div.player", { role: "group", ariaLabel: "Motion in time" }, ...items, folds)
+  const bar = element("div.player", { role: "group", ariaLabel: "Motion in time" }, ...items)
   el.append(bar)
 
   /** @type {Pick<SceneDescription, "dots" | "angles" | "pictures">} */
@@ -175,7 +168,6 @@ export function render({ el }) {
     },
     // The next scene starts from this time.
     scene() { if (playing) play(false) },
-    folded({ name, folded }) { folds.querySelector(`.unfold-${name}`).ariaExpanded = String(!folded) },
     client(own) {
       t = Number(own.t)
       // A link with a time shows that moment.
@@ -188,7 +180,6 @@ export function render({ el }) {
       source = gallery.source("data-orbit") ?? null
       // A scene without a motion has no player.
       for (const item of items) item.hidden = source === null
-      folds.replaceChildren(...entered.pictures.filter(({ folded }) => folded !== null).map(unfolding))
       source?.watch(onData)
       onData()
     },

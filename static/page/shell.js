@@ -10,7 +10,7 @@ import { announcer } from "./announce.js"
 import { listen, tell } from "../base/bus.js"
 import { startClient } from "./client.js"
 import { linkTo } from "../base/embedding.js"
-import { button, element } from "../base/elements.js"
+import { button, element, update } from "../base/elements.js"
 import { arrowOf, onKeys } from "../base/keys.js"
 import { render as renderLessons } from "./lessons.js"
 import { wear } from "../base/presenting.js"
@@ -19,7 +19,8 @@ import { render as renderProgress } from "./progress.js"
 import { render as renderProse } from "./prose.js"
 import { render as renderStatus } from "./status.js"
 import { render as renderText } from "./text.js"
-import { NARROW, PHONE } from "../base/windows.js"
+import { browserStore } from "../base/stores.js"
+import { NARROW, PHONE, ROOMY } from "../base/windows.js"
 
 /** Return the tabs of the columns. @param {Record<string, HTMLElement>} columns label → column */
 function tabsOf(columns) {
@@ -65,6 +66,9 @@ function tabsOf(columns) {
   return element("div.tabs", { role: "tablist", ariaLabel: "Beside the pictures", onkeydown }, ...tabs.map(([tab]) => tab))
 }
 
+/** Return content that unfolds. @param {string} label @param {HTMLElement[]} content */
+const folding = (label, ...content) => element("details", element("summary", label), ...content)
+
 /** Return a link to the state on show, in the explorer. @param {`a.${string}`} name its classes @param {string} label */
 export function opener(name, label) {
   const link = element(name, { target: "_blank", rel: "noopener", href: "." }, label)
@@ -79,15 +83,47 @@ export function opener(name, label) {
 }
 
 /**
- * Return the sentence about the motion, above the stage; on a phone in the text.
+ * Return the line above the pictures: a sentence on the state on show, and what unfolds beside it.
+ * @param {HTMLElement} el the frame of the page
+ */
+function answerLine(el) {
+  const answer = element("p.text.answer", { role: "status" })
+  /** @param {string} name @param {string} key @param {string} title @param {boolean} isOpen */
+  const toggle = (name, key, title, isOpen) => {
+    const item = button(`fold.param-${name}`, () => turn(item.ariaExpanded !== "true"), { title: `${title} (${key})` }, name[0].toUpperCase() + name.slice(1))
+    /** @param {boolean} on */
+    const show = (on) => {
+      item.ariaExpanded = String(on)
+      el.classList.toggle(`with-${name}`, on)
+      tell("unfolding", { name, on })
+    }
+    /** @param {boolean} on */
+    const turn = (on) => {
+      browserStore.set(name, on ? "1" : "0")
+      show(on)
+    }
+    const kept = browserStore.get(name)
+    show(kept === null ? isOpen : kept === "1")
+    onKeys({ [key.toLowerCase()]: () => item.checkVisibility() && item.click() })
+    return item
+  }
+  listen({ texts({ answer: text }) { if (text !== undefined) update(answer, { textContent: text, title: text }) } })
+  return element("div.answer-line", answer,
+    toggle("details", "D", "Numbers above the pictures", false), toggle("text", "T", "Text, legend and lessons", ROOMY.matches))
+}
+
+/**
+ * Return the sentences about the motion, above the stage; on a phone in the text.
+ * @param {HTMLElement} el the frame of the page
  * @param {HTMLElement} stage
  * @param {HTMLElement} reading
  */
-function sentenceAbove(stage, reading) {
+function sentencesAbove(el, stage, reading) {
+  const line = answerLine(el)
   const sentence = element("p.text.moves")
   const place = () => {
-    if (PHONE.matches) reading.prepend(sentence)
-    else stage.before(sentence)
+    if (PHONE.matches) reading.prepend(line, sentence)
+    else stage.before(line, sentence)
   }
   PHONE.addEventListener("change", place)
   place()
@@ -106,10 +142,10 @@ export function buildPage(model, host, { mount, bar, lessons, styles }, el) {
   /** @param {string} key @param {string} [tag] */
   const text = (key, tag) => mount("text", renderText, { key, tag })
   const controls = element("section.controls.column", { id: "controls" },
-    mount("controls", renderControls), element("div", text("derived", "div"), text("fixed", "div")))
+    mount("controls", renderControls), folding("Derived numbers", text("derived", "div"), text("fixed", "div")))
   const reader = element("section.reader.column", { id: "text" },
     element("div.reading", mount("lessons", renderLessons, lessons), mount("prose", renderProse, { part: "words" })),
-    element("div.signs", mount("prose", renderProse, { part: "legend" })))
+    Object.assign(folding("Legend", mount("prose", renderProse, { part: "legend" })), { className: "signs" }))
   // Scrolling columns are reached with the keyboard.
   const [reading, signs] = /** @type {Iterable<HTMLElement>} */ (reader.children)
   for (const column of [controls, reading, signs]) column.tabIndex = 0
@@ -123,7 +159,7 @@ export function buildPage(model, host, { mount, bar, lessons, styles }, el) {
     ...styles, element("header.bar", ...bar, element("div.news", text("busy"))),
     tabsOf({ Controls: controls, Text: reader }), controls, stage, reader,
     element("div.foot", text("notes"), mount("status", renderStatus, {}, element("div.status-line"))), opener("a.opener", "Open in Hess Explorer"), drawer(el), spot())
-  el.append(announcer(sentenceAbove(stage, reading)))
+  el.append(announcer(sentencesAbove(el, stage, reading)))
   wear(el)
   listen({
     reading: (on) => el.classList.toggle("in-lesson", on),

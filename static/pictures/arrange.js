@@ -1,172 +1,170 @@
 // @ts-check
-// Layout of square pictures in a viewport, side by side and as large as the room allows.
+// Layout of square pictures: those in the lead in a grid, the others in a strip beside it or below it.
 
 /**
- * The viewport.  `share` of its height belongs to an enlarged picture, if the width allows.  `caption` is the height of the
- * caption over a picture, `title` that of the title over a picture beside enlarged ones, and `wide` the largest width of a cell
- * that is wider than its picture.
- * @typedef {{width: number, height: number, count: number, gap: number, share: number, caption: number, title: number,
- *   wide: number}} Place
- * @typedef {{x: number, y: number, width: number, edge: number, caption: number, aside: boolean}} Box
- * Many arrangements are compared, by their smallest edge and the area of all pictures; boxes are made for one.
- * @typedef {{smallest: number, area: number, boxes: () => Box[]}} Arrangement
+ * The viewport.  `head` is the height of the caption over a leading picture, `title` that over a picture of the strip, and `least`
+ * the smallest edge there; `names` is the height of a row of names in the strip.
+ * @typedef {{width: number, height: number, gap: number, head: number, title: number, least: number, names: number}} Viewport
+ * @typedef {{width: number, height: number}} Room
+ * @typedef {{x: number, y: number, edge: number, caption: number, aside: boolean}} Box
+ * @typedef {Room & {x: number, y: number}} Frame
  */
 
-const STEP = 2
-// Factor of the area of all pictures for which an arrangement may be less regular.
-const LARGER = 1.1
-// Edge of a picture beside enlarged ones, as a share of the height.
-const SMALLEST = 0.09
-// Error of the width that the text may take.
-const COARSE = 12
+const STEP = 4
+// A single leading picture takes this share of the height, if the width allows; several take this share of what they could.
+const LEAST = 0.7
+// Width of a name in a row of names beside the lead, in units of the height of the row.
+const NAME = 5
+// Where the strip stands, beside the lead or below it, and its names, in a column beside its pictures or in rows below them.
+const WAYS = [[true, false], [true, true], [false, false]]
+
+/** @param {number} count @param {number} columns */
+const rowsOf = (count, columns) => Math.ceil(count / columns)
 
 /**
- * Return the arrangement of equal pictures in a grid.
- * @param {Place} place
+ * Return the edge of equal squares below captions, which fill a room.
+ * @param {Room} room
+ * @param {number} count
  * @param {number} columns
- * @returns {Arrangement}
+ * @param {number} caption
+ * @param {number} gap
  */
-function grid({ width, height, count, gap, caption, wide: widest }, columns) {
-  const rows = Math.ceil(count / columns)
-  const wide = (width - gap * (columns - 1)) / columns
-  const high = (height - gap * (rows - 1)) / rows
-  const edge = Math.floor(Math.min(wide, high - caption))
-  const boxes = () => {
-    const cell = Math.min(wide, Math.max(edge, widest))
-    const left = (width - columns * cell - gap * (columns - 1)) / 2
-    const row = edge + caption + gap
-    const top = (height - rows * row + gap) / 2
-    // A last row that is not full is centred.
-    /** @param {number} i */
-    const indent = (i) => (i < columns * (rows - 1) ? 0 : (rows * columns - count) / 2)
-    return Array.from({ length: count }, (_, i) => ({
-      x: left + ((i % columns) + indent(i)) * (cell + gap), y: top + Math.floor(i / columns) * row,
-      width: cell, edge, caption, aside: false,
-    }))
+function edgeOf({ width, height }, count, columns, caption, gap) {
+  const rows = rowsOf(count, columns)
+  return Math.floor(Math.min((width - gap * (columns - 1)) / columns, (height - gap * (rows - 1)) / rows - caption))
+}
+
+/**
+ * Return the size of a grid of squares below captions.
+ * @param {number} count
+ * @param {number} columns
+ * @param {number} edge
+ * @param {number} caption
+ * @param {number} gap
+ * @returns {Room}
+ */
+const sizeOf = (count, columns, edge, caption, gap) => ({
+  width: columns * (edge + gap) - gap, height: rowsOf(count, columns) * (edge + caption + gap) - gap,
+})
+
+/** @param {number} most */
+const upTo = (most) => Array.from({ length: most }, (_, i) => i + 1)
+
+/**
+ * Return the best strip for a room: as many columns as give the largest pictures.
+ * @param {Room} room
+ * @param {number} count
+ * @param {Viewport} viewport
+ */
+function stripIn(room, count, { title, gap }) {
+  return upTo(count).map((columns) => ({ columns, edge: edgeOf(room, count, columns, title, gap) }))
+    .reduce((best, one) => (one.edge > best.edge ? one : best), { columns: 1, edge: 0 })
+}
+
+/**
+ * Return the room that names take from the strip: rows below its pictures, or a column beside them.
+ * @param {number} width of the strip
+ * @param {number} count
+ * @param {boolean} isColumn
+ * @param {Viewport} viewport
+ * @returns {Room}
+ */
+function namesIn(width, count, isColumn, { names, gap }) {
+  if (count === 0) return { width: 0, height: 0 }
+  const inRow = isColumn ? 1 : Math.max(1, Math.floor(width / (NAME * names)))
+  return { width: isColumn ? NAME * names + gap : 0, height: isColumn ? 0 : rowsOf(count, inRow) * names + gap }
+}
+
+/**
+ * Return the best layout: of those in which the strip can be read, the one whose pictures cover most.
+ * @param {Viewport} viewport
+ * @param {number} leading
+ * @param {number} rest
+ * @param {number} names
+ */
+function layout(viewport, leading, rest, names) {
+  const { width, height, gap, head, least } = viewport
+  let best = { worth: -Infinity, lead: { columns: 1, edge: 0 }, isBeside: false, isColumn: false, strip: { columns: 1, edge: 0 } }
+  for (const columns of upTo(leading)) {
+    const most = edgeOf(viewport, leading, columns, head, gap)
+    const fewest = leading > 1 ? LEAST * most : Math.min(most, LEAST * height)
+    for (let edge = most; edge >= fewest; edge -= STEP) {
+      const lead = sizeOf(leading, columns, edge, head, gap)
+      for (const [isBeside, isColumn] of WAYS) {
+        const room = isBeside ? { width: width - lead.width - gap, height } : { width, height: height - lead.height - gap }
+        const taken = namesIn(room.width, names, isColumn, viewport)
+        const left = { width: room.width - taken.width, height: room.height - taken.height }
+        const found = stripIn(left, rest, viewport)
+        const strip = { ...found, edge: Math.min(found.edge, edge) }
+        const isSeen = rest === 0 ? left.height >= 0 && left.width >= 0 : strip.edge >= least
+        const worth = isSeen ? leading * edge * edge + rest * strip.edge * strip.edge : strip.edge - least
+        if (worth > best.worth && (isSeen || best.worth < 0)) best = { worth, lead: { columns, edge }, isBeside, isColumn, strip }
+      }
+    }
   }
-  return { smallest: edge, area: count * edge * edge, boxes }
+  return best
 }
 
-/** @param {Place} place */
-const grids = (place) => Array.from({ length: place.count }, (_, i) => grid(place, i + 1))
-
 /**
- * Return the arrangement with `leading` pictures of edge `lead` in a row, and the others in a grid beside or below it.
- * @param {Place} place
- * @param {number} leading
- * @param {number} lead
- * @param {boolean} isBeside
- * @param {boolean} aside whether the captions of the others are cut to their titles
- * @returns {Arrangement}
+ * Return the box of each picture, the leading ones first, and the frame of the names in the strip.
+ * @param {Viewport} viewport
+ * @param {number} leading how many pictures lead
+ * @param {number} rest how many stand in the strip
+ * @param {number} names how many names stand there
+ * @returns {{boxes: Box[], names: Frame}}
  */
-function leadAndRest(place, leading, lead, isBeside, aside) {
-  const { width, height, count, gap, caption, title } = place
-  const row = leading * lead + gap * (leading - 1)
-  const across = isBeside ? row + gap : 0
-  const down = isBeside ? 0 : lead + caption + gap
-  const left = isBeside ? 0 : (width - row) / 2
-  const top = isBeside ? (height - lead - caption) / 2 : 0
-  const rest = best(grids({
-    ...place, width: width - across, height: height - down, count: count - leading, caption: aside ? title : caption,
-  }))
-  const edge = Math.min(rest.smallest, lead)
-  const boxes = () => {
-    const leads = Array.from({ length: leading }, (_, i) => ({
-      x: left + i * (lead + gap), y: top, width: lead, edge: lead, caption, aside: false,
-    }))
-    const others = rest.boxes().map((box) => ({ ...box, x: box.x + across, y: box.y + down, edge, aside }))
-    return [...leads, ...others]
+export function arrange(viewport, leading, rest, names = 0) {
+  const { width, height, gap, head, title } = viewport
+  const { lead, isBeside, isColumn, strip } = layout(viewport, leading, rest, names)
+  const first = sizeOf(leading, lead.columns, lead.edge, head, gap)
+  const aside = rest === 0 ? { width: 0, height: -gap } : sizeOf(rest, strip.columns, strip.edge, title, gap)
+  const room = isBeside ? width - first.width - gap : width
+  const taken = namesIn(room, names, isColumn, viewport)
+  const across = isBeside ? first.width + gap + (rest === 0 && !isColumn ? room : aside.width) + taken.width : Math.max(first.width, aside.width)
+  const down = isBeside ? Math.max(first.height, aside.height + taken.height) : first.height + gap + aside.height + taken.height
+  const [left, top] = [(width - across) / 2, Math.max(0, (height - down) / 2)]
+  const [x, y] = isBeside ? [left + first.width + gap, top] : [(width - aside.width) / 2, top + first.height + gap]
+  return {
+    boxes: [
+      ...grid(leading, lead, head, gap, isBeside ? left : (width - first.width) / 2, top, false),
+      ...grid(rest, strip, title, gap, x, y, true),
+    ],
+    names: isColumn
+      ? { x: x + aside.width + gap, y, width: taken.width - gap, height: down }
+      : { x: isBeside ? x : 0, y: y + aside.height + gap, width: isBeside ? across - first.width - gap : width, height: taken.height - gap },
   }
-  return { smallest: edge, area: leading * lead * lead + (count - leading) * edge * edge, boxes }
 }
 
 /**
- * Return the largest edge of `leading` pictures in a row.
- * @param {Place} place
- * @param {number} leading
- */
-function largest({ width, height, gap, caption }, leading) {
-  return Math.floor(Math.min((width - gap * (leading - 1)) / leading, height - caption))
-}
-
-/**
- * Return the arrangement with the largest smallest picture; among equals, one whose pictures fill clearly more of the viewport.
- * @param {Arrangement[]} arrangements
- */
-function best(arrangements) {
-  return arrangements.reduce((found, one) => {
-    const larger = one.smallest - found.smallest
-    return larger >= 1 || (larger > -1 && one.area >= LARGER * found.area) ? one : found
-  })
-}
-
-/**
- * Return the arrangements with leading pictures from the largest possible edge down to `least`.
- * @param {Place} place
- * @param {number} leading
- * @param {number} least
+ * Return the boxes of a grid.
+ * @param {number} count
+ * @param {{columns: number, edge: number}} size
+ * @param {number} caption
+ * @param {number} gap
+ * @param {number} x
+ * @param {number} y
  * @param {boolean} aside
- */
-function ledBy(place, leading, least, aside) {
-  const found = []
-  for (let lead = largest(place, leading); lead >= least; lead -= STEP) {
-    for (const isBeside of [true, false]) found.push(leadAndRest(place, leading, lead, isBeside, aside))
-  }
-  return found
-}
-
-/**
- * Return the best arrangement without an enlarged picture.
- * @param {Place} place
- */
-function even(place) {
-  return best([...grids(place), ...place.count > 2 ? ledBy(place, 1, Math.floor(0.4 * largest(place, 1)) + 1, false) : []])
-}
-
-/**
- * Return the best arrangement with the first `leading` pictures enlarged.
- * @param {Place} place
- * @param {number} leading
- */
-function enlarged(place, leading) {
-  if (leading === place.count) return grid(place, leading)
-  const [most, high] = [largest(place, leading), place.height]
-  const large = best(ledBy(place, leading, Math.min(place.share * high, 0.94 * most), true))
-  if (large.smallest >= SMALLEST * high) return large
-  // Leave the others some room.
-  return ledBy(place, leading, 0.6 * most, true).find(({ smallest }) => smallest >= SMALLEST * high) ?? large
-}
-
-/**
- * Return how much narrower, up to `most`, the viewport may be without any picture getting smaller.
- * @param {Place} place
- * @param {number} most
- */
-export function spareWidth(place, most) {
-  if (place.count === 0) return 0
-  const full = even(place)
-  let [spare, beyond] = [0, Math.min(most, place.width)]
-  while (beyond - spare > COARSE) {
-    const middle = (spare + beyond) / 2
-    const { area, smallest } = even({ ...place, width: place.width - middle })
-    if (smallest >= full.smallest && area >= full.area) spare = middle
-    else beyond = middle
-  }
-  return Math.floor(spare)
-}
-
-/**
- * Return the box of each picture, in their order.
- * @param {Place} place
- * @param {number[]} large indices of the enlarged pictures
  * @returns {Box[]}
  */
-export function arrange(place, large = []) {
-  if (place.count === 0) return []
-  const order = [...large, ...Array.from({ length: place.count }, (_, i) => i).filter((i) => !large.includes(i))]
-  const boxes = (large.length > 0 ? enlarged(place, large.length) : even(place)).boxes()
-  /** @type {Box[]} */
-  const placed = []
-  order.forEach((picture, i) => { placed[picture] = boxes[i] })
-  return placed
+const grid = (count, { columns, edge }, caption, gap, x, y, aside) => Array.from({ length: count }, (_, i) => ({
+  x: x + (i % columns) * (edge + gap), y: y + Math.floor(i / columns) * (edge + caption + gap), edge, caption, aside,
+}))
+
+/**
+ * Return the boxes on a phone: one picture, as wide as the viewport allows, and perhaps a small one below it, beside the names.
+ * @param {Viewport} viewport
+ * @param {number} count of small pictures, 0 or 1
+ * @returns {{boxes: Box[], names: Frame}}
+ */
+export function onPhone({ width, height, gap, head, title, least }, count) {
+  const small = least - title
+  const edge = Math.min(width, height - head - least - gap)
+  const y = head + edge + gap
+  return {
+    boxes: [
+      { x: (width - edge) / 2, y: 0, edge, caption: head, aside: false },
+      ...Array.from({ length: count }, () => ({ x: gap, y, edge: small, caption: title, aside: true })),
+    ],
+    names: { x: count * (small + gap) + gap, y, width: width - count * (small + gap) - 2 * gap, height: least },
+  }
 }

@@ -77,7 +77,7 @@ async function build(description, begun = async () => {}) {
     return scene.sources.get(name)
   }
   /** @type {Scene} */
-  const scene = { name: description.name, opening: description.opening, grid, sources: new Map(), cells: [], plots: [], ranges: {}, beside: {}, ghosts: [], shots: new Map(), sizes: new Map(), painted: false, isComplete: false, source }
+  const scene = { name: description.name, lead: description.lead, grid, sources: new Map(), cells: [], plots: [], ranges: {}, beside: {}, ghosts: [], shots: new Map(), sizes: new Map(), painted: false, isComplete: false, source }
   const places = description.pictures.map((picture) => {
     const { name } = picture
     const [cell, host] = createCell(picture, stage.cornerFor(name), () => { gallery.pointed = name })

@@ -47,20 +47,20 @@ export const largerOf = (plot) => factors.get(plot) ?? 1
  * Set the font sizes of a plot, and the sizes of lines and dots for the current mode.
  * @param {PlotView} plot
  * @param {number} type font size in pixels
- * @param {number} scale of a thumbnail, 1 for other pictures
+ * @param {number | null} scale of a picture in the strip, which has no axes; null for the others
  * @param {number} edge of the picture in pixels
  */
 export function sizePlot(plot, type, scale, edge) {
-  const larger = scale * zoom()
+  const larger = (scale ?? 1) * zoom()
   factors.set(plot, larger)
-  const labelled = edge < UNLABELLED ? 0 : Math.min(larger, Math.max(LEAST, edge / LABELLED))
+  const labelled = scale !== null || edge < UNLABELLED ? 0 : Math.min(larger, Math.max(LEAST, edge / LABELLED))
   for (const part of plot.model.references()) {
     const isLabel = (part.text_font_style?.value ?? part.text_font_style) === "bold"
     const factor = isLabel ? labelled : larger
     part.setv(Object.fromEntries(sizesOf(part).map(([name, value]) => [name, times(factor, value)])))
     if (part.axis_label_text_font_size !== undefined) {
       part.setv({
-        axis_label_text_font_size: `${scale * type}px`, major_label_text_font_size: `${Math.round(TICKS * scale * type)}px`,
+        visible: scale === null, axis_label_text_font_size: `${type}px`, major_label_text_font_size: `${Math.round(TICKS * type)}px`,
       })
     }
   }

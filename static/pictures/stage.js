@@ -1,32 +1,26 @@
 // @ts-check
-// Lays out the pictures of a scene in the viewport, and enlarges some of them.
+// Places the pictures of a scene: those in the lead, and a strip of small ones beside them.
 //
-// The corner button of a picture or its number key enlarges it, with Shift a second and third one; Escape restores the layout.
-// A phone shows one picture at a time, chosen by the names below it.
+// A tap on a picture of the strip, its corner button or its number key puts it in the lead, with Shift beside those that lead; Escape
+// restores the lead of the scene.  Pictures that start folded are names in the strip.
 
 import { button, element, icon, relabel } from "../base/elements.js"
 import { listen, tell } from "../base/bus.js"
 import { isEmbedded } from "../base/embedding.js"
 import { isTaken, onKeys } from "../base/keys.js"
-import { isPresenting, setType, zoom } from "../base/presenting.js"
-import { NARROW, PHONE } from "../base/windows.js"
-import { arrange, spareWidth } from "./arrange.js"
+import { setType, zoom } from "../base/presenting.js"
+import { PHONE } from "../base/windows.js"
+import { arrange, onPhone } from "./arrange.js"
 import { isFolded, labelOf, nameOf } from "./picture.js"
 import { sizePlot } from "./plot_looks.js"
 
 const MOST_LARGE = 3
-// Share of the height that an enlarged picture takes if the width allows, at a desk and in present mode.
-const DESK = 0.82
-const HALL = 0.9
 const ENLARGE = "M5 9V5h4M15 5h4v4M19 15v4h-4M9 19H5v-4"
 const REDUCE = "M9 5v4H5M19 9h-4V5M15 19v-4h4M5 15h4v4"
-
-// Largest width of a cell that is wider than its picture, in units of the font size.
-const WIDEST = 34
-// A picture that is smaller than this in present mode, in units of the font size, is drawn in this size and scaled down.
-const LEGIBLE = 13
-// The text beside the pictures takes at most this width from them, in units of the font size.
-const MOST_SPARE = 10
+// Smallest edge of a picture of the strip, in pixels, and height of the strip on a phone.
+const [LEAST, LEAST_ON_PHONE] = [150, 118]
+// A canvas of the strip that is smaller than this, in units of the font size, is drawn in this size and scaled down.
+const LEGIBLE = 20
 
 /**
  * Return the stage, which places the pictures of a scene.
@@ -40,25 +34,22 @@ export function createStage(shelf, gallery) {
   // The pictures that a step of a lesson shows alone; all if there is none.
   /** @type {string[]} */
   let alone = []
-  // Pixels that the text has taken.
-  let spare = 0
-  const chips = element("div.chips", { role: "group", ariaLabel: "Picture" })
+  // Names of the pictures that start folded; on a phone of all pictures.
+  const chips = element("div.chips", { role: "group", ariaLabel: "Pictures" })
   shelf.after(chips)
 
   const placeShown = () => { if (gallery.shown !== null) place(gallery.shown) }
 
   // Write only changes: a plot is laid out again whenever its size is set.
   /** @param {HTMLElement} cell @param {import("./arrange.js").Box} box @param {number} type */
-  function put(cell, { x, y, width, edge, caption, aside }, type) {
-    const scale = isPresenting() && aside ? Math.min(1, edge / (LEGIBLE * type)) : 1
+  function put(cell, { x, y, edge, caption, aside }, type) {
+    const scale = aside ? Math.min(1, edge / (LEGIBLE * type)) : 1
     cell.classList.toggle("aside", aside)
-    cell.classList.toggle("thumbnail", scale < 1)
-    const place = [x, y, width, edge, caption, 1000 * scale].map(Math.round).join(" ")
+    cell.querySelector(".host").toggleAttribute("inert", aside)
+    const place = [x, y, edge, caption, 1000 * scale].map(Math.round).join(" ")
     if (cell.dataset.place === place) return
     cell.dataset.place = place
-    for (const [key, value] of Object.entries({ x, y, width, edge, caption })) {
-      cell.style.setProperty(`--${key}`, `${Math.round(value)}px`)
-    }
+    for (const [key, value] of Object.entries({ x, y, edge, caption })) cell.style.setProperty(`--${key}`, `${Math.round(value)}px`)
     cell.style.setProperty("--scale", String(scale))
   }
 
@@ -73,40 +64,26 @@ export function createStage(shelf, gallery) {
   function size(scene) {
     const type = typeNow()
     for (const plot of scene.plots) {
-      const cell = scene.cells.find((one) => nameOf(one) === plot.model.name)
+      const { classList, style } = scene.cells.find((one) => nameOf(one) === plot.model.name)
       // A folded picture has no place yet.
-      const scale = Number(cell.style.getPropertyValue("--scale")) || 1
-      const edge = Number.parseFloat(cell.style.getPropertyValue("--edge")) || 0
-      const sizes = `${type} ${zoom()} ${scale} ${edge}`
+      const edge = Number.parseFloat(style.getPropertyValue("--edge")) || 0
+      const isAside = classList.contains("aside")
+      const sizes = `${type} ${zoom()} ${isAside} ${edge}`
       if (scene.sizes.get(plot) === sizes) continue
       scene.sizes.set(plot, sizes)
-      sizePlot(plot, type, scale, edge)
+      sizePlot(plot, type, isAside ? Number(style.getPropertyValue("--scale")) : null, edge)
     }
   }
 
-  /**
-   * Return the viewport.  At a desk the text beside it takes the width that no picture needs.
-   * @param {Scene} scene
-   * @param {number} count of pictures
-   * @param {number} type
-   */
-  function viewport(scene, count, type) {
-    const isBeside = !NARROW.matches && !isPresenting() && !isEmbedded() && alone.length === 0
+  /** Return the viewport. @param {number} type */
+  function viewport(type) {
     const style = getComputedStyle(shelf)
     /** @param {string} name of a length in units of the font size, in "pictures.css" */
     const heightOf = (name) => Math.ceil(type * Number.parseFloat(style.getPropertyValue(name)))
-    const full = {
-      width: shelf.clientWidth + (isBeside ? spare : 0), height: shelf.clientHeight, count, gap: Math.round(0.6 * type),
-      share: isPresenting() ? HALL : DESK, caption: heightOf("--caption-height"), title: heightOf("--title-height"),
-      wide: WIDEST * type,
+    return {
+      width: shelf.clientWidth, height: shelf.clientHeight, gap: Math.round(0.6 * type), least: PHONE.matches ? LEAST_ON_PHONE : LEAST,
+      head: heightOf("--caption-height"), title: heightOf("--title-height"), names: heightOf("--name-height"),
     }
-    if (!isBeside) return full
-    const taken = spareWidth(full, MOST_SPARE * type)
-    if (scene === gallery.shown && spare !== taken) {
-      spare = taken
-      document.documentElement.style.setProperty("--spare", `${spare}px`)
-    }
-    return { ...full, width: full.width - taken }
   }
 
   /** Place the pictures of a scene; a scene that is not on show is laid out as it would open. @param {Scene} scene */
@@ -120,49 +97,65 @@ export function createStage(shelf, gallery) {
     const open = scene.cells.filter((cell) => !isFolded(cell))
     const chosenAlone = open.filter((cell) => alone.includes(nameOf(cell)))
     const cells = chosenAlone.length > 0 ? chosenAlone : open
-    for (const cell of scene.cells) if (!cells.includes(cell)) cell.classList.add("off")
-    const own = scene === gallery.shown ? large.map((name) => cells.findIndex((cell) => nameOf(cell) === name)) : []
-    const chosen = own.filter((i) => i >= 0)
-    const first = alone.at(-1) ?? scene.opening
-    const opening = Math.max(0, cells.findIndex((cell) => nameOf(cell) === first))
-    const seen = PHONE.matches ? [chosen[0] ?? opening] : cells.map((_, i) => i)
-    const boxes = arrange(viewport(scene, seen.length, type), PHONE.matches ? [] : chosen)
-    cells.forEach((cell, i) => {
-      const at = seen.indexOf(i)
-      cell.classList.toggle("off", at < 0)
-      if (at >= 0) put(cell, boxes[at], type)
-      label(cell, i, chosen.includes(i))
+    const leads = leadsOf(scene, cells)
+    const others = cells.filter((cell) => !leads.includes(cell))
+    // A phone shows one picture, and a small one beside the names.
+    const second = alone.length > 0 || leads.length + others.length < 2 ? [] : [leads[1] ?? others[0]]
+    const seen = PHONE.matches ? [leads[0], ...second] : [...leads, ...others]
+    const leading = PHONE.matches ? 1 : leads.length
+    const names = isEmbedded() || alone.length > 0 ? [] : scene.cells.filter(({ dataset }) => PHONE.matches || "label" in dataset)
+    const { boxes, names: frame } = PHONE.matches ? onPhone(viewport(type), second.length)
+      : arrange(viewport(type), leading, others.length, names.length)
+    for (const cell of scene.cells) cell.classList.toggle("off", !seen.includes(cell))
+    seen.forEach((cell, i) => {
+      put(cell, boxes[i], type)
+      label(cell, cells.indexOf(cell), i < leading)
     })
     size(scene)
-    if (scene === gallery.shown && PHONE.matches) showChips(scene, cells[seen[0]])
+    if (scene !== gallery.shown) return
+    for (const [key, value] of Object.entries(frame)) chips.style.setProperty(`--${key}`, `${Math.round(value)}px`)
+    showChips(scene, names)
   }
 
-  /** @param {HTMLElement} cell @param {number} i @param {boolean} isLarge */
-  function label(cell, i, isLarge) {
+  /**
+   * Return the cells that lead: the chosen ones, those that are shown alone, or those of the scene.
+   * @param {Scene} scene
+   * @param {HTMLElement[]} cells
+   */
+  function leadsOf(scene, cells) {
+    const wishes = [scene === gallery.shown ? large : [], alone, scene.lead, [nameOf(cells[0])]]
+    const found = wishes.map((names) => names.flatMap((name) => cells.filter((cell) => nameOf(cell) === name)))
+    return found.find((some) => some.length > 0)
+  }
+
+  /** @param {HTMLElement} cell @param {number} i @param {boolean} isLeading */
+  function label(cell, i, isLeading) {
     /** @type {HTMLElement} */
     const corner = cell.querySelector(".corner")
-    const title = `${isLarge ? "Show all pictures" : "Enlarge"} (${i + 1})`
+    const isChosen = large.includes(nameOf(cell))
+    const title = `${isChosen ? "Back to the usual lead" : isLeading ? "Lead alone" : "Lead"} (${i + 1})`
     if (corner.title === title) return
-    relabel(corner, isLarge ? REDUCE : ENLARGE, title, `${isLarge ? "Reduce" : "Enlarge"} picture ${i + 1}`)
-    corner.ariaPressed = String(isLarge)
+    relabel(corner, isChosen ? REDUCE : ENLARGE, title, `${title.slice(0, title.indexOf(" ("))}: ${labelOf(cell) || `picture ${i + 1}`}`)
+    corner.ariaPressed = String(isChosen)
   }
 
-  /** @param {Scene} scene @param {HTMLElement} seen */
-  function showChips({ name, cells }, seen) {
-    chips.hidden = cells.length < 2 || alone.length > 0
-    if (chips.dataset.scene !== name) {
-      chips.dataset.scene = name
-      chips.replaceChildren(...cells.map((cell) => button("chip", () => {
-        if (isFolded(cell)) tell("fold", nameOf(cell))
+  /** @param {Scene} scene @param {HTMLElement[]} cells */
+  function showChips({ name }, cells) {
+    const key = [name, ...cells.map(nameOf)].join(" ")
+    chips.hidden = cells.length === 0
+    if (chips.dataset.key !== key) {
+      chips.dataset.key = key
+      chips.replaceChildren(...cells.map((cell) => button(`chip.unfold-${nameOf(cell)}`, () => {
+        if (isFolded(cell) || !PHONE.matches) tell("fold", nameOf(cell))
         else enlarge([nameOf(cell)])
       })))
     }
     const items = /** @type {HTMLElement[]} */ ([...chips.children])
     items.forEach((chip, i) => {
+      const isThere = cells[i].classList.contains("off") || isFolded(cells[i]) ? "false" : "true"
       chip.textContent = labelOf(cells[i])
-      chip.ariaPressed = String(cells[i] === seen)
+      chip.ariaPressed = isThere
     })
-    items[cells.indexOf(seen)].scrollIntoView({ block: "nearest", inline: "nearest" })
   }
 
   /** @param {string} name */
@@ -173,6 +166,8 @@ export function createStage(shelf, gallery) {
   /** @param {string[]} names */
   function enlarge(names) {
     large = names
+    // From now on pictures move to their places.
+    shelf.classList.add("placed")
     tell("url", { large: names.join(",") })
     placeShown()
   }
@@ -187,10 +182,10 @@ export function createStage(shelf, gallery) {
     enlarge(isAdded ? [...large, name].slice(-MOST_LARGE) : [name])
   }
 
-  // A thumbnail is one button.
+  // A picture of the strip is one button.
   shelf.addEventListener("click", ({ target }) => {
     if (!(target instanceof Element) || target.closest(".corner")) return
-    const cell = target.closest(".thumbnail")
+    const cell = target.closest(".aside")
     if (cell instanceof HTMLElement) enlarge([nameOf(cell)])
   })
   document.addEventListener("keydown", (event) => {
@@ -212,6 +207,11 @@ export function createStage(shelf, gallery) {
       requestAnimationFrame(placeShown)
     },
     presenting: () => requestAnimationFrame(placeShown),
+    unfolding({ name, on }) {
+      if (name !== "details") return
+      shelf.parentElement.classList.toggle("detailed", on)
+      placeShown()
+    },
     client(own) { wanted = own.large ?? "" },
     // Their titles are the names on the chips.
     painted() { if (PHONE.matches) placeShown() },
@@ -222,9 +222,7 @@ export function createStage(shelf, gallery) {
     },
     fold(name) {
       const folded = gallery.cell(name).classList.toggle("folded")
-      if (folded) large = large.filter((one) => one !== name)
-      else if (PHONE.matches) large = [name]
-      placeShown()
+      enlarge(folded ? large.filter((one) => one !== name) : [name])
       tell("folded", { name, folded })
     },
   })

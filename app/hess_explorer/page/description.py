@@ -39,7 +39,7 @@ def describe(name: str) -> str:
             "essential": list(scene.essential),
             "handle": _handle(scene),
             "moves": scene.moves,
-            "opening": scene.opening or scene.open_pictures[0],
+            "lead": list(scene.lead or scene.open_pictures[:1]),
             "groups": [*GROUPS, "Chart"],
             "drawn": not all(isinstance(spec, Controlled) for spec in scene.specs),
             "presets": [preset.name for preset in scene.presets],

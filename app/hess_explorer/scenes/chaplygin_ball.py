@@ -267,7 +267,7 @@ SCENE = Scene(
     group="Ball",
     essential=("D", "h", "theta", "phi"),
     handle="phi",
-    opening="curve",
+    lead=("curve",),
     title="Chaplygin ball",
     summary="A ball rolls inside the body: every orbit crosses a strip between two ellipses, from Nᵘ to Nˢ.",
     tracks={"orbit": lambda s: plane.orbit_columns(s.orbit.path, Gamma=s.Gamma)},

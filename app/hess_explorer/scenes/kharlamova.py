@@ -340,7 +340,7 @@ SCENE = Scene(
     group="Heavy body",
     essential=("q1", "q2", "p", "alpha"),
     handle="alpha",
-    opening="period",
+    lead=("period",),
     title="Principal axis, b₃ = 0",
     summary="Parabolas in an ellipse, run to and fro: every orbit closes but those that touch the equator from inside.",
     tracks={"orbit": Kharlamova.orbit_columns},

@@ -229,7 +229,7 @@ SCENE = Scene(
     charts=Charts(of_motion(SYSTEM, lambda s: s.given), over=("h", "beta")),
     group="Heavy body",
     essential=("ratio", "h", "Q1", "Q2"),
-    opening="section",
+    lead=("section",),
     title="Principal axis, b₁ = b₂ = 0",
     summary="The body as a point in a quartic potential: integrable for I₁₁ = I₂₂, else curves and seas in a section.",
     tracks={

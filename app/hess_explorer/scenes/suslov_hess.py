@@ -299,7 +299,7 @@ SCENE = Scene(
     group="Heavy body",
     essential=("h", "f", "I23", "phi0"),
     handle="bifurcation/here",
-    opening="bifurcation",
+    lead=("bifurcation", "omega", "sphere", "circle"),
     title="The Suslov–Hess case",
     summary="A heavy rigid body with ω₃ = 0 whose motions live on tori: rotation, locking, limit cycles.",
     tracks={"orbit": SuslovHess.orbit_columns, **hess_case.CYCLE_TRACKS},

@@ -191,7 +191,7 @@ class Scene(Generic[S]):
     essential : the parameters whose controls are open; the others are folded into their groups.
     handle : the control that a new visitor should drag: an essential parameter (the first by default) or
         "picture/layer".
-    opening : the picture that a phone shows first, of which the sentence on the controls speaks (the first by default).
+    lead : the pictures that lead, the others stand in a strip beside them; the first one by default.
     """
 
     state: type[S]
@@ -208,7 +208,7 @@ class Scene(Generic[S]):
     group: str = ""
     essential: tuple[str, ...] = ()
     handle: str = ""
-    opening: str = ""
+    lead: tuple[str, ...] = ()
     charted: ClassVar[Charts | None] = None
 
     def __post_init__(self, charts: Charts | None) -> None:
