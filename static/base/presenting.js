@@ -5,6 +5,8 @@ import { listen, tell } from "./bus.js"
 import { isEmbedded } from "./embedding.js"
 
 const LARGER = 2
+// Edge of a picture whose lines, dots and labels have their usual size, in pixels; those of smaller pictures are smaller.
+const USUAL = 280
 // Font size in pixels at a desk.
 const DESK = 14
 
@@ -20,9 +22,9 @@ export const isPresenting = () => isOn
  */
 export const setType = (size) => { type = size }
 
-/** Return the factor by which lines, dots and labels on canvases are enlarged. */
-export function zoom() {
-  return Math.max(isOn ? LARGER : 1, type / DESK)
+/** Return the factor by which lines, dots and labels of a picture are enlarged. @param {number} edge of the picture in pixels */
+export function zoom(edge) {
+  return Math.min(edge / USUAL, Math.max(isOn ? LARGER : 1, type / DESK))
 }
 
 /**

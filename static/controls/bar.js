@@ -26,7 +26,7 @@ const TOOLS = [
     icon: "M9 4h6l-1 7 3 3H7l3-3zM12 14v7" },
   { name: "share", label: "Link, QR code, embed", asks: true, title: "The page on the screen, elsewhere", menu: "sharing",
     icon: "M10 8H8a4 4 0 0 0 0 8h2M14 8h2a4 4 0 0 1 0 8h-2M9 12h6" },
-  { name: "invite", asks: true, title: "Let an audience follow on its phones: QR code, guesses", menu: "sharing",
+  { name: "invite", label: "Invite an audience", asks: true, title: "Let an audience follow on its phones: QR code, guesses", menu: "sharing",
     icon: "M9 11a3 3 0 1 0 0-6 3 3 0 0 0 0 6zM3 20c0-8 12-8 12 0M16 5a3 3 0 0 1 0 6M17 14c2 0 4 2 4 6" },
   { name: "export", label: "Export data, figures, films", asks: true, title: "Files of a picture or of the page", menu: "sharing",
     icon: "M12 4v11M7 10l5 5 5-5M5 16v4h14v-4" },

@@ -95,8 +95,9 @@ function lifted(ctx, text, left, top, ratio) {
  */
 export function squareCanvas(el, className, properties, paint) {
   const own = liveCanvas(className, properties, (ctx, { width, text, dark }) => {
-    ctx.scale(zoom(), zoom())
-    paint(ctx, { edge: width / zoom(), ratio: pixelRatio() * zoom(), text, dark })
+    const larger = zoom(width)
+    ctx.scale(larger, larger)
+    paint(ctx, { edge: width / larger, ratio: pixelRatio() * larger, text, dark })
   })
   el.append(own.canvas)
   /** @param {ShotLook} look */

@@ -108,7 +108,8 @@ export function cloudPlane(el, options, source, isShown) {
     role: "img", ariaLabel: "Cloud of phase points on the plane of ω₁ and ω₂",
     /** @param {MouseEvent} event */
     onclick({ offsetX, offsetY }) {
-      const picked = place(canvas.clientWidth / zoom()).invert(offsetX / zoom(), offsetY / zoom())
+      const larger = zoom(canvas.clientWidth)
+      const picked = place(canvas.clientWidth / larger).invert(offsetX / larger, offsetY / larger)
       tell("pick", { pick: [options.name, ...picked], drag: false })
     },
   }, paint)

@@ -106,7 +106,7 @@ async function settle(picture, edge) {
     /** @type {HTMLElement} */
     const host = gallery.cell(picture).querySelector(".host")
     host.style.width = host.style.height = `${edge}px`
-    sizePlot(plot, LARGE, 1, edge)
+    sizePlot(plot, LARGE, false, edge)
     while (plot.bbox.width !== edge) await new Promise(requestAnimationFrame)
   }
   await Promise.all(plot.computed_renderer_views.map(({ ready }) => ready))

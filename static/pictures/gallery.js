@@ -125,7 +125,7 @@ function showGhost(taken) {
 function shoot(side) {
   const shots = gallery.cellsInSight().map((cell) => {
     const host = cell.querySelector(".host")
-    const edge = host.clientWidth / zoom()
+    const edge = host.clientWidth / zoom(host.clientWidth)
     const sheet = shown.shots.get(nameOf(cell))({ edge, ratio: side / edge, text: ink(), dark: false })
     sheet.className = "printed"
     host.append(sheet)

@@ -47,20 +47,20 @@ export const largerOf = (plot) => factors.get(plot) ?? 1
  * Set the font sizes of a plot, and the sizes of lines and dots for the current mode.
  * @param {PlotView} plot
  * @param {number} type font size in pixels
- * @param {number | null} scale of a picture in the strip, which has no axes; null for the others
+ * @param {boolean} isAside whether it stands in the strip, without axes and labels
  * @param {number} edge of the picture in pixels
  */
-export function sizePlot(plot, type, scale, edge) {
-  const larger = (scale ?? 1) * zoom()
+export function sizePlot(plot, type, isAside, edge) {
+  const larger = zoom(edge)
   factors.set(plot, larger)
-  const labelled = scale !== null || edge < UNLABELLED ? 0 : Math.min(larger, Math.max(LEAST, edge / LABELLED))
+  const labelled = isAside || edge < UNLABELLED ? 0 : Math.min(larger, Math.max(LEAST, edge / LABELLED))
   for (const part of plot.model.references()) {
     const isLabel = (part.text_font_style?.value ?? part.text_font_style) === "bold"
     const factor = isLabel ? labelled : larger
     part.setv(Object.fromEntries(sizesOf(part).map(([name, value]) => [name, times(factor, value)])))
     if (part.axis_label_text_font_size !== undefined) {
       part.setv({
-        visible: scale === null, axis_label_text_font_size: `${type}px`, major_label_text_font_size: `${Math.round(TICKS * type)}px`,
+        visible: !isAside, axis_label_text_font_size: `${type}px`, major_label_text_font_size: `${Math.round(TICKS * type)}px`,
       })
     }
   }

@@ -8,7 +8,7 @@ import { button, element, icon, relabel } from "../base/elements.js"
 import { listen, tell } from "../base/bus.js"
 import { isEmbedded } from "../base/embedding.js"
 import { isTaken, onKeys } from "../base/keys.js"
-import { setType, zoom } from "../base/presenting.js"
+import { isPresenting, setType, zoom } from "../base/presenting.js"
 import { PHONE } from "../base/windows.js"
 import { arrange, onPhone } from "./arrange.js"
 import { isFolded, labelOf, nameOf } from "./picture.js"
@@ -19,8 +19,6 @@ const ENLARGE = "M5 9V5h4M15 5h4v4M19 15v4h-4M9 19H5v-4"
 const REDUCE = "M9 5v4H5M19 9h-4V5M15 19v-4h4M5 15h4v4"
 // Smallest edge of a picture of the strip, in pixels, and height of the strip on a phone.
 const [LEAST, LEAST_ON_PHONE] = [150, 118]
-// A canvas of the strip that is smaller than this, in units of the font size, is drawn in this size and scaled down.
-const LEGIBLE = 20
 
 /**
  * Return the stage, which places the pictures of a scene.
@@ -41,16 +39,14 @@ export function createStage(shelf, gallery) {
   const placeShown = () => { if (gallery.shown !== null) place(gallery.shown) }
 
   // Write only changes: a plot is laid out again whenever its size is set.
-  /** @param {HTMLElement} cell @param {import("./arrange.js").Box} box @param {number} type */
-  function put(cell, { x, y, edge, caption, aside }, type) {
-    const scale = aside ? Math.min(1, edge / (LEGIBLE * type)) : 1
+  /** @param {HTMLElement} cell @param {import("./arrange.js").Box} box */
+  function put(cell, { x, y, edge, caption, aside }) {
     cell.classList.toggle("aside", aside)
     cell.querySelector(".host").toggleAttribute("inert", aside)
-    const place = [x, y, edge, caption, 1000 * scale].map(Math.round).join(" ")
+    const place = [x, y, edge, caption].map(Math.round).join(" ")
     if (cell.dataset.place === place) return
     cell.dataset.place = place
     for (const [key, value] of Object.entries({ x, y, edge, caption })) cell.style.setProperty(`--${key}`, `${Math.round(value)}px`)
-    cell.style.setProperty("--scale", String(scale))
   }
 
   /** Update the font size and return it. */
@@ -66,12 +62,13 @@ export function createStage(shelf, gallery) {
     for (const plot of scene.plots) {
       const { classList, style } = scene.cells.find((one) => nameOf(one) === plot.model.name)
       // A folded picture has no place yet.
-      const edge = Number.parseFloat(style.getPropertyValue("--edge")) || 0
+      const edge = Number.parseFloat(style.getPropertyValue("--edge"))
+      if (Number.isNaN(edge)) continue
       const isAside = classList.contains("aside")
-      const sizes = `${type} ${zoom()} ${isAside} ${edge}`
+      const sizes = `${type} ${zoom(edge)} ${isAside} ${edge}`
       if (scene.sizes.get(plot) === sizes) continue
       scene.sizes.set(plot, sizes)
-      sizePlot(plot, type, isAside ? Number(style.getPropertyValue("--scale")) : null, edge)
+      sizePlot(plot, type, isAside, edge)
     }
   }
 
@@ -103,18 +100,18 @@ export function createStage(shelf, gallery) {
     const second = alone.length > 0 || leads.length + others.length < 2 ? [] : [leads[1] ?? others[0]]
     const seen = PHONE.matches ? [leads[0], ...second] : [...leads, ...others]
     const leading = PHONE.matches ? 1 : leads.length
-    const names = isEmbedded() || alone.length > 0 ? [] : scene.cells.filter(({ dataset }) => PHONE.matches || "label" in dataset)
+    const names = isEmbedded() || isPresenting() || alone.length > 0 ? [] : scene.cells.filter(({ dataset }) => PHONE.matches || "label" in dataset)
     const { boxes, names: frame } = PHONE.matches ? onPhone(viewport(type), second.length)
       : arrange(viewport(type), leading, others.length, names.length)
     for (const cell of scene.cells) cell.classList.toggle("off", !seen.includes(cell))
     seen.forEach((cell, i) => {
-      put(cell, boxes[i], type)
+      put(cell, boxes[i])
       label(cell, cells.indexOf(cell), i < leading)
     })
     size(scene)
     if (scene !== gallery.shown) return
     for (const [key, value] of Object.entries(frame)) chips.style.setProperty(`--${key}`, `${Math.round(value)}px`)
-    showChips(scene, names)
+    showChips(scene, names, leads[0])
   }
 
   /**
@@ -139,8 +136,8 @@ export function createStage(shelf, gallery) {
     corner.ariaPressed = String(isChosen)
   }
 
-  /** @param {Scene} scene @param {HTMLElement[]} cells */
-  function showChips({ name }, cells) {
+  /** @param {Scene} scene @param {HTMLElement[]} cells @param {HTMLElement} lead */
+  function showChips({ name }, cells, lead) {
     const key = [name, ...cells.map(nameOf)].join(" ")
     chips.hidden = cells.length === 0
     if (chips.dataset.key !== key) {
@@ -152,9 +149,8 @@ export function createStage(shelf, gallery) {
     }
     const items = /** @type {HTMLElement[]} */ ([...chips.children])
     items.forEach((chip, i) => {
-      const isThere = cells[i].classList.contains("off") || isFolded(cells[i]) ? "false" : "true"
       chip.textContent = labelOf(cells[i])
-      chip.ariaPressed = isThere
+      chip.ariaPressed = String(PHONE.matches ? cells[i] === lead : !isFolded(cells[i]))
     })
   }
 
