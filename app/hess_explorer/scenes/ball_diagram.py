@@ -10,6 +10,7 @@ from typing import ClassVar
 from hess_explorer.protocol.specs import Value
 from hess_explorer.scenes.diagrams import DiagramState, diagram_scene, regime_in
 from hess_explorer.scenes.framework import ball_parameters as ball
+from hess_explorer.scenes.framework.answers import Answer
 from hess_explorer.scenes.framework.scene import Preset
 from hess_explorer.scenes.framework.sliders import like, parameter
 from hess_explorer.scenes.parts.diagrams.controls import parameter_of_diagram
@@ -89,6 +90,7 @@ SCENE = diagram_scene(
     group="Ball",
     essential=("D", "first", "last", "I13"),
     handle="D",
+    answers=(Answer("Each column shows where settled orbits return: a few dots are a periodic motion."),),
     title="Orbit diagram of the ball",
     summary="The ball in a field over a parameter: doublings along 𝒟, a strange attractor and its repeller, reversal.",
 )

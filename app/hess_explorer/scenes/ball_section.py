@@ -12,6 +12,7 @@ import numpy as np
 from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.specs import Values
 from hess_explorer.scenes.framework import ball_parameters as ball
+from hess_explorer.scenes.framework.answers import Answer
 from hess_explorer.scenes.framework.charted import Charts, of_motion, parameters_of
 from hess_explorer.scenes.framework.part import part
 from hess_explorer.scenes.framework.scene import Preset, Scene
@@ -241,6 +242,10 @@ SCENE = Scene(
     group="Ball",
     essential=("h", "I13", "D", "psi"),
     handle="psi",
+    answers=(
+        Answer("Here a symmetry closes every orbit that returns.", lambda s: s.b3 == 0.0),
+        Answer("Each dot is one return: dots on a curve are a regular motion, a cloud of dots is chaos."),
+    ),
     lead=("section",),
     title="Ball with a field",
     summary="The ball in a field: a section at one energy shows curves, seas and, with I₁₃ or I₂₃, attractors.",

@@ -12,6 +12,7 @@ import numpy as np
 from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.specs import Values
 from hess_explorer.scenes.framework import hess_case
+from hess_explorer.scenes.framework.answers import Answer
 from hess_explorer.scenes.framework.charted import Charts, of_torus
 from hess_explorer.scenes.framework.hess_case import HeavyHess
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
@@ -327,6 +328,7 @@ SCENE = Scene(
     charts=Charts(of_torus(lambda s: (s.bridge.hess.a, s.turning.h, s.turning.f)), over=("h", "f")),
     group="Euler–Poisson",
     essential=("h", "f", "phi0"),
+    answers=(Answer("Two bodies, one motion: a heavy top and a body on wheels, translated into each other."),),
     title="Bridge: Suslov and Euler–Poisson",
     summary="The Suslov–Hess case and the Hess case of Euler–Poisson are one system: two orbits and their difference.",
     tracks={"orbit": BothSides.orbit_columns, **hess_case.CYCLE_TRACKS},

@@ -10,6 +10,7 @@ from functools import cached_property
 import numpy as np
 
 from hess_explorer.compute.cache import Task
+from hess_explorer.scenes.framework.answers import Answer
 from hess_explorer.scenes.framework.charted import Charted, Charts, of_motion, tensor_of
 from hess_explorer.scenes.framework.circle_left import DIGITS, PHI, Gamma_picture, sphere
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
@@ -267,6 +268,7 @@ SCENE = Scene(
     group="Ball",
     essential=("D", "h", "theta", "phi"),
     handle="phi",
+    answers=(Answer("Every motion leaves the dashed line and ends on the solid one, in a steady rotation."),),
     lead=("curve",),
     title="Chaplygin ball",
     summary="A ball rolls inside the body: every orbit crosses a strip between two ellipses, from Nᵘ to Nˢ.",

@@ -11,6 +11,7 @@ from typing import ClassVar
 import numpy as np
 
 from hess_explorer.protocol.specs import Value, Values, written
+from hess_explorer.scenes.framework.answers import Answer
 from hess_explorer.scenes.framework.charted import Charts, of_motion
 from hess_explorer.scenes.framework.hess_case import HeavyHess
 from hess_explorer.scenes.framework.inertia import limits_of_moments
@@ -330,6 +331,10 @@ SCENE = Scene(
     ),
     group="Euler–Poisson",
     essential=("away", "h", "f"),
+    answers=(
+        Answer("In the Hess case one curve divides the section: no orbit crosses it.", lambda s: s.away == 0.0),
+        Answer("Each dot is one return: dots on a curve are a regular motion, a cloud of dots is chaos."),
+    ),
     title="Euler–Poisson: sections",
     summary="A heavy body near the Hess case: two stochastic layers with a barrier between them, a meandering torus.",
     tracks={"orbit": EulerPoisson.track},

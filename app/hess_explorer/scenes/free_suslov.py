@@ -12,6 +12,7 @@ import numpy as np
 from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.specs import Values
 from hess_explorer.scenes.framework import free_body
+from hess_explorer.scenes.framework.answers import Answer
 from hess_explorer.scenes.framework.charted import Charted, Charts, tensor_of
 from hess_explorer.scenes.framework.circle_left import Gamma_picture
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
@@ -299,6 +300,10 @@ SCENE = Scene(
     charts=Charts((Charted("cos-chi", lambda s: tensor_of(s.body)),), over=("k", "I23")),
     group="Free body",
     essential=("k", "I23", "Gamma", "phi"),
+    answers=(
+        Answer("A complete reversal: γ leaves one circle and ends on its mirror image.", lambda s: s.F2 is not None),
+        Answer("No friction, and yet every start but the orange one ends in the same rotation: the green point."),
+    ),
     title="Free Suslov problem",
     summary="No field: ω passes from an unstable to a stable state; γ leaves one circle and joins another.",
     tracks={

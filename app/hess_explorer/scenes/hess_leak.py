@@ -10,6 +10,7 @@ from functools import cached_property
 import numpy as np
 
 from hess_explorer.compute.cache import Task
+from hess_explorer.scenes.framework.answers import Answer
 from hess_explorer.scenes.framework.charted import Charts, of_torus
 from hess_explorer.scenes.framework.hess_case import BY_THE_UNSTABLE_CYCLE, PHI0, RIS, UNSURE, HeavyHess, reduced_motion
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
@@ -251,6 +252,7 @@ SCENE = Scene(
     charts=Charts(of_torus(lambda s: (s.bridge.hess.a, s.hess.turning.h, s.hess.turning.f)), over=("h", "f")),
     group="Euler–Poisson",
     essential=("h", "f", "phi0", "returns"),
+    answers=(Answer("The exact motion never leaves its surface; round-off can make the computed one leave."),),
     title="Leak off the Hess manifold",
     summary="An orbit on the Hess manifold of Euler–Poisson leaves it by round-off alone, at the rate of the cycle.",
     tracks={"orbit": HessLeak.exact_columns, "second": HessLeak.leaking},

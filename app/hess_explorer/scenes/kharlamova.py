@@ -10,6 +10,7 @@ from functools import cached_property
 import numpy as np
 
 from hess_explorer.compute.cache import Task
+from hess_explorer.scenes.framework.answers import Answer
 from hess_explorer.scenes.framework.charted import Charted, Charts
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
 from hess_explorer.scenes.framework.sliders import (
@@ -340,6 +341,14 @@ SCENE = Scene(
     group="Heavy body",
     essential=("q1", "q2", "p", "alpha"),
     handle="alpha",
+    answers=(
+        Answer("Nothing happens here: this is a fixed point.", lambda s: s.arc.kind == "fixed"),
+        Answer(
+            "In this direction the motion takes for ever: it tends to an unstable fixed point.",
+            lambda s: s.arc.kind == "asymptotic",
+        ),
+        Answer("Nearly every motion is an arc, there and back: after one period it begins again."),
+    ),
     lead=("period",),
     title="Principal axis, b₃ = 0",
     summary="Parabolas in an ellipse, run to and fro: every orbit closes but those that touch the equator from inside.",

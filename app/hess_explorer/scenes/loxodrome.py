@@ -10,6 +10,7 @@ from functools import cached_property
 import numpy as np
 
 from hess_explorer.compute.cache import Task
+from hess_explorer.scenes.framework.answers import Answer
 from hess_explorer.scenes.framework.charted import Charts, of_torus
 from hess_explorer.scenes.framework.inertia import limits_of_moments
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
@@ -189,6 +190,13 @@ SCENE = Scene(
     charts=Charts(of_torus(lambda s: (s.pendulum.a, s.pendulum.h, 0.0)), over=("energy", "I2")),
     group="Euler–Poisson",
     essential=("energy", "l", "I2"),
+    answers=(
+        Answer(
+            "Gravity swings the body: its middle axis goes to and fro on a loxodrome.", lambda s: s.pendulum.h < 1.0
+        ),
+        Answer("The body climbs towards the top for ever.", lambda s: s.pendulum.h == 1.0),
+        Answer("The body turns over and over: its middle axis runs along the whole loxodrome."),
+    ),
     title="Loxodromic pendulum",
     summary="A heavy body whose centre of mass swings in a plane while its middle axis runs along a loxodrome.",
     tracks={"orbit": Loxodrome.track},

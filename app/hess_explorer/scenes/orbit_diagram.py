@@ -9,6 +9,7 @@ from typing import ClassVar
 
 from hess_explorer.protocol.specs import Value
 from hess_explorer.scenes.diagrams import DiagramState, diagram_scene, regime_in
+from hess_explorer.scenes.framework.answers import Answer
 from hess_explorer.scenes.framework.scene import Preset
 from hess_explorer.scenes.framework.sliders import like, parameter
 from hess_explorer.scenes.parts.diagrams.controls import parameter_of_diagram
@@ -115,6 +116,7 @@ SCENE = diagram_scene(
     group="Heavy body",
     essential=("h", "first", "last", "I13"),
     handle="h",
+    answers=(Answer("Each column shows where settled orbits return: a few dots are a periodic motion."),),
     title="Orbit diagram",
     summary="Attractors and repellers over a parameter: doublings, hysteresis, reversal.",
 )

@@ -12,6 +12,7 @@ import numpy as np
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.formulas import drive, polynomial
+from hess_explorer.scenes.framework.answers import Answer
 from hess_explorer.scenes.framework.part import Start, part
 from hess_explorer.scenes.framework.periodic_search import NotPeriodic
 from hess_explorer.scenes.framework.scene import Preset, Scene, State
@@ -323,6 +324,7 @@ SCENE = Scene(
     presets=PRESETS,
     essential=("U", "I13", "k3", "d3"),
     handle="I13",
+    answers=(Answer("Type a potential and press Enter: all pictures show the motion of your own body."),),
     title="Your own body",
     summary="Type a potential; choose inertia, constraint, rotor and drive. Equations are derived, checked and solved.",
     tracks={"orbit": lambda s: s.track},

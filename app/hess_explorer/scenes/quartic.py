@@ -10,6 +10,7 @@ from functools import cached_property
 import numpy as np
 
 from hess_explorer.protocol.specs import Values
+from hess_explorer.scenes.framework.answers import Answer
 from hess_explorer.scenes.framework.charted import Charts, of_motion
 from hess_explorer.scenes.framework.part import Start, part
 from hess_explorer.scenes.framework.scene import Preset, Scene
@@ -229,6 +230,7 @@ SCENE = Scene(
     charts=Charts(of_motion(SYSTEM, lambda s: s.given), over=("h", "beta")),
     group="Heavy body",
     essential=("ratio", "h", "Q1", "Q2"),
+    answers=(Answer("Each dot is one return: dots on a curve are a regular motion, a cloud of dots is chaos."),),
     lead=("section",),
     title="Principal axis, b₁ = b₂ = 0",
     summary="The body as a point in a quartic potential: integrable for I₁₁ = I₂₂, else curves and seas in a section.",

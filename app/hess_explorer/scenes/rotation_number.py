@@ -11,6 +11,7 @@ from functools import cached_property
 import numpy as np
 
 from hess_explorer.compute.cache import Task
+from hess_explorer.scenes.framework.answers import Answer
 from hess_explorer.scenes.framework.charted import Charts, of_torus
 from hess_explorer.scenes.framework.hess_case import map_or_none, possible_f
 from hess_explorer.scenes.framework.part import part
@@ -244,6 +245,14 @@ SCENE = Scene(
     charts=Charts(of_torus(lambda s: (s.a, s.h, s.f)), over=("h", "f")),
     group="Heavy body",
     essential=("a", "h", "f"),
+    answers=(
+        Answer("On the separatrix nothing returns: there is no rotation number.", lambda s: s.map is None),
+        Answer(
+            "Locked: two loops exist, and the rotation number stays a whole number.",
+            lambda s: s.map is not None and s.map.kind == "hyperbolic",
+        ),
+        Answer("Not locked: the body winds on, and its rotation number changes smoothly."),
+    ),
     title="Rotation number",
     summary="Is ρ of the Suslov–Hess torus a ladder, as the paper asks? It has one plateau; another family has many.",
     views=(

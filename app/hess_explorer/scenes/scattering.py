@@ -11,6 +11,7 @@ import numpy as np
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework import free_body
+from hess_explorer.scenes.framework.answers import Answer
 from hess_explorer.scenes.framework.charted import Charted, Charts, tensor_of
 from hess_explorer.scenes.framework.circle_left import CIRCLES, DIGITS, PHI, sphere
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
@@ -232,6 +233,13 @@ SCENE = Scene(
     group="Free body",
     essential=("k", "I23", "theta", "phi"),
     handle="phi",
+    answers=(
+        Answer(
+            "A complete reversal: for this body the phase φ does not matter.",
+            lambda s: model.cos_chi(s.body) < -1.0 + 1e-12,
+        ),
+        Answer("The same approach with another phase leaves at another angle: θ⁺ depends on φ."),
+    ),
     lead=("curve",),
     title="Scattering",
     summary="No field: from the circle γ leaves and its phase to the circle it joins, exact for all phases at once.",

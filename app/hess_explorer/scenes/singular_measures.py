@@ -11,6 +11,7 @@ import numpy as np
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.specs import Values
+from hess_explorer.scenes.framework.answers import Answer
 from hess_explorer.scenes.framework.scene import Preset, Scene, State
 from hess_explorer.scenes.framework.sliders import ONE_TURN, accuracy_level, choice, number, parameter, time_span
 from hess_explorer.scenes.framework.trial import Trial
@@ -231,6 +232,7 @@ SCENE = Scene(
     measures=(_CLOUD,),
     group="Free body",
     essential=("h", "I23", "D", "spread"),
+    answers=(Answer("The cloud leaves one line and gathers at another, though no energy is lost."),),
     title="Singular measures",
     summary="10 000 phase points are drawn onto an invariant manifold, where an invariant density is infinite.",
     tracks={"orbit": SingularMeasures.track},

@@ -10,6 +10,7 @@ from functools import cached_property
 import numpy as np
 
 from hess_explorer.compute.cache import Task
+from hess_explorer.scenes.framework.answers import Answer
 from hess_explorer.scenes.framework.charted import Charted, Charts, of_motion, parameters_of
 from hess_explorer.scenes.framework.part import part
 from hess_explorer.scenes.framework.scene import Preset, Scene
@@ -220,6 +221,14 @@ SCENE = Scene(
     ),
     group="Heavy body",
     essential=("h", "I13", "I23", "b3"),
+    answers=(
+        Answer("Each colour marks the starts that end on one attractor.", lambda s: s.colours == "basins"),
+        Answer(
+            "On a principal axis volume is preserved: nothing attracts, in either direction of time.",
+            lambda s: s.I13 == s.I23 == 0.0,
+        ),
+        Answer("Each dot is one return: dots on a line are a regular motion, a cloud of dots is chaos."),
+    ),
     title="Suslov problem with gravity",
     summary="Regular orbits, seas, strange attractors: sections forward and backward in time.",
     tracks={"orbit": lambda s: orbit_columns(s.orbit.path)},

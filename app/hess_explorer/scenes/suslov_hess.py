@@ -11,6 +11,7 @@ import numpy as np
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework import hess_case
+from hess_explorer.scenes.framework.answers import Answer
 from hess_explorer.scenes.framework.charted import Charts, of_torus
 from hess_explorer.scenes.framework.hess_case import Proved, limit_cycles, map_or_none, possible_f, possible_I23, proved
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
@@ -106,6 +107,11 @@ class SuslovHess(State):
     def map(self) -> CircleMap | None:
         """The circle map; None on the separatrix."""
         return None if self.turning is None else map_or_none(self.work, self.body.a, self.h, self.f, self.level)
+
+    @property
+    def kind(self) -> str:
+        """The kind of the circle map; empty on the separatrix."""
+        return "" if self.map is None else self.map.kind
 
     @cached_property
     def locked(self) -> Array:
@@ -299,6 +305,19 @@ SCENE = Scene(
     group="Heavy body",
     essential=("h", "f", "I23", "phi0"),
     handle="bifurcation/here",
+    answers=(
+        Answer("On the separatrix the body climbs for ever and never comes back.", lambda s: s.map is None),
+        Answer(
+            "At this edge the torus has shrunk: the height of the body no longer changes.",
+            lambda s: torus_plane.is_circle(s.turning),
+        ),
+        Answer(
+            "Two loops: every start ends on the green one, except the dashed loop itself.",
+            lambda s: s.kind == "hyperbolic",
+        ),
+        Answer("The two loops have just met: here they appear or vanish.", lambda s: s.kind == "parabolic"),
+        Answer("No loop attracts: every start winds on for ever, and none forgets where it began."),
+    ),
     lead=("bifurcation", "omega", "sphere", "circle"),
     title="The Suslov–Hess case",
     summary="A heavy rigid body with ω₃ = 0 whose motions live on tori: rotation, locking, limit cycles.",

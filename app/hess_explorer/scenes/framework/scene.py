@@ -12,6 +12,7 @@ from typing import Any, ClassVar, Generic, Self, TypeVar, cast
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.specs import ChoiceSpec, NumberSpec, Spec, Value, Values
+from hess_explorer.scenes.framework.answers import Answer
 from hess_explorer.scenes.framework.chart import charting
 from hess_explorer.scenes.framework.chart_picture import chart_picture
 from hess_explorer.scenes.framework.charted import Charts
@@ -191,6 +192,7 @@ class Scene(Generic[S]):
     essential : the parameters whose controls are open; the others are folded into their groups.
     handle : the control that a new visitor should drag: an essential parameter (the first by default) or
         "picture/layer".
+    answers : sentences above the pictures: the first one that holds is shown, else the summary.
     lead : the pictures that lead, the others stand in a strip beside them; the first one by default.
     """
 
@@ -208,6 +210,7 @@ class Scene(Generic[S]):
     group: str = ""
     essential: tuple[str, ...] = ()
     handle: str = ""
+    answers: tuple[Answer[S], ...] = ()
     lead: tuple[str, ...] = ()
     charted: ClassVar[Charts | None] = None
 
@@ -248,6 +251,10 @@ class Scene(Generic[S]):
     def moves(self) -> str:
         """A sentence on the controls: which one moves what."""
         return self._text[0]
+
+    def answer(self, state: S) -> str:
+        """Return the sentence on a state.  Raises `ModelError`."""
+        return next((one.sentence for one in self.answers if one.when(state)), self.summary)
 
     def drawing(self, name: str) -> str:
         """Return an SVG file that the Markdown text refers to as an image."""

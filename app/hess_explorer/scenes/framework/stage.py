@@ -42,6 +42,7 @@ class Stage(Generic[S]):
         for view in views:
             for source, columns in view.framed(state, axes[view.name], drawn).items():
                 drawn[source] = {**drawn.get(source, {}), **columns}
+        answer = self.scene.answer(state)
         derived, notes = [*state.derived()], [*dict.fromkeys(state.notes())]
         status = re.sub(r"(?<=\d)e-(?=\d)", "e−", " · ".join([*state.status(), state.work.ended()]))
         self._state = state
@@ -51,6 +52,7 @@ class Stage(Generic[S]):
         for source, columns in drawn.items():
             self._put(source, columns)
         self._name_signs(views, drawn)
+        self.wire.say("answer", answer)
         return Report(derived, status, notes, tuple(state.work.todo), state.work.pieces, state.work.summary())
 
     def _name_signs(self, views: Sequence[Picture[S]], drawn: Mapping[str, Columns]) -> None:
@@ -60,6 +62,7 @@ class Stage(Generic[S]):
     def fail(self, sentence: str, hold_axes: bool = False) -> None:
         """Clear all pictures and show the sentence in their captions; reset the axes unless `hold_axes`."""
         self._state = None
+        self.wire.say("answer", "")
         for name in self.scene.tracks:
             self._put(f"data-{name}", {})
         for name, view in self._views.items():

@@ -18,7 +18,7 @@ from hess_mechanics.suslov_hess.bifurcation import TurningPoints
 from hess_mechanics.suslov_hess.circle_map import CircleMap
 from hess_mechanics.suslov_hess.torus import Track
 
-__all__ = ["about", "about_heights", "cycle_columns", "layers", "phases_at_returns", "track_columns"]
+__all__ = ["about", "about_heights", "cycle_columns", "is_circle", "layers", "phases_at_returns", "track_columns"]
 
 S = TypeVar("S")
 
@@ -80,16 +80,20 @@ def cycle_columns(cycles: tuple[Track, Track] | None, i: int) -> Columns | None:
     return None if cycles is None else velocity_columns(None, cycles[i].omega, cycles[i].gamma)
 
 
+def is_circle(turning: TurningPoints | None) -> bool:
+    """Return whether the torus is a circle to the eye: n3 is constant, on the bifurcation curve."""
+    return turning is not None and turning.roots[2] - turning.roots[1] < 1e-6
+
+
 def about(theta: CircleMap | None, turning: TurningPoints | None) -> Caption:
     """Return the fate of the orbit on its torus; both None on the separatrix."""
     if theta is None or turning is None:
         return Caption("The orbit comes to rest in infinite time.")
-    n1, n2 = turning.roots[1:]
     orbit = {
         "hyperbolic": "The orbit tends to the stable limit cycle.",
         "parabolic": f"{cycles(theta).capitalize()}.",
     }.get(theta.kind, "No limit cycle: the orbit winds for ever.")
-    if n2 - n1 < 1e-6:
+    if is_circle(turning):
         orbit = "Bifurcation curve: the torus is a circle."
     return Caption(orbit, f"|w| {ranging(turning.initial_rho, turning.final_rho)}.")
 
