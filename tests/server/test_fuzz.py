@@ -31,7 +31,9 @@ from support.thorough import examples
 SCENES = st.sampled_from([*scenes().values()])
 NUMBERS = ["", "nan", "-inf", "1e400", "1e-320", "-0", "0x10", "1_0", "٣", "9" * 400, "1e5e5"]
 GARBAGE = st.sampled_from([*NUMBERS, "<script>alert(1)</script>", "%00", "\x00", "true", "../..", "é" * 50, ","])
-JSON = st.recursive(st.none() | st.integers() | st.floats() | st.text(max_size=5), lambda one: st.lists(one, max_size=4))
+JSON = st.recursive(
+    st.none() | st.integers() | st.floats() | st.text(max_size=5), lambda one: st.lists(one, max_size=4)
+)
 SLOW = [HealthCheck.function_scoped_fixture, HealthCheck.too_slow, HealthCheck.data_too_large]
 
 
@@ -61,7 +63,13 @@ def values(specs):
 def links(draw):
     scene = draw(SCENES)
     example = draw(st.just({}) | st.sampled_from([{}, *map(scene.example, scene.presets)]))
-    query = {"v": "1", "scene": scene.name, **example, **draw(values(scene.specs)), **draw(rarely(values(CLIENT), st.just({})))}
+    query = {
+        "v": "1",
+        "scene": scene.name,
+        **example,
+        **draw(values(scene.specs)),
+        **draw(rarely(values(CLIENT), st.just({}))),
+    }
     return draw(rarely(GARBAGE.map(quote), st.just(urlencode(query))))
 
 
@@ -79,7 +87,9 @@ def message(scene):
         "near": name,
         "restore": links(),
         "preset": st.sampled_from([preset.name for preset in scene.presets] or ["nobody"]),
-        "expressions": st.dictionaries(st.sampled_from([spec.name for spec in scene.specs]), text | GARBAGE, max_size=2),
+        "expressions": st.dictionaries(
+            st.sampled_from([spec.name for spec in scene.specs]), text | GARBAGE, max_size=2
+        ),
         "step": st.tuples(st.sampled_from(["introduction", scene.name, "nobody"]), st.integers(-2, 9), truth),
         "held": truth,
         "hidden": st.lists(st.sampled_from(scene.pictures), unique=True),
@@ -157,9 +167,12 @@ def command_lines(draw):
         name, sign, given_value = word.partition("=")
         other = word[:1].isdigit() or (sign and word.startswith("--"))
         if other and draw(st.integers(0, 3)) == 3:
-            word = f"{name}={draw(number)}" if sign and given_value else draw(number)
-        words.append(word)
-    more = draw(rarely(st.sampled_from(["--help", "--nobody", "--format=csv", "--format=xml", "--accuracy=nobody"]), st.none()))
+            words.append(f"{name}={draw(number)}" if sign and given_value else draw(number))
+        else:
+            words.append(word)
+    more = draw(
+        rarely(st.sampled_from(["--help", "--nobody", "--format=csv", "--format=xml", "--accuracy=nobody"]), st.none())
+    )
     return [*words, *([more] if more else [])]
 
 

@@ -7,7 +7,7 @@ _is_thorough, _factor = False, 1
 
 def load_profile(*, is_thorough, factor=1):
     """Set the number of cases of this process.  pytest calls this before it imports any test module."""
-    global _is_thorough, _factor  # noqa: PLW0603
+    global _is_thorough, _factor
     _is_thorough, _factor = is_thorough, 10 * factor if is_thorough else factor
     # The same examples in every run, on every machine.
     settings.register_profile("hess", deadline=None, derandomize=True, database=None, max_examples=examples(10))
@@ -15,7 +15,7 @@ def load_profile(*, is_thorough, factor=1):
 
 
 def examples(n):
-    """Return n times the factors of --thorough, which is 10, and --examples: for `@settings(max_examples=examples(n))`."""
+    """Return n times the factors of --thorough (10) and --examples: for `@settings(max_examples=examples(n))`."""
     return _factor * n
 
 
