@@ -4,7 +4,6 @@ import pytest
 
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.periodic_search import NONE
-from support.page import chosen
 from support.painted import assert_drawn, assert_painted
 from support.thorough import sample
 
@@ -24,7 +23,8 @@ EXAMPLES = [
 @pytest.mark.parametrize("scene, preset", sample(EXAMPLES, 2))
 def test_an_example_is_drawn_as_the_scene_computes_it(tab, scene, preset):
     explorer = tab.fresh(scene.name)
-    values = chosen(explorer, scene, preset)
+    explorer.change(explorer.choose, "preset", preset.name)
+    values = {**scene.defaults(), **preset.values}
     assert explorer.chosen("preset") == preset.name
     if "indicator" in values:
         # The points, of which the density is made in stages.
