@@ -67,8 +67,8 @@ async def visit(base, trusted, replicas):
     print(f"websocket through the proxy: {json.dumps(link)[:90]}…")
     # Rooms of both replicas; nobody in them has a cookie.
     for _ in range(8):
-        lecturer = await Lecturer.open(base, ssl_options=trusted)
-        followers = [await Follower.follow(base, lecturer.code, ssl_options=trusted) for _ in range(4)]
+        lecturer = await Lecturer.open(base, trusted=trusted)
+        followers = [await Follower.follow(base, lecturer.code, trusted=trusted) for _ in range(4)]
         await lecturer.until(lambda one: one.followers == 4)
         await lecturer.show(link)
         for follower in followers:
