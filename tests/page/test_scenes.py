@@ -12,7 +12,6 @@ from support.page import (
     HESS,
     PHONE,
     STUDY,
-    wait_frames,
 )
 from support.painted import assert_drawn
 from support.pointer import HOME, STEP, assert_turned
@@ -181,25 +180,6 @@ def test_ten_changes_in_quick_succession_leave_one_scene_and_nothing_of_the_othe
     explorer.page.evaluate("document.activeElement?.blur()")
     explorer.page.keyboard.press("ArrowRight")
     assert explorer.time == approx(0.2, rel=1e-5)
-
-
-def test_a_control_that_is_moved_on_is_not_moved_back_by_an_older_answer_and_the_others_follow(with_websocket):
-    explorer, websocket = with_websocket
-    websocket.hold()
-    before = explorer.state
-    explorer.choose("preset", "No cycle: every orbit winds")
-    wait_frames(explorer, 3)
-    explorer.slide(phi0=1.0)
-    explorer.slider("phi0").evaluate("""slider => {
-      window.shown = []
-      hess.listen("controls", () => shown.push(Number(slider.value)))
-    }""")
-    websocket.release()
-    wait_ready(explorer.page, after=before + 1)
-    assert_drawn(explorer, HESS, {**DEFAULTS, "h": 0.2, "f": 0.5, "phi0": 1.0})
-    assert set(explorer.page.evaluate("shown")) == {1.0}
-    for name, value in {"h": 0.2, "f": 0.5, "phi0": 1.0}.items():
-        assert explorer.shown(name) == (value, value)
 
 
 # --- What is in sight --------------------------------------------------------------------------------
