@@ -25,6 +25,7 @@ def pytest_addoption(parser):
     parser.addoption(
         "--thorough", action="store_true", help="all cases of sampled tests, ten times as many examples of hypothesis"
     )
+    parser.addoption("--examples", type=int, metavar="N", default=1, help="N times as many examples of hypothesis")
     parser.addoption(
         "--moved-start",
         type=int,
@@ -38,7 +39,7 @@ def pytest_configure(config):
     from support.processes import UNWARMED
     from support.thorough import load_profile
 
-    load_profile(is_thorough=config.getoption("thorough"))
+    load_profile(is_thorough=config.getoption("thorough"), factor=config.getoption("examples"))
     # Films have this low priority; among tests of another they would wait for minutes.
     if hasattr(os, "setpriority"):
         os.setpriority(os.PRIO_PROCESS, 0, 15)

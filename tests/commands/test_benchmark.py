@@ -1,4 +1,4 @@
-"""The scripts that are run by hand: they find what they measure, and the stored results of the benchmark are right."""
+"""The scripts that are run by hand find what they measure, and the stored results of the benchmark are right."""
 
 import importlib
 from pathlib import Path
@@ -8,49 +8,25 @@ import pytest
 from pytest import approx
 
 from manual import bench
-from manual import make_benchmark_references as maker
-from manual.integrators.works import works
-from support import thorough
+from support.thorough import sample
 
 
-def test_a_stored_ensemble_is_what_its_maker_makes():
-    work, some = works()["B2"], [77]
-    found = maker.ends(work.initial[some], maker.RUNS[0])
-    assert found.astype(float) == approx(work.reference[some], abs=1e-30)
-
-
-def test_the_stored_long_orbit_begins_as_its_maker_makes_it():
-    work = works()["A"]
-    states, crossings = maker.long_orbit(work.initial[0], work.times[work.rows[:20]], maker.LONG_RUNS[0])
-    assert np.array_equal(states.astype(float), work.reference[:20])
-    assert len(crossings) > 0
-    assert np.array_equal(crossings.astype(float), works()["D"].reference[: len(crossings)])
-
-
-def test_a_peer_that_is_not_installed_is_named(monkeypatch, capsys):
-    monkeypatch.setitem(bench.PEERS, "no-such-peer", "no_such_peer")
-    assert bench.participants()
-    assert "no-such-peer is left out" in capsys.readouterr().err
+@pytest.mark.parametrize(("name", "rows"), [("A", slice(20)), ("B", slice(77, 78)), ("D", slice(3))])
+def test_stored_results_are_those_of_decimals(name, rows):
+    work = bench.works()[name]
+    found = bench.exact(work, 42, rows).astype(float)
+    assert np.all(work.exact[rows] == approx(found, rel=0.0, abs=1e-16))
 
 
 @pytest.mark.parametrize(
-    "method, name",
-    thorough.sample([(method, name) for method in bench.participants() for name in works()], 3),
-    ids=lambda one: getattr(one, "name", one),
+    ("method", "name"), sample([(method, name) for method in bench.installed().values() for name in bench.works()], 3)
 )
-def test_every_method_does_every_work_it_says_it_does(method, name):
-    work = works()[name]
-    for ladder in method.ladders(work):
+def test_every_method_does_every_work(method, name):
+    work = bench.works()[name]
+    for ladder in map(list, method(work)):
         # About 1e-7.
-        setting = ladder[len(ladder) // 2]
-        assert work.error(method.prepare(work, setting)()) < 1e-2, setting
-
-
-@pytest.mark.thorough
-def test_the_table_says_what_each_method_takes(capsys):
-    bench.main(["--works", "A", "--targets", "1e-3"])
-    text = capsys.readouterr().out
-    assert "| A | 1e-3 | " in text
+        setting, run = ladder[len(ladder) // 2]
+        assert work.error(run()) < 1e-2, setting
 
 
 @pytest.mark.parametrize("name", sorted(one.stem for one in Path(bench.__file__).parent.glob("*.py")))

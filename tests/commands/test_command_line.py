@@ -16,12 +16,11 @@ from urllib.request import urlopen
 import pytest
 from PIL import Image
 
-import hess_explorer.headless.screenshot
 from hess_explorer.__main__ import main
 from hess_explorer.commands import output
 from hess_explorer.export.picture_data import picture_data
 from hess_explorer.export.table import as_csv
-from hess_explorer.headless.screenshot import server_process
+from hess_explorer.headless import screenshot
 from support.command_line import strict_json, table, typed
 from support.mechanics import ROOT
 from support.processes import UNWARMED, interruptible
@@ -72,25 +71,22 @@ def served(monkeypatch):
 
 @pytest.fixture
 def free_port():
-    return hess_explorer.headless.screenshot.free_port()
+    return screenshot.free_port()
 
 
-def test_several_lessons_are_served_in_their_order(served, free_port, tmp_path):
+def test_serve(served, free_port, capsys, tmp_path):
     (tmp_path / "folder").mkdir()
     for name in ("b.md", "a.md", "folder/c.md"):
         lesson = "---\ntitle: One\nminutes: 1\n---\n## One\n```step\nstate: '?scene=suslov-hess'\n```\n"
         (tmp_path / name).write_text(lesson)
-    words = [word for name in ("b.md", "folder", "a.md") for word in ("--lesson", str(tmp_path / name))]
-    assert main(["serve", "--port", str(free_port), "--no-browser", *words]) == 0
-    assert [lesson.name for lesson in served[0]["lessons"]] == ["b", "c", "a"]
-
-
-def test_serve(served, free_port, capsys):
+    lessons = " ".join(f"--lesson {tmp_path / name}" for name in ("b.md", "folder", "a.md"))
     words = "--allow-origin a.org:80 b.org --workers 2 --sessions 300 --embed-in none *.example.com"
-    assert main(typed(f"serve --port {free_port} --no-browser {words}")) == 0
+    assert main(typed(f"serve --port {free_port} --no-browser {words} {lessons}")) == 0
     assert f"http://localhost:{free_port}" in capsys.readouterr().out
     assert main(typed(f"serve --port {free_port} --no-browser")) == 0
-    usual = {"port": free_port, "show": False, "address": "127.0.0.1", "lessons": ()}
+    assert [lesson.name for lesson in served[0].pop("lessons")] == ["b", "c", "a"]
+    assert served[1].pop("lessons") == ()
+    usual = {"port": free_port, "show": False, "address": "127.0.0.1"}
     given = {"origins": ["a.org:80", "b.org"], "workers": 2, "sessions": 300, "embedders": ["*.example.com"]}
     assert served == [usual | given, usual | {"origins": [], "workers": 1, "sessions": 1000, "embedders": ["*"]}]
 
@@ -104,12 +100,19 @@ def test_without_a_browser_the_server_goes_on(served, free_port, monkeypatch, ca
     assert f"http://localhost:{free_port}" in capsys.readouterr().out
 
 
-def test_taken_port(refusal, served):
+def test_taken_port(refusal, served, monkeypatch, tmp_path):
     with socket.create_server(("127.0.0.1", 0)) as other:
         port = other.getsockname()[1]
-        assert f"already in use (while attempting to bind on address ('127.0.0.1', {port}))" in refusal(
-            "serve", "--port", str(port), "--no-browser"
-        )
+        words = ("serve", "--port", str(port), "--no-browser")
+        assert f"already in use (while attempting to bind on address ('127.0.0.1', {port}))" in refusal(*words)
+        # A server in a process of its own says so too.
+        monkeypatch.setattr(screenshot, "free_port", lambda: port)
+        monkeypatch.setattr(screenshot, "is_alive", lambda host, port: False)
+        with (
+            pytest.raises(screenshot.ServerError, match=r"did not start .*in use"),
+            screenshot.server_process(tmp_path / "log"),
+        ):
+            pass
     assert not served
 
 
@@ -137,8 +140,8 @@ def test_a_server_answers_at_the_address_it_prints_and_ends_silently(free_port):
 
 def test_shot(tmp_path, browser, server, monkeypatch, capsys):
     # A server and a browser are running: starting others is what these two did.
-    monkeypatch.setattr(hess_explorer.headless.screenshot, "server_process", lambda log: nullcontext((None, server)))
-    monkeypatch.setattr(hess_explorer.headless.screenshot, "launched", lambda: nullcontext(browser))
+    monkeypatch.setattr(screenshot, "server_process", lambda log: nullcontext((None, server)))
+    monkeypatch.setattr(screenshot, "launched", lambda: nullcontext(browser))
     before, file = set(browser.contexts), tmp_path / "page.png"
     assert main(["shot", "--state", "h=1.2&f=0.3&theme=dark", "--size", "900", "700", str(file)]) == 0
     for context in set(browser.contexts) - before:
@@ -165,15 +168,3 @@ def test_export(capsys, refusal, tmp_path):
     assert "20 to 400 mm wide" in refusal(*state, "--format", "svg", "--width", "nan")
     assert "choose one of body, omega" in refusal("export", "--picture", "../../etc")
     assert "invalid state value: 'h'" in refusal("export", "--state", "h")
-
-
-def test_a_server_that_does_not_start_says_why(monkeypatch, tmp_path):
-    # Taken: the port is given away a second time.
-    with socket.create_server(("127.0.0.1", 0)) as other:
-        monkeypatch.setattr(hess_explorer.headless.screenshot, "free_port", lambda: other.getsockname()[1])
-        monkeypatch.setattr(hess_explorer.headless.screenshot, "is_alive", lambda host, port: False)
-        with (
-            pytest.raises(hess_explorer.headless.screenshot.ServerError, match=r"did not start .*in use"),
-            server_process(tmp_path / "log"),
-        ):
-            pass

@@ -52,16 +52,6 @@ def test_an_earlier_file_stays_whole_on_a_full_disk(write, suffix, tmp_path, mon
     assert names(tmp_path) == [file.name]
 
 
-def test_a_new_lesson_is_whole_or_not_there(tmp_path, capsys):
-    file = tmp_path / "first.md"
-    with full_disk():
-        assert main(["lesson", "new", str(file)]) == 2
-    assert "(File too large): choose another file." in capsys.readouterr().err
-    assert names(tmp_path) == []
-    assert main(["lesson", "new", str(file)]) == 0
-    assert file.stat().st_size > 1000
-
-
 @mark.skipif(not FULL.exists(), reason="a device of Linux")
 def test_a_standard_output_without_room_is_a_sentence():
     with FULL.open("wb") as full:

@@ -14,8 +14,7 @@ if __name__ == "__main__":
 from hess_explorer.headless.browser import launched
 from hess_explorer.lessons import shipped
 from hess_explorer.offline.pages import lesson_page, state_page
-from manual.timing import conditions
-from support.measured import table, write_measured
+from manual.timing import report
 
 README = Path(__file__).resolve().parents[2] / "app" / "hess_explorer" / "offline" / "README.md"
 COUNT, ROUNDS = 40, 5
@@ -84,9 +83,7 @@ def main():
             seconds = [f"{statistics.median(times):.1f}" for times in (firsts, wholes)]
             rows.append([name, f"{len(content) / 1e6:.1f}", *seconds, rate])
     head = ["page", "MB", "s to the first picture", "s to all", "states a second in a drag"]
-    text = f"{conditions()}.\n\n{table(head, rows)}"
-    print(text)
-    write_measured(README, text)
+    report(head, rows, README)
 
 
 if __name__ == "__main__":

@@ -18,8 +18,7 @@ from hess_explorer.sweep import sweep
 from hess_mechanics import level
 from hess_mechanics.catalogue import find
 from hess_mechanics.suslov_hess.rotation_number import values_at
-from manual.timing import conditions, in_turn
-from support.measured import table, write_measured
+from manual.timing import in_turn, report
 
 README = Path(__file__).resolve().parents[2] / "app" / "hess_explorer" / "sweep" / "README.md"
 TORI = {"h": (0.2, 2.0, 316), "f": (0.01, 1.0, 316)}
@@ -68,9 +67,7 @@ def main():
     """Measure for some minutes."""
     lines = rows("ρ", tori_by_hand, "circle-map", TORI, a=0.5)
     lines += rows("λ", motions_by_hand, "lyapunov suslov", MOTIONS, level="draft", duration=500.0)
-    text = f"{conditions()}.\n\n{table(['what', 'time', 'beside by hand'], lines)}"
-    print(text)
-    write_measured(README, text)
+    report(["what", "time", "beside by hand"], lines, README)
 
 
 if __name__ == "__main__":

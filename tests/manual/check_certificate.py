@@ -48,36 +48,26 @@ def precision(bits):
 # ---- what a certificate consists of -----------------------------------------------------------------------------
 
 
-def part(data, name, kind):
-    need(isinstance(data, dict) and name in data, f"{name} is missing")
-    found = data[name]
-    need(isinstance(found, kind) and not isinstance(found, bool), f"{name} is not of its kind")
-    return found
-
-
-def rational(text, what):
+def rational(text, what="a number"):
     need(isinstance(text, str) and NUMBER.fullmatch(text), f"{what} is no number written as a text")
     return Fraction(text)
 
 
 def pair(texts, what):
     """Two rationals, the smaller one first."""
-    need(isinstance(texts, list) and len(texts) == 2, f"{what} is no pair of numbers")
     low, high = (rational(text, what) for text in texts)
     need(low <= high, f"the ends of {what} are exchanged")
     return low, high
 
 
 def pairs(data, name, count):
-    found = part(data, name, list)
-    need(len(found) == count, f"{name} has {len(found)} entries instead of {count}")
-    return [pair(texts, name) for texts in found]
+    need(len(data[name]) == count, f"{name} has {len(data[name])} entries instead of {count}")
+    return [pair(texts, name) for texts in data[name]]
 
 
-def whole(data, name, most):
-    found = part(data, name, int)
-    need(1 <= found <= most, f"{name} is not between 1 and {most}")
-    return found
+def whole(number, most, what):
+    need(type(number) is int and 1 <= number <= most, f"{what} is not between 1 and {most}")
+    return number
 
 
 # ---- intervals --------------------------------------------------------------------------------------------------
@@ -177,17 +167,17 @@ def half_period(certificate, a, h, f):
     """(A, B, C, D) from s = 0 to π by the steps, and the quarter turns of (1, 0), None where they cannot be counted."""
     roots = tuple(pairs(certificate, "roots", 3))
     roots_hold(h, f, roots)
-    steps = part(certificate, "steps", list)
+    steps = certificate["steps"]
     need(steps, "there are no steps")
-    starts = [rational(part(one, "start", str), "start") for one in steps]
+    starts = [rational(one["start"]) for one in steps]
     need(starts[0] == 0 and all(x < y for x, y in pairwise(starts)), "the steps are not in order")
     need(starts[-1] < 4, "the steps go too far")
     A, B, C, D = ONE, ZERO, ZERO, ONE
     turns = 0
     for one, start, end in zip(steps, starts, [*starts[1:], None], strict=True):
-        radius, bound = (rational(part(one, name, str), name) for name in ("radius", "bound"))
+        radius, bound = rational(one["radius"]), rational(one["bound"])
         need(0 < radius < 4 and bound > 0, "a radius or a bound is not possible")
-        own = step(a, h, f, roots, start, end, radius, bound, whole(one, "terms", MOST_TERMS) + 8, iv.prec)
+        own = step(a, h, f, roots, start, end, radius, bound, whole(one["terms"], MOST_TERMS, "terms") + 8, iv.prec)
         for name, number, ends in zip("ABCD", own, pairs(one, "matrix", 4), strict=True):
             inside(number, ends, f"{name} of a step")
         before = A, C
@@ -212,14 +202,13 @@ def half_period(certificate, a, h, f):
 
 
 def verify_torus(certificate, a, h, f):
-    statement = part(certificate, "statement", str)
+    statement = certificate["statement"]
     need(statement in ("two cycles", "no cycle", "undecided"), "this is no statement of a torus")
-    need("roots" in certificate, "roots is missing")
     if certificate["roots"] is None:
         verify_oscillation(certificate, h, f)
         return
     need(f or h > 1, "f = 0, h ≤ 1 has no such map")
-    with precision(2 * whole(certificate, "bits", MOST_BITS) + 32):
+    with precision(2 * whole(certificate["bits"], MOST_BITS, "bits") + 32):
         matrix, turns = half_period(certificate, a, h, f)
         A, B, C, D = matrix
         small, large = B * C, A * D
@@ -231,14 +220,11 @@ def verify_torus(certificate, a, h, f):
         t = 2 + 4 * small
         size = -t if large.b < 0 else t if t.a > 0 else abs(t)
         for name in ("trace", "trace_ball"):
-            inside(size, pair(part(certificate, name, list), name), f"|trace|, as {name},")
+            inside(size, pair(certificate[name], name), f"|trace|, as {name},")
         low, high = pair(certificate["trace"], "trace")
         if statement == "undecided":
             need(low <= 2 <= high, "the trace decides what is called undecided")
-            need(
-                "rotation_number" in certificate and certificate["rotation_number"] is None,
-                "an undecided torus has no rotation number",
-            )
+            need(certificate["rotation_number"] is None, "an undecided torus has no rotation number")
         else:
             need(turns is not None, "the quarter turns cannot be counted")
             need(low > 2 if statement == "two cycles" else high < 2, "the trace does not show the statement")
@@ -254,20 +240,17 @@ def verify_torus(certificate, a, h, f):
 def verify_oscillation(certificate, h, f):
     """f = 0, h < 1: the map is a limit in closed form."""
     need(f == 0 and h < 1 and certificate["statement"] == "no cycle", "only for f = 0, h < 1 is the map a limit")
-    need(
-        "half" in certificate and certificate["half"] is None and part(certificate, "steps", list) == [],
-        "where the map is a limit there are no steps",
-    )
-    for name, count in (("fixed_points", 0), ("multipliers", 0)):
-        pairs(certificate, name, count)
+    need(certificate["half"] is None and certificate["steps"] == [], "where the map is a limit there are no steps")
+    for name in ("fixed_points", "multipliers"):
+        pairs(certificate, name, 0)
     for name, number in (("trace", 0), ("trace_ball", 0), ("rotation_number", Fraction(-1, 2))):
-        need(pair(part(certificate, name, list), name) == (number, number), f"there {name} is {number}")
+        need(pair(certificate[name], name) == (number, number), f"there {name} is {number}")
 
 
 def verify_cycles(certificate, matrix, turns, positive):
     """The rotation number, both fixed points and their multipliers; positive : whether t > 2, not t < −2."""
     A, B, C, D = matrix
-    rho = pair(part(certificate, "rotation_number", list), "rotation_number")
+    rho = pair(certificate["rotation_number"], "rotation_number")
     need(rho == (turns + (turns + (not positive)) % 2,) * 2, "the rotation number is another integer")
     need(0 not in B * D, "the fixed points cannot be told")
     slope = iv.sqrt(A * C / (B * D))
@@ -285,7 +268,7 @@ def verify_cycles(certificate, matrix, turns, positive):
 
 def verify_turning(certificate, square, turns):
     """The rotation number of a torus without cycles; square : of tan(πβ/2)."""
-    rho = pair(part(certificate, "rotation_number", list), "rotation_number")
+    rho = pair(certificate["rotation_number"], "rotation_number")
     even = turns % 2 == 0
     low, high = (interval(x - turns if even else 1 + turns - x) for x in rho[:: 1 if even else -1])
     need(
@@ -296,15 +279,14 @@ def verify_turning(certificate, square, turns):
 
 def verify_edge(certificate, a, h, f):
     """Verify a circle of states: its double root, in rationals, and the sign of n²(1 + a²) − a²."""
-    n = rational(part(certificate, "n", str), "n")
+    n = rational(certificate["n"])
     need(0 < n < 1 and 2 * n * h == 1 - 3 * n * n and f * f * n == (1 - n * n) ** 2, "this is not on the edge")
     radicand = n * n * (1 + a * a) - a * a
-    statement = part(certificate, "statement", str)
+    statement = certificate["statement"]
     need(
         statement == ("periodic orbit" if radicand > 0 else "two equilibria") and radicand != 0,
         "this is not what the circle does",
     )
-    need("period" in certificate, "period is missing")
     with precision(256):
         rate = iv.sqrt(interval(abs(radicand) / n))
         count = 0 if statement == "periodic orbit" else 2
@@ -329,28 +311,34 @@ def verify_edge(certificate, a, h, f):
 
 def verify(certificate):
     """Raise `Refused` unless the certificate proves its statement."""
-    form = part(certificate, "format", str)
-    need(form in (TORUS, EDGE), f"the format is neither “{TORUS}” nor “{EDGE}”")
-    a, h, f = (rational(part(certificate, name, str), name) for name in "ahf")
-    need(h > -1, "h ≤ −1 has no motion")
     try:
+        form = certificate["format"]
+        need(form in (TORUS, EDGE), f"the format is neither “{TORUS}” nor “{EDGE}”")
+        a, h, f = (rational(certificate[name], name) for name in "ahf")
+        need(h > -1, "h ≤ −1 has no motion")
         (verify_torus if form == TORUS else verify_edge)(certificate, a, h, f)
+    except KeyError as error:
+        raise Refused(f"{error.args[0]} is missing") from None
+    except (TypeError, ValueError, IndexError) as error:
+        raise Refused(f"a part is not of its kind: {error}") from None
     except (ArithmeticError, ComplexResult) as error:
         raise Refused(f"its intervals are too wide to compute with: {error}") from None
 
 
-def read(arguments):
-    """The JSON of a file, or of standard input."""
+def main(arguments):
+    """Check the JSON of a file, or of standard input."""
     need(len(arguments) == 1, "say which file to check, or - for standard input")
     try:
-        return json.loads(sys.stdin.read() if arguments[0] == "-" else Path(arguments[0]).read_text(encoding="utf-8"))
+        text = sys.stdin.read() if arguments[0] == "-" else Path(arguments[0]).read_text(encoding="utf-8")
+        certificate = json.loads(text)
     except (OSError, ValueError, RecursionError) as error:
         raise Refused(f"this is no JSON that can be read: {error}") from None
+    verify(certificate)
+    print("every step and number holds")
 
 
 if __name__ == "__main__":
     try:
-        verify(read(sys.argv[1:]))
+        main(sys.argv[1:])
     except Refused as error:
         sys.exit(f"refused: {error}")
-    print("every step and number holds")

@@ -7,7 +7,7 @@ its folder and of its layer.  The exit code is the number of faults that nobody 
 """
 
 import argparse
-import ast
+import io
 import os
 import random
 import re
@@ -15,28 +15,17 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import tokenize
 import tomllib
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import accumulate
 from pathlib import Path
 
 TESTS = Path(__file__).resolve().parents[1]
 ROOT = TESTS.parent
 DRAWN = "models/hess_mechanics", "app/hess_explorer/scenes"
-SWAPS = {
-    ast.Add: ("+", "-"),
-    ast.Sub: ("-", "+"),
-    ast.Mult: ("*", "/"),
-    ast.Div: ("/", "*"),
-    ast.Lt: ("<", "<="),
-    ast.LtE: ("<=", "<"),
-    ast.Gt: (">", ">="),
-    ast.GtE: (">=", ">"),
-    ast.Eq: ("==", "!="),
-    ast.NotEq: ("!=", "=="),
-    ast.And: ("and", "or"),
-    ast.Or: ("or", "and"),
-}
+PAIRS = ("+", "-"), ("*", "/"), ("<", "<="), (">", ">="), ("==", "!="), ("and", "or")
+SWAPS = {one: other for pair in PAIRS for one, other in (pair, pair[::-1])}
 
 
 @dataclass(frozen=True)
@@ -69,40 +58,16 @@ def not_found_once(chosen):
 
 
 def changes(source):
-    """Yield (start, end, old, new) for each operator and number: bytes `start` to `end` contain `old` once."""
-    lines = [0]
-    for line in source.splitlines(keepends=True):
-        lines.append(lines[-1] + len(line))
-
-    def start(node):
-        return lines[node.lineno - 1] + node.col_offset
-
-    def end(node):
-        return lines[node.end_lineno - 1] + node.end_col_offset
-
-    tree = ast.parse(source)
-    # Before Python 3.12 these have no positions of their own.
-    formatted = {part for node in ast.walk(tree) if isinstance(node, ast.JoinedStr) for part in ast.walk(node)}
-    for node in ast.walk(tree):
-        if node in formatted:
-            continue
-        match node:
-            case ast.Constant(value=int() | float() as number) if not isinstance(number, bool):
-                other = number + 1 if isinstance(number, int) else 2.0 * number or 1.0
-                yield start(node), end(node), source[start(node) : end(node)].decode(), repr(other)
-                operands, operators = [], []
-            case ast.BinOp(left=left, op=op, right=right):
-                operands, operators = [left, right], [op]
-            case ast.BoolOp(op=op, values=operands):
-                operators = [op] * (len(operands) - 1)
-            case ast.Compare(left=left, ops=operators, comparators=others):
-                operands = [left, *others]
-            case _:
-                continue
-        for (left, right), op in zip(pairwise(operands), operators, strict=True):
-            old, new = SWAPS.get(type(op), ("", ""))
-            if old and source[end(left) : start(right)].count(old.encode()) == 1:
-                yield end(left), start(right), old, new
+    """Yield (start, end, other) for each operator and number of Python code: other code for these characters of it."""
+    lines = [0, *accumulate(map(len, source.splitlines(keepends=True)))]
+    for kind, text, (row, column), _, _ in tokenize.generate_tokens(io.StringIO(source).readline):
+        start = lines[row - 1] + column
+        end = start + len(text)
+        if kind == tokenize.NUMBER and "j" not in text:
+            yield start, end, f"{2.0 * float(text) or 1.0}" if "." in text or "e" in text else f"{int(text, 0) + 1}"
+        # An operator of two operands has a space on both sides.
+        elif text in SWAPS and source[start - 1] == " " == source[end]:
+            yield start, end, SWAPS[text]
 
 
 def tests_of(file):
@@ -116,12 +81,11 @@ def tests_of(file):
 def drawn(count, seed):
     """Return this many random faults, the same for the same sources."""
     files = sorted(path for folder in DRAWN for path in (ROOT / folder).rglob("*.py"))
-    every = [(path, *change) for path in files for change in changes(path.read_bytes())]
-    for path, start, end, old, new in random.Random(seed).sample(every, count):
-        source, file = path.read_bytes(), path.relative_to(ROOT).as_posix()
-        changed = source[:start] + source[start:end].replace(old.encode(), new.encode()) + source[end:]
-        line = source[:start].count(b"\n") + 1
-        yield Fault(f"{file}:{line} {old} → {new}", file, source.decode(), changed.decode(), tests_of(file))
+    every = [(path, *change) for path in files for change in changes(path.read_text("utf-8"))]
+    for path, start, end, other in random.Random(seed).sample(every, count):
+        source, file = path.read_text("utf-8"), path.relative_to(ROOT).as_posix()
+        name = f"{file}:{source[:start].count(chr(10)) + 1} {source[start:end]} → {other}"
+        yield Fault(name, file, source, source[:start] + other + source[end:], tests_of(file))
 
 
 # ---- seeding ----------------------------------------------------------------------------------------------------

@@ -23,10 +23,10 @@ if __name__ == "__main__":
 
 from tornado.httpclient import AsyncHTTPClient, HTTPRequest
 
-from hess_explorer.headless.screenshot import wait_alive
+from hess_explorer.headless.screenshot import free_port, server_process
+from support.asynchronous import wait_until
 from support.processes import UNWARMED, below
 from support.room import Follower, Lecturer
-from support.serving import free_port
 from support.visitor import Visitor
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -41,32 +41,7 @@ def connections(process):
     )
 
 
-def _replica(stack, folder, origin):
-    port = free_port()
-    log = folder / f"{port}.log"
-    process = stack.enter_context(
-        subprocess.Popen(
-            [
-                sys.executable,
-                *UNWARMED,
-                "serve",
-                "--port",
-                str(port),
-                "--no-browser",
-                "--allow-origin",
-                origin,
-            ],
-            cwd=ROOT / "app",
-            stdout=log.open("wb"),
-            stderr=subprocess.STDOUT,
-        )
-    )
-    stack.callback(process.kill)
-    wait_alive(process, port, log)
-    return process, port
-
-
-async def _main(base, trusted, replicas):
+async def visit(base, trusted, replicas):
     """Run the checks and print each result."""
 
     async def get(path):
@@ -92,8 +67,8 @@ async def _main(base, trusted, replicas):
     print(f"websocket through the proxy: {json.dumps(link)[:90]}…")
     # Rooms of both replicas; nobody in them has a cookie.
     for _ in range(8):
-        lecturer = await Lecturer.open(base, ssl_options=trusted)
-        followers = [await Follower.follow(base, lecturer.code, ssl_options=trusted) for _ in range(4)]
+        lecturer = await Lecturer.open(base, trusted=trusted)
+        followers = [await Follower.follow(base, lecturer.code, trusted=trusted) for _ in range(4)]
         await lecturer.until(lambda one: one.followers == 4)
         await lecturer.show(link)
         for follower in followers:
@@ -103,7 +78,7 @@ async def _main(base, trusted, replicas):
             await member.end()
     print("eight rooms with four followers each: all at the lecturer's state")
     # The replica that serves this visitor ends; the other one goes on.
-    serving, other = sorted((process for process, _ in replicas), key=connections, reverse=True)
+    serving, other = sorted(replicas, key=connections, reverse=True)
     begun = time.monotonic()
     serving.send_signal(signal.SIGTERM)
     heard = (await visitor.end(20.0))[0]
@@ -122,38 +97,24 @@ def main():
     if caddy is None:
         sys.exit("There is no caddy here: apt-get install caddy.")
     with tempfile.TemporaryDirectory() as place, ExitStack() as stack:
-        folder, port = Path(place), free_port()
-        host = f"localhost:{port}"
-        replicas = [_replica(stack, folder, host) for _ in range(2)]
+        folder, host = Path(place), f"localhost:{free_port()}"
+        options = ["--allow-origin", host]
+        started = [stack.enter_context(server_process(folder / f"{n}.log", UNWARMED, options)) for n in range(2)]
         settings = {
-            **os.environ,
             "EXPLORER_HOST": host,
-            "XDG_DATA_HOME": str(folder),
-            "XDG_CONFIG_HOME": str(folder),
-            "EXPLORER_REPLICAS": " ".join(f"127.0.0.1:{one[1]}" for one in replicas),
+            "EXPLORER_REPLICAS": " ".join(base.removeprefix("http://") for _, base in started),
+            **dict.fromkeys(("XDG_DATA_HOME", "XDG_CONFIG_HOME"), str(folder)),
         }
         # Port 80, to which others may listen, is not needed here, and nobody's list of trust is changed.
-        config = folder / "Caddyfile"
-        config.write_text(
-            "{\n\tauto_https disable_redirects\n\tskip_install_trust\n\tadmin off\n}\n"
-            + (ROOT / "app/deployment/Caddyfile").read_text()
-        )
-        proxy = stack.enter_context(
-            subprocess.Popen(
-                [caddy, "run", "--config", str(config), "--adapter", "caddyfile"],
-                env=settings,
-                cwd=folder,
-                stdout=(folder / "caddy.log").open("wb"),
-                stderr=subprocess.STDOUT,
-            )
-        )
+        changed = "{\n\tauto_https disable_redirects\n\tskip_install_trust\n\tadmin off\n}\n"
+        (folder / "Caddyfile").write_text(changed + (ROOT / "app/deployment/Caddyfile").read_text())
+        log = stack.enter_context((folder / "caddy.log").open("wb"))
+        words = [caddy, "run", "--adapter", "caddyfile", "--config", "Caddyfile"]
+        proxy = subprocess.Popen(words, env={**os.environ, **settings}, cwd=folder, stdout=log, stderr=log)
         stack.callback(proxy.terminate)
         root = folder / "caddy/pki/authorities/local/root.crt"
-        ends = time.monotonic() + 60.0
-        while not root.exists():
-            assert time.monotonic() < ends, (folder / "caddy.log").read_text()
-            time.sleep(0.1)
-        asyncio.run(_main(f"https://{host}", ssl.create_default_context(cafile=str(root)), replicas))
+        wait_until(root.exists)
+        asyncio.run(visit(f"https://{host}", ssl.create_default_context(cafile=str(root)), [one for one, _ in started]))
 
 
 if __name__ == "__main__":

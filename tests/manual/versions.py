@@ -9,6 +9,7 @@ import argparse
 import asyncio
 import json
 import os
+import shlex
 import shutil
 import subprocess
 import sys
@@ -64,39 +65,25 @@ def smoke():
 # ---- from outside -----------------------------------------------------------------------------------------------
 
 
-def _tried(python, age, folder):
+def tried(python, age, folder):
     """Return the versions and the result of a trial."""
     uv = shutil.which("uv") or str(Path(sys.executable).with_name("uv"))
-    here = folder / "venv" / "bin" / "python"
+    here = str(folder / "venv" / "bin" / "python")
     # Neither the caller's packages nor kernels of others.
     settings = {name: value for name, value in os.environ.items() if name not in ("PYTHONPATH", "VIRTUAL_ENV")}
     settings |= {"NUMBA_CACHE_DIR": str(folder / "kernels")}
-    steps = (
-        [uv, "venv", "-q", "--no-config", "--python", python, str(folder / "venv")],
-        [
-            uv,
-            "pip",
-            "install",
-            "-q",
-            "--only-binary",
-            ":all:",
-            "--no-binary",
-            "hess-explorer",
-            "--python",
-            str(here),
-            "--resolution",
-            AGES[age],
-            str(ROOT),
-        ],
-        [str(here), str(Path(__file__)), "--smoke"],
-    )
-    names = ("there is no such Python here", "cannot be installed", "failed")
+    install = shlex.split(f"pip install -q --only-binary :all: --no-binary hess-explorer --resolution {AGES[age]}")
+    steps = {
+        "there is no such Python here": [uv, "venv", "-q", "--no-config", "--python", python, str(folder / "venv")],
+        "cannot be installed": [uv, *install, "--python", here, str(ROOT)],
+        "failed": [here, str(Path(__file__)), "--smoke"],
+    }
     begun = time.monotonic()
-    for step, name in zip(steps, names, strict=True):
+    for why, step in steps.items():
         done = subprocess.run(step, cwd=folder, env=settings, capture_output=True, text=True, check=False)
         if done.returncode != 0:
             print(f"--- {python}, {age}: {done.stderr[-3000:]}", file=sys.stderr)
-            return {}, f"{name}: {done.stderr.strip().splitlines()[-1][:160]}"
+            return {}, f"{why}: {done.stderr.strip().splitlines()[-1][:160]}"
     found = json.loads(done.stdout.splitlines()[-1])
     return found, f"{found['scenes']} scenes, a command and an export in {time.monotonic() - begun:.0f} s"
 
@@ -114,7 +101,7 @@ def main():
     for python in options.pythons:
         for age in [options.age] if options.age else AGES:
             with tempfile.TemporaryDirectory() as folder:
-                found, said = _tried(python, age, Path(folder))
+                found, said = tried(python, age, Path(folder))
             shown = python if "/" not in python else Path(python).resolve().name.removeprefix("python")
             print(f"| {shown} | {age} | {' | '.join(found.get(name, '') for name in SHOWN)} | {said} |", flush=True)
     return None

@@ -3,12 +3,10 @@
 import pytest
 from pytest import approx
 
-from support.bridge import BRIDGE
-
 
 @pytest.fixture
 def scene():
-    return BRIDGE.name
+    return "bridge"
 
 
 def test_the_sliders_of_the_side_that_is_not_given_are_disabled_and_show_it(explorer):

@@ -6,11 +6,13 @@ import pytest
 from playwright.sync_api import expect
 
 from hess_explorer.headless.screenshot import server_process
-from support.euler_poisson import EP
+from hess_explorer.protocol.specs import encode
+from hess_explorer.scenes import scenes
 from support.page import one_tab
 from support.processes import UNWARMED
 
-SMALL = {"orbits": 8.0, "count": 40.0, "long": 20.0, "span": 5.0, "indicator": "nothing"}
+EP = scenes()["euler-poisson"]
+SMALL = {**EP.defaults(), "orbits": 8.0, "count": 40.0, "long": 20.0, "span": 5.0, "indicator": "nothing"}
 
 HELD_BACK = """
 import functools, sys, time
@@ -52,7 +54,8 @@ def long_section(held_back, gate):
     """long_section(h) → the page while a section of that energy is computed, of which six pieces come."""
 
     def begin(h):
-        held_back.fresh(EP.name).give(**SMALL)
+        held_back.fresh(EP.name)
+        held_back.change(held_back.tell, "restore", encode(EP.name, SMALL))
         gate.touch()
         held_back.type("count", "4000")
         held_back.type("h", str(h))

@@ -10,20 +10,19 @@ def numbers(explorer, *names):
 
 
 def test_undo_and_redo_go_through_all_that_was_done_and_one_drag_is_one_step(explorer):
+    """What is a step is tested without a browser (`static/history.test.mjs`)."""
     page = explorer.page
     undo, redo = page.locator(".param-undo"), page.locator(".param-redo")
     explorer.goto(f"/?scene={HESS}")
-    assert undo.is_disabled()
-    assert redo.is_disabled()
+    assert undo.is_disabled() and redo.is_disabled()
     seen = [numbers(explorer, "h", "f")]
     explorer.change(explorer.type, "f", "0.3")
     seen.append(numbers(explorer, "h", "f"))
-    # A drag with many states on the way.
     box = explorer.slider("h").bounding_box()
     middle = box["y"] + box["height"] / 2
     page.mouse.move(box["x"] + 0.4 * box["width"], middle)
     page.mouse.down()
-    for share in (0.45, 0.5, 0.6):
+    for share in (0.45, 0.6):
         explorer.change(page.mouse.move, box["x"] + share * box["width"], middle)
     explorer.change(page.mouse.up)
     seen.append(numbers(explorer, "h", "f"))
@@ -36,7 +35,6 @@ def test_undo_and_redo_go_through_all_that_was_done_and_one_drag_is_one_step(exp
     assert undo.is_disabled()
     assert_orbit(explorer, DEFAULTS)
     explorer.change(redo.click)
-    assert numbers(explorer, "h", "f") == seen[1]
     for key in ("Control+Shift+z", "Control+y"):
         explorer.change(page.keyboard.press, key)
     assert explorer.scene == "loxodrome"

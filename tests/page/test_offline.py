@@ -15,19 +15,14 @@ from hess_explorer.export.picture_data import picture_data
 from hess_explorer.lessons import shipped
 from hess_explorer.offline.pages import lesson_page, state_page
 from hess_explorer.scenes import scenes
-from hess_mechanics.errors import ModelError
 from support.accessible import assert_accessible
 from support.offline import captions, change, move, opened
 
 DRAFT = "scene=suslov-hess&h=1.2&f=0.3&accuracy=draft"
 FIRST = "limit-cycles-and-locking"
-# Five pages, with two sliders each.
 PAGES = {
     "suslov-hess": (DRAFT, ("h=0.2:3.4:3", "f=0:1:3")),
-    "free-suslov": ("scene=free-suslov", ("k=0.2:0.9:3", "I23=-0.3:0.3:3")),
-    "chaplygin-ball": ("scene=chaplygin-ball", ("D=0.5:3:3", "h=0.5:2:3")),
     "kharlamova": ("scene=kharlamova", ("q1=-0.5:0.5:3", "p=0.6:1.4:3")),
-    "loxodrome": ("scene=loxodrome", ("energy=0.5:2:3", "l=0.1:0.5:3")),
 }
 
 
@@ -35,11 +30,6 @@ def written(folder, name, content):
     path = folder / f"{name}.html"
     path.write_bytes(content)
     return path.as_uri()
-
-
-def time_of(page):
-    """The time of the player."""
-    return float(page.locator(".player output").text_content().removeprefix("t = "))
 
 
 def point_of(page, name):
@@ -71,42 +61,34 @@ def drawn(page):
 def test_a_state_plays_and_turns_from_the_disk(browser, tmp_path):
     name, data = state_page(f"{DRAFT}&t=2&az=0.3&el=0.2", home="https://explorer.example/")
     assert name == "suslov-hess"
+    found = picture_data(DRAFT, "omega")
+    orbit = found.columns["data-orbit"]
     with opened(browser, written(tmp_path, name, data)) as page:
-        assert page.locator(".picture").count() == 6
-        found = picture_data(DRAFT, "omega")
-        orbit = found.columns["data-orbit"]
+        clock, sphere, home = (page.locator(one) for one in (".player output", "canvas.sphere", "a.home"))
 
-        def assert_point(t):
+        def assert_point():
+            t = float(clock.text_content().removeprefix("t = "))
             expected = [np.interp(t, orbit["t"], orbit[column]) for column in ("omega1", "omega2")]
             # The time is written with two digits.
             assert point_of(page, "omega") == pytest.approx(expected, abs=0.03)
 
-        assert time_of(page) == 2.0
-        assert_point(2.0)
-        sphere = page.locator("canvas.sphere").first
-        assert sphere.get_attribute("data-turn") == "0.3000 0.2000"
+        expect(clock).to_have_text("t = 2.00")
+        assert_point()
+        assert sphere.first.get_attribute("data-turn") == "0.3000 0.2000"
         before = drawn(page)
-        box = sphere.bounding_box()
-        page.mouse.move(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
-        page.mouse.down()
-        page.mouse.move(box["x"] + box["width"] / 2 + 60, box["y"] + box["height"] / 2 + 20)
-        page.mouse.up()
-        expect(sphere).not_to_have_attribute("data-turn", "0.3000 0.2000")
-        assert float(sphere.get_attribute("data-turn").split()[0]) < 0.29
+        sphere.first.press("ArrowRight")
+        expect(sphere.first).not_to_have_attribute("data-turn", "0.3000 0.2000")
         assert drawn(page) != before
         page.keyboard.press("Space")
-        expect(page.locator(".player output")).not_to_have_text("t = 2.00")
+        expect(clock).not_to_have_text("t = 2.00")
         page.keyboard.press("Space")
-        assert_point(time_of(page))
+        assert_point()
         # The page says which parameters are fixed.
         assert page.locator("input.hand").count() == 0
         expect(page.locator(".fixed")).to_contain_text("This file holds one computed state. Fixed: I₂₂ = 0.96, ")
-        page.locator("a.home").dispatch_event("focus")
-        assert (
-            page.locator("a.home").get_attribute("href").startswith("https://explorer.example/?v=1&scene=suslov-hess")
-        )
-        facts = json.loads(page.locator("#facts").text_content())
-        assert facts["parameters"] == dict(found.values)
+        home.dispatch_event("focus")
+        assert home.get_attribute("href").startswith("https://explorer.example/?v=1&scene=suslov-hess")
+        assert json.loads(page.locator("#facts").text_content())["parameters"] == dict(found.values)
         assert_accessible(page)
 
 
@@ -122,31 +104,28 @@ def pixels(page):
     return np.asarray(Image.open(io.BytesIO(shot)).convert("RGB")).astype(int)
 
 
-@pytest.mark.parametrize(
-    "name", ["suslov-hess", *(pytest.param(one, marks=pytest.mark.thorough) for one in PAGES if one != "suslov-hess")]
-)
+@pytest.mark.parametrize("name", ["suslov-hess", pytest.param("kharlamova", marks=pytest.mark.thorough)])
 def test_sliders_show_what_the_served_page_shows(browser, explorer, tmp_path, name):
     query, sliders = PAGES[name]
-    content = state_page(query, sliders=sliders)[1]
-    names = [slider.partition("=")[0] for slider in sliders]
     explorer.fresh(name)
-    with opened(browser, written(tmp_path, name, content)) as page:
-        for step in range(4):
-            slider = page.locator(f".param-{names[step // 2]} .hand").first
-            change(page, slider.press, "Home" if step % 2 == 0 else "ArrowRight")
-            address = address_of(page)
-            explorer.change(explorer.tell, "restore", address)
-            there = captions(explorer.page)
-            # Another test may have unfolded a picture there.
-            assert captions(page) == {name: there[name] for name in scenes()[name].open_pictures}
-            for one in (page, explorer.page):
-                one.mouse.move(5, 5)
-            here, there = pixels(page), pixels(explorer.page)
-            assert here.shape == there.shape
-            off = np.abs(here - there).max(axis=2)
-            # Lines may be shifted by an eighth of a pixel of a picture that is three times as wide.
-            assert (off > 64).mean() < 5e-4, (step, address)
-            assert off.mean() < 0.1, (step, address)
+    with opened(browser, written(tmp_path, name, state_page(query, sliders=sliders)[1])) as page:
+        for slider in sliders:
+            hand = page.locator(f".param-{slider.partition('=')[0]} .hand").first
+            for key in ("Home", "ArrowRight"):
+                change(page, hand.press, key)
+                address = address_of(page)
+                explorer.change(explorer.tell, "restore", address)
+                there = captions(explorer.page)
+                # Another test may have unfolded a picture there.
+                assert captions(page) == {name: there[name] for name in scenes()[name].open_pictures}
+                for one in (page, explorer.page):
+                    one.mouse.move(5, 5)
+                here, there = pixels(page), pixels(explorer.page)
+                assert here.shape == there.shape
+                off = np.abs(here - there).max(axis=2)
+                # Lines may be shifted by an eighth of a pixel of a picture that is three times as wide.
+                assert (off > 64).mean() < 5e-4, address
+                assert off.mean() < 0.1, address
 
 
 def test_the_file_says_what_it_cannot_show_and_keeps_its_place(browser, tmp_path):
@@ -223,8 +202,3 @@ def assert_given(page, lesson):
             expect(page.locator(".answer")).to_have_attribute("open", "")
         if number + 1 < len(lesson.steps):
             change(page, page.keyboard.press, "PageDown")
-
-
-def test_a_picture_that_is_not_there_is_refused():
-    with pytest.raises(ModelError, match="has no picture 'x': choose one of body"):
-        state_page(DRAFT, ["x"])

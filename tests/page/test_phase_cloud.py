@@ -7,11 +7,13 @@ import numpy as np
 import pytest
 from pytest import approx
 
+from hess_explorer.protocol.specs import encode
+from hess_explorer.scenes import scenes
 from hess_mechanics import level
 from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.chaplygin_ball.phase_cloud import cloud_of, frame_times, patch
-from support.phase_cloud import SCENE
 
+SCENE = scenes()["singular-measures"]
 HERE = ".gallery:not(.away) .picture-{} canvas"
 WIDTH = 600
 """Pixels of a picture that interpolation is to be right for."""
@@ -47,7 +49,7 @@ def test_between_frames_nearly_all_points_are_right_to_a_pixel(explorer):
     body = BallBody(*(values[name] for name in ("I11", "I22", "I13", "I23", "D")))
     states = patch(body, values["h"], values["angle"], values["spread"], 10_000)
     frames = frame_times(body, states, values["span"], values["b3"])
-    explorer.give(**CHANGED)
+    explorer.change(explorer.tell, "restore", encode(SCENE.name, values))
     for frame in (0, frames.size // 2, frames.size - 2):
         t = 0.5 * float(frames[frame] + frames[frame + 1])
         explorer.set_time(t)

@@ -56,33 +56,6 @@ def test_a_click_in_the_bifurcation_diagram_chooses_the_torus_under_it(explorer)
 # --- The sphere -------------------------------------------------------------------------------------
 
 
-def vertical(state):
-    """γ, on the sphere."""
-    return state[2:]
-
-
-def radius(explorer):
-    """The radius of the sphere on the screen: 0.84 of half the canvas."""
-    return 0.42 * explorer.sphere.bounding_box()["width"]
-
-
-def test_a_picture_in_space_turns_with_the_mouse_as_if_it_were_held(explorer):
-    box, mouse = explorer.sphere.bounding_box(), explorer.page.mouse
-    state, sent = explorer.state, len(explorer.sent)
-    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
-    mouse.move(x, y)
-    mouse.down()
-    mouse.move(x + 20, y + 5)
-    mouse.move(x + 60, y - 25)
-    mouse.up()
-    mouse.move(x - 80, y)
-    turned = (HOME[0] - 60 / radius(explorer), HOME[1] - 25 / radius(explorer))
-    assert_turned(explorer.sphere, *turned)
-    explorer.sphere.press("Home")
-    assert_turned(explorer.sphere, *HOME)
-    assert (explorer.state, len(explorer.sent)) == (state, sent)
-
-
 def projected(point, turn):
     """Project a point in an orthographic view: right and up."""
     azimuth, elevation = turn
@@ -93,22 +66,21 @@ def projected(point, turn):
 
 
 def test_the_moving_point_is_at_the_state_seen_from_there(explorer):
-    keys = ["ArrowUp"] * 6 + ["ArrowRight"] * 4
-    explorer.sphere.focus()
-    for key in keys:
+    for key in ["ArrowUp"] * 6 + ["ArrowRight"] * 4:
         explorer.sphere.press(key)
-    turn = (HOME[0] - STEP * keys.count("ArrowRight"), HOME[1] + STEP * keys.count("ArrowUp"))
+    turn = (HOME[0] - 4 * STEP, HOME[1] + 6 * STEP)
     assert_turned(explorer.sphere, *turn)
     box = explorer.sphere.bounding_box()
     for t in (0.0, 3.1, 9.4):
         explorer.set_time(t)
-        right, up = projected(vertical(exact_states(DEFAULTS, [t])[0]), turn)
+        right, up = projected(exact_states(DEFAULTS, [t])[0][2:], turn)
         wait_frames(explorer, 2)
         pixels = picture(explorer, (box["x"], box["y"], box["width"], box["height"]))
         rows, columns = np.nonzero(like(pixels, theme.POINT))
         assert rows.size > 40
-        half = box["width"] / 2
-        found = ((columns.mean() + 0.5 - half) / radius(explorer), (half - rows.mean() - 0.5) / radius(explorer))
+        # The radius of the sphere is 0.84 of half the canvas.
+        half, radius = box["width"] / 2, 0.42 * box["width"]
+        found = ((columns.mean() + 0.5 - half) / radius, (half - rows.mean() - 0.5) / radius)
         assert found == approx((right, up), abs=0.02)
 
 

@@ -1,7 +1,6 @@
 """A lecture: the audience follows on phones, guesses, plays on its own, and comes back."""
 
 import re
-from urllib.parse import parse_qs, urlsplit
 
 import pytest
 from playwright.sync_api import expect
@@ -72,61 +71,53 @@ def lecture(tab, browser):
     tab.assert_quiet()
 
 
-def test_a_guess_of_the_audience_from_the_invitation_to_how_far_it_was_off(lecture, artefacts):
+def test_a_guess_of_the_audience_from_the_invitation_to_how_far_it_was_off(lecture):
     tab, phone, code = lecture
-    page, small = tab.page, phone.page
+    page, small, audience = tab.page, phone.page, tab.page.locator(".lesson .audience")
     page.get_by_text("1 follower", exact=True).wait_for()
     assert_accessible(page, page.locator(".invite"))
-    page.screenshot(path=artefacts / "room-invitation.png")
     page.keyboard.press("Escape")
     assert small.get_by_role("heading", name=LESSON.steps[STEP - 1].title).is_visible()
     # The picture fills the width of the phone, and nothing is cut.
-    box = small.locator(".gallery:not(.away) .picture").bounding_box()
-    assert box["width"] >= 350
+    assert small.locator(".gallery:not(.away) .picture").bounding_box()["width"] >= 350
     assert small.evaluate("document.documentElement.scrollWidth") == 390
-    assert page.locator(".lesson .audience").inner_text() == "0 guesses from the audience."
-
-    sheet = small.locator("canvas.guess").bounding_box()
-    small.touchscreen.tap(sheet["x"] + 0.5 * sheet["width"], sheet["y"] + 0.4 * sheet["height"])
-    assert small.locator(".said").inner_text() == "Your guess is set."
-    page.get_by_text("1 guess from the audience.").wait_for()
+    expect(audience).to_have_text("0 guesses from the audience.")
+    sheet = small.locator("canvas.guess")
+    box = sheet.bounding_box()
+    small.touchscreen.tap(box["x"] + 0.5 * box["width"], box["y"] + 0.4 * box["height"])
+    expect(small.locator(".said")).to_have_text("Your guess is set.")
+    expect(audience).to_have_text("1 guess from the audience.")
     x0, x1, y0, y1 = tab.axes(ASKED.picture)
-    places = [[x0 + x * (x1 - x0), y0 + y * (y1 - y0)] for x, y in OTHERS]
 
     async def guess():
-        for i, place in enumerate(places):
+        for i, (x, y) in enumerate(OTHERS):
             other = await Follower.follow(tab.base, code, f"another-phone-{i}")
             await other.hear()
-            await other.say({"guess": [place], "step": STEP})
+            await other.say({"guess": [[x0 + x * (x1 - x0), y0 + y * (y1 - y0)]], "step": STEP})
             await other.hear()
             await other.leave()
 
     finished(guess())
-    page.get_by_text("3 guesses from the audience.").wait_for()
-    small.screenshot(path=artefacts / "room-guess.png")
+    expect(audience).to_have_text("3 guesses from the audience.")
     assert_accessible(small)
-
     tab.change(page.keyboard.press, "PageDown")
     page.locator("canvas.audience").wait_for(state="attached")
-    said = page.locator(".lesson .audience").inner_text()
-    page.screenshot(path=artefacts / "room-revealed.png")
-    small.get_by_text(re.compile(r"You were .* away\.")).wait_for()
-    small.screenshot(path=artefacts / "room-revealed-phone.png")
+    # How far one is off is measured in "static/guess.test.mjs".
+    median = r"3 guesses from the audience\. Median distance: \S+ in .* and \S+ in .*\."
+    expect(audience).to_have_text(re.compile(median))
+    expect(small.locator(".said")).to_have_text(re.compile(r"You were .* away\."))
     # The phone draws what the projector draws, and nothing of the state before; no player moves a point there.
     drawn = small.evaluate(COLUMNS, [f"{tab.base}/{modules_path()}/page/follow.js", ASKED.picture])
     assert drawn
     for name, columns in drawn.items():
         if name not in POINTS:
             assert columns == [lengths(column) for column in tab.data(name).values()], name
-    # How far one is off is measured in "static/guess.test.mjs".
-    assert re.fullmatch(r"3 guesses from the audience\. Median distance: \S+ in .* and \S+ in .*\.", said)
     # The next step takes the guesses away.
-    while page.locator(".lesson .count").inner_text().startswith(f"{STEP} "):
-        page.keyboard.press("PageDown")
+    tab.turn_to_step(STEP + 1)
     page.locator("canvas.audience").wait_for(state="detached")
     small.get_by_role("heading", name=LESSON.steps[STEP].title).wait_for()
     expect(small.locator(".said")).to_be_hidden()
-    assert small.locator("canvas.guess").count() == 0
+    assert sheet.count() == 0
 
 
 @pytest.mark.thorough
@@ -139,18 +130,17 @@ def test_a_follower_plays_alone_and_comes_back_and_the_room_outlives_a_reload(le
         socket.connect_to_server()
         sockets.append(socket)
 
+    def link(name):
+        return small.get_by_role("link", name=name)
+
     page.keyboard.press("Escape")
     tab.leave_lesson()
     tab.show("loxodrome")
     follows(small, "scene=loxodrome")
     assert small.locator(".lesson").is_hidden()
-    # Gestures do not steer.
-    x, y, wide, high = small.locator(".gallery:not(.away) .picture .host").bounding_box().values()
-    small.touchscreen.tap(x + wide / 2, y + high / 2)
-    small.get_by_role("link", name="Let go").tap()
+    link("Let go").tap()
     wait_ready(small)
-    alone = {name: one for name, [one] in parse_qs(urlsplit(small.url).query).items()}
-    assert alone["scene"] == "loxodrome"
+    assert phone.scene == "loxodrome"
     phone.show("kharlamova")
     # The lecturer does not notice, goes on, and reloads the page.
     tab.show("free-suslov")
@@ -159,10 +149,8 @@ def test_a_follower_plays_alone_and_comes_back_and_the_room_outlives_a_reload(le
     page.locator(".param-invite[aria-pressed=true]").wait_for()
     assert tab.scene == "free-suslov"
     small.route_web_socket(re.compile("/rooms/"), connect)
-    small.get_by_role("link", name="Back to the lecture").tap()
+    link("Back to the lecture").tap()
     follows(small, "scene=free-suslov")
-    tab.show("scattering")
-    follows(small, "scene=scattering")
     # A phone that loses its connection finds the last state when it is back.
     sockets.pop().close(code=1001)
     small.get_by_text("Connection lost.").wait_for()
@@ -171,15 +159,15 @@ def test_a_follower_plays_alone_and_comes_back_and_the_room_outlives_a_reload(le
     assert len(sockets) == 1
     page.get_by_role("button", name="Invite").click()
     page.get_by_role("button", name="End the lecture").click()
-    small.get_by_text("The lecture has ended.").wait_for()
-    page.get_by_text("The lecture has ended.").wait_for()
+    for one in (small, page):
+        one.get_by_text("The lecture has ended.").wait_for()
     page.keyboard.press("Escape")
-    small.get_by_role("link", name="Open Hess Explorer").tap()
+    link("Open Hess Explorer").tap()
     wait_ready(small)
-    assert small.get_by_role("link", name="Back to the lecture").count() == 0
+    assert link("Back to the lecture").count() == 0
 
 
-def test_where_several_processes_serve_the_dialog_says_that_rooms_need_one(browser, server):
+def test_where_there_is_no_room_the_pages_say_why(browser, server):
     page = browser.new_page()
     page.route_web_socket(re.compile("/rooms/"), lambda socket: socket.close(code=SEVERAL[0], reason=SEVERAL[1]))
     page.goto(f"{server}/")
@@ -189,9 +177,6 @@ def test_where_several_processes_serve_the_dialog_says_that_rooms_need_one(brows
     for absent in (page.get_by_text("Scan the code"), page.get_by_role("button", name="End the lecture")):
         expect(absent).to_be_hidden()
     page.close()
-
-
-def test_a_code_that_is_none_says_so(browser, server):
     page = browser.new_page()
     page.goto(f"{server}/r/AAAAAA")
     page.get_by_text("There is no such room: its lecture has ended, or the code is wrong.").wait_for()

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from hess_explorer.protocol.specs import encode
 from hess_explorer.scenes import scenes
 from hess_mechanics.dynamics.cells import centres
 from support.page import said
@@ -15,7 +16,7 @@ from support.pointer import frame
 SUSLOV = scenes()["suslov"]
 KINDS = (((86, 180, 233), 0x50 / 255), ((213, 94, 0), 0x60 / 255))
 """Colours of MEGNO, and how much of them is seen: regular and chaotic cells."""
-FEW = {"orbits": 8, "count": 40, "long": 50}
+FEW = {"orbits": 8.0, "count": 40.0, "long": 50.0, "I13": 0.0, "I23": 0.0, "h": 4.0, "accuracy": "draft"}
 
 
 @pytest.fixture
@@ -33,9 +34,8 @@ def colours_of_cells(explorer, picture, shape):
 
 
 def test_cells_of_megno_are_seen_in_their_colours_under_the_points(explorer):
-    explorer.give(**FEW)
-    chosen = {"I13": 0.0, "I23": 0.0, "h": 4.0, "accuracy": "draft", "indicator": "nothing"}
-    explorer.change(explorer.tell, "change", chosen)
+    values = {**SUSLOV.defaults(), **FEW, "indicator": "nothing"}
+    explorer.change(explorer.tell, "restore", encode(SUSLOV.name, values))
     before = colours_of_cells(explorer, "section", (12, 18))
     explorer.change(explorer.choose, "indicator", "MEGNO")
     kinds = np.array(explorer.data("section-megno")["image"][0]).reshape(12, 18) - 1.5

@@ -11,6 +11,7 @@ import pytest
 from pytest import approx
 
 from hess_explorer.protocol.specs import places
+from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.periodic_search import NONE
 from hess_mechanics import circle_map, f_max, level, lyapunov_spectrum
 from hess_mechanics.dynamics.birkhoff import rotation_number
@@ -21,10 +22,25 @@ from hess_mechanics.euler_poisson.hess_split import HessTorus, split_at
 from hess_mechanics.numerics.accuracy import STANDARD
 from support.andoyer import dense, energies_at
 from support.deviations import deviations
-from support.euler_poisson import EP, EulerPoisson
 from support.moved import from_moved_starts
 from support.thorough import sample
 from support.view import View, values_of
+
+EP = scenes()["euler-poisson"]
+
+
+class EulerPoisson(View):
+    """View of this scene, with its body, energy and area constant."""
+
+    def __init__(self, values, **options):
+        super().__init__(EP, values, **options)
+        self.body = self.result.body
+        self.h, self.f = self.values["h"], self.values["f"]
+
+    @property
+    def start(self):
+        """The state of the chosen orbit."""
+        return AndoyerSection(self.body, self.h, self.f).state_at(*places(self.values["starts"])[-1])
 
 
 def relation(view, points):

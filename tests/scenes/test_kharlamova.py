@@ -13,9 +13,10 @@ from hess_mechanics.dynamics.return_map import section_crossings
 from hess_mechanics.numerics.accuracy import STANDARD
 from hess_mechanics.suslov.plane_potential import POTENTIALS
 from support.deviations import deviations
-from support.kharlamova import ARC, POINT
 from support.moved import from_moved_starts
 from support.view import View
+
+ARC, POINT = scenes()["kharlamova"], scenes()["quartic"]
 
 
 @pytest.mark.parametrize("preset", ARC.presets, ids=lambda preset: preset.name)

@@ -67,7 +67,7 @@ def test_a_page_hears_that_the_server_is_alive_while_its_state_is_computed(monke
         await visitor.say({"requested": 1, "values": {"h": 1.25}})
         for _ in range(2):
             await visitor.say(ALIVE)
-            assert await visitor._read(visitor._states, 10.0) == ""
+            assert await visitor.states.read(10.0) == ""
         computed.set()
         await visitor.hear()
         await visitor.leave()

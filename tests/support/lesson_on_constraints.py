@@ -8,7 +8,6 @@ from scipy.optimize import brentq
 from hess_mechanics import SuslovBody
 from hess_mechanics.suslov import free
 from hess_mechanics.suslov.additional_integral import I11_at
-from support.numbers import elsewhere, of
 
 NAME = "what-a-nonholonomic-constraint-does"
 
@@ -58,8 +57,5 @@ ROWS = {
     "by 90° about": about_the_third_axis,
     "$\\omega_0$ is 0.896": lambda s: (free.passage(free_body(s.prediction.then.values), started(s)).rate,),
     "the slope is −0.78": rate_at_the_end,
-    "So far $I_{13}$ was 0": of("I13"),
-    "it is 1.5 now, and we shall set it to 1.": lambda s: (s.at.values["k"], s.prediction.then.values["k"]),
-    "for $k$ = 1.5.": lambda s: elsewhere(NAME, "The vertical remembers", "k"),
 }
 """A phrase of the lesson → the numbers in it, computed from the step."""

@@ -115,8 +115,6 @@ def multipliers(_step):
 ROWS = {
     "Its **period** is 1.": lambda s: (points_of(s.at),),
     "closes after three crossings": a_third,
-    "Three points": a_third,
-    "It was −0.1. We set it to 0, and": lambda s: (s.at.values["I23"], s.prediction.then.values["I23"]),
     "There are two.": lambda s: (points_of(s.prediction.then),),
     "line means period 1. It splits: from there on the period is 2.": lambda s: cascade().periods[:2],
     "passes −1: the": multipliers,

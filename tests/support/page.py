@@ -313,16 +313,6 @@ class Explorer:
         box.fill(text)
         box.press("Enter")
 
-    def give(self, **values):
-        """Set the scene's first state with these values, as its link would, but faster."""
-        self.change(self.page.locator(".param-reset").click)
-        for name, value in values.items():
-            if isinstance(value, str) and self.chosen(name) != value:
-                self.change(self.choose, name, value)
-        numbers = [(name, value) for name, value in values.items() if not isinstance(value, str)]
-        if numbers:
-            self.change(lambda: self.page.evaluate(ENTER, numbers))
-
     def slide(self, **values):
         """Move sliders all at once, as one input event each."""
         return self.page.evaluate(SLIDE, list(values.items()))
@@ -391,14 +381,6 @@ AT_REST = f"""() => {{
 }}"""
 # The colour of the axes of each plot in sight.
 COLOURS = "hess.plots.flatMap(({ model }) => model.below).map((axis) => axis.major_label_text_color)"
-ENTER = f"""pairs => {{
-  for (const [name, value] of pairs) {{
-    const box = ({FIND})(name, "text")
-    box.value = value
-    box.dispatchEvent(new Event("change", {{ bubbles: true }}))
-  }}
-  return document.documentElement.dataset.ready
-}}"""
 
 
 @contextmanager
@@ -507,9 +489,3 @@ def values_of(explorer, scene):
     """The state in the address bar."""
     query = dict(parse_qsl(urlsplit(explorer.page.url).query, keep_blank_values=True))
     return {spec.name: type(spec.default)(query[spec.name]) for spec in scene.specs}
-
-
-def chosen(explorer, scene, preset):
-    """The page shows this example; its values."""
-    explorer.change(explorer.choose, "preset", preset.name)
-    return {**scene.defaults(), **preset.values}

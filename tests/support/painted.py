@@ -3,7 +3,6 @@
 import math
 import re
 
-import numpy as np
 import pytest
 
 from hess_explorer.scenes import scenes
@@ -32,11 +31,6 @@ def yellow(explorer):
 
 SOURCES = "hess.plotted()"
 MEASURED = ("precision-DOP", "precision-LSO")
-
-
-def track(explorer, source="data-orbit"):
-    data = explorer.data(source)
-    return np.column_stack([data[name] for name in ("omega1", "omega2", "g1", "g2", "g3")])
 
 
 def assert_captions_fit(explorer, scene):

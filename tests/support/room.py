@@ -1,14 +1,10 @@
 """Clients of a room without a browser: a lecturer, and followers."""
 
-import asyncio
 import json
 import random
 import time
 
-from tornado.httpclient import HTTPRequest
-from tornado.websocket import websocket_connect
-
-from support.visitor import Closed
+from support.visitor import Socket
 from support.wire import read_frame
 
 
@@ -17,47 +13,15 @@ def new_code():
     return "".join(random.choices("23456789ABCDEFGHJKMNPQRSTUVWXYZ", k=6))
 
 
-class Member:
+class Member(Socket):
     """One websocket of a room."""
 
-    def __init__(self, socket):
-        self._socket = socket
-
     @classmethod
-    async def connect(cls, base, code, first, origin=None, **options):
-        """Connect to the room and send the first message; origin : of the page that opens the websocket."""
-        url, headers = f"ws{base.removeprefix('http')}/rooms/{code}", {"Origin": origin or base}
-        request = HTTPRequest(url, headers=headers, connect_timeout=60.0, **options)
-        member = cls(await websocket_connect(request, max_message_size=2**26))
+    async def connect(cls, base, code, first, **options):
+        """Connect to the room and send the first message; options : those of `Socket.to`."""
+        member = await cls.to(base, f"rooms/{code}", **options)
         await member.say(first)
         return member
-
-    async def say(self, message):
-        """Send a message; text is sent as it is."""
-        frame = message if isinstance(message, str | bytes) else json.dumps(message)
-        await self._socket.write_message(frame, binary=isinstance(frame, bytes))
-
-    async def read(self, timeout=30.0):
-        """Return the next frame."""
-        frame = await asyncio.wait_for(self._socket.read_message(), timeout)
-        if frame is None:
-            raise Closed(f"{self._socket.close_code}: {self._socket.close_reason}")
-        return frame
-
-    async def end(self, timeout=30.0):
-        """Return the reason for which the server closes the websocket."""
-        try:
-            while True:
-                await self.read(timeout)
-        except Closed as why:
-            self._socket.close()
-            return str(why)
-
-    async def leave(self):
-        """Close the websocket, as a closed tab does."""
-        self._socket.close()
-        while await self._socket.read_message() is not None:
-            pass
 
 
 class Lecturer(Member):
@@ -103,7 +67,7 @@ class Follower(Member):
     """A follower of a room: the last description, state, and what is told beside it."""
 
     scene = state = told = None
-    states = bytes = 0
+    states = 0
 
     @classmethod
     async def follow(cls, base, code, name=None, **options):
@@ -112,9 +76,7 @@ class Follower(Member):
 
     async def hear(self, timeout=30.0):
         """Read the next frame."""
-        frame = await self.read(timeout)
-        self.bytes += len(frame)
-        told, _ = read_frame(frame)
+        told, _ = read_frame(await self.read(timeout))
         self.scene = told.get("scene", self.scene)
         if "state" in told:
             self.state, self.told = told["state"], told["show"]

@@ -2,24 +2,21 @@
 
 from hypothesis import settings
 
-MORE = 10
-"""Examples of hypothesis with --thorough, relative to a default run."""
-
-_is_thorough = False
+_is_thorough, _factor = False, 1
 
 
-def load_profile(*, is_thorough):
+def load_profile(*, is_thorough, factor=1):
     """Set the number of cases of this process.  pytest calls this before it imports any test module."""
-    global _is_thorough  # noqa: PLW0603
-    _is_thorough = is_thorough
+    global _is_thorough, _factor
+    _is_thorough, _factor = is_thorough, 10 * factor if is_thorough else factor
     # The same examples in every run, on every machine.
     settings.register_profile("hess", deadline=None, derandomize=True, database=None, max_examples=examples(10))
     settings.load_profile("hess")
 
 
 def examples(n):
-    """Return n, or ten times as many with --thorough: for `@settings(max_examples=examples(n))`."""
-    return MORE * n if _is_thorough else n
+    """Return n times the factors of --thorough (10) and --examples: for `@settings(max_examples=examples(n))`."""
+    return _factor * n
 
 
 def sample(cases, n):

@@ -1,4 +1,4 @@
-"""Client without a browser: opens the page over HTTP and websocket, as a browser does, and requests states."""
+"""Clients without a browser: `Socket`, one websocket, and `Visitor`, a page that requests states."""
 
 import asyncio
 import html
@@ -20,16 +20,58 @@ class Closed(Exception):
     """Raised when the server has closed the connection or has no page to show; the message gives the reason."""
 
 
+class Socket:
+    """A websocket: what is said, what is read, and how it ends."""
+
+    def __init__(self, connection):
+        self._connection, self._has_ended, self.bytes = connection, False, 0
+
+    @classmethod
+    async def to(cls, base, path, headers=None, trusted=None, **given):
+        """Connect to a path of a server."""
+        url, headers = f"ws{base.removeprefix('http')}/{path}", {"Origin": base, **(headers or {})}
+        request = HTTPRequest(url, headers=headers, connect_timeout=60.0, ssl_options=trusted)
+        return cls(await websocket_connect(request, max_message_size=2**28, **given))
+
+    async def say(self, message):
+        """Send a message; text is sent as it is."""
+        frame = message if isinstance(message, str | bytes) else json.dumps(message)
+        await self._connection.write_message(frame, binary=isinstance(frame, bytes))
+
+    async def read(self, timeout=60.0):
+        """Return the next frame.  Raises `Closed`."""
+        frame = await asyncio.wait_for(self._connection.read_message(), timeout)
+        if frame is None:
+            self._has_ended = True
+            raise Closed(f"{self._connection.close_code}: {self._connection.close_reason}")
+        self.bytes += len(frame)
+        return frame
+
+    async def end(self, timeout=60.0):
+        """Return the reason for which the server closes the websocket."""
+        try:
+            while True:
+                await self.read(timeout)
+        except Closed as why:
+            self._connection.close()
+            return str(why)
+
+    async def leave(self):
+        """Close the websocket, as a closed tab does."""
+        self._connection.close()
+        # That something has ended is read once.
+        while not self._has_ended and await self._connection.read_message() is not None:
+            pass
+
+
 def _nodes(item):
     """All mappings in a decoded JSON text."""
-    waiting = [item]
-    while waiting:
-        one = waiting.pop()
-        if isinstance(one, dict):
-            yield one
-            waiting += one.values()
-        elif isinstance(one, list):
-            waiting += one
+    if isinstance(item, dict):
+        yield item
+        item = list(item.values())
+    if isinstance(item, list):
+        for one in item:
+            yield from _nodes(one)
 
 
 class Visitor:
@@ -38,14 +80,9 @@ class Visitor:
     It has two websockets, as in a browser: Panel's, by which it gets the document, and that of states.
     """
 
-    def __init__(self, socket, origin):
-        self._socket, self.origin = socket, origin
-        self._receiver = Receiver(Protocol())
-        self._states = None
-        self._ended = []
-        self._asked = 0
-        self.state = None
-        self.bytes = 0
+    def __init__(self, panel):
+        self.panel, self.states, self.state = panel, None, None
+        self._receiver, self._asked = Receiver(Protocol()), 0
 
     @classmethod
     async def open(cls, base, query="", origin=None, timeout=60.0, pause=0.0, headers=None, trusted=None):
@@ -60,26 +97,21 @@ class Visitor:
         token = re.search(r'"token":"([^"]+)"', html.unescape(answer.body.decode()))
         assert token is not None, answer.body[:500]
         await asyncio.sleep(pause)
-        headers = {"Origin": origin or base, **(headers or {})}
-
-        async def connect(path, **given):
-            request = HTTPRequest(
-                f"ws{base.removeprefix('http')}/{path}", headers=headers, connect_timeout=timeout, ssl_options=trusted
-            )
-            return await websocket_connect(request, max_message_size=2**28, **given)
-
-        found = cls(await connect("ws", subprotocols=["bokeh", token[1]]), origin or base)
+        both = {"headers": {"Origin": origin or base, **(headers or {})}, "trusted": trusted}
+        found = cls(await Socket.to(base, "ws", subprotocols=["bokeh", token[1]], **both))
         try:
-            await found._next("ACK", timeout)
+            await found.hear_of_panel("ACK", timeout)
             await found.say_to_panel("PULL-DOC-REQ", {})
-            found.document = (await found._next("PULL-DOC-REPLY", timeout)).content
-            found._look()
+            found.document = (await found.hear_of_panel("PULL-DOC-REPLY", timeout)).content
+            data = [node.get("attributes", {}).get("data") for node in _nodes(found.document["doc"])]
+            if not any(isinstance(one, dict) and "client" in one.get("attributes", {}) for one in data):
+                raise Closed(f"nothing here asks for states: {found.document['doc']}")
             # As a browser says when it stands.
             ready = {"type": "event", "name": "document_ready", "values": {"type": "map", "entries": []}}
             await found.say_to_panel(
                 "PATCH-DOC", {"events": [{"kind": "MessageSent", "msg_type": "bokeh_event", "msg_data": ready}]}
             )
-            found._states = await connect(f"states?{query}")
+            found.states = await Socket.to(base, f"states?{query}", **both)
             while found.state is None:
                 await found.hear(timeout)
         except BaseException:
@@ -87,56 +119,34 @@ class Visitor:
             raise
         return found
 
-    def _look(self):
-        """Raise `Closed` unless this is a page whose client requests states."""
-        for node in _nodes(self.document["doc"]):
-            data = node.get("attributes", {}).get("data")
-            if isinstance(data, dict) and "client" in data.get("attributes", {}):
-                return
-        raise Closed(f"nothing here asks for states: {self.document['doc']}")
-
     async def say_to_panel(self, kind, content):
         """Send a message of Bokeh's protocol."""
         header = {"msgid": f"visitor-{next(_numbers)}", "msgtype": kind}
         for part in (header, {}, content):
-            await self._socket.write_message(json.dumps(part))
+            await self.panel.say(part)
 
-    async def _read(self, socket, timeout):
-        fragment = await asyncio.wait_for(socket.read_message(), timeout)
-        if fragment is None:
-            self._ended.append(socket)
-            raise Closed(f"{socket.close_code}: {socket.close_reason}")
-        self.bytes += len(fragment)
-        return fragment
-
-    async def end(self, timeout=60.0):
-        """Return the last messages of both websockets."""
-        heard = []
-        for socket in (self._states, self._socket):
-            try:
-                while True:
-                    await self._read(socket, timeout)
-            except Closed as why:
-                heard.append(str(why))
-        return heard
-
-    async def _next(self, kind, timeout):
+    async def hear_of_panel(self, kind, timeout=60.0):
+        """Return the next message of this kind."""
         while True:
-            message = await self._receiver.consume(await self._read(self._socket, timeout))
+            message = await self._receiver.consume(await self.panel.read(timeout))
             if message is not None and message.msgtype == "ERROR":
                 raise Closed(message.content.get("text", ""))
             if message is not None and message.msgtype == kind:
                 return message
 
+    async def end(self, timeout=60.0):
+        """Return the last messages of both websockets."""
+        return [await self.states.end(timeout), await self.panel.end(timeout)]
+
     async def hear(self, timeout=60.0):
         """Return the next response, by name."""
-        told, _ = read_frame(await self._read(self._states, timeout))
+        told, _ = read_frame(await self.states.read(timeout))
         self.state = told.get("state", self.state)
         return told
 
     async def say(self, data):
         """Send any message."""
-        await self._states.write_message(json.dumps(data))
+        await self.states.say(data)
 
     async def ask(self, timeout=60.0, **message):
         """Send a message and return the state in the response."""
@@ -147,18 +157,7 @@ class Visitor:
             await self.hear(timeout)
         return self.state
 
-    async def whole(self, timeout=60.0):
-        """Wait for all pending results, and return the complete state."""
-        while self.state["progress"] is not None:
-            await self.ask(timeout)
-        return self.state
-
     async def leave(self):
         """Close both websockets, as a closed tab does."""
-        both = [socket for socket in (self._states, self._socket) if socket is not None]
-        for socket in both:
-            socket.close()
-        for socket in both:
-            # That something has ended is read once.
-            while socket not in self._ended and await socket.read_message() is not None:
-                pass
+        for socket in filter(None, (self.states, self.panel)):
+            await socket.leave()

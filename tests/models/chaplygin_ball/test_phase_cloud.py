@@ -8,7 +8,9 @@ from pytest import approx, mark
 from scipy.stats import kstest, ttest_ind
 
 import oracle
+from hess_explorer.compute.cache import CACHE
 from hess_explorer.protocol.wire import Wire
+from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.stage import Stage
 from hess_mechanics import level, systems
 from hess_mechanics.chaplygin_ball.equations import BallBody
@@ -26,10 +28,29 @@ from hess_mechanics.errors import WorkLimit
 from hess_mechanics.numerics.accuracy import LEVELS, Status
 from support.ball import divergence as divergence_of
 from support.ball import energy_of, rates
+from support.captions import texts_in
 from support.mechanics import differences, every_level
-from support.phase_cloud import SCENE, captions, complete
 from support.refusals import refused
 from support.thorough import sample
+
+SCENE = scenes()["singular-measures"]
+
+
+def captions(values):
+    """The texts beside the pictures, by their names."""
+    wire = Wire()
+    Stage(SCENE, wire).show(complete(SCENE.admit(values)[0]), False)
+    return texts_in(wire.pack()[0])
+
+
+def complete(values):
+    """The result with all points."""
+    for task in SCENE.compute(values, SCENE.pictures, False).work.todo:
+        CACHE.get(task.function, *task.arguments)
+    result = SCENE.compute(values, SCENE.pictures, False)
+    assert result.work.todo == []
+    return result
+
 
 BALL = systems()["ball"]
 FREE = BallBody(2.0, 1.5, 0.5, 0.7, 0.0)

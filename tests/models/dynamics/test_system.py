@@ -316,3 +316,8 @@ def test_a_system_of_one_variable_has_parameters_by_name_needs_no_brackets_and_h
 def test_what_does_not_fit_is_refused_when_a_system_is_made(wrong, words):
     with raises(ModelError, match=words):
         henon_heiles(**wrong)
+
+
+def test_a_rate_may_be_a_plain_number():
+    clock = System("clock", lambda y, p: (1, y[0]), "tau x")
+    assert clock.rates(np.array([[2.0, 3.0], [4.0, 5.0]]), ()).tolist() == [[1.0, 2.0], [1.0, 4.0]]

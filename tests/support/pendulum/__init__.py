@@ -1,1 +1,0 @@
-"""A system and a scene from outside the package: the spherical pendulum."""
