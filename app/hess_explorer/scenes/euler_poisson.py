@@ -332,7 +332,7 @@ SCENE = Scene(
     group="Euler–Poisson",
     essential=("away", "h", "f"),
     answers=(
-        Answer("In the Hess case one curve divides the section: no orbit crosses it.", lambda s: s.away == 0.0),
+        Answer("In the Hess case no orbit crosses the curve of the Hess relation.", lambda s: s.away == 0.0),
         Answer("Each dot is one return: dots on a curve are a regular motion, a cloud of dots is chaos."),
     ),
     title="Euler–Poisson: sections",
