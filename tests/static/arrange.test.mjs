@@ -1,86 +1,58 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import { arrange, spareWidth } from "../../static/pictures/arrange.js"
+import { arrange, onPhone } from "../../static/pictures/arrange.js"
 
-const GAP = 8
-const CAPTION = 38
-const PLACES = [[964, 620], [936, 850], [2500, 2010], [1900, 500], [500, 1400], [700, 700]]
+const [GAP, HEAD, TITLE, LEAST, NAMES] = [8, 20, 20, 150, 32]
+const viewport = (width, height) => ({ width, height, gap: GAP, head: HEAD, title: TITLE, least: LEAST, names: NAMES })
+const PLACES = [[1331, 820], [1025, 606], [2500, 2010], [1900, 600], [600, 1400], [1060, 820]]
+const COUNTS = [[1, 0], [1, 1], [1, 3], [1, 5], [2, 2], [3, 3], [4, 2], [4, 0]]
 
-const placeOf = (width, height, count) => (
-  { width, height, count, gap: GAP, share: 0.82, caption: CAPTION, title: 20, wide: 400 })
-const arranged = (width, height, count, large = []) => arrange(placeOf(width, height, count), large)
+// Pictures with their captions, and the names, as [left, top, right, bottom].
+const framesOf = ({ boxes, names }, hasNames) => [
+  ...boxes.map(({ x, y, edge, caption }) => [x, y, x + edge, y + caption + edge]),
+  ...hasNames ? [[names.x, names.y, names.x + names.width, names.y + names.height]] : [],
+]
 
-function assertInsideAndApart(boxes, width, height) {
-  const cells = boxes.map(({ x, y, width: wide, caption, edge }) => [x, y, x + wide, y + caption + edge])
-  for (const [left, top, right, bottom] of cells) {
+function assertInsideAndApart(frames, width, height) {
+  for (const [left, top, right, bottom] of frames) {
     assert.ok(left >= -0.5 && left < right && right <= width + 0.5)
     assert.ok(top >= -0.5 && top < bottom && bottom <= height + 0.5)
   }
-  cells.forEach((one, i) => cells.slice(i + 1).forEach((other) => {
-    assert.ok([0, 1].some((k) => one[k + 2] <= other[k] + 0.5 || other[k + 2] <= one[k] + 0.5))
+  frames.forEach((one, i) => frames.slice(i + 1).forEach((other) => {
+    assert.ok([0, 1].some((k) => one[k + 2] <= other[k] + 0.5 || other[k + 2] <= one[k] + 0.5), `${one} / ${other}`)
   }))
 }
 
-// The largest edge of equal squares with captions, over all numbers of columns.
-function largestEdge(width, height, count) {
-  return Math.max(...Array.from({ length: count }, (_, i) => i + 1).map((columns) => {
-    const rows = Math.ceil(count / columns)
-    return Math.min((width - GAP * (columns - 1)) / columns, (height - GAP * (rows - 1)) / rows - CAPTION)
-  }))
-}
-
-test("the smallest picture is as large as a grid allows, and all pictures fit", () => {
-  for (const [width, height] of PLACES) for (const count of [1, 2, 3, 4, 5]) {
-    const boxes = arranged(width, height, count)
-    assert.equal(boxes.length, count)
-    assertInsideAndApart(boxes, width, height)
-    assert.ok(Math.min(...boxes.map(({ edge }) => edge)) >= largestEdge(width, height, count) - 1)
-    assert.ok(boxes.every(({ aside }) => !aside))
+test("all pictures and names fit, the leading ones are equal and no smaller than those of the strip", () => {
+  for (const [width, height] of PLACES) for (const [leading, rest] of COUNTS) for (const names of [0, 2, 4]) {
+    const found = arrange(viewport(width, height), leading, rest, names)
+    assert.equal(found.boxes.length, leading + rest)
+    assertInsideAndApart(framesOf(found, names > 0), width, height)
+    const [leads, strip] = [found.boxes.slice(0, leading), found.boxes.slice(leading)]
+    assert.ok(leads.every(({ edge, aside }) => edge === leads[0].edge && !aside))
+    assert.ok(strip.every(({ edge, aside }) => edge <= leads[0].edge && aside))
   }
 })
 
-test("an enlarged picture takes its share of the height, and the others share the rest", () => {
-  for (const [width, height] of PLACES.slice(0, 4)) for (const count of [2, 3, 4, 5]) for (const large of [[0], [1], [1, 0]]) {
-    const boxes = arranged(width, height, count, large)
-    assertInsideAndApart(boxes, width, height)
-    const chosen = large.map((i) => boxes[i].edge)
-    const others = boxes.filter((_, i) => !large.includes(i))
-    const edges = others.map(({ edge }) => edge)
-    assert.ok(Math.min(...chosen) >= Math.max(0, ...edges))
-    assert.ok(Math.min(height, ...edges) > 0.05 * height)
-    if (large.length > 1) continue
-    assert.ok(chosen[0] >= 0.8 * Math.min(height, width / 1.3))
-    assert.ok(others.every(({ aside }) => aside))
+test("a single lead takes 70 % of the height, and the pictures beside it can be read", () => {
+  for (const [width, height] of PLACES.slice(0, 4)) for (const rest of [1, 3, 5]) {
+    const { boxes: [lead, ...strip] } = arrange(viewport(width, height), 1, rest, 2)
+    assert.ok(lead.edge >= 0.7 * height, `${width} ${height} ${rest}`)
+    assert.ok(strip.every(({ edge }) => edge >= LEAST), `${width} ${height} ${rest}`)
   }
 })
 
-test("the first of three pictures is larger where that costs the others nothing", () => {
-  const [first, second, third] = arranged(936, 850, 3)
-  assert.ok(first.edge > second.edge)
-  assert.equal(second.edge, third.edge)
-  assert.ok(second.edge >= largestEdge(936, 850, 3) - 1)
+test("in a viewport that is too small for that, the pictures of the strip are as large as they can be", () => {
+  const { boxes: [, ...strip] } = arrange(viewport(500, 330), 1, 3, 0)
+  assert.ok(strip.every(({ edge }) => edge > 70 && edge < LEAST))
 })
 
-test("the text takes all width that no picture needs, and no more than allowed", () => {
-  for (const [width, height] of PLACES) for (const count of [0, 1, 2, 3, 4, 5]) {
-    const edges = (given) => arranged(given, height, count).map(({ edge }) => edge)
-    const spare = spareWidth(placeOf(width, height, count), 300)
-    assert.ok(spare >= 0 && spare <= 300)
-    assert.ok(Math.min(...edges(width - spare)) >= Math.min(...edges(width)))
-    if (count > 0 && spare < 288) assert.notDeepEqual(edges(width - spare - 14), edges(width))
-  }
-  // Two rows of two squares below captions are 930 high, hence 930 - 2 * 38 wide.
-  const spare = 1100 - (930 - 2 * CAPTION)
-  assert.ok(Math.abs(spareWidth(placeOf(1100, 930, 4), 300) - spare) <= 14)
-})
-
-test("no pictures, no boxes", () => assert.deepEqual(arranged(900, 600, 0), []))
-
-test("small pictures beside large ones are no smaller than a thumbnail", () => {
-  for (const [width, height] of PLACES.slice(0, 4)) for (const count of [3, 4, 5, 6]) for (const large of [[0], [0, 1], [0, 1, 2]]) {
-    if (large.length === count) continue
-    const edges = arranged(width, height, count, large).map(({ edge }) => edge)
-    assert.ok(Math.min(...edges) >= 0.085 * height, `${width} ${height} ${count} ${edges}`)
+test("on a phone one picture is as wide as the screen, beside the names is a small one", () => {
+  for (const count of [0, 1]) {
+    const found = onPhone({ ...viewport(390, 523), least: 118 }, count)
+    assertInsideAndApart(framesOf(found, true), 390, 523)
+    assert.ok(found.boxes[0].edge > 0.9 * 390)
+    assert.equal(found.boxes.length, 1 + count)
   }
 })
