@@ -47,6 +47,6 @@ export function embedded(description, { pictures, controls, lesson }) {
   const [there, absent] = [true, false].map((is) => description.pictures.filter((one) => isIn(pictures)(one) === is))
   return {
     ...description, pictures: there.map((picture) => ({ ...picture, folded: /** @type {null} */ (null) })),
-    absent: absent.map(({ name }) => name), controls: kept, essential: kept.map(({ name }) => name), presets: [],
+    lead: there.map(({ name }) => name), absent: absent.map(({ name }) => name), controls: kept, essential: kept.map(({ name }) => name), presets: [],
   }
 }

@@ -11,6 +11,9 @@ export const PHONE = matchMedia(`(max-width: ${width - 1}px), (max-height: ${hei
 export const NARROW = matchMedia("(max-width: 1499px)")
 // The text has room beside the pictures.
 export const ROOMY = matchMedia("(min-width: 1800px)")
+const HAND = matchMedia("(pointer: coarse)")
+/** Return words for the hand at this screen: a finger taps where a mouse clicks. @param {string} words */
+export const byHand = (words) => (HAND.matches ? words.replaceAll(/\b([Cc])lick\b/g, (_, letter) => (letter === "C" ? "Tap" : "tap")) : words)
 export const CALM = matchMedia("(prefers-reduced-motion: reduce)")
 
 /** Return a style sheet with the sizes of this page: the sheets have those of a whole one. @param {string} sheet */

@@ -1,5 +1,5 @@
 // @ts-check
-// Plays a scene slowly when it has first been drawn whole, so that newcomers see what moves; the first touch ends it.
+// Plays a scene slowly when it has first been drawn whole, so that newcomers see what moves.
 //
 // It does not play if the user prefers reduced motion, in an embedded page, or in a lesson beside all pictures.
 
@@ -7,14 +7,11 @@ import { listen } from "../base/bus.js"
 import { isEmbedded } from "../base/embedding.js"
 import { CALM } from "../base/windows.js"
 
-const TOUCHES = ["pointerdown", "keydown", "wheel"]
-
 /**
  * Return enter(name), for a scene on show, and rest(), with which the first scene does not play.
- * @param {{begin: () => void, end: () => void, isOwn: (event: KeyboardEvent) => boolean}} player begin() starts it, end() stops it,
- *   isOwn(event) says whether it handles a touch itself
+ * @param {{begin: () => void, end: () => void}} player begin() starts it, end() stops it
  */
-export function opening({ begin, end, isOwn }) {
+export function opening({ begin, end }) {
   // Scenes that were played.
   const begun = new Set()
   let isResting = false
@@ -22,7 +19,6 @@ export function opening({ begin, end, isOwn }) {
   // Motion takes the time of the browser, and on some machines that of the computation.
   let isComputing = false
   let isReading = false
-  // Beside pictures that are shown alone the motion goes on under the hand.
   let isAlone = false
 
   listen({
@@ -35,13 +31,6 @@ export function opening({ begin, end, isOwn }) {
       isWaiting = false
     },
   })
-  for (const name of TOUCHES) {
-    document.addEventListener(name, (event) => {
-      if (isAlone) return
-      isWaiting = false
-      if (!isOwn(/** @type {KeyboardEvent} */ (event))) end()
-    }, { capture: true, passive: true })
-  }
   return {
     /** @param {string} name */
     enter(name) {

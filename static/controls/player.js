@@ -137,8 +137,6 @@ export function render({ el }) {
       play(true)
     },
     end() { if (gentle !== null) play(false) },
-    isOwn: (event) => event.composedPath().includes(toggle)
-      || (event.key === " " && !isTaken(event)),
   })
 
   const onData = () => {
@@ -160,6 +158,8 @@ export function render({ el }) {
       move(Number(time))
     },
     pick({ pick: [picture], drag }) { isStarting ||= !drag && scene.pictures.some(({ name, starts }) => name === picture && starts) },
+    // An example begins at its start.
+    preset() { move(0) },
     painted() {
       if (!isStarting) return
       isStarting = false

@@ -6,6 +6,7 @@ import { captionOf, nameOf } from "../pictures/picture.js"
 import { element } from "../base/elements.js"
 import { listen } from "../base/bus.js"
 import { written } from "../base/numbers.js"
+import { byHand } from "../base/windows.js"
 
 // Milliseconds without a new state until the hand rests.
 const REST = 700
@@ -64,7 +65,7 @@ export function announcer(sentence) {
       before.clear()
       symbols = new Map(controls.map(({ name, symbol, label }) => [name, symbol ?? label]))
       item.textContent = ""
-      sentence.textContent = sentence.title = moves
+      sentence.textContent = sentence.title = byHand(moves)
     },
     controls(changed) { for (const [name, [value]] of Object.entries(changed)) if (typeof value === "number") now.set(name, value) },
     progress(progress) {

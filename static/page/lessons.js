@@ -15,7 +15,7 @@ import { onKeys } from "../base/keys.js"
 import { button, element } from "../base/elements.js"
 import { browserStore } from "../base/stores.js"
 import { within } from "../base/numbers.js"
-import { CALM } from "../base/windows.js"
+import { byHand, CALM } from "../base/windows.js"
 
 // One turn of a wheel is one step.
 const PAUSE = 700
@@ -28,8 +28,8 @@ export function isFirstVisit() {
   return isFirst
 }
 
-/** @param {string} name @param {string} innerHTML */
-const html = (name, innerHTML) => element(name, { innerHTML })
+/** @param {string} name @param {string} words */
+const html = (name, words) => element(name, { innerHTML: byHand(words) })
 
 /** Return the question of a step and its answer. @param {LessonStep} step @returns {HTMLElement[]} */
 const questionOf = ({ question, answer }) => (question === "" ? [] : [
@@ -230,7 +230,7 @@ export function render({ index, record, el }) {
     const turn = (by) => {
       one = (one + by + steps.length) % steps.length
       title.innerHTML = `Try this: ${steps[one].title}`
-      text.innerHTML = steps[one].text
+      text.innerHTML = byHand(steps[one].text)
       text.append(...questionOf(steps[one]))
       count.textContent = `${one + 1} / ${steps.length}`
     }

@@ -5,6 +5,7 @@
 import { listen } from "../base/bus.js"
 import { element, update } from "../base/elements.js"
 import { browserStore } from "../base/stores.js"
+import { byHand } from "../base/windows.js"
 
 /** @type {[value: string, text: string][]} */
 const DEPTHS = [["idea", "Idea"], ["student", "What you see"], ["paper", "With equations"]]
@@ -65,7 +66,7 @@ export function render({ part, el }) {
   const depth = part === "words" ? depthMenu(item) : null
   listen({
     enter(scene) {
-      item.innerHTML = scene[part]
+      item.innerHTML = byHand(scene[part])
       depth?.follow()
     },
     texts({ signs }) { if (signs !== undefined) showSigns(item, signs) },

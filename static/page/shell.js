@@ -66,6 +66,9 @@ function tabsOf(columns) {
   return element("div.tabs", { role: "tablist", ariaLabel: "Beside the pictures", onkeydown }, ...tabs.map(([tab]) => tab))
 }
 
+/** Return a link, seen when it has the focus, that moves the focus. @param {HTMLElement} to */
+const skipTo = (to) => button("skip", () => to.focus(), "Skip to the controls")
+
 /** Return content that unfolds. @param {string} label @param {HTMLElement[]} content */
 const folding = (label, ...content) => element("details", element("summary", label), ...content)
 
@@ -152,12 +155,12 @@ export function buildPage(model, host, { mount, bar, lessons, styles }, el) {
   for (const [column, ariaLabel] of /** @type {[HTMLElement, string][]} */ ([[reading, "What you see"], [signs, "Legend"]])) {
     Object.assign(column, { role: "region", ariaLabel })
   }
-  const stage = element("div.stage", mount("pictures", renderPictures),
+  const stage = element("main.stage", mount("pictures", renderPictures),
     element("div.below", mount("player", renderPlayer), mount("progress", renderProgress)))
   el.classList.add("frame")
   el.append(
-    ...styles, element("header.bar", ...bar, element("div.news", text("busy"))),
-    tabsOf({ Controls: controls, Text: reader }), controls, stage, reader,
+    ...styles, skipTo(controls), element("header.bar", ...bar, element("div.news", text("busy"))),
+    stage, tabsOf({ Controls: controls, Text: reader }), controls, reader,
     element("div.foot", text("notes"), mount("status", renderStatus, {}, element("div.status-line"))), opener("a.opener", "Open in Hess Explorer"), drawer(el), spot())
   el.append(announcer(sentencesAbove(el, stage, reading)))
   wear(el)

@@ -2,6 +2,7 @@
 // The cell of a picture: caption, corner button, host of the picture, and a line about the place under the mouse.
 
 import { element } from "../base/elements.js"
+import { byHand } from "../base/windows.js"
 
 const EXPRESSION = /(\|[^|]{1,24}\||\([^()]{1,16}\)|[^\s|()]{1,12} [=≤≥<>±] [^\s|()]{1,12})/
 
@@ -30,7 +31,7 @@ const HANDS = {
  * @returns {[HTMLElement, HTMLElement]}
  */
 export function createCell({ name, folded, hands }, corner, pointed) {
-  const host = element(`div.host.hands-${hands.split(" ").at(-1)}`, { title: HANDS[hands]?.[0] ?? "", dataset: { hands } })
+  const host = element(`div.host.hands-${hands.split(" ").at(-1)}`, { title: byHand(HANDS[hands]?.[0] ?? ""), dataset: { hands } })
   const under = element("output.text.hover", { hidden: true })
   const cell = element(`section.picture.picture-${name}`, {
     dataset: { name }, onpointerenter: pointed, onmouseleave: () => { under.hidden = true },
