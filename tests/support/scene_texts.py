@@ -22,7 +22,7 @@ from hess_mechanics.dynamics.return_map import section_crossings
 from hess_mechanics.euler_poisson import andoyer
 from support.deviations import deviations
 from support.diagrams import settled
-from support.lesson_on_doubling import cascade, cascade_of_the_ball, feigenbaum
+from support.lesson_on_doubling import FEIGENBAUM, cascade, cascade_of_the_ball
 from support.lessons_on_tori import on_the_wall
 from support.mechanics import followed
 from support.suslov import field, permanent_rotations
@@ -230,7 +230,7 @@ def misprint(_step):
     return (brentq(lambda g1: Gamma((g1, *second[1:])) - Gamma(PRINTED[0]), second[0], -0.3), 0.01), second[0]
 
 
-FEIGENBAUM = {"Feigenbaum's $\\delta=4.6692$": lambda s: (feigenbaum(),)}
+DELTA = {"Feigenbaum's $\\delta=4.6692$": lambda s: (FEIGENBAUM,)}
 ROWS = {
     "free-suslov": {
         "=(-0.49,0.26,0.88)$, as printed, has the length 1.04 and $\\Gamma=-0.531$. The first has "
@@ -255,7 +255,7 @@ ROWS = {
     "hess-leak": {
         "the growth is 3.09107": lambda s: (on_the_wall(s).fixed_points[1].log_multiplier,),
     },
-    "orbit-diagram": FEIGENBAUM
+    "orbit-diagram": DELTA
     | {
         "Six were located in all. Orbits of period 1, 2, 4, … double at $I_{23}=-0.0498281$, $0.0873376$, $0.1281912$, "
         "$0.1376316$, $0.1396679$, $0.1401049$": lambda s: (
@@ -287,7 +287,7 @@ ROWS = {
         ),
         "dimension is about $2.94$, not 3.": dimension_of_the_sea,
     },
-    "ball-diagram": FEIGENBAUM
+    "ball-diagram": DELTA
     | {
         "period 2, 4, 8, 16 double at $\\mathcal{D}=1.5872085$, $1.4256035$, $1.3934895$, $1.3866210$": lambda s: (
             *cascade_of_the_ball().periods,
