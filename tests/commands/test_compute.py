@@ -69,16 +69,14 @@ def test_all_formats_say_the_same(key, answer, as_table, capsys, tmp_path):
     assert rows == [["" if pd.isna(cell) else str(cell) for cell in row] for row in frame.itertuples(index=False)]
     for name, column in frame.replace([np.inf, -np.inf], np.nan).items():
         assert found[name] == [None if pd.isna(cell) else cell for cell in column.tolist()]
-    assert found["parameters"] == facts["parameters"] == what.values(what.example)
+    assert found["parameters"] == what.values(what.example)
     assert list(found["numbers"]) == list(what.numbers)
     assert {name: found[name] for name in facts} == facts
     assert set(found["facts"]) == set(result.labels().facts)
     assert main([*example(what), "--format", "netcdf", "--out", str(file)]) == 0
-    assert capsys.readouterr().out == ""
-    expected = result.to_xarray()
     with xr.open_dataset(file, engine="scipy") as data:
         found = {one.attrs["long_name"]: one.values.tolist() for one in data.variables.values()}
-        assert found == {name: one.values.tolist() for name, one in expected.variables.items()}
+        assert found == {name: one.values.tolist() for name, one in result.to_xarray().variables.items()}
         assert {"computation", "parameters", "numbers", "facts"} <= set(data.attrs)
     assert main(example(what)) == 0
     out = capsys.readouterr().out
