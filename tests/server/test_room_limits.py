@@ -14,7 +14,7 @@ def test_rooms_and_followers_are_bounded(monkeypatch):
     monkeypatch.setattr(room, "MOST_FOLLOWERS", 2)
 
     async def visit(base):
-        async with lecture(base), lecture(base, "one", "two") as (lecturer, one, _):
+        async with lecture(base), lecture(base, "first-phone", "second-phone") as (lecturer, one, _):
             third = await Lecturer.connect(base, new_code(), {"open": True})
             assert await third.end() == "1013: There are too many rooms at the moment: try again later."
             await lecturer.until(lambda one: one.followers == 2)

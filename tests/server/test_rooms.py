@@ -41,7 +41,7 @@ def shows(text):
 
 @awaited
 async def test_followers_see_the_last_state_of_the_lecturer_whenever_they_come(base):
-    async with lecture(base, "early") as (lecturer, early):
+    async with lecture(base, "early-phone") as (lecturer, early):
         await lecturer.show(query(1.25), picture="omega")
         await early.until(shows("h=1.25"))
         late = await Follower.follow(base, lecturer.code)
@@ -67,7 +67,7 @@ async def test_followers_see_the_last_state_of_the_lecturer_whenever_they_come(b
 
 @awaited
 async def test_of_many_states_at_most_two_a_second_are_sent_and_always_the_last_one(base):
-    async with lecture(base, "one") as (lecturer, follower):
+    async with lecture(base, "first-phone") as (lecturer, follower):
         await lecturer.show(query(1.0), picture="omega")
         await follower.until(shows("h=1"))
         before, begun = follower.states, time.monotonic()
@@ -116,7 +116,7 @@ async def test_guesses_are_counted_once_for_each_page_and_shown_to_the_lecturer_
 
 @awaited
 async def test_who_has_not_the_key_cannot_lead_and_followers_cannot_steer(base):
-    async with lecture(base, "one") as (lecturer, follower):
+    async with lecture(base, "first-phone") as (lecturer, follower):
         assert len(lecturer.key) >= 40
         await lecturer.show(query(1.25), picture="omega")
         await follower.until(shows("h=1.25"))
@@ -142,7 +142,7 @@ async def test_who_has_not_the_key_cannot_lead_and_followers_cannot_steer(base):
 @awaited
 async def test_a_room_outlives_a_reload_of_its_lecturer_and_ends_with_the_lecture(base, monkeypatch):
     monkeypatch.setattr(room, "GRACE", 1.0)
-    async with lecture(base, "one") as (lecturer, follower):
+    async with lecture(base, "first-phone") as (lecturer, follower):
         await lecturer.leave()
         again = await lecturer.again(base)
         await again.until(lambda one: one.followers == 1)
@@ -166,7 +166,7 @@ async def test_a_room_outlives_a_reload_of_its_lecturer_and_ends_with_the_lectur
 
 @awaited
 async def test_floods_and_nonsense_are_cut_off_and_the_others_go_on(base):
-    async with lecture(base, "good", "flood") as (lecturer, good, flood):
+    async with lecture(base, "good-phone", "flooding-phone") as (lecturer, good, flood):
         # The server may close the socket while the rest is still being sent.
         with suppress(WebSocketClosedError):
             for _ in range(100):
