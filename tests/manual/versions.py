@@ -92,14 +92,13 @@ def main():
     """Try all pairs, or run as one of the trials."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("pythons", nargs="*", metavar="PYTHON", help="versions, or paths of interpreters")
-    parser.add_argument("--age", choices=AGES, help="only these")
     parser.add_argument("--smoke", action="store_true", help="try this environment")
     options = parser.parse_args()
     if options.smoke:
         return smoke()
     print(f"| Python | | {' | '.join(SHOWN)} | |\n|---|---|{'---|' * len(SHOWN)}---|", flush=True)
     for python in options.pythons:
-        for age in [options.age] if options.age else AGES:
+        for age in AGES:
             with tempfile.TemporaryDirectory() as folder:
                 found, said = tried(python, age, Path(folder))
             shown = python if "/" not in python else Path(python).resolve().name.removeprefix("python")

@@ -139,22 +139,6 @@ def test_a_scene_changes_in_place_and_back_with_all_that_was_chosen(explorer):
     assert page.locator(".param-speed").input_value() == "2"
 
 
-def test_the_pictures_of_a_scene_are_built_while_mouse_or_focus_rests_on_it(tab):
-    explorer = tab.open(f"scene={HESS}")
-    page, other = explorer.page, next(name for name in OFFERED if name not in (HESS, STUDY))
-    explorer.open_menu()
-    for name, act in ((STUDY, "hover"), (other, "focus")):
-        getattr(page.locator(f".param-scene-{name}"), act)()
-        page.wait_for_function("name => hess.has(name)", arg=name)
-    # It is not visible.
-    assert explorer.scene == HESS
-    assert page.locator(".gallery:not(.away)").count() == 1
-    page.keyboard.press("Escape")
-    explorer.enter(other)
-    assert all(explorer.caption(name) for name in SCENES[other].open_pictures)
-    explorer.assert_quiet()
-
-
 def test_ten_changes_in_quick_succession_leave_one_scene_and_nothing_of_the_others(explorer):
     def enter(name):
         # Without the mouse: where that rests in between, the pictures of that scene would be built.

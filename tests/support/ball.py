@@ -56,14 +56,11 @@ def shown(value, digits=4):
     return float(f"{value:.{digits}g}")
 
 
-def upward_crossings(field, start, end, i=4, most=False):
-    """Times (n,) and states (n, 5), by SciPy, where component i, or γ3, grows through 0; the start is no crossing."""
-    return scipy_crossings(lambda y: field(0.0, y), start, lambda y: y[i], end, 1, most)
-
-
 def first_returns(values, start, count):
     """The first crossings (count, 5) of γ3 = 0 from below."""
-    return upward_crossings(rates(values), start, 40.0 * count, most=count + 1)[1][:count]
+    field = rates(values)
+    found = scipy_crossings(lambda y: field(0.0, y), start, lambda y: y[4], 40.0 * count, 1, count + 1)
+    return found[1][:count]
 
 
 def angles(states):

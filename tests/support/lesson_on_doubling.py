@@ -1,6 +1,5 @@
 """The numbers in the lesson "Period doubling to a strange attractor, and its mirror repeller", computed."""
 
-import math
 from dataclasses import replace
 from functools import cache
 
@@ -10,7 +9,7 @@ from hess_explorer.lessons import shipped
 from hess_explorer.protocol.specs import places
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.parts.orbits.regime import sets_of
-from hess_mechanics import ReturnMap, level, lyapunov_spectrum, period_doublings, periodic_orbit, return_map
+from hess_mechanics import ReturnMap, level, period_doublings, periodic_orbit, return_map
 
 NAME = "period-doubling-and-a-mirror-repeller"
 FEIGENBAUM = 4.669201609102990
@@ -45,23 +44,6 @@ def cascade_of_the_ball():
     return period_doublings(map_, periodic_orbit(map_, settled[0], 2), "D", 1.34, 4)
 
 
-def tenfold(_step):
-    """Return the exponents of many orbits over the time of the picture, and their times of a tenfold growth."""
-    values = next(step for step in shipped()[NAME].steps if step.title == "Measure the chaos").prediction.then.values
-    section = return_map(heavy_body(values)[0], E=heavy_body(values)[1]).section
-    starts = section.spread(16)
-    found = np.array([lyapunov_spectrum(section.body, start, 2.0 * values["long"]).values[0] for start in starts])
-    return found, (math.log(10.0) / found, 5.0)
-
-
-def a_third(_step):
-    """Return the number of points of an orbit that closes after three steps, of r x (1 − x)."""
-    x = [0.5]
-    for _ in range(900):
-        x.append(3.8319 * x[-1] * (1.0 - x[-1]))
-    return (len(set(np.round(x[-90:], 6))),)
-
-
 def end(_step):
     """Return Feigenbaum's δ, and where a geometric series with this ratio ends after the fourth doubling."""
     last = cascade().values[:4]
@@ -94,7 +76,6 @@ def multipliers(_step):
 
 ROWS = {
     "Its **period** is 1.": lambda s: (points_of(s.at),),
-    "closes after three crossings": a_third,
     "There are two.": lambda s: (points_of(s.prediction.then),),
     "line means period 1. It splits: from there on the period is 2.": lambda s: cascade().periods[:2],
     "passes −1: the": multipliers,
@@ -104,7 +85,6 @@ ROWS = {
     "such factors tend to 4.669": lambda s: (FEIGENBAUM,),
     "If the factor is 4.669 from here on, the remaining distances add up like a geometric series. The end is at about "
     "$I_{23}$ = 0.1402": end,
-    "It is about 0.04, so a distance grows tenfold in some 60 units": tenfold,
     "doubles from 2 to 4, 8 and 16, and": lambda s: cascade_of_the_ball().periods,
     "The factors here are 5.032 and 4.676": lambda s: cascade_of_the_ball().ratios,
     "The number 4.669 again": lambda s: (FEIGENBAUM,),
