@@ -91,14 +91,11 @@ def test_the_help_lists_commands_systems_options_and_numbers(capsys):
         assert end.value.code == 0
         return capsys.readouterr().out
 
-    lines = told().splitlines()
-    below = lines[lines.index("compute:") :]
-    assert [line.split()[0] for line in below[: below.index("")] if line.startswith("  ")].count("orbit") == 1
+    assert told().count("\n  orbit ") == 1
     assert all(one.system in told(one.name) for one in catalogue().values())
     text = told("circle-map")
     for part in ("--phi PHI", "between -1000 and 1000", "rotation number (ρ, turns per return)", "eq0003"):
         assert part in text
-    assert text.endswith("Example: hess-explorer circle-map --a 0.5 --h 1.5 --f 0.6\n")
 
 
 def test_a_system_of_ones_own(answer, refusal, tmp_path):

@@ -18,6 +18,11 @@ import time
 from importlib import metadata
 from pathlib import Path
 
+if __name__ == "__main__":
+    sys.path[:0] = [str(Path(__file__).parents[1])]
+
+from support.measured import line, table
+
 ROOT = Path(__file__).resolve().parents[2]
 SHOWN = ("panel", "bokeh", "holoviews", "numba", "numpy")
 AGES = {"oldest": "lowest-direct", "newest": "highest"}
@@ -44,7 +49,6 @@ async def _scenes(base):
 
 def smoke():
     """Run everything once; any failure ends the run."""
-    sys.path[:0] = [str(ROOT / "tests")]
     from hess_explorer.headless.screenshot import server_process
 
     with tempfile.TemporaryDirectory() as folder:
@@ -96,13 +100,13 @@ def main():
     options = parser.parse_args()
     if options.smoke:
         return smoke()
-    print(f"| Python | | {' | '.join(SHOWN)} | |\n|---|---|{'---|' * len(SHOWN)}---|", flush=True)
+    print(table(["Python", "", *SHOWN, ""], []), flush=True)
     for python in options.pythons:
         for age in AGES:
             with tempfile.TemporaryDirectory() as folder:
                 found, said = tried(python, age, Path(folder))
             shown = python if "/" not in python else Path(python).resolve().name.removeprefix("python")
-            print(f"| {shown} | {age} | {' | '.join(found.get(name, '') for name in SHOWN)} | {said} |", flush=True)
+            print(line([shown, age, *(found.get(name, "") for name in SHOWN), said]), flush=True)
     return None
 
 

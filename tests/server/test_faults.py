@@ -7,9 +7,7 @@ import sys
 
 import pytest
 
-from hess_explorer.commands import serve
 from hess_explorer.headless.screenshot import wait_alive
-from hess_explorer.server import compiled
 from support.asynchronous import finished
 from support.command_line import run, typed
 from support.mechanics import ROOT
@@ -78,14 +76,6 @@ async def asked(base):
     state = await visitor.ask(timeout=500.0, values={"h": 1.25})
     await visitor.leave()
     return state
-
-
-def test_without_any_folder_for_kernels_the_first_line_says_what_to_do(monkeypatch):
-    monkeypatch.setattr(compiled, "KEEPS_KERNELS", False)
-    assert serve._first_words() == (
-        "Compiling, ready in about 20 s.  Every start compiles again, because no cache folder is writable: set "
-        "NUMBA_CACHE_DIR to one."
-    )
 
 
 def test_a_terminal_of_another_encoding_shows_greek_letters_by_their_numbers():
