@@ -11,7 +11,7 @@ import pytest
 from distributed import LocalCluster
 
 from hess_explorer.__main__ import main
-from hess_explorer.sweep import StoreError, explain, progress, read
+from hess_explorer.sweep import StoreError, explain, read
 from hess_explorer.sweep import piece as pieces
 from hess_explorer.sweep import run as running
 from hess_explorer.sweep import workers as working
@@ -72,14 +72,6 @@ def test_failed_cells_are_counted_and_their_exceptions_kept(tmp_path, capsys, mo
         assert strict_json(shown.out)["status_counts"] == {"ok": 2, "failed": 2}
     assert explain(read(store), x=5.0) == "KeyError: 5.0"
     assert main(["sweep", "--store", str(store)]) == 0
-
-
-def test_a_log_gets_bars(monkeypatch, capsys):
-    monkeypatch.setattr(progress, "_EVERY", 0.0)
-    assert main(SWEEP) == 0
-    bars = capsys.readouterr().err.split("\r")
-    assert "| 0.00/6.00 [" in bars[1]
-    assert "100%" in bars[-1]
 
 
 LAMBDA = typed("sweep lyapunov suslov --over w1=0.2:1.4:40 --over I22=1:2:30 --set duration=400 --accuracy draft")

@@ -198,7 +198,7 @@ def test_what_is_done_by_hand_is_recorded_and_replayed(explorer):
     page.locator(".lesson-menu > summary").click()
 
 
-SIZES = {"desk": (1280, 720), "present": (1600, 950), "phone": (390, 844)}
+SIZES = {"present": (1600, 950), "phone": (390, 844)}
 # A lesson that is computed fast.  Narrow and wide windows have a test of their own.
 FAST = ((NAME, "present"),)
 GIVEN = [

@@ -155,7 +155,6 @@ TEXTS = """() => {
 def assert_looks(page, scene, size, theme, artefacts):
     """A scene has its columns and colours, and nothing is covered, cut off or hard to read."""
     shot = Image.open(io.BytesIO(page.screenshot(path=artefacts / f"{scene}-{size}-{theme}.png")))
-    assert len(shot.convert("RGB").getcolors(1 << 24)) > 500
     assert (brightness(shot) > 200) if theme == "light" else (brightness(shot) < 60)
     is_phone = size in ("phone", "sideways")
     count = 1 if is_phone else len(scenes()[scene].open_pictures)

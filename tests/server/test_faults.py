@@ -43,6 +43,11 @@ def read_only(tmp_path):
 def test_a_bare_machine_serves(tmp_path, read_only):
     """A read-only installation, no home, a full disk, ASCII, unknown warnings."""
     log, port = tmp_path / "log", free_port()
+
+    async def visit(base):
+        visitor = await Visitor.open(base, timeout=500.0)
+        return await visitor.ask(timeout=500.0, values={"h": 1.25})
+
     environment = {
         **os.environ,
         **BARE,
@@ -57,7 +62,7 @@ def test_a_bare_machine_serves(tmp_path, read_only):
         try:
             log.touch()
             wait_alive(process, port, log)
-            state = finished(asked(f"http://127.0.0.1:{port}"))
+            state = finished(visit(f"http://127.0.0.1:{port}"))
         finally:
             process.terminate()
         said = process.stdout.read().decode()
@@ -69,13 +74,6 @@ def test_a_bare_machine_serves(tmp_path, read_only):
     url = f"http://localhost:{port}"
     assert lines == ["Compiling, ready in about 20 s.", f"Hess Explorer is running at {url} (press Ctrl-C to stop)."]
     assert not list(read_only.rglob("__pycache__"))
-
-
-async def asked(base):
-    visitor = await Visitor.open(base, timeout=500.0)
-    state = await visitor.ask(timeout=500.0, values={"h": 1.25})
-    await visitor.leave()
-    return state
 
 
 def test_a_terminal_of_another_encoding_shows_greek_letters_by_their_numbers():

@@ -14,7 +14,6 @@ from hess_mechanics import (
     period_doublings,
     periodic_orbit,
 )
-from hess_mechanics.dynamics import point_sets
 from hess_mechanics.dynamics.birkhoff import rotation_number
 from hess_mechanics.dynamics.return_map import section_crossings
 from hess_mechanics.euler_poisson import andoyer
@@ -24,7 +23,7 @@ from support.lesson_on_doubling import FEIGENBAUM, cascade, cascade_of_the_ball
 from support.lessons_on_tori import on_the_wall
 from support.mechanics import followed
 from support.suslov import field, permanent_rotations
-from support.view import example, values_of
+from support.view import values_of
 
 
 def state(scene, name="", **changes):
@@ -71,15 +70,6 @@ def dimension_of_the_sea(_step):
     found = 3.0 + divergence / (first - divergence)
     # Means of 24 motions lie between 2.939 and 2.946, with errors of 0.003, of which there are five on each side.
     return (found, 0.03), lambda whole: deviations(found, whole) < -5.0
-
-
-def shared(_step):
-    """Return how much of the attractor of "Touching" is shared with the repeller, and its points, twice."""
-    found = state("orbit-diagram", "Touching")
-    both = [settled(found.poincare, 64, 1500, 500, forward) for forward in (True, False)]
-    parts = [point_sets.set_distance(found.poincare.turns, *pair).overlap for pair in zip(*both, strict=True)]
-    points = len(example("orbit-diagram", "Touching", seen=("section",)).result.regime.sets[0])
-    return (100.0 * np.array(parts), 5.0), points, points
 
 
 # ---- periodic orbits ------------------------------------------------------------------------------------------------
@@ -252,7 +242,6 @@ ROWS = {
         "$\\lambda=0.146\\pm0.004$, and the dimension is $2.252\\pm0.007$": lambda s: chaos(
             "orbit-diagram", "Touching"
         )[::2],
-        "about 7 % of its 1500 points with the repeller, as far as 1500": shared,
         "$I_{13}=-0.24899620$": lambda s: birth_of_the_torus()[:1],
         "At $-0.256$ two exponents are 0, besides those of the integrals, and the curve has the rotation number "
         "$0.1066355$": lambda s: on_the_torus(-0.256),
