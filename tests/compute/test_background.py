@@ -5,7 +5,6 @@ import time
 from collections import Counter
 from dataclasses import replace
 
-import numpy as np
 import pytest
 
 from hess_explorer.compute import background
@@ -13,15 +12,14 @@ from hess_explorer.compute.background import Background
 from hess_explorer.compute.cache import ResultCache, Task
 from hess_explorer.page.connection import Connection
 from hess_explorer.page.session import Session
-from hess_explorer.protocol.specs import MAX_QUERY, decode, encode, places, written
-from hess_explorer.scenes import euler_poisson
+from hess_explorer.protocol.specs import places, written
 from hess_explorer.scenes.framework.scene import Scene
 from hess_explorer.scenes.framework.work import Work
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.parallel import THREADS
 from hess_mechanics.numerics.patience import go_on
 from support.asynchronous import wait_until
-from support.board import SCENES, Browser
+from support.board import SCENES, Browser, contents
 from support.wire import read_frame
 
 # With the exponent in sight, which is folded at first.
@@ -100,29 +98,25 @@ def tasks(count, first=0, function=square):
 # ---- The background ---------------------------------------------------------------------------------------------
 
 
-def test_pieces_are_begun_in_their_order_and_on_all_threads(gate):
+def numbers(gate):
+    """The arguments of all pieces that have begun."""
+    return sorted(arguments[0] for _, arguments in gate.calls)
+
+
+def test_pieces_are_begun_in_their_order_on_all_threads_and_added_ones_follow(gate):
     work = Background()
-    work.follow(tasks(10))
+    work.follow(tasks(5))
     for _ in range(THREADS):
         assert gate.begun.acquire(timeout=60.0)
     time.sleep(0.02)
-    assert [arguments for _, arguments in gate.calls] == [(n,) for n in range(THREADS)]
-    assert work.left == 10
+    assert numbers(gate) == [*range(THREADS)]
+    work.add(tasks(1, first=5))
+    assert work.left == 6
     gate.let()
     wait_until(lambda: len(gate.calls) == THREADS + 1)
-    assert sorted(arguments for _, arguments in gate.calls) == [(n,) for n in range(THREADS + 1)]
-    assert work.left == 9
-
-
-def test_added_pieces_follow_those_under_way(gate):
-    work = Background()
-    work.follow(tasks(2))
-    assert gate.begun.acquire(timeout=60.0)
-    work.add(tasks(3, first=2))
-    assert work.left == 5
+    assert numbers(gate) == [*range(THREADS + 1)]
     gate.let(5)
     wait_until(lambda: work.left == 0)
-    assert sorted(arguments for _, arguments in gate.calls) == [(n,) for n in range(5)]
     # Also when nothing is under way any more.
     work.add(tasks(1, first=9))
     gate.let()
@@ -150,8 +144,7 @@ def test_a_newer_choice_ends_the_older_work(gate):
     gate.let(THREADS + 3)
     wait_until(lambda: work.left == 0)
     time.sleep(0.02)
-    begun = sorted(arguments[0] for _, arguments in gate.calls)
-    assert begun == [*range(THREADS), 100, 101, 102]
+    assert numbers(gate) == [*range(THREADS), 100, 101, 102]
 
 
 @pytest.fixture
@@ -198,27 +191,21 @@ def test_a_piece_that_takes_too_long_ends_with_a_sentence(endless, monkeypatch):
     assert "choose a shorter time span" in work.error
 
 
-def test_what_is_refused_ends_the_work_with_its_sentence(free_gate):
+def test_what_is_refused_or_fails_ends_the_work_with_a_sentence(free_gate, caplog):
     work = Background()
-    work.follow([*tasks(2), Task(refuse, 7), *tasks(500, first=10)])
-    wait_until(lambda: work.left == 0)
-    assert work.error == "7 is refused: choose another."
-    assert len(free_gate.calls) < 100
-    work.follow(tasks(1))
-    assert work.error == ""
-
-
-def test_what_fails_is_logged_and_ends_the_work(free_gate, caplog):
-    work = Background()
-    work.follow([Task(fail, 7), *tasks(500)])
-    wait_until(lambda: work.left == 0)
-    assert work.error == "A part of this state could not be computed. Please report the link."
-    assert "fail" in caplog.text
+    for function, sentence in (
+        (refuse, "7 is refused: choose another."),
+        (fail, "A part of this state could not be computed. Please report the link."),
+    ):
+        work.follow([*tasks(2), Task(function, 7), *tasks(500, first=10)])
+        wait_until(lambda: work.left == 0)
+        assert work.error == sentence
+        assert len(free_gate.calls) < 200
+        # The threads live on.
+        work.follow(tasks(4, first=900))
+        wait_until(lambda: work.left == 0)
+        assert work.error == ""
     assert "ZeroDivisionError" in caplog.text
-    # The threads live on.
-    work.follow(tasks(4, first=900))
-    wait_until(lambda: work.left == 0)
-    assert free_gate.peek(square, 903) == 903**2
 
 
 def test_sessions_take_turns(gate):
@@ -239,32 +226,11 @@ def test_of_too_many_places_the_last_ones_are_kept():
     assert places(STARTS.read(written(pairs))[0]) == pairs[-12:]
 
 
-def test_a_link_with_all_places_is_not_too_long():
-    random = np.random.default_rng(5)
-    full = {
-        **EP.defaults(),
-        "starts": written(random.uniform(-1.0, 1.0, (12, 2)).tolist()),
-        "window": "-3.141589999,-0.9876543211;-1.234567891,0.9876543211",
-    }
-    query = encode(EP.name, full)
-    assert len(query) < MAX_QUERY
-    assert decode(query, EP.specs) == (full, [])
-
-
-@pytest.mark.parametrize(
-    "window, admitted",
-    [
-        ("1,0.5;0,0", "0,0;1,0.5"),
-        ("1,0;0,0.5", "0,0;1,0.5"),
-        ("0,0", ""),
-        ("0,0;0,0.5", ""),
-        ("0,0.5;1,0.5", ""),
-    ],
-)
-def test_a_window_is_two_corners_in_their_order(window, admitted):
-    values, _ = EP.admit({**EP.defaults(), "window": window})
-    assert values["window"] == admitted
-    assert EP.admit(values) == (values, [])
+def test_a_window_is_two_corners_in_their_order():
+    for window, admitted in (("1,0;0,0.5", "0,0;1,0.5"), ("0,0", ""), ("0,0;0,0.5", ""), ("0,0.5;1,0.5", "")):
+        values, _ = EP.admit({**EP.defaults(), "window": window})
+        assert values["window"] == admitted
+        assert EP.admit(values) == (values, [])
 
 
 # ---- A session --------------------------------------------------------------------------------------------------
@@ -272,14 +238,6 @@ def test_a_window_is_two_corners_in_their_order(window, admitted):
 
 def drawn_points(browser):
     return sum(len(browser.data[f"section-{layer}"].get("x", ())) for layer in ("first", "second", "own"))
-
-
-def plain(browser, picture):
-    return {
-        name: {key: np.asarray(column).tolist() for key, column in data.items()}
-        for name, data in browser.data.items()
-        if name.startswith(picture)
-    }
 
 
 def completed(browser, requested=1):
@@ -323,7 +281,8 @@ def test_a_section_fills_while_one_asks_for_more(gate):
     # The same at once, where all is known already.
     other = Browser(EP, SMALL)
     assert other.state["progress"] is None
-    assert plain(other, "section") == plain(browser, "section")
+    sections = [{name: one.data[name] for name in one.data if name.startswith("section")} for one in (other, browser)]
+    assert contents(sections[0]) == contents(sections[1])
     assert other.texts["section"] == browser.texts["section"]
 
 
@@ -399,14 +358,6 @@ def test_the_last_piece_may_come_while_its_picture_is_drawn(gate):
     completed(browser)
     assert browser.texts["notes"] == ""
     assert "λ = " in browser.texts["exponent"]
-
-
-def test_a_refusal_in_the_background_is_said(free_gate, monkeypatch):
-    crossings = euler_poisson._crossings
-    monkeypatch.setattr(euler_poisson, "_crossings", lambda *given: crossings(*given[:-1], 30))
-    browser = Browser(EP, SMALL)
-    completed(browser)
-    assert "choose a shorter time span" in browser.texts["notes"]
 
 
 def test_a_box_beyond_the_section_is_cut_and_one_that_is_none_is_not_taken(free_gate):

@@ -4,6 +4,7 @@ import subprocess
 import sys
 import threading
 import time
+from concurrent.futures import ThreadPoolExecutor
 
 import numba
 import pytest
@@ -206,8 +207,7 @@ def test_what_is_compiled_meanwhile_is_no_part_of_the_budget():
 
 
 def test_the_end_of_one_budget_is_not_that_of_others_who_wait_for_the_same():
-    cache, started, go, calls = ResultCache(2**20), threading.Event(), threading.Event(), []
-    gone = threading.Event()
+    cache, started, go, gone, calls = ResultCache(2**20), threading.Event(), threading.Event(), threading.Event(), []
 
     def dear(n):
         calls.append(n)
@@ -221,15 +221,12 @@ def test_the_end_of_one_budget_is_not_that_of_others_who_wait_for_the_same():
         with limited(gone), pytest.raises(Abandoned):
             cache.get(dear, 5)
 
-    found = []
-    leaving = threading.Thread(target=first)
-    leaving.start()
-    waited(started)
-    waiting = threading.Thread(target=lambda: found.append(cache.get(dear, 5)[0]))
-    waiting.start()
-    gone.set()
-    go.set()
-    leaving.join(PATIENCE)
-    waiting.join(PATIENCE)
-    assert found == [5]
+    with ThreadPoolExecutor(2) as threads:
+        leaving = threads.submit(first)
+        waited(started)
+        waiting = threads.submit(cache.get, dear, 5)
+        gone.set()
+        go.set()
+        leaving.result(PATIENCE)
+        assert waiting.result(PATIENCE)[0] == 5
     assert calls == [5, 5]

@@ -13,9 +13,7 @@ import os
 import random
 import sys
 import time
-from concurrent.futures import ProcessPoolExecutor
 from contextlib import suppress
-from multiprocessing import get_context
 from pathlib import Path
 
 if __name__ == "__main__":
@@ -120,9 +118,8 @@ async def crowds(base, pid, counts, drag, seconds):
         await asyncio.gather(*(visitor.leave() for visitor in visitors))
 
 
-def audience(base, code, count):
-    """Follow a room until it ends, in a process of its own; return each follower's last query and when it came."""
-    os.nice(19)
+async def audience(base, code, count):
+    """Follow a room until it ends; return each follower's last query and when it came."""
 
     async def follow(_):
         await AsyncHTTPClient().fetch(f"{base}/r/{code}")
@@ -137,10 +134,7 @@ def audience(base, code, count):
                     found = told["state"]["query"], time.monotonic()
         return found
 
-    async def every():
-        return await asyncio.gather(*map(last, await sixteen_at_a_time(count, follow)))
-
-    return asyncio.run(every())
+    return await asyncio.gather(*map(last, await sixteen_at_a_time(count, follow)))
 
 
 async def drag_to(visitor, lecturer, seconds):
@@ -167,20 +161,19 @@ async def lecture(base, pid, count, seconds):
     await drag_to(visitor, empty, 5.0)
     wait_idle(pid)
     before = memory(pid)
-    with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as pool:
-        followers = asyncio.get_running_loop().run_in_executor(pool, audience, base, full.code, count)
-        await full.until(lambda one: one.followers == count, timeout=120.0)
-        # As a browser does; otherwise pings have no answer.
-        heard = [asyncio.create_task(lecturer.end(3600.0)) for lecturer in (empty, full)]
-        answered = {empty: [], full: []}
-        for lecturer in [empty, full] * 4:
-            times, query = await drag_to(visitor, lecturer, seconds / 4)
-            answered[lecturer] += times
-        since = time.monotonic()
-        await asyncio.sleep(10.0)
-        each = (memory(pid) - before) / count / MB
-        await full.say({"end": True})
-        late = [when - since for shown, when in await followers if shown == query]
+    followers = asyncio.create_task(audience(base, full.code, count))
+    await full.until(lambda one: one.followers == count, timeout=120.0)
+    # As a browser does; otherwise pings have no answer.
+    heard = [asyncio.create_task(lecturer.end(3600.0)) for lecturer in (empty, full)]
+    answered = {empty: [], full: []}
+    for lecturer in [empty, full] * 4:
+        times, query = await drag_to(visitor, lecturer, seconds / 4)
+        answered[lecturer] += times
+    since = time.monotonic()
+    await asyncio.sleep(10.0)
+    each = (memory(pid) - before) / count / MB
+    await full.say({"end": True})
+    late = [when - since for shown, when in await followers if shown == query]
     cells = [f"{len(late)} of {count}", *map(milliseconds, (*answered.values(), late)), f"{each:.2f} MB"]
     head = ["followers", "alone: median, p95", "with them", "last state: median, p95", "memory each"]
     print(table(head, [cells]))

@@ -3,8 +3,6 @@
 Each is the inside of a picture's axes, or a sphere, in the light and in the dark theme; with them goes the whole page.
 """
 
-from __future__ import annotations
-
 import io
 import sys
 import tempfile
@@ -12,7 +10,6 @@ from pathlib import Path
 from urllib.parse import urlencode
 
 from PIL import Image
-from playwright.sync_api import FloatRect, Page
 
 from hess_explorer.assets import STATIC
 from hess_explorer.headless.browser import launched, wait_ready
@@ -55,12 +52,12 @@ INSIDE = """name => {
 """The rectangle inside the axes of a plot."""
 
 
-def inside(page: Page, name: str) -> FloatRect:
+def inside(page, name):
     """Return the rectangle of a picture without its axes and caption."""
     return page.evaluate(INSIDE, name) or page.locator(f".picture-{name} canvas").first.bounding_box()
 
 
-def taken(page: Page, base: str, name: str, theme: str) -> Image.Image:
+def taken(page, base, name, theme):
     """Return the front picture of a scene, once all of it has been computed, as a square."""
     example, picture = FRONT[name]
     (values,) = (one.values for one in scenes()[name].presets if one.name.startswith(example))
@@ -73,7 +70,7 @@ def taken(page: Page, base: str, name: str, theme: str) -> Image.Image:
     return Image.open(io.BytesIO(shot)).convert("RGB").resize((EDGE, EDGE), Image.Resampling.LANCZOS)
 
 
-def main(names: list[str]) -> None:
+def main(names):
     """Make the named pictures, or all."""
     with (
         launched() as browser,

@@ -69,13 +69,11 @@ async def visit(base, trusted, replicas):
     for _ in range(8):
         lecturer = await Lecturer.open(base, trusted=trusted)
         followers = [await Follower.follow(base, lecturer.code, trusted=trusted) for _ in range(4)]
-        await lecturer.until(lambda one: one.followers == 4)
         await lecturer.show(link)
         for follower in followers:
             await follower.until(lambda one: one.state["query"] == link)
-        await lecturer.say({"end": True})
         for member in (*followers, lecturer):
-            await member.end()
+            await member.leave()
     print("eight rooms with four followers each: all at the lecturer's state")
     # The replica that serves this visitor ends; the other one goes on.
     serving, other = sorted(replicas, key=connections, reverse=True)

@@ -18,6 +18,11 @@ import time
 from importlib import metadata
 from pathlib import Path
 
+if __name__ == "__main__":
+    sys.path[:0] = [str(Path(__file__).parents[1])]
+
+from support.measured import line, table
+
 ROOT = Path(__file__).resolve().parents[2]
 SHOWN = ("panel", "bokeh", "holoviews", "numba", "numpy")
 AGES = {"oldest": "lowest-direct", "newest": "highest"}
@@ -44,7 +49,6 @@ async def _scenes(base):
 
 def smoke():
     """Run everything once; any failure ends the run."""
-    sys.path[:0] = [str(ROOT / "tests")]
     from hess_explorer.headless.screenshot import server_process
 
     with tempfile.TemporaryDirectory() as folder:
@@ -92,18 +96,17 @@ def main():
     """Try all pairs, or run as one of the trials."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("pythons", nargs="*", metavar="PYTHON", help="versions, or paths of interpreters")
-    parser.add_argument("--age", choices=AGES, help="only these")
     parser.add_argument("--smoke", action="store_true", help="try this environment")
     options = parser.parse_args()
     if options.smoke:
         return smoke()
-    print(f"| Python | | {' | '.join(SHOWN)} | |\n|---|---|{'---|' * len(SHOWN)}---|", flush=True)
+    print(table(["Python", "", *SHOWN, ""], []), flush=True)
     for python in options.pythons:
-        for age in [options.age] if options.age else AGES:
+        for age in AGES:
             with tempfile.TemporaryDirectory() as folder:
                 found, said = tried(python, age, Path(folder))
             shown = python if "/" not in python else Path(python).resolve().name.removeprefix("python")
-            print(f"| {shown} | {age} | {' | '.join(found.get(name, '') for name in SHOWN)} | {said} |", flush=True)
+            print(line([shown, age, *(found.get(name, "") for name in SHOWN), said]), flush=True)
     return None
 
 

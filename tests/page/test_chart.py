@@ -6,11 +6,6 @@ from pytest import approx
 from support.pointer import at, click_on
 
 
-@pytest.fixture
-def scene():
-    return "rotation-number"
-
-
 def drag(explorer, start, end):
     mouse = explorer.page.mouse
     (x0, y0), (x1, y1) = (at(explorer, "chart", *place)[0] for place in (start, end))
@@ -21,6 +16,7 @@ def drag(explorer, start, end):
     explorer.change(mouse.up)
 
 
+@pytest.mark.parametrize("scene", ["rotation-number"])
 def test_a_box_zooms_in_a_click_and_a_drag_choose_and_all_of_it_is_undone(explorer):
     def here():
         return explorer.shown("h")[0], explorer.shown("f")[0]

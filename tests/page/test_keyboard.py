@@ -7,24 +7,15 @@ from playwright.sync_api import expect
 
 from support.accessible import assert_accessible
 from support.page import ALL
-
-HOLD = """([name, low, high]) => {
-  const { frame } = hess.plots.find(({ model }) => model.name === name)
-  const { x0, x1, y0, y1 } = frame.bbox
-  const { start: left, end: right } = frame.x_scale.source_range
-  const { start: bottom, end: top } = frame.y_scale.source_range
-  return [(right - left) / (x1 - x0), (top - bottom) / (y1 - y0), (left + right) / 2, (bottom + top) / 2]
-}"""
-"""Width and height of a pixel, and the middle of the frame, in units of the axes."""
+from support.pointer import at
 
 
 def test_arrow_keys_move_the_ring_of_the_bifurcation_diagram_by_pixels(explorer):
     # Loaded again: after some other tests the first key was not answered.
     page = explorer.open().page
     host = page.get_by_role("application", name="Bifurcation diagram: arrow keys move the ring")
-    wide, high, *_ = page.evaluate(HOLD, ["bifurcation", 0, 0])
     h, f = explorer.here()
-    t = explorer.time
+    _, (wide, high) = at(explorer, "bifurcation", h, f)
     host.focus()
     expect(host).to_be_focused()
     explorer.change(host.press, "ArrowRight")
@@ -32,25 +23,25 @@ def test_arrow_keys_move_the_ring_of_the_bifurcation_diagram_by_pixels(explorer)
     assert explorer.here()[0] > h
     explorer.change(page.keyboard.press, "Shift+ArrowUp")
     assert explorer.here()[1] == pytest.approx(f + 10 * high, abs=0.51 * high + 1e-9)
-    # The controls and the other pictures follow; the player keeps its time.
+    # The controls follow; the player keeps its time.
     assert explorer.shown("f")[0] == pytest.approx(explorer.here()[1], rel=1e-6)
-    assert explorer.time == t
+    assert explorer.time == 0.0
     assert_accessible(page, host)
 
 
 def test_enter_chooses_the_place_of_the_cross_in_a_section(explorer):
     explorer.fresh("suslov")
-    page = explorer.page
     host = explorer.picture("section").get_by_role("application")
     assert "arrow keys move a cross, Enter chooses" in host.get_attribute("aria-label")
-    wide, high, x, y = page.evaluate(HOLD, ["section", 0, 0])
-    host.focus()
+    x0, x1, y0, y1 = explorer.axes("section")
+    _, (wide, high) = at(explorer, "section", x0, y0)
     for key in ("ArrowRight", "Shift+ArrowDown"):
-        page.keyboard.press(key)
+        host.press(key)
     expect(host.locator(".cross")).to_be_visible()
-    explorer.change(page.keyboard.press, "Enter")
+    explorer.change(explorer.page.keyboard.press, "Enter")
     start = dict(parse_qsl(urlsplit(explorer.link()).query))["starts"].split(";")[-1]
-    assert [*map(float, start.split(","))] == pytest.approx([x + wide, y - 10 * high], abs=0.6 * max(wide, high))
+    middle = (x0 + x1) / 2 + wide, (y0 + y1) / 2 - 10 * high
+    assert [*map(float, start.split(","))] == pytest.approx(middle, abs=0.6 * max(wide, high))
 
 
 def test_a_changed_verdict_is_announced_once_and_the_clock_never(explorer):

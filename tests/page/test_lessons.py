@@ -163,7 +163,7 @@ def test_images_tables_and_links_of_own_lessons(browser, tmp_path):
         tab.change(links.filter(has_text="scattering").click)
         tab.wait_url(scene="scattering", k="3.0")
         assert page.evaluate("window.isSame")
-        tab.leave_lesson()
+        page.locator(".param-leave-lesson").click()
         page.locator(".lesson-menu > summary").click()
         assert page.locator(".lesson-menu button").all_inner_texts()[:2] == ["Lesson b (1 min)", "Lesson a (1 min)"]
 
@@ -198,7 +198,7 @@ def test_what_is_done_by_hand_is_recorded_and_replayed(explorer):
     page.locator(".lesson-menu > summary").click()
 
 
-SIZES = {"desk": (1280, 720), "present": (1600, 950), "phone": (390, 844)}
+SIZES = {"present": (1600, 950), "phone": (390, 844)}
 # A lesson that is computed fast.  Narrow and wide windows have a test of their own.
 FAST = ((NAME, "present"),)
 GIVEN = [

@@ -14,14 +14,9 @@ from support.page import HESS, SLIDERS, brought_on_phone, own_tab, wait_frames
 from support.thorough import sample
 
 SIZES = {"wide": (1600, 950), "laptop": (1280, 720), "phone": (390, 844), "sideways": (844, 390)}
-WINDOWS = ((1280, 720), (1920, 1080), (3840, 2160), SIZES["wide"])
-LEAST = 0.36
-"""Least edge of the smallest of five pictures, beside controls and text, as a share of the window's height."""
 THUMBNAIL = 0.39
 """The share of the frame in the smallest pictures there are: four beside an enlarged one, in the smallest window."""
 SCENES = [name for name, scene in scenes().items() if scene.origin in (None, HESS)]
-# The arrangement follows from the window, how many pictures there are and how many sliders: one scene of each.
-ARRANGED = list({(len(scenes()[name].open_pictures), len(scenes()[name].essential)): name for name in SCENES}.values())
 
 
 @pytest.fixture
@@ -160,7 +155,6 @@ TEXTS = """() => {
 def assert_looks(page, scene, size, theme, artefacts):
     """A scene has its columns and colours, and nothing is covered, cut off or hard to read."""
     shot = Image.open(io.BytesIO(page.screenshot(path=artefacts / f"{scene}-{size}-{theme}.png")))
-    assert len(shot.convert("RGB").getcolors(1 << 24)) > 500
     assert (brightness(shot) > 200) if theme == "light" else (brightness(shot) < 60)
     is_phone = size in ("phone", "sideways")
     count = 1 if is_phone else len(scenes()[scene].open_pictures)
@@ -183,13 +177,10 @@ BY_COST = sorted(SCENES, key=lambda name: name.endswith("-diagram"))
 def test_a_scene_has_its_columns_and_colours_and_nothing_is_covered_cut_off_or_hard_to_read(
     look_at, artefacts, theme, scene
 ):
-    tab, count = look_at(scene, "wide", theme), len(scenes()[scene].open_pictures)
+    tab = look_at(scene, "wide", theme)
     assert_looks(tab.page, scene, "wide", theme, artefacts)
-    for window in WINDOWS if theme == "light" and scene in ARRANGED else ():
-        tab.resize(*window)
-        places = places_of(tab.page, scene)
-        assert_in_sight(places, *window, count)
-        assert count > 5 or min(box["width"] for box in places["boxes"]) >= LEAST * window[1], window
+    tab.resize(*SIZES["laptop"])
+    assert_in_sight(places_of(tab.page, scene), *SIZES["laptop"], len(scenes()[scene].open_pictures))
     tab.resize(*SIZES["phone"])
     assert_looks(tab.page, scene, "phone", theme, artefacts)
 

@@ -157,21 +157,20 @@ PART = replace(shipped()[FIRST], steps=shipped()[FIRST].steps[4:7])
 
 @pytest.mark.parametrize(
     "lesson",
-    [
-        pytest.param(PART, id="part"),
-        *(pytest.param(one, marks=pytest.mark.thorough, id=one.name) for one in shipped().values()),
-    ],
+    [PART, *(pytest.param(one, marks=pytest.mark.thorough) for one in shipped().values())],
+    ids=lambda one: one.name,
 )
 def test_a_lesson_is_given_from_its_file(browser, tmp_path, lesson):
     uri = written(tmp_path, lesson.name, lesson_page(lesson, 3))
+    count = len(lesson.steps)
     with opened(browser, uri, (1280, 720)) as page:
         assert_given(page, lesson)
         # Back to the beginning, as a lecturer does after a question.
         for _ in lesson.steps[1:]:
             change(page, page.keyboard.press, "PageUp")
-        expect(page.locator(".lesson .count")).to_have_text(f"1 / {len(lesson.steps)}")
+        expect(page.locator(".lesson .count")).to_have_text(f"1 / {count}")
     with opened(browser, f"{uri}#lesson={lesson.name}&step=3", (390, 844), has_touch=True, is_mobile=True) as page:
-        expect(page.locator(".lesson .count")).to_have_text(f"3 / {len(lesson.steps)}")
+        expect(page.locator(".lesson .count")).to_have_text(f"3 / {count}")
         assert page.evaluate("document.documentElement.scrollWidth") <= 390
 
 
@@ -189,10 +188,8 @@ def assert_given(page, lesson):
             change(page, page.keyboard.press, "PageDown")
             expect(page.locator(".said")).not_to_be_empty()
             # The state in which the truth is shown.
-            there = dict(parse_qsl(address_of(page)))
-            assert [there.get(name, "") for name in step.prediction.then.values] == [
-                str(value) for value in step.prediction.then.values.values()
-            ]
+            there, wanted = dict(parse_qsl(address_of(page))), step.prediction.then.values
+            assert {name: there.get(name, "") for name in wanted} == {name: str(one) for name, one in wanted.items()}
         for name in step.controls:
             slider = page.locator(f".step-controls .param-{name} .hand")
             if slider.count():

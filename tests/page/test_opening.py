@@ -6,7 +6,6 @@ import pytest
 from playwright.sync_api import expect
 from pytest import approx
 
-from hess_explorer.scenes import scenes
 from support.page import HESS, VISITOR, own_tab
 from support.pointer import at, click_on
 
@@ -55,21 +54,8 @@ def test_a_scene_begins_in_gentle_motion_until_the_first_touch_and_asks_for_noth
     assert all(moves(explorer) for _ in range(3))
     # No state, no address, no entry for Back, no message.
     assert (explorer.state, page.url, page.evaluate("history.length"), len(explorer.sent)) == before
-    rate = page.evaluate(
-        """async () => {
-          const times = []
-          hess.listen("time", ({ t }) => times.push([performance.now(), t]))
-          while (times.length < 30) await new Promise(requestAnimationFrame)
-          return 1000 * (times.at(-1)[1] - times[0][1]) / (times.at(-1)[0] - times[0][0])
-        }"""
-    )
-    assert 0 < rate <= 1.3 * explorer.data("data-orbit")["t"][-1] / 20
     # The first touch of any kind ends it where it is; the player's own button and key are a pause.
-    touches = {
-        HESS: lambda: page.mouse.click(800, 5),
-        "scattering": lambda: page.mouse.wheel(0, 10),
-    }
-    for scene, touch in touches.items():
+    for scene, touch in ((HESS, lambda: page.mouse.click(800, 5)), ("scattering", lambda: page.mouse.wheel(0, 10))):
         explorer.show(scene)
         assert explorer.playing, scene
         touch()
@@ -77,7 +63,7 @@ def test_a_scene_begins_in_gentle_motion_until_the_first_touch_and_asks_for_noth
         expect(page.locator(".player[role=group]")).not_to_have_attribute("data-playing", "true")
         assert not moves(explorer)
         assert explorer.time > 0
-    # No animation starts a second time, and a link with a time opens at that time; a speed not offered is put right.
+    # No animation starts a second time.
     explorer.show(HESS)
     assert not explorer.playing
     # A click among parameters leaves the time as it is; one that chooses a start starts the motion.
@@ -86,10 +72,10 @@ def test_a_scene_begins_in_gentle_motion_until_the_first_touch_and_asks_for_noth
     assert (explorer.playing, explorer.time) == (False, 5.0)
     click_on(explorer, "circle", -2.5, 1.0)
     assert moves(explorer) and explorer.time < 5.0
+    # A link with a time opens at that time; a speed not offered is put right, and the handle is not pointed out again.
     explorer.open(f"scene={HESS}&t=3.5&speed=3")
     assert (explorer.playing, explorer.time) == (False, approx(3.5))
-    assert float(explorer.wait_url(v="1").get("speed", "1")) == float(page.locator(".param-speed").input_value()) != 3.0
-    # Nor is the handle pointed out again.
+    assert page.locator(".param-speed").input_value() != "3"
     assert page.locator(SIGN).count() == 0
 
 
@@ -103,7 +89,6 @@ def test_the_one_handle_says_drag_me_once_and_what_the_mouse_does_is_said_where_
     box = sign.bounding_box()
     assert 0 < box["x"] - x < 40
     assert box["y"] + box["height"] / 2 == approx(y, abs=3)
-    assert page.locator(".moves").inner_text() == scenes()[HESS].moves
     explorer.change(page.locator(".param-h .hand").press, "ArrowRight")
     assert sign.count() == 0
     # In another scene the hint is beside a slider's thumb.

@@ -12,9 +12,23 @@ from pytest import approx
 
 from hess_explorer.headless.browser import wait_ready
 from hess_explorer.headless.screenshot import server_process
+from hess_explorer.protocol.specs import NumberSpec, Places
+from hess_explorer.scenes import scenes
 from support.page import DEFAULTS, FIRST, SLIDERS, own_tab, wait_frames
 from support.processes import UNWARMED
-from support.suslov_hess import assert_defaults, assert_orbit
+from support.suslov_hess import assert_orbit
+
+
+def assert_defaults(explorer, scene, **others):
+    """Assert that the page shows the scene's default state, except for values shared with other scenes."""
+    assert explorer.scene == scene
+    for spec in scenes()[scene].specs:
+        value = others.get(spec.name, spec.default)
+        if isinstance(spec, NumberSpec):
+            assert explorer.shown(spec.name) == (value, value), spec.name
+        elif not isinstance(spec, Places):
+            assert explorer.chosen(spec.name) == value, spec.name
+
 
 # --- The ready flag ----------------------------------------------------------------------------------
 

@@ -1,21 +1,14 @@
-"""The pictures of the Suslov–Hess scene as they are painted, and their response to mouse, keys and finger."""
+"""The pictures of the Suslov–Hess scene: colours, when they are painted, and when they are computed."""
 
 from io import BytesIO
-from math import cos, pi, sin
+from math import pi
 
 import numpy as np
 from PIL import Image
-from pytest import approx
 
 from hess_explorer.views import theme
-from support.page import DEFAULTS, FIND, PICTURES, flat, own_tab, wait_frames
-from support.pointer import HOME, STEP, assert_turned, at
-from support.suslov_hess import assert_orbit, exact_states
-
-a = DEFAULTS["I23"] / DEFAULTS["I22"]
-
-
-# --- Where things are on the screen ------------------------------------------------------------------
+from support.page import FIND, PICTURES, flat, own_tab, wait_frames
+from support.pointer import HOME, assert_turned
 
 
 def picture(explorer, clip):
@@ -29,59 +22,6 @@ def like(pixels, colour, tolerance=24):
     """Return a mask of the pixels of this colour."""
     rgb = [int(colour[i : i + 2], 16) for i in (1, 3, 5)]
     return np.abs(pixels - rgb).max(axis=-1) <= tolerance
-
-
-# --- Choosing by hand --------------------------------------------------------------------------------
-
-
-def test_a_click_in_the_bifurcation_diagram_chooses_the_torus_under_it(explorer):
-    h, f = 2.75, -1.5
-    (x, y), (wide, high) = at(explorer, "bifurcation", h, f)
-    x, y = round(x), round(y)
-    explorer.change(explorer.page.mouse.click, x, y)
-    found = explorer.here()
-    assert found[0] == approx(h, abs=wide)
-    assert found[1] == approx(f, abs=high)
-    # The controls follow, to the last digit, and so does all the rest.
-    values = {**DEFAULTS, "h": explorer.shown("h")[0], "f": explorer.shown("f")[0]}
-    assert (values["h"], values["f"]) == approx(found, rel=1e-6)
-    assert_orbit(explorer, values)
-    # At t = 0 n3 turns, so the bound on |f| stands in the middle of the ring: under the pointer.
-    explorer.page.mouse.move(5, 5)
-    rows, columns = np.nonzero(like(picture(explorer, (x - 9, y - 9, 18, 18)), theme.MUTED))
-    assert rows.size > 40
-    assert (columns.mean() - 8.5, rows.mean() - 8.5) == approx((0, 0), abs=1.5)
-
-
-# --- The sphere -------------------------------------------------------------------------------------
-
-
-def projected(point, turn):
-    """Project a point in an orthographic view: right and up."""
-    azimuth, elevation = turn
-    right = (-sin(azimuth), cos(azimuth), 0.0)
-    towards = (cos(elevation) * cos(azimuth), cos(elevation) * sin(azimuth), sin(elevation))
-    up = np.cross(towards, right)
-    return float(np.dot(point, right)), float(np.dot(point, up))
-
-
-def test_the_moving_point_is_at_the_state_seen_from_there(explorer):
-    for key in ["ArrowUp"] * 6 + ["ArrowRight"] * 4:
-        explorer.sphere.press(key)
-    turn = (HOME[0] - 4 * STEP, HOME[1] + 6 * STEP)
-    assert_turned(explorer.sphere, *turn)
-    box = explorer.sphere.bounding_box()
-    for t in (0.0, 3.1, 9.4):
-        explorer.set_time(t)
-        right, up = projected(exact_states(DEFAULTS, [t])[0][2:], turn)
-        wait_frames(explorer, 2)
-        pixels = picture(explorer, (box["x"], box["y"], box["width"], box["height"]))
-        rows, columns = np.nonzero(like(pixels, theme.POINT))
-        assert rows.size > 40
-        # The radius of the sphere is 0.84 of half the canvas.
-        half, radius = box["width"] / 2, 0.42 * box["width"]
-        found = ((columns.mean() + 0.5 - half) / radius, (half - rows.mean() - 0.5) / radius)
-        assert found == approx((right, up), abs=0.02)
 
 
 # --- What is painted ---------------------------------------------------------------------------------

@@ -139,22 +139,6 @@ def test_a_scene_changes_in_place_and_back_with_all_that_was_chosen(explorer):
     assert page.locator(".param-speed").input_value() == "2"
 
 
-def test_the_pictures_of_a_scene_are_built_while_mouse_or_focus_rests_on_it(tab):
-    explorer = tab.open(f"scene={HESS}")
-    page, other = explorer.page, next(name for name in OFFERED if name not in (HESS, STUDY))
-    explorer.open_menu()
-    for name, act in ((STUDY, "hover"), (other, "focus")):
-        getattr(page.locator(f".param-scene-{name}"), act)()
-        page.wait_for_function("name => hess.has(name)", arg=name)
-    # It is not visible.
-    assert explorer.scene == HESS
-    assert page.locator(".gallery:not(.away)").count() == 1
-    page.keyboard.press("Escape")
-    explorer.enter(other)
-    assert all(explorer.caption(name) for name in SCENES[other].open_pictures)
-    explorer.assert_quiet()
-
-
 def test_ten_changes_in_quick_succession_leave_one_scene_and_nothing_of_the_others(explorer):
     def enter(name):
         # Without the mouse: where that rests in between, the pictures of that scene would be built.
@@ -173,10 +157,10 @@ def test_ten_changes_in_quick_succession_leave_one_scene_and_nothing_of_the_othe
     assert_drawn(explorer, HESS, DEFAULTS)
     assert listeners(explorer) == at_rest
     assert explorer.page.locator(".picture:visible").count() == 6
-    # One change is one state, or one more with what is proved of it, and one key is pressed for one player.
-    before = explorer.state
+    # One change is asked for once, and one key is pressed for one player.
+    explorer.sent.clear()
     explorer.change(lambda: explorer.slide(h=0.75))
-    assert explorer.state <= before + 2
+    assert [values for frame in explorer.sent if (values := json.loads(frame)["values"])] == [{"h": 0.75}]
     explorer.page.evaluate("document.activeElement?.blur()")
     explorer.page.keyboard.press("ArrowRight")
     assert explorer.time == approx(0.2, rel=1e-5)

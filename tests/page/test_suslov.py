@@ -19,11 +19,6 @@ KINDS = (((86, 180, 233), 0x50 / 255), ((213, 94, 0), 0x60 / 255))
 FEW = {"orbits": 8.0, "count": 40.0, "long": 50.0, "I13": 0.0, "I23": 0.0, "h": 4.0, "accuracy": "draft"}
 
 
-@pytest.fixture
-def scene():
-    return SUSLOV.name
-
-
 def colours_of_cells(explorer, picture, shape):
     """(n, m, 3), of the pixels in the middles of the cells of a planar picture."""
     left, top, right, bottom = frame(explorer, picture)
@@ -33,6 +28,7 @@ def colours_of_cells(explorer, picture, shape):
     return shot[y.astype(int), x.astype(int)]
 
 
+@pytest.mark.parametrize("scene", [SUSLOV.name])
 def test_cells_of_megno_are_seen_in_their_colours_under_the_points(explorer):
     values = {**SUSLOV.defaults(), **FEW, "indicator": "nothing"}
     explorer.change(explorer.tell, "restore", encode(SUSLOV.name, values))

@@ -3,26 +3,25 @@
 The mechanics has tests of its own; first returns and where an orbit comes from are those of `eq29` by SciPy.
 """
 
-from math import acos, copysign, cos, hypot, pi
+from math import acos, atan2, copysign, cos, hypot, pi
 
 import numpy as np
 import pytest
 from pytest import approx
 
 from hess_explorer.scenes.framework.periodic_search import NONE
-from support.ball import (
-    BALL,
-    SECTION,
-    angles,
-    circle_of,
-    energy_of,
-    first_returns,
-    integrate,
-    occupied,
-    shown,
-    xi_of,
-)
+from support.ball import BALL, SECTION, angles, energy_of, first_returns, integrate, occupied, shown
 from support.view import View, example
+
+
+def xi_of(values):
+    return np.array([values["I23"], -values["I13"]]) / hypot(values["I13"], values["I23"])
+
+
+def circle_of(values, state):
+    """The angle between ξ and γ."""
+    xi = xi_of(values)
+    return atan2(hypot(xi[0] * state[3] - xi[1] * state[2], state[4]), state[2:4] @ xi)
 
 
 def ball(name):

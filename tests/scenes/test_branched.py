@@ -9,9 +9,21 @@ from pytest import approx
 
 from hess_explorer.scenes import scenes
 from hess_mechanics.dynamics.periodic import apart
-from support.ball import derivative, returned
+from support.ball import returned
 from support.thorough import sample
 from support.view import View, values_of
+
+
+def derivative(values, place, step=2e-4):
+    """Return the derivative of the ball's return map, by differences of fourth order."""
+    columns = []
+    for axis in np.eye(2):
+        far, near = (
+            [returned(values, place + sign * size * axis) for sign in (1.0, -1.0)] for size in (step, 0.5 * step)
+        )
+        columns.append((8.0 * (near[0] - near[1]) - (far[0] - far[1])) / (6.0 * step))
+    return np.column_stack(columns)
+
 
 SCENES = scenes()
 EXAMPLES = {"quartic": "A pitchfork", "ball-section": "The orbit that doubles", "euler-poisson": "Where the two Hess"}

@@ -1,14 +1,25 @@
 """The scene "loxodromic pendulum", and the body on the Suslov–Hess page: pictures and captions are correct."""
 
 import re
-from math import acos, asin, atan, exp, hypot, pi, tan
+from math import acos, asin, atan, copysign, exp, hypot, pi, sqrt, tan
 
 import numpy as np
 import pytest
 from pytest import approx
 
-from support.loxodrome import HESS, LOXODROME, clock, slope, swing_at
+from support.loxodrome import HESS, LOXODROME, swing_at
 from support.view import NUMBER, View
+
+
+def slope(values):
+    """a, with the sign of I3 − I1."""
+    a1, a2, a3 = (1.0 / values[name] for name in ("I1", "I2", "I3"))
+    return copysign(sqrt((a3 - a2) * (a2 - a1)) / a2, a1 - a3)
+
+
+def clock(values):
+    """The unit of time, 1/√(μ/I2)."""
+    return sqrt(values["I2"] / values["m"])
 
 
 def curve_of(view, picture, look):

@@ -4,7 +4,7 @@ Crossings, divergences and basins are in `models/suslov/test_section.py`.
 """
 
 from functools import cache
-from math import atan2, cos, hypot, pi, sin
+from math import atan2, cos, hypot, pi, sin, sqrt
 
 import numpy as np
 import pytest
@@ -18,8 +18,16 @@ from hess_mechanics.dynamics.cells import occupied_cells
 from support.deviations import deviations
 from support.free_suslov import shown
 from support.moved import from_moved_starts
-from support.suslov import energy, start_on
+from support.suslov import energy
 from support.view import View, values_of
+
+
+def start_on(body, E, psi, delta):
+    """The state (ψ, δ) of γ3 = 0 with this energy."""
+    gamma, u = np.array([cos(psi), sin(psi), 0.0]), np.array([cos(psi + delta), sin(psi + delta)])
+    kinetic = E - np.dot((body.b1, body.b2, body.b3), gamma)
+    return np.array([*(u * sqrt(2.0 * kinetic / (body.I11 * u[0] ** 2 + body.I22 * u[1] ** 2))), *gamma])
+
 
 SCENE = scenes()["suslov"]
 NAMES = [preset.name for preset in SCENE.presets]

@@ -13,7 +13,7 @@ from hess_explorer.server.export import Export
 from hess_explorer.server.headers import QUERY_LIMIT
 from hess_explorer.server.limits import MESSAGE_LIMIT
 from hess_explorer.server.websockets import StateSocket
-from support.asynchronous import finished
+from support.asynchronous import awaited, finished
 from support.serving import served
 from support.visitor import Visitor
 
@@ -28,49 +28,37 @@ LARGE = "1009: A message may have at most 256 KB: send a smaller one."
 FAST = "1008: More than 2 messages per second: wait for each response before you send again."
 
 
-def test_who_sends_too_much_reads_why_and_others_are_served(base, monkeypatch):
+@awaited
+async def test_who_sends_too_much_reads_why_and_others_are_served(base, monkeypatch):
     # However slow the machine is that sends.
     monkeypatch.setattr(limits, "RATE", 2.0)
     monkeypatch.setattr(limits, "BURST", 50.0)
-
-    async def visits():
-        large, fast, panel, other = [await Visitor.open(base) for _ in range(4)]
-        await large.say("x" * (MESSAGE_LIMIT + 1))
-        for _ in range(100):
-            for said in (fast.say(17), panel.say_to_panel("PULL-DOC-REQ", {})):
-                # It may be closed before the last message.
-                with suppress(WebSocketClosedError):
-                    await said
-        whys = [await socket.end() for socket in (large.states, fast.states, panel.panel)]
-        state = await other.ask(values={"h": 1.25})
-        for visitor in (large, fast, panel, other):
-            await visitor.leave()
-        return whys, state["query"]
-
-    whys, query = finished(visits())
-    assert whys == [LARGE, FAST, FAST]
-    assert "h=1.25" in query
-
-
-def test_what_is_no_json_ends_the_websocket_with_a_sentence_and_whatever_is_json_is_answered(base):
-    async def visits():
-        whys = []
-        # The last one is JSON, but of no depth that Python reads.
-        for frame in ("{", b"\xff\xfe", "[" * 100_000 + "]" * 100_000):
-            visitor = await Visitor.open(base)
-            await visitor.say(frame)
-            whys.append(await visitor.states.end())
-            await visitor.leave()
-        visitor = await Visitor.open(base)
-        for data in (17, None, [], '"x"', {"requested": "no number"}):
-            await visitor.say(data)
-        state = await visitor.ask(values={"h": 1.25})
+    large, fast, panel, other = visitors = [await Visitor.open(base) for _ in range(4)]
+    await large.say("x" * (MESSAGE_LIMIT + 1))
+    for _ in range(100):
+        for said in (fast.say(17), panel.say_to_panel("PULL-DOC-REQ", {})):
+            # It may be closed before the last message.
+            with suppress(WebSocketClosedError):
+                await said
+    assert [await socket.end() for socket in (large.states, fast.states, panel.panel)] == [LARGE, FAST, FAST]
+    assert "h=1.25" in (await other.ask(values={"h": 1.25}))["query"]
+    for visitor in visitors:
         await visitor.leave()
-        return whys, state["query"]
 
-    whys, query = finished(visits())
-    assert whys == ["1007: A message must be a text frame of JSON."] * 3
-    assert "h=1.25" in query
+
+@awaited
+async def test_what_is_no_json_ends_the_websocket_with_a_sentence_and_whatever_is_json_is_answered(base):
+    # The last one is JSON, but of no depth that Python reads.
+    for frame in ("{", b"\xff\xfe", "[" * 100_000 + "]" * 100_000):
+        visitor = await Visitor.open(base)
+        await visitor.say(frame)
+        assert await visitor.states.end() == "1007: A message must be a text frame of JSON."
+        await visitor.leave()
+    visitor = await Visitor.open(base)
+    for data in (17, None, [], '"x"', {"requested": "no number"}):
+        await visitor.say(data)
+    assert "h=1.25" in (await visitor.ask(values={"h": 1.25}))["query"]
+    await visitor.leave()
 
 
 def answer(base, path, **options):
@@ -115,7 +103,8 @@ def test_of_too_many_files_at_once_the_last_are_refused_with_a_sentence(base, mo
     assert answer(base, "export?picture=" + "x" * MAX_QUERY)[0] == 400
 
 
-def test_of_who_reads_no_answers_nothing_more_is_taken(base, monkeypatch):
+@awaited
+async def test_of_who_reads_no_answers_nothing_more_is_taken(base, monkeypatch):
     """Otherwise unread responses would fill the memory."""
     unread = []
 
@@ -126,18 +115,14 @@ def test_of_who_reads_no_answers_nothing_more_is_taken(base, monkeypatch):
         return unread[-1][1]
 
     monkeypatch.setattr(StateSocket, "write_message", write)
-
-    async def visit():
-        visitor = await Visitor.open(base)
-        await visitor.say({"requested": 1, "values": {"h": 1.25}})
-        with pytest.raises(TimeoutError):
-            await visitor.hear(1.0)
-        loop, taken = unread[0]
-        loop.call_soon_threadsafe(taken.set_result, None)
-        while visitor.state["answers"] != 1:
-            await visitor.hear()
-        await visitor.leave()
-        return visitor.state["query"]
-
-    assert "h=1.25" in finished(visit())
+    visitor = await Visitor.open(base)
+    await visitor.say({"requested": 1, "values": {"h": 1.25}})
+    with pytest.raises(TimeoutError):
+        await visitor.hear(1.0)
+    loop, taken = unread[0]
+    loop.call_soon_threadsafe(taken.set_result, None)
+    while visitor.state["answers"] != 1:
+        await visitor.hear()
+    await visitor.leave()
+    assert "h=1.25" in visitor.state["query"]
     assert len(unread) == 2

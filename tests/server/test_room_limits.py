@@ -5,7 +5,7 @@ In a module of its own, because the end of a server ends all others of the proce
 
 from hess_explorer.rooms import registry, room
 from support.asynchronous import finished
-from support.room import Follower, Lecturer, new_code
+from support.room import Follower, Lecturer, lecture, new_code
 from support.serving import served
 
 
@@ -14,23 +14,17 @@ def test_rooms_and_followers_are_bounded(monkeypatch):
     monkeypatch.setattr(room, "MOST_FOLLOWERS", 2)
 
     async def visit(base):
-        lecturers = [await Lecturer.open(base) for _ in range(2)]
-        third = await Lecturer.connect(base, new_code(), {"open": True})
-        whys = [await third.end()]
-        code = lecturers[0].code
-        inside = [await Follower.follow(base, code) for _ in range(2)]
-        await lecturers[0].until(lambda one: one.followers == 2)
-        whys.append(await (await Follower.follow(base, code)).end())
-        await inside[0].leave()
-        await lecturers[0].until(lambda one: one.followers == 1)
-        again = await Follower.follow(base, code)
-        await lecturers[0].until(lambda one: one.followers == 2)
-        for member in (again, inside[1], *lecturers):
-            await member.leave()
-        return whys
+        async with lecture(base), lecture(base, "first-phone", "second-phone") as (lecturer, one, _):
+            third = await Lecturer.connect(base, new_code(), {"open": True})
+            assert await third.end() == "1013: There are too many rooms at the moment: try again later."
+            await lecturer.until(lambda one: one.followers == 2)
+            late = await Follower.follow(base, lecturer.code)
+            assert await late.end() == "1013: The room is full."
+            await one.leave()
+            await lecturer.until(lambda one: one.followers == 1)
+            again = await Follower.follow(base, lecturer.code)
+            await lecturer.until(lambda one: one.followers == 2)
+            await again.leave()
 
     with served() as base:
-        assert finished(visit(base)) == [
-            "1013: There are too many rooms at the moment: try again later.",
-            "1013: The room is full.",
-        ]
+        finished(visit(base))

@@ -14,13 +14,11 @@ from hess_explorer.protocol.specs import encode
 from hess_explorer.rooms import room
 from hess_explorer.scenes import scenes
 from hess_explorer.server.room_socket import Outbox
-from support.asynchronous import finished
-from support.room import Follower, Lecturer
+from support.asynchronous import awaited
+from support.room import Follower, Lecturer, lecture
 from support.serving import served
 
 ENDED = "4001: The lecture has ended."
-UNKNOWN = "4004: There is no such room: its lecture has ended, or the code is wrong."
-FORGED = "4005: This room belongs to another page."
 NO_MESSAGE = "1007: This is no message of a room."
 
 LESSON = next(one for one in shipped().values() if any(step.prediction for step in one.steps))
@@ -41,10 +39,9 @@ def shows(text):
     return lambda follower: text in follower.state["query"]
 
 
-def test_followers_see_the_last_state_of_the_lecturer_whenever_they_come(base):
-    async def visit():
-        lecturer = await Lecturer.open(base)
-        early = await Follower.follow(base, lecturer.code)
+@awaited
+async def test_followers_see_the_last_state_of_the_lecturer_whenever_they_come(base):
+    async with lecture(base, "early-phone") as (lecturer, early):
         await lecturer.show(query(1.25), picture="omega")
         await early.until(shows("h=1.25"))
         late = await Follower.follow(base, lecturer.code)
@@ -66,15 +63,11 @@ def test_followers_see_the_last_state_of_the_lecturer_whenever_they_come(base):
         for one in (lecturer, early):
             await one.say(ALIVE)
             assert await one.read() == ""
-            await one.leave()
-
-    finished(visit())
 
 
-def test_of_many_states_at_most_two_a_second_are_sent_and_always_the_last_one(base):
-    async def visit():
-        lecturer = await Lecturer.open(base)
-        follower = await Follower.follow(base, lecturer.code)
+@awaited
+async def test_of_many_states_at_most_two_a_second_are_sent_and_always_the_last_one(base):
+    async with lecture(base, "first-phone") as (lecturer, follower):
         await lecturer.show(query(1.0), picture="omega")
         await follower.until(shows("h=1"))
         before, begun = follower.states, time.monotonic()
@@ -82,69 +75,56 @@ def test_of_many_states_at_most_two_a_second_are_sent_and_always_the_last_one(ba
             await lecturer.show(query(round(1.0 + 0.01 * (i + 1), 2)), picture="omega")
             await asyncio.sleep(0.11)
         await follower.until(shows("h=1.1&"))
-        sent, seconds = follower.states - before, time.monotonic() - begun
-        await follower.leave()
-        await lecturer.leave()
-        return sent, seconds
-
-    sent, seconds = finished(visit())
-    assert 2 <= sent <= 2 * seconds + 1
+        assert 2 <= follower.states - before <= 2 * (time.monotonic() - begun) + 1
 
 
-def test_guesses_are_counted_once_for_each_page_and_shown_to_the_lecturer_when_revealed(base):
-    asked = LESSON.steps[STEP - 1].prediction
-    points = [[0.25, 0.5], [0.75, 0.5]]
+@awaited
+async def test_guesses_are_counted_once_for_each_page_and_shown_to_the_lecturer_when_revealed(base):
+    step, other = LESSON.steps[STEP - 1 : STEP + 1]
+    at, then, following = (encode(one.scene, one.values) for one in (step.at, step.prediction.then, other.at))
 
-    async def visit():
-        lecturer = await Lecturer.open(base)
-        at, then = (encode(place.scene, place.values) for place in (LESSON.steps[STEP - 1].at, asked.then))
-        one = await Follower.follow(base, lecturer.code, "first-phone")
-        two = await Follower.follow(base, lecturer.code, "second-phone")
+    def guess(x, step=STEP):
+        return {"guess": [[x, 0.5]], "step": step}
+
+    async with lecture(base, "first-phone", "second-phone") as (lecturer, one, two):
         await lecturer.show(at, LESSON.name, STEP)
         for follower in (one, two):
             await follower.until(lambda one: one.told["step"] is not None)
-        await one.say({"guess": [[0.0, 0.0]], "step": STEP})
+        await one.say(guess(0.0))
         await lecturer.until(lambda one: one.guesses == 1)
         # It sleeps, returns, and guesses again.
         await one.leave()
         await lecturer.until(lambda one: one.followers == 1)
         assert lecturer.guesses == 1
-        one = await Follower.follow(base, lecturer.code, "first-phone")
-        await one.until(lambda one: one.told["step"] is not None)
-        await one.say({"guess": points[:1], "step": STEP})
-        await two.say({"guess": points[1:], "step": STEP})
+        again = await Follower.follow(base, lecturer.code, "first-phone")
+        await again.until(lambda one: one.told["step"] is not None)
+        await again.say(guess(0.25))
+        await two.say(guess(0.75))
         # A guess at another step came too late.
-        await two.say({"guess": [[7.0, 7.0]], "step": STEP + 1})
+        await two.say(guess(7.0, STEP + 1))
         await lecturer.until(lambda one: one.guesses == 2)
         await lecturer.show(then, LESSON.name, STEP, revealed=True)
         await lecturer.until(lambda one: one.cloud is not None)
-        await one.until(lambda one: one.told["revealed"])
+        await again.until(lambda one: one.told["revealed"])
         # No more guesses, and none is kept for the next step.
-        await two.say({"guess": [[0.0, 0.0]], "step": STEP})
-        other = LESSON.steps[STEP].at
-        await lecturer.show(encode(other.scene, other.values), LESSON.name, STEP + 1)
+        await two.say(guess(0.0))
+        await lecturer.show(following, LESSON.name, STEP + 1)
         await lecturer.until(lambda one: one.guesses == 0)
-        for member in (one, two, lecturer):
-            await member.leave()
-        return lecturer.cloud
-
-    assert sorted(finished(visit())) == [[points[0]], [points[1]]]
+        assert sorted(lecturer.cloud) == [[[0.25, 0.5]], [[0.75, 0.5]]]
+        await again.leave()
 
 
-def test_who_has_not_the_key_cannot_lead_and_followers_cannot_steer(base):
-    async def visit():
-        lecturer = await Lecturer.open(base)
-        follower = await Follower.follow(base, lecturer.code)
+@awaited
+async def test_who_has_not_the_key_cannot_lead_and_followers_cannot_steer(base):
+    async with lecture(base, "first-phone") as (lecturer, follower):
         assert len(lecturer.key) >= 40
         await lecturer.show(query(1.25), picture="omega")
         await follower.until(shows("h=1.25"))
-        whys = []
         for key in ("", lecturer.key[:-1], lecturer.key + "x", "é"):
             forged = await Lecturer.connect(base, lecturer.code, {"lead": key})
-            whys.append(await forged.end())
+            assert await forged.end() == "4005: This room belongs to another page."
         taken = await Lecturer.connect(base, lecturer.code, {"open": True})
-        whys.append(await taken.end())
-        assert whys == [FORGED] * 4 + ["4003: There is a room with this code."]
+        assert await taken.end() == "4003: There is a room with this code."
         await Lecturer.show(follower, query(2.0))
         await follower.say({"end": True})
         late = await Follower.follow(base, lecturer.code)
@@ -156,18 +136,13 @@ def test_who_has_not_the_key_cannot_lead_and_followers_cannot_steer(base):
         # A follower cannot become the lecturer later either.
         await follower.say({"lead": lecturer.key})
         assert await follower.end() == NO_MESSAGE
-        for member in (late, lecturer):
-            await member.leave()
-
-    finished(visit())
+        await late.leave()
 
 
-def test_a_room_outlives_a_reload_of_its_lecturer_and_ends_with_the_lecture(base, monkeypatch):
+@awaited
+async def test_a_room_outlives_a_reload_of_its_lecturer_and_ends_with_the_lecture(base, monkeypatch):
     monkeypatch.setattr(room, "GRACE", 1.0)
-
-    async def visit():
-        lecturer = await Lecturer.open(base)
-        follower = await Follower.follow(base, lecturer.code)
+    async with lecture(base, "first-phone") as (lecturer, follower):
         await lecturer.leave()
         again = await lecturer.again(base)
         await again.until(lambda one: one.followers == 1)
@@ -180,83 +155,64 @@ def test_a_room_outlives_a_reload_of_its_lecturer_and_ends_with_the_lecture(base
         # The page is closed and does not come back.
         begun = time.monotonic()
         await other.leave()
-        heard, waited = await follower.end(), time.monotonic() - begun
+        assert await follower.end() == ENDED
+        assert 1.0 <= time.monotonic() - begun < 10.0
         late = await Follower.follow(base, lecturer.code)
-        # The lecturer ends the lecture.
-        ended = await Lecturer.open(base, lecturer.code)
-        await ended.say({"end": True})
-        return heard, waited, await late.end(), await ended.end()
-
-    heard, waited, late, ended = finished(visit())
-    assert heard == ENDED
-    assert 1.0 <= waited < 10.0
-    assert late == UNKNOWN
-    assert ended == ENDED
+        assert await late.end() == "4004: There is no such room: its lecture has ended, or the code is wrong."
+    ended = await Lecturer.open(base)
+    await ended.say({"end": True})
+    assert await ended.end() == ENDED
 
 
-def test_floods_and_nonsense_are_cut_off_and_the_others_go_on(base):
-    async def visit():
-        lecturer = await Lecturer.open(base)
-        good = await Follower.follow(base, lecturer.code)
-        flood = await Follower.follow(base, lecturer.code)
+@awaited
+async def test_floods_and_nonsense_are_cut_off_and_the_others_go_on(base):
+    async with lecture(base, "good-phone", "flooding-phone") as (lecturer, good, flood):
         # The server may close the socket while the rest is still being sent.
         with suppress(WebSocketClosedError):
             for _ in range(100):
                 await flood.say({"guess": [[0.0, 0.0]], "step": 1})
-        whys = [await flood.end()]
+        fast = "1008: More than 10 messages per second: wait for each response before you send again."
+        assert await flood.end() == fast
         for first in ("{", b"\xff", "[" * 4000, '{"guess": [[0, 0]], "step": 1}'):
-            whys.append(await (await Follower.connect(base, lecturer.code, first)).end())
-        for wrong in (
-            "x" * 9000,
-            {"guess": [[0.0, 0.0]] * 41, "step": 1},
-            {"guess": [[0.0, "x"]], "step": 1},
-            '{"guess": [[NaN, 0.0]], "step": 1}',
+            assert await (await Follower.connect(base, lecturer.code, first)).end() == NO_MESSAGE
+        for wrong, why in (
+            ("x" * 9000, "1009: A message may have at most 8 KB: send a smaller one."),
+            ({"guess": [[0.0, 0.0]] * 41, "step": 1}, NO_MESSAGE),
+            ({"guess": [[0.0, "x"]], "step": 1}, NO_MESSAGE),
+            ('{"guess": [[NaN, 0.0]], "step": 1}', NO_MESSAGE),
         ):
             one = await Follower.follow(base, lecturer.code)
             await one.say(wrong)
-            whys.append(await one.end())
+            assert await one.end() == why
         await lecturer.show(query(1.75))
         await good.until(shows("h=1.75"))
         with pytest.raises(HTTPClientError, match="404"):
             await Follower.follow(base, "nosuch")
         with pytest.raises(HTTPClientError, match="403"):
             await Follower.follow(base, lecturer.code, headers={"Origin": "http://evil.example"})
-        for member in (good, lecturer):
-            await member.leave()
-        return whys
-
-    assert finished(visit()) == [
-        "1008: More than 10 messages per second: wait for each response before you send again.",
-        *[NO_MESSAGE] * 4,
-        "1009: A message may have at most 8 KB: send a smaller one.",
-        *[NO_MESSAGE] * 3,
-    ]
 
 
-def test_to_a_follower_who_reads_nothing_only_the_newest_state_waits():
+@awaited
+async def test_to_a_follower_who_reads_nothing_only_the_newest_state_waits():
     """Otherwise the states that it has not read would fill the memory."""
+    taken, sent = [], []
 
-    async def visit():
-        taken, sent = [], []
+    class Slow:
+        def write_message(self, message, binary):
+            sent.append((message, binary))
+            taken.append(asyncio.get_running_loop().create_future())
+            return taken[-1]
 
-        class Slow:
-            def write_message(self, message, binary):
-                sent.append((message, binary))
-                taken.append(asyncio.get_running_loop().create_future())
-                return taken[-1]
-
-        outbox = Outbox(Slow())
-        for scene, states in (("A", "ab"), ("B", "cd")):
-            outbox.put("scene", scene)
-            for state in states:
-                outbox.put("state", state.encode())
-                await asyncio.sleep(0)
-        assert sent == [("A", False)]
-        while len(sent) < 3:
-            taken[-1].set_result(None)
+    outbox = Outbox(Slow())
+    for scene, states in (("A", "ab"), ("B", "cd")):
+        outbox.put("scene", scene)
+        for state in states:
+            outbox.put("state", state.encode())
             await asyncio.sleep(0)
-            await asyncio.sleep(0)
-        return sent
-
+    assert sent == [("A", False)]
+    while len(sent) < 3:
+        taken[-1].set_result(None)
+        await asyncio.sleep(0)
+        await asyncio.sleep(0)
     # The description comes before the state that needs it.
-    assert finished(visit()) == [("A", False), ("B", False), (b"d", True)]
+    assert sent == [("A", False), ("B", False), (b"d", True)]

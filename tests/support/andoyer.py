@@ -4,7 +4,6 @@ from functools import cache
 from math import cos, sin, sqrt
 
 import numpy as np
-from scipy.integrate import solve_ivp
 
 from hess_mechanics.euler_poisson.equations import HeavyBody
 
@@ -62,26 +61,3 @@ def energies_at(body, f, l, x, G):
 def dense(body, f, l, x, top, count=4000):
     G = np.linspace(max(abs(f), 1e-9), max(top, 1.01 * abs(f)), count)
     return G, energies_at(body, f, l, x, G)
-
-
-def crossings_by_scipy(body, state, end):
-    """Times and states where the angle g grows through π/2."""
-
-    def event(_, y):
-        return cos(angles(y)[1][0])
-
-    event.direction = -1
-    run = solve_ivp(
-        lambda _, y: rates(body, y),
-        (0.0, end),
-        state,
-        method="DOP853",
-        rtol=1e-12,
-        atol=1e-13,
-        events=event,
-        max_step=0.02 * end,
-    )
-    times, states = run.t_events[0], run.y_events[0].reshape(-1, 6)
-    # cos g falls also where g comes down through −π/2.
-    counted = (times > 1e-9 * end) & (np.sin(angles(states)[1]) > 0.0)
-    return times[counted], states[counted]

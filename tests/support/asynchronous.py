@@ -3,12 +3,23 @@
 import asyncio
 import time
 from concurrent.futures import ThreadPoolExecutor
+from functools import wraps
 
 
 def finished(coroutine):
     """The result of a coroutine, run in a thread of its own: in that of the tests Playwright's loop may be running."""
     with ThreadPoolExecutor(1) as pool:
         return pool.submit(asyncio.run, coroutine).result()
+
+
+def awaited(test):
+    """Return the coroutine of a test as a test that waits for its end."""
+
+    @wraps(test)
+    def run(*arguments, **named):
+        finished(test(*arguments, **named))
+
+    return run
 
 
 def wait_until(condition, seconds=60.0):

@@ -1,6 +1,6 @@
 """The Chaplygin ball of the scenes: its equations as a 2 × 2 system solved at every call, its energy and circles."""
 
-from math import atan2, cos, hypot, pi, sin, sqrt
+from math import cos, hypot, pi, sin, sqrt
 
 import numpy as np
 
@@ -52,28 +52,15 @@ def divergence(body, y):
     return sum(SYSTEM.field(y + step, body.parameters)[i].imag for i, step in enumerate(steps)) / 1e-30
 
 
-def xi_of(values):
-    return np.array([values["I23"], -values["I13"]]) / hypot(values["I13"], values["I23"])
-
-
-def circle_of(values, state):
-    """The angle between ξ and γ."""
-    xi = xi_of(values)
-    return atan2(hypot(xi[0] * state[3] - xi[1] * state[2], state[4]), state[2:4] @ xi)
-
-
 def shown(value, digits=4):
     return float(f"{value:.{digits}g}")
 
 
-def upward_crossings(field, start, end, i=4, most=False):
-    """Times (n,) and states (n, 5), by SciPy, where component i, or γ3, grows through 0; the start is no crossing."""
-    return scipy_crossings(lambda y: field(0.0, y), start, lambda y: y[i], end, 1, most)
-
-
 def first_returns(values, start, count):
     """The first crossings (count, 5) of γ3 = 0 from below."""
-    return upward_crossings(rates(values), start, 40.0 * count, most=count + 1)[1][:count]
+    field = rates(values)
+    found = scipy_crossings(lambda y: field(0.0, y), start, lambda y: y[4], 40.0 * count, 1, count + 1)
+    return found[1][:count]
 
 
 def angles(states):
@@ -89,14 +76,3 @@ def returned(values, place):
     E = values["h"] - hypot(values["b1"], values["b2"])
     start = [*(sqrt((E - rest) / (unit - rest)) * u), *gamma]
     return angles(first_returns(values, start, 1))[0]
-
-
-def derivative(values, place, step=2e-4):
-    """Return the derivative of the ball's return map, by differences of fourth order."""
-    columns = []
-    for axis in np.eye(2):
-        far, near = (
-            [returned(values, place + sign * size * axis) for sign in (1.0, -1.0)] for size in (step, 0.5 * step)
-        )
-        columns.append((8.0 * (near[0] - near[1]) - (far[0] - far[1])) / (6.0 * step))
-    return np.column_stack(columns)

@@ -91,21 +91,25 @@ def plots_of(name):
 @cache
 def empty_sources(name):
     """The sources of a scene's pictures before there are data: those of its plots, and one for each other picture."""
-    found = [(source, columns) for plot in plots_of(name).values() for source, columns in plot.sources.items()]
-    own = [source for source, _ in found if source not in tracks_of(name)]
-    assert len(set(own)) == len(own)
     pictures = description(name)["pictures"]
+
+    def parts(kind):
+        return [one for picture in pictures for one in picture.get(kind, ())]
+
+    plotted = [pair for plot in plots_of(name).values() for pair in plot.sources.items()]
+    own = [source for source, _ in plotted if source not in tracks_of(name)]
+    assert len(set(own)) == len(own)
+    assert not any(column for _, columns in plotted for column in columns.values())
     canvases = {picture["name"]: {} for picture in pictures if picture["kind"] != "plot"}
-    curves = {source: {} for picture in pictures for source in picture.get("curves", ())}
-    cells = {one["source"]: {} for picture in pictures for one in picture.get("cells", ())}
-    axes = {f"{picture['name']}-axes": {"text": []} for picture in pictures if picture.get("renamed")}
-    dots = {one["source"]: {one["x"]: [], one["y"]: []} for picture in pictures for one in picture.get("dots", ())}
-    points = {one["source"]: {"x": [], "y": []} for picture in pictures for one in picture.get("points", ())}
-    empty = dict(found)
-    assert not any(column for columns in empty.values() for column in columns.values())
-    assert not set(empty) & set(canvases)
-    tracks = {track: {} for track in tracks_of(name)}
-    return {**tracks, **curves, **cells, **axes, **dots, **points, **empty, **canvases}
+    assert not {source for source, _ in plotted} & set(canvases)
+    return {
+        **{source: {} for source in (*tracks_of(name), *parts("curves"), *(one["source"] for one in parts("cells")))},
+        **{f"{picture['name']}-axes": {"text": []} for picture in pictures if picture.get("renamed")},
+        **{one["source"]: {one["x"]: [], one["y"]: []} for one in parts("dots")},
+        **{one["source"]: {"x": [], "y": []} for one in parts("points")},
+        **dict(plotted),
+        **canvases,
+    }
 
 
 def tracks_of(name):
@@ -162,11 +166,6 @@ class Board(Screen):
     def fail(self, sentence):
         self.stage.fail(sentence)
         self.receive()
-
-    @property
-    def tracks(self):
-        """The sources that pictures draw which have none of their own for them."""
-        return {one["name"]: list(one["tracks"]) for one in description(self.scene.name)["pictures"] if "tracks" in one}
 
     @property
     def captions(self):

@@ -5,9 +5,9 @@ from functools import cache
 
 import numpy as np
 
-from hess_mechanics import HeavyBody, SuslovBody, circle_map, level, scattering
+from hess_mechanics import HeavyBody, circle_map, level, scattering
 from hess_mechanics.euler_poisson.hess_isomorphism import Bridge
-from hess_mechanics.suslov.additional_integral import I11_at
+from support.lesson_on_constraints import free_body
 from support.numbers import DIGITS
 from support.rotation_number import displacement
 
@@ -53,18 +53,13 @@ def threshold(_step):
     return birth()[1:]
 
 
-def suslov(values):
-    I22, I13, I23 = (values[name] for name in ("I22", "I13", "I23"))
-    return SuslovBody(I11_at(values["k"], I22, I13, I23), I22, I13, I23)
-
-
 def turned(step, **changes):
     """Return the angle χ through which the passage turns ξ, in degrees."""
-    return math.degrees(math.acos(scattering(suslov({**step.at.values, **changes}), PRECISE).cos_chi))
+    return math.degrees(math.acos(scattering(free_body({**step.at.values, **changes}), PRECISE).cos_chi))
 
 
 def outgoing(step):
-    found = scattering(suslov(step.at.values), PRECISE).theta_plus(step.at.values["theta"], np.linspace(0, 7, 20001))
+    found = scattering(free_body(step.at.values), PRECISE).theta_plus(step.at.values["theta"], np.linspace(0, 7, 20001))
     return float(found.min()), float(found.max())
 
 

@@ -124,17 +124,3 @@ def pendulum(epsilon, mu=1.5, ripple=0.0):
         lambda x, y: ((kick(x) - y) / rest, x),
         lambda x, y: [[slope(x) / rest, -1.0 / rest], [1.0, 0.0]],
     )
-
-
-def three_wells():
-    """φ′ = φ − sin 3φ/4, v′ = v/2 with φ = u − 0.4 v: attractors at φ = 0, ±2π/3, bounded by φ = ±π/3, π."""
-
-    def of(u, v):
-        phi = u - 0.4 * v
-        return phi - 0.25 * math.sin(3.0 * phi) + 0.2 * v, 0.5 * v
-
-    def derivative(u, v):
-        slope = 1.0 - 0.75 * math.cos(3.0 * (u - 0.4 * v))
-        return [[slope, 0.2 - 0.4 * slope], [0.0, 0.5]]
-
-    return Formula(of, derivative, turns=(2.0 * math.pi, math.inf), names=("u", "v"))

@@ -1,17 +1,13 @@
 """Helpers of the tests of the mechanics: reference values, equilibria, angles, returns, runs without the JIT."""
 
 import json
-import os
-import re
-import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
-from pytest import approx, mark
+from pytest import mark
 from scipy.integrate import solve_ivp
 
-from hess_mechanics import LEVELS, systems, turning_points
+from hess_mechanics import LEVELS, systems
 
 ROOT = Path(__file__).resolve().parents[2]
 REFERENCE = json.loads((Path(__file__).parent / "reference.json").read_text())
@@ -87,40 +83,6 @@ def differences(function, place, step=1e-6):
     )
 
 
-def lifted_return(a, h, f, phases):
-    """The lifted Θ by brute force: n̈3 = ½ p'(n3) and φ̇ = −a|w| cos φ − f/|w|² over one n3-period.
-
-    Nothing of `hess_mechanics.suslov_hess.circle_map` enters, and φ is never reduced modulo 2π.
-    """
-    turning = turning_points(h, f)
-    phases = np.asarray(phases, float)
-
-    def rates(_, y):
-        n, speed, phi = y[0], y[1], y[2:]
-        w_squared = 2 * (h + n)
-        return np.concatenate(
-            ([speed, 1 - n * n - 2 * n * (h + n)], -a * np.sqrt(w_squared) * np.cos(phi) - f / w_squared)
-        )
-
-    start = np.concatenate(([turning.roots[1], 0.0], phases))
-    run = solve_ivp(rates, (0.0, turning.period), start, method="DOP853", rtol=1e-12, atol=1e-12)
-    return run.y[2:, -1]
-
-
-def without_jit(code, *arguments):
-    """Return the JSON that Python code prints in a process where Numba compiles nothing."""
-    run = subprocess.run(
-        [sys.executable, "-W", "error", "-c", code, *arguments],
-        env={**os.environ, "NUMBA_DISABLE_JIT": "1", "PYTHONPATH": str(ROOT / "models")},
-        capture_output=True,
-        text=True,
-        timeout=120,
-        check=False,
-    )
-    assert run.returncode == 0, run.stderr
-    return json.loads(run.stdout)
-
-
 def inertia_of(masses, positions):
     """The tensor of point masses, its axes turned about e3 so that I12 = 0, as `Biz03` has them; and Σ m x xᵀ."""
     second = (masses[:, None] * positions).T @ positions
@@ -129,17 +91,3 @@ def inertia_of(masses, positions):
     turn = np.array([[c, s, 0], [-s, c, 0], [0, 0, 1]])
     second = turn @ second @ turn.T
     return np.trace(second) * np.eye(3) - second, second
-
-
-def assert_same_without_jit(code, within=1e-11):
-    """Assert that code, which prints JSON, gives the same numbers to round-off compiled, here, and without the JIT."""
-    captured = []
-    # Only the check that the JIT is off must go.
-    statements = re.sub(r" *assert not hasattr.*\n", "", code)
-    statements = statements.replace("json.dump(results, sys.stdout)", "captured.append(results)")
-    exec(statements, {"captured": captured})
-    (compiled,) = captured
-    plain = without_jit(code)
-    assert plain.keys() == compiled.keys()
-    for key, values in compiled.items():
-        assert plain[key] == approx(values, rel=within, abs=within), key

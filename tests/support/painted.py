@@ -29,10 +29,6 @@ def yellow(explorer):
     )
 
 
-SOURCES = "hess.plotted()"
-MEASURED = ("precision-DOP", "precision-LSO")
-
-
 def assert_captions_fit(explorer, scene):
     """Assert that each caption fits its narrowest place: four pictures side by side, as on a wide page.
 
@@ -62,7 +58,10 @@ def assert_drawn(explorer, name, values, *pictures):
         data = explorer.data(source)
         for key, column in columns.items():
             # Measured times differ.
-            if not (source.startswith("precision-") and (key == "y" or source.startswith(MEASURED))):
+            if not (
+                source.startswith("precision-")
+                and (key == "y" or source.startswith(("precision-DOP", "precision-LSO")))
+            ):
                 assert alike(flat(data[key]), column), (source, key)
     return view
 
@@ -70,7 +69,7 @@ def assert_drawn(explorer, name, values, *pictures):
 def assert_painted(explorer, scene):
     """Assert finite data, captions that fit, and painted pixels on every canvas."""
     assert_captions_fit(explorer, scene)
-    for name in explorer.page.evaluate(SOURCES):
+    for name in explorer.page.evaluate("hess.plotted()"):
         assert all(isinstance(x, str) or math.isfinite(x) for x in flat(explorer.data(name))), name
     for picture in scene.open_pictures:
         assert not re.search(r"nan|inf|none", explorer.caption(picture), re.IGNORECASE)

@@ -3,6 +3,7 @@
 import json
 import random
 import time
+from contextlib import asynccontextmanager
 
 from support.visitor import Socket
 from support.wire import read_frame
@@ -89,3 +90,13 @@ class Follower(Member):
         while self.state is None or not condition(self):
             await self.hear(ends - time.monotonic())
         return self
+
+
+@asynccontextmanager
+async def lecture(base, *names):
+    """Yield the lecturer of a new room and a follower for each name; all leave at the end."""
+    lecturer = await Lecturer.open(base)
+    followers = [await Follower.follow(base, lecturer.code, name) for name in names]
+    yield lecturer, *followers
+    for member in (*followers, lecturer):
+        await member.leave()

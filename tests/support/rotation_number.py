@@ -1,6 +1,6 @@
 """Rotation numbers by iteration."""
 
-from math import pi, sin
+from math import pi
 
 import numpy as np
 
@@ -19,13 +19,3 @@ def displacement(a, h, f):
         return np.interp(np.remainder(phi + pi, 2.0 * pi) - pi, grid, turn)
 
     return lifted
-
-
-def iterated(a, h, f, epsilon=0.0, count=10_000):
-    """Turns per return of Θ(φ + ε sin 3φ), by counting."""
-    lifted = displacement(a, h, f)
-    phi = 0.3
-    for _ in range(count):
-        first = phi + epsilon * sin(3.0 * phi)
-        phi = first + float(lifted(first))
-    return (phi - 0.3) / (2.0 * pi * count)

@@ -39,13 +39,6 @@ def energy(body, y):
     return 0.5 * (body.I11 * w1**2 + body.I22 * w2**2) + np.dot((body.b1, body.b2, body.b3), gamma)
 
 
-def start_on(body, E, psi, delta):
-    """The state (ψ, δ) of γ3 = 0 with this energy."""
-    gamma, u = np.array([cos(psi), sin(psi), 0.0]), np.array([cos(psi + delta), sin(psi + delta)])
-    kinetic = E - np.dot((body.b1, body.b2, body.b3), gamma)
-    return np.array([*(u * sqrt(2.0 * kinetic / (body.I11 * u[0] ** 2 + body.I22 * u[1] ** 2))), *gamma])
-
-
 def permanent_rotations(body, E):
     """States γ3 = 0, ω = wγ with w²(I13γ1 + I23γ2) = b3 and energy E: the body turns for ever about the vertical."""
 

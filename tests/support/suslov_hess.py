@@ -3,8 +3,6 @@
 import numpy as np
 from pytest import approx
 
-from hess_explorer.protocol.specs import NumberSpec, Places
-from hess_explorer.scenes import scenes
 from hess_mechanics import HessBody, solve, systems, turning_points
 
 
@@ -40,14 +38,3 @@ def assert_orbit(explorer, values, within=2e-6):
     allowed = within * np.maximum(1.0, np.abs(exact)) + rounding(values, times[picks], exact)
     assert np.max(np.abs(found - exact) - allowed) <= 0.0
     assert explorer.here() == approx((values["h"], values["f"]), rel=1e-7)
-
-
-def assert_defaults(explorer, scene, **others):
-    """Assert that the page shows the scene's default state, except for values shared with other scenes."""
-    assert explorer.scene == scene
-    for spec in scenes()[scene].specs:
-        value = others.get(spec.name, spec.default)
-        if isinstance(spec, NumberSpec):
-            assert explorer.shown(spec.name) == (value, value), spec.name
-        elif not isinstance(spec, Places):
-            assert explorer.chosen(spec.name) == value, spec.name

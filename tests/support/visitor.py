@@ -60,8 +60,8 @@ class Socket:
         """Close the websocket, as a closed tab does."""
         self._connection.close()
         # That something has ended is read once.
-        while not self._has_ended and await self._connection.read_message() is not None:
-            pass
+        while not self._has_ended:
+            self._has_ended = await self._connection.read_message() is None
 
 
 def _nodes(item):

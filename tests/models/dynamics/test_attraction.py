@@ -1,5 +1,6 @@
 """Attractors, arrivals and boundaries: of a map with three known basins, and of the Suslov problem."""
 
+import math
 from dataclasses import dataclass
 from math import inf, log, pi
 from typing import ClassVar
@@ -12,7 +13,22 @@ from hess_mechanics.dynamics.attraction import CROSSINGS, LOST, NOWHERE, Arrival
 from hess_mechanics.dynamics.basin_boundary import arrivals_of_cells, divided, joined
 from hess_mechanics.dynamics.edge import saddle_between
 from hess_mechanics.errors import NotConverged
-from support.maps import three_wells
+from support.maps import Formula
+
+
+def three_wells():
+    """φ′ = φ − sin 3φ/4, v′ = v/2 with φ = u − 0.4 v: attractors at φ = 0, ±2π/3, bounded by φ = ±π/3, π."""
+
+    def of(u, v):
+        phi = u - 0.4 * v
+        return phi - 0.25 * math.sin(3.0 * phi) + 0.2 * v, 0.5 * v
+
+    def derivative(u, v):
+        slope = 1.0 - 0.75 * math.cos(3.0 * (u - 0.4 * v))
+        return [[slope, 0.2 - 0.4 * slope], [0.0, 0.5]]
+
+    return Formula(of, derivative, turns=(2.0 * math.pi, math.inf), names=("u", "v"))
+
 
 WELLS = three_wells()
 WINDOW = (-pi, -1.0), (pi, 1.0)

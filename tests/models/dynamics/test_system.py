@@ -1,7 +1,10 @@
 """Conformance: properties of every registered system, and the symmetries of each."""
 
+import json
 import math
+import os
 import re
+import subprocess
 import sys
 from dataclasses import replace
 
@@ -15,9 +18,38 @@ from hess_mechanics import SuslovBody, System, level, return_map, solve, unit_ve
 from hess_mechanics.dynamics.orbit import MAX_SAMPLES
 from hess_mechanics.dynamics.system import in_units_of_time
 from hess_mechanics.errors import InvalidParameter, ModelError, NotPositiveDefinite, WorkLimit, WrongScaling
-from support.mechanics import ROOT, SYSTEMS, assert_same_without_jit, every_system
+from support.mechanics import ROOT, SYSTEMS, every_system
 from support.refusals import refused
 from support.thorough import sample
+
+
+def without_jit(code, *arguments):
+    """Return the JSON that Python code prints in a process where Numba compiles nothing."""
+    run = subprocess.run(
+        [sys.executable, "-W", "error", "-c", code, *arguments],
+        env={**os.environ, "NUMBA_DISABLE_JIT": "1", "PYTHONPATH": str(ROOT / "models")},
+        capture_output=True,
+        text=True,
+        timeout=120,
+        check=False,
+    )
+    assert run.returncode == 0, run.stderr
+    return json.loads(run.stdout)
+
+
+def assert_same_without_jit(code, within=1e-11):
+    """Assert that code, which prints JSON, gives the same numbers to round-off compiled, here, and without the JIT."""
+    captured = []
+    # Only the check that the JIT is off must go.
+    statements = re.sub(r" *assert not hasattr.*\n", "", code)
+    statements = statements.replace("json.dump(results, sys.stdout)", "captured.append(results)")
+    exec(statements, {"captured": captured})
+    (compiled,) = captured
+    plain = without_jit(code)
+    assert plain.keys() == compiled.keys()
+    for key, values in compiled.items():
+        assert plain[key] == approx(values, rel=within, abs=within), key
+
 
 # (system, signs of the state, sign of time): y(t) → signs·y(±t) takes solutions to solutions.
 SYMMETRIES = [

@@ -8,6 +8,7 @@ from math import acos, cos, inf, pi, remainder, sqrt
 
 import numpy as np
 from pytest import approx, mark
+from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 from hess_mechanics import section, solve, systems
@@ -16,11 +17,35 @@ from hess_mechanics.errors import OutsideRegion, WorkLimit
 from hess_mechanics.euler_poisson.andoyer import SHEETS, AndoyerPlane, AndoyerSection, coordinates, relation
 from hess_mechanics.euler_poisson.equations import SYSTEM, HeavyBody
 from hess_mechanics.numerics.accuracy import PRECISE, STANDARD
-from support.andoyer import GESS1, RIS, angles, crossings_by_scipy, energies_at, energy
+from support.andoyer import GESS1, RIS, angles, energies_at, energy, rates
 from support.deviations import deviations
 from support.mechanics import apart
 from support.refusals import refused
 from support.thorough import sample
+
+
+def crossings_by_scipy(body, state, end):
+    """Times and states where the angle g grows through π/2."""
+
+    def event(_, y):
+        return cos(angles(y)[1][0])
+
+    event.direction = -1
+    run = solve_ivp(
+        lambda _, y: rates(body, y),
+        (0.0, end),
+        state,
+        method="DOP853",
+        rtol=1e-12,
+        atol=1e-13,
+        events=event,
+        max_step=0.02 * end,
+    )
+    times, states = run.t_events[0], run.y_events[0].reshape(-1, 6)
+    # cos g falls also where g comes down through −π/2.
+    counted = (times > 1e-9 * end) & (np.sin(angles(states)[1]) > 0.0)
+    return times[counted], states[counted]
+
 
 SLANTING = HeavyBody((1.0, 1.6, 2.1), (0.3, -0.5, 0.7), 2.0)
 """No Hess case, and r2 ≠ 0."""

@@ -7,6 +7,7 @@ import numpy as np
 from hypothesis import assume, given
 from hypothesis import strategies as st
 from pytest import approx, mark
+from scipy.integrate import solve_ivp
 
 from hess_mechanics import (
     circle_map,
@@ -16,11 +17,33 @@ from hess_mechanics import (
     level,
     rotation_numbers,
     systems,
+    turning_points,
 )
 from hess_mechanics.errors import Separatrix, WorkLimit
 from hess_mechanics.suslov_hess.mode_locking import rotation_number_window
-from support.mechanics import angle_between, lifted_return
+from support.mechanics import angle_between
 from support.refusals import refused
+
+
+def lifted_return(a, h, f, phases):
+    """The lifted Θ by brute force: n̈3 = ½ p'(n3) and φ̇ = −a|w| cos φ − f/|w|² over one n3-period.
+
+    Nothing of `hess_mechanics.suslov_hess.circle_map` enters, and φ is never reduced modulo 2π.
+    """
+    turning = turning_points(h, f)
+    phases = np.asarray(phases, float)
+
+    def rates(_, y):
+        n, speed, phi = y[0], y[1], y[2:]
+        w_squared = 2 * (h + n)
+        return np.concatenate(
+            ([speed, 1 - n * n - 2 * n * (h + n)], -a * np.sqrt(w_squared) * np.cos(phi) - f / w_squared)
+        )
+
+    start = np.concatenate(([turning.roots[1], 0.0], phases))
+    run = solve_ivp(rates, (0.0, turning.period), start, method="DOP853", rtol=1e-12, atol=1e-12)
+    return run.y[2:, -1]
+
 
 HESS = systems()["hess"]
 REFERENCE, STANDARD, DRAFT = level("reference"), level("standard"), level("draft")

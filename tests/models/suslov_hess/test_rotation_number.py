@@ -1,6 +1,7 @@
 """The rotation number over a, h, f: against motions and iterations, closed forms and the reference values."""
 
 import math
+from math import pi, sin
 
 import numpy as np
 from pytest import approx, mark
@@ -20,7 +21,18 @@ from hess_mechanics.suslov_hess.rotation_number import (
     values_at,
 )
 from support.refusals import refused
-from support.rotation_number import iterated
+from support.rotation_number import displacement
+
+
+def iterated(a, h, f, epsilon=0.0, count=10_000):
+    """Turns per return of Θ(φ + ε sin 3φ), by counting."""
+    lifted = displacement(a, h, f)
+    phi = 0.3
+    for _ in range(count):
+        first = phi + epsilon * sin(3.0 * phi)
+        phi = first + float(lifted(first))
+    return (phi - 0.3) / (2.0 * pi * count)
+
 
 # ---- ρ and where it locks ----------------------------------------------------------------------------------------
 
