@@ -19,6 +19,8 @@ const ENLARGE = "M5 9V5h4M15 5h4v4M19 15v4h-4M9 19H5v-4"
 const REDUCE = "M9 5v4H5M19 9h-4V5M15 19v-4h4M5 15h4v4"
 // Smallest edge of a picture of the strip, in pixels, and height of the strip on a phone.
 const [LEAST, LEAST_ON_PHONE] = [150, 118]
+// Height below which a phone, turned, has no room for a second picture, and height of a row of names there.
+const [LOW, ROW] = [400, 48]
 
 /**
  * Return the stage, which places the pictures of a scene.
@@ -78,7 +80,7 @@ export function createStage(shelf, gallery) {
     /** @param {string} name of a length in units of the font size, in "pictures.css" */
     const heightOf = (name) => Math.ceil(type * Number.parseFloat(style.getPropertyValue(name)))
     return {
-      width: shelf.clientWidth, height: shelf.clientHeight, gap: Math.round(0.6 * type), least: PHONE.matches ? LEAST_ON_PHONE : LEAST,
+      width: shelf.clientWidth, height: shelf.clientHeight, gap: Math.round(0.6 * type), least: !PHONE.matches ? LEAST : shelf.clientHeight < LOW ? ROW : LEAST_ON_PHONE,
       head: heightOf("--caption-height"), title: heightOf("--title-height"), names: heightOf("--name-height"),
     }
   }
@@ -97,7 +99,7 @@ export function createStage(shelf, gallery) {
     const leads = leadsOf(scene, cells)
     const others = cells.filter((cell) => !leads.includes(cell))
     // A phone shows one picture, and a small one beside the names.
-    const second = alone.length > 0 || leads.length + others.length < 2 ? [] : [leads[1] ?? others[0]]
+    const second = alone.length > 0 || shelf.clientHeight < LOW || leads.length + others.length < 2 ? [] : [leads[1] ?? others[0]]
     const seen = PHONE.matches ? [leads[0], ...second] : [...leads, ...others]
     const leading = PHONE.matches ? 1 : leads.length
     const names = isEmbedded() || isPresenting() || alone.length > 0 ? [] : scene.cells.filter(({ dataset }) => PHONE.matches || "label" in dataset)

@@ -42,7 +42,7 @@ def test_a_box_zooms_in_a_click_and_a_drag_choose_and_all_of_it_is_undone(explor
     assert explorer.wait_url(chart="trace", h=h, f=f)["chart_window"].count(",") == 2
     explorer.change(explorer.page.locator(".param-undo").click)
     assert here()[0] == approx(1.0, abs=dx)
-    explorer.change(explorer.page.locator(".param-clear").click)
+    explorer.change(explorer.tool, "clear")
     assert explorer.axes("chart") == approx(whole)
     # Its choices are there while it is.
     explorer.fold("chart")

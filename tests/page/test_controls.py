@@ -183,8 +183,8 @@ def test_space_and_arrow_keys_work_the_player_unless_they_mean_something_where_t
     assert explorer.time == approx(0.2, rel=1e-5)
     # Space plays, whatever has the focus but a box; on the button itself it is a click, once.
     others = (
-        *(".param-reset", ".param-play", ".param-speed", ".group > summary", ".corner:visible", ".param-pin"),
-        *(".lesson-menu > summary", ".unfold:visible", "canvas.solid:visible"),
+        *(".param-more", ".param-play", ".param-speed", ".group > summary", ".corner:visible", ".param-pin"),
+        *(".param-text", ".lesson-menu > summary", ".chip:visible", "canvas.sphere:visible"),
     )
     for item in (explorer.slider("h"), explorer.menu("preset"), *(page.locator(name).first for name in others)):
         for playing in (True, False):

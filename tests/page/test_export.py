@@ -33,7 +33,7 @@ def dialog(explorer):
     # The address has the view of the picture that was turned last.
     explorer.tell("turn", ["body", 0.5, 0.3])
     explorer.wait_url(f="0.28", az="0.5000")
-    explorer.page.get_by_role("button", name="Export").click()
+    explorer.tool("export")
     found = explorer.page.get_by_role("dialog", name="Export")
     yield found
     explorer.page.keyboard.press("Escape")

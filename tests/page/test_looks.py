@@ -14,8 +14,8 @@ from support.page import HESS, SLIDERS, brought_on_phone, own_tab, wait_frames
 from support.thorough import sample
 
 SIZES = {"wide": (1600, 950), "laptop": (1280, 720), "phone": (390, 844), "sideways": (844, 390)}
-THUMBNAIL = 0.39
-"""The share of the frame in the smallest pictures there are: four beside an enlarged one, in the smallest window."""
+COVERED = {"wide": 0.52, "laptop": 0.5, "reading": 0.4}
+"""The least share of the window that pictures cover, at 1600×950 also beside the text; of at least three pictures, all square."""
 SCENES = [name for name, scene in scenes().items() if scene.origin in (None, HESS)]
 
 
@@ -84,6 +84,13 @@ def places_of(page, scene):
     return page.evaluate(PLACES, [list(shown.open_pictures), list(shown.essential), INSIDE])
 
 
+def assert_covered(places, size, name):
+    boxes, (width, height) = places["boxes"], SIZES[size]
+    if len(boxes) >= 3:
+        assert sum(box["width"] * box["height"] for box in boxes) >= COVERED[name] * width * height, name
+        assert min(box["width"] for box in boxes) >= 150, name
+
+
 def assert_in_sight(places, width, height, count, share=0.5):
     """All pictures are square and in the window, as player and sliders are; nothing scrolls.
 
@@ -108,7 +115,7 @@ def assert_in_sight(places, width, height, count, share=0.5):
 
 # Elements that must not overlap: in the main part and beside it.
 PARTS = (
-    "h1, .param-reset, .param-share, h2.caption, .bk-Figure, canvas:is(.sphere, .solid, .torus), .player[role=group], "
+    "h1, .param-sharing, .param-more, h2.caption, .bk-Figure, canvas:is(.sphere, .solid, .torus), .player[role=group], "
     ".reader",
     ".param-scenes, .menu, .number, .text.help, .text.derived",
 )
@@ -132,8 +139,11 @@ def assert_apart_and_whole(page, size):
             for other, left_of, top_of, right_of, bottom_of in parts[:i]:
                 across, down = min(right, right_of) - max(left, left_of), min(bottom, bottom_of) - max(top, top_of)
                 assert min(across, down) <= 0.5, (name, other)
-    # The line above the pictures ends in an ellipsis where it is too long.
-    assert page.locator(".text:not(.details, .moves), .legend li, .number, h1").evaluate_all(CUT_OFF) == []
+    # Lines above the pictures end in an ellipsis where they are too long.
+    assert (
+        page.locator(".text:not(.details, .moves, .answer, .caption), .legend li, .number, h1").evaluate_all(CUT_OFF)
+        == []
+    )
 
 
 # A place in the corner of each planar picture in sight, where nothing is drawn; the colours of its texts.
@@ -156,8 +166,8 @@ def assert_looks(page, scene, size, theme, artefacts):
     """A scene has its columns and colours, and nothing is covered, cut off or hard to read."""
     shot = Image.open(io.BytesIO(page.screenshot(path=artefacts / f"{scene}-{size}-{theme}.png")))
     assert (brightness(shot) > 200) if theme == "light" else (brightness(shot) < 60)
-    is_phone = size in ("phone", "sideways")
-    count = 1 if is_phone else len(scenes()[scene].open_pictures)
+    # A phone shows one picture, upright a second, small one.
+    count = {"phone": 2, "sideways": 1}.get(size, len(scenes()[scene].open_pictures))
     assert_in_sight(places_of(page, scene), *SIZES[size], count)
     assert_apart_and_whole(page, size)
     for corner, colours in page.evaluate(TEXTS):
@@ -179,8 +189,15 @@ def test_a_scene_has_its_columns_and_colours_and_nothing_is_covered_cut_off_or_h
 ):
     tab = look_at(scene, "wide", theme)
     assert_looks(tab.page, scene, "wide", theme, artefacts)
+    assert_covered(places_of(tab.page, scene), "wide", "wide")
+    tab.page.keyboard.press("t")
+    wait_frames(tab, 4)
+    assert_covered(places_of(tab.page, scene), "wide", "reading")
+    assert tab.page.locator(".words").is_visible()
+    tab.page.keyboard.press("t")
     tab.resize(*SIZES["laptop"])
     assert_in_sight(places_of(tab.page, scene), *SIZES["laptop"], len(scenes()[scene].open_pictures))
+    assert_covered(places_of(tab.page, scene), "laptop", "laptop")
     tab.resize(*SIZES["phone"])
     assert_looks(tab.page, scene, "phone", theme, artefacts)
 
@@ -216,17 +233,17 @@ def edges(page):
     return [box["width"] for box in places_of(page, HESS)["boxes"]]
 
 
-def test_a_picture_is_enlarged_by_its_key_or_its_corner_and_the_link_keeps_it(look_at):
+def test_a_picture_leads_by_its_key_or_a_click_and_the_link_keeps_it(look_at):
     """How large the others are is tested without a browser (`static/arrange.test.mjs`)."""
     tab = look_at(HESS, "laptop")
     page, keys = tab.page, tab.page.keyboard
-    stage, equal = page.locator(".shelf").bounding_box()["height"], edges(page)
+    stage, usual = page.locator(".shelf").bounding_box()["height"], edges(page)
     first, second, third, *_, last = scenes()[HESS].open_pictures
-    for i, press in enumerate((lambda: keys.press("1"), tab.picture(second).locator(".corner").click)):
+    for i, press in enumerate((tab.picture(first).click, lambda: keys.press("2"))):
         press()
         wait_frames(tab, 4)
-        assert edges(page)[i] >= 0.8 * stage
-        assert_in_sight(places_of(page, HESS), *SIZES["laptop"], 6, THUMBNAIL)
+        assert edges(page)[i] >= 0.7 * stage
+        assert_in_sight(places_of(page, HESS), *SIZES["laptop"], 6)
     # The others live.
     before = tab.caption(last)
     tab.change(lambda: tab.slide(h=0.2))
@@ -240,7 +257,7 @@ def test_a_picture_is_enlarged_by_its_key_or_its_corner_and_the_link_keeps_it(lo
     keys.press("Escape")
     page.wait_for_function("!location.search.includes('large')")
     wait_frames(tab, 4)
-    assert edges(page) == equal
+    assert edges(page) == usual
     for is_full in ("!==", "==="):
         keys.press("f")
         page.wait_for_function(f"document.fullscreenElement {is_full} null")
@@ -289,7 +306,7 @@ def test_the_page_is_dark_from_its_first_frame_as_its_system_is_until_a_theme_is
         turns("light", False)
         turns("dark", True)
         assert "theme=" not in page.url
-        page.get_by_role("button", name="theme").click()
+        tab.tool("theme")
         page.wait_for_function("location.search.includes('theme=light')")
         turns("light", False)
         turns("dark", False)
@@ -299,7 +316,7 @@ def test_no_rule_of_wcag_is_broken(look_at):
     # A state with a note, a pinned one, and a box that holds no number and says so to everyone: all there can be.
     tab = look_at(HESS)
     page, box = tab.page, tab.box("h")
-    page.get_by_role("button", name="Pin").click()
+    page.get_by_role("button", name="Compare").click()
     tab.change(lambda: tab.slide(I22=0.5, I23=1.5))
     tab.type("h", "abc")
     # The server parses everything that is not a plain number.
@@ -340,8 +357,23 @@ def test_every_control_is_reached_by_the_tab_key_and_every_stop_has_a_name(look_
         stops.append(stop)
         assert len(stops) < 120
         page.keyboard.press("Tab")
-    tools = ["preset", "accuracy", "reset", "share", "present", "play", "t", "speed", "scenes", "theme", "fullscreen"]
-    assert {"solid", "corner", *(f"param-{name}" for name in (*tools, *SLIDERS))} <= reached
+    tools = [
+        "preset",
+        "accuracy",
+        "sharing",
+        "more",
+        "pin",
+        "present",
+        "play",
+        "t",
+        "speed",
+        "scenes",
+        "details",
+        "text",
+    ]
+    # The first picture comes soon, and the player before the groups of controls.
+    assert next(i for i, stop in enumerate(stops) if stop.startswith("CANVAS")) < 12
+    assert {"sphere", "corner", *(f"param-{name}" for name in (*tools, *SLIDERS))} <= reached
     # Each that is disabled says why.
     said = page.locator(":disabled").evaluate_all("items => items.map((item) => item.title)")
     assert said
@@ -352,13 +384,13 @@ def test_every_control_is_reached_by_the_tab_key_and_every_stop_has_a_name(look_
 def test_on_a_phone_tools_without_room_in_the_bar_are_in_a_menu(look_at):
     page = look_at(HESS, "phone").page
     more, present = page.locator(".param-more"), page.locator(".param-present")
-    far = [page.locator(f".param-{name}") for name in ("redo", "pin", "invite", "export", "fullscreen", "theme")]
+    far = [page.locator(f".param-{name}") for name in ("redo", "pin", "fullscreen", "theme", "reset")]
     presents = "document.documentElement.hasAttribute('data-present')"
     assert not any(item.is_visible() for item in far)
     more.click()
     for item in far:
         expect(item).to_be_in_viewport(ratio=1)
-    assert_accessible(page, page.get_by_role("group", name="More tools"))
+    assert_accessible(page, page.get_by_role("group", name="More"))
     present.click()
     assert page.evaluate(presents)
     assert not far[1].is_visible()
@@ -369,6 +401,12 @@ def test_on_a_phone_tools_without_room_in_the_bar_are_in_a_menu(look_at):
     # In a wider window they stand in the bar again, in their order.
     page.set_viewport_size({"width": 1600, "height": 950})
     present.wait_for()
-    assert more.is_hidden()
     labels = " · ".join(page.locator(".tools .label:visible").all_inner_texts())
-    assert labels == "Undo · Redo · Clear · Reset · Pin · Share · Invite · Export · Present · Full screen · Theme"
+    assert labels == "Undo · Redo · Compare · Share · Present · More"
+    for menu, names in (
+        ("sharing", "Link, QR code, embed · Invite an audience · Export data, figures, films"),
+        ("more", "Remove clicks and boxes · Reset · Full screen · Light or dark"),
+    ):
+        page.locator(f".param-{menu}").click()
+        assert " · ".join(page.locator(f".more.{menu} .label:visible").all_inner_texts()) == names
+        page.keyboard.press("Escape")

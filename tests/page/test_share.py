@@ -37,6 +37,7 @@ def test_the_dialog_gives_link_and_code_and_what_embeds_opens_the_same_state(exp
     tab, page = explorer, explorer.page
     tab.change(lambda: tab.slide(h=1.2, f=0.3))
     page.get_by_role("button", name="Share").click()
+    page.get_by_role("button", name="Link").click()
     dialog = page.get_by_role("dialog", name="Share")
     link = page.get_by_role("textbox", name="Link").input_value()
     assert link == page.url

@@ -240,12 +240,22 @@ class Explorer:
 
     @property
     def sphere(self):
-        """The Poisson sphere of the scene on show, unfolded."""
+        """The Poisson sphere of the scene on show, in the lead."""
         sphere = self.page.locator(".gallery:not(.away) canvas.sphere")
-        if sphere.count() and not sphere.is_visible():
-            self.unfold("sphere")
-            sphere.scroll_into_view_if_needed()
+        if sphere.count():
+            self.lead("sphere")
         return sphere
+
+    def lead(self, picture):
+        """Put a picture in the lead, where the mouse and the keys reach it."""
+        self.unfold(picture)
+        if "aside" in self.picture(picture).get_attribute("class").split():
+            self.tell("look", picture)
+            wait_frames(self, 3)
+
+    def tool(self, name):
+        """Press a tool of the bar or of its menus."""
+        self.page.locator(f".param-{name}").dispatch_event("click")
 
     def unfold(self, picture):
         """Show a picture that starts collapsed."""
@@ -281,10 +291,11 @@ class Explorer:
         self.page.locator(".param-scenes").click()
 
     def turn_to(self, picture):
-        """Choose a picture on a phone, which shows one."""
-        chip = self.page.locator(".chips .chip").nth(scenes()[self.scene].pictures.index(picture))
-        if chip.get_attribute("aria-pressed") != "true":
-            self.change(chip.click)
+        """Choose a picture on a phone, which shows one large."""
+        if self.picture(picture).is_visible():
+            self.lead(picture)
+        else:
+            self.change(self.page.locator(f".unfold-{picture}").click)
 
     def begin_lesson(self, name, step=1):
         """Choose a lesson from the menu, which may be folded, and go on to a step."""
@@ -374,7 +385,7 @@ AT_REST = f"""() => {{
       item.value = "1"
       item.dispatchEvent(new Event("change", {{ bubbles: true }}))
     }}
-    if (item.matches(".unfold[aria-expanded=true]") && item.checkVisibility()) item.click()
+    if (item.matches(".chip[aria-pressed=true]") && item.checkVisibility()) item.click()
     if (item.matches("details.group")) item.open = true
   }}
   document.activeElement?.blur()

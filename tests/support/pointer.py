@@ -7,6 +7,7 @@ import pytest
 
 def frame(explorer, name):
     """The rectangle between the axes of a planar picture, in pixels of the page: left, top, right, bottom."""
+    explorer.lead(name)
     explorer.picture(name).scroll_into_view_if_needed()
     return explorer.page.evaluate(
         """name => {
