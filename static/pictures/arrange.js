@@ -13,6 +13,8 @@
 const STEP = 4
 // A single leading picture takes this share of the height, if the width allows; several take this share of what they could.
 const LEAST = 0.7
+// Largest edge in the strip, in units of that of the lead.
+const LARGEST = 0.9
 // Width of a name in a row of names beside the lead, in units of the height of the row.
 const NAME = 5
 // Where the strip stands, beside the lead or below it, and its names, in a column beside its pictures or in rows below them.
@@ -84,6 +86,8 @@ function namesIn(width, count, isColumn, { names, gap }) {
  */
 function layout(viewport, leading, rest, names) {
   const { width, height, gap, head, least } = viewport
+  // Where most pictures lead, the others may be as large.
+  const largest = leading > rest ? 1 : LARGEST
   let best = { worth: -Infinity, lead: { columns: 1, edge: 0 }, isBeside: false, isColumn: false, strip: { columns: 1, edge: 0 } }
   for (const columns of upTo(leading)) {
     const most = edgeOf(viewport, leading, columns, head, gap)
@@ -95,7 +99,7 @@ function layout(viewport, leading, rest, names) {
         const taken = namesIn(room.width, names, isColumn, viewport)
         const left = { width: room.width - taken.width, height: room.height - taken.height }
         const found = stripIn(left, rest, viewport)
-        const strip = { ...found, edge: Math.min(found.edge, edge) }
+        const strip = { ...found, edge: Math.min(found.edge, Math.floor(largest * edge)) }
         const isSeen = rest === 0 ? left.height >= 0 && left.width >= 0 : strip.edge >= least
         const worth = isSeen ? leading * edge * edge + rest * strip.edge * strip.edge : strip.edge - least
         if (worth > best.worth && (isSeen || best.worth < 0)) best = { worth, lead: { columns, edge }, isBeside, isColumn, strip }

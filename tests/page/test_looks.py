@@ -15,7 +15,7 @@ from support.thorough import sample
 
 SIZES = {"wide": (1600, 950), "laptop": (1280, 720), "phone": (390, 844), "sideways": (844, 390)}
 COVERED = {"wide": 0.52, "laptop": 0.5, "reading": 0.4}
-"""The least share of the window that pictures cover, at 1600×950 also beside the text; of at least three pictures, all square."""
+"""The least share of the window that pictures cover, also beside the text; for at least three pictures, all square."""
 SCENES = [name for name, scene in scenes().items() if scene.origin in (None, HESS)]
 
 
@@ -238,7 +238,7 @@ def test_a_picture_leads_by_its_key_or_a_click_and_the_link_keeps_it(look_at):
     tab = look_at(HESS, "laptop")
     page, keys = tab.page, tab.page.keyboard
     stage, usual = page.locator(".shelf").bounding_box()["height"], edges(page)
-    first, second, third, *_, last = scenes()[HESS].open_pictures
+    first, _, third, *_, last = scenes()[HESS].open_pictures
     for i, press in enumerate((tab.picture(first).click, lambda: keys.press("2"))):
         press()
         wait_frames(tab, 4)
@@ -339,7 +339,7 @@ STOP = """() => {
   const name = item.ariaLabel || item.labels?.[0]?.textContent || item.title || own
   const classes = []
   for (let at = item; at; at = at.parentElement ?? at.getRootNode().host)
-    classes.push(...[...(at.classList ?? [])].filter((name) => /^param-|^solid$|^corner$/.test(name)))
+    classes.push(...[...(at.classList ?? [])].filter((name) => /^param-|^sphere$|^corner$/.test(name)))
   return [`${item.tagName}.${item.className}`, name.trim(), classes]
 }"""
 """The element in focus, its name, and the controls that it is part of."""

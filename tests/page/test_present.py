@@ -7,7 +7,7 @@ from hess_explorer.scenes import scenes
 from support.accessible import assert_accessible
 from support.page import HESS, wait_frames
 
-# The size of every text in sight, those of the axes among them; the widths of Bokeh's lines by plot and model.
+# The size of every text in sight, those of the axes in the lead among them; the widths of Bokeh's lines there, by model.
 SIZES = """() => {
   const all = (root) => [...root.querySelectorAll("*")].flatMap(
     (item) => [item, ...(item.shadowRoot ? all(item.shadowRoot) : [])])
@@ -15,8 +15,9 @@ SIZES = """() => {
   const texts = all(document).filter((item) => (written(item) || item.matches("input[type=text], select"))
     && item.checkVisibility({ visibilityProperty: true }) && !item.closest("option, .gallery.away")
     && item.getBoundingClientRect().width > 1)
-  const axes = hess.plots.flatMap(({ model }) => [...model.below, ...model.left])
-  const parts = hess.plots.flatMap(({ model }) => [...model.references()])
+  const leads = hess.plots.filter(({ el }) => el.checkVisibility() && !el.getRootNode().host.closest(".aside"))
+  const axes = leads.flatMap(({ model }) => [...model.below, ...model.left])
+  const parts = leads.flatMap(({ model }) => [...model.references()])
   return {
     texts: texts.map((item) => [
       item.textContent || item.className, Number.parseFloat(getComputedStyle(item).fontSize)]),
@@ -47,23 +48,29 @@ def test_what_is_presented_is_read_from_afar_and_the_link_keeps_it(explorer):
     page, essential = explorer.page, scenes()[HESS].essential
     explorer.fold_controls()
     explorer.resize(1920, 1080)
+    # In the lead, where lines have their full width.
+    for key in ("2", "Shift+Digit3"):
+        page.keyboard.press(key)
+    wait_frames(explorer, 4)
     usual, strokes = page.evaluate(SIZES), explorer.sphere.evaluate(STROKES)
     page.evaluate("document.activeElement?.blur()")
     page.keyboard.press("p")
     page.wait_for_function("location.search.includes('present=1')")
     # Bar, controls, player and legend appear on demand.
     expect(page.locator(".tools, .number, .player[role=group], .signs").filter(visible=True)).to_have_count(0)
+    wait_frames(explorer, 4)
+    large, thick = page.evaluate(SIZES), explorer.sphere.evaluate(STROKES)
     page.keyboard.press("m")
     wait_frames(explorer, 4)
-    large = page.evaluate(SIZES)
+    large["texts"] += page.evaluate(SIZES)["texts"]
     assert len(large["texts"]) > 20
     assert [(text, points) for text, points in large["texts"] if points < 20] == []
-    assert len(large["ticks"]) >= 12
+    assert len(large["ticks"]) == 4
     assert min(large["ticks"]) >= 20
-    assert len(usual["lines"]) > 10
+    assert len(usual["lines"]) > 4
     # On a large screen they grow a little more, with the type.
     assert large["lines"] == pytest.approx({name: 2 * width for name, width in usual["lines"].items()}, rel=0.01)
-    assert explorer.sphere.evaluate(STROKES) == pytest.approx([2 * width for width in strokes], rel=0.01)
+    assert thick == pytest.approx([2 * width for width in strokes], rel=0.01)
     # All of it is in sight.
     numbers = page.locator(".number").filter(visible=True)
     assert numbers.count() == len(essential)
