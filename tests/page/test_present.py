@@ -7,7 +7,7 @@ from hess_explorer.scenes import scenes
 from support.accessible import assert_accessible
 from support.page import HESS, wait_frames
 
-# The size of every text in sight, those of the axes in the lead among them; the widths of Bokeh's lines there, by model.
+# The size of every text in sight, those of axes in the lead among them; the widths of Bokeh's lines there, by model.
 SIZES = """() => {
   const all = (root) => [...root.querySelectorAll("*")].flatMap(
     (item) => [item, ...(item.shadowRoot ? all(item.shadowRoot) : [])])
@@ -15,7 +15,7 @@ SIZES = """() => {
   const texts = all(document).filter((item) => (written(item) || item.matches("input[type=text], select"))
     && item.checkVisibility({ visibilityProperty: true }) && !item.closest("option, .gallery.away")
     && item.getBoundingClientRect().width > 1)
-  const leads = hess.plots.filter(({ el }) => el.checkVisibility() && !el.getRootNode().host.closest(".aside"))
+  const leads = hess.plots.filter(({ el }) => el.checkVisibility() && !el.closest(".aside"))
   const axes = leads.flatMap(({ model }) => [...model.below, ...model.left])
   const parts = leads.flatMap(({ model }) => [...model.references()])
   return {
