@@ -1,7 +1,7 @@
 """Cost and error of every level: `python tests/manual/benchmark_trade.py` measures the pictures of all scenes.
 
-The table of all kinds of computation goes to the words of "Speed and accuracy", the ten scenes and kinds that take
-longest to app/README.md.  `--catalogue KEY…` prints the table of these computations of the catalogue instead.
+It prints a row for each computation of each scene, and writes the table by kind to the text of "Speed and accuracy".
+`--catalogue KEY…` prints the table of these computations of the catalogue instead.
 """
 
 import argparse
@@ -167,7 +167,7 @@ def _draft_computes(kind):
 
 
 def main():
-    """Measure for two minutes, print all, write the tables."""
+    """Measure for two minutes, print all, write the table by kind."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("--catalogue", nargs="*", metavar="KEY", help="these computations, or all")
     keys = parser.parse_args().catalogue
@@ -179,9 +179,6 @@ def main():
     kinds = by_kind(rows)
     print(f"\n{kinds}")
     if keys is None and not failed:
-        costliest = sorted(rows, key=lambda row: -row.samples[-1].ms)[:10]
-        longest = heading() + "".join(map(line_of, costliest))
-        write_measured(ROOT / "app" / "README.md", f"{conditions()}.\n\n{longest}")
         write_measured(WORDS / "shared" / "levels.md", f"{conditions()}.\n\n{kinds}")
     return len(failed)
 
