@@ -72,6 +72,7 @@ def test_the_runs_on_other_processors_name_tests_that_exist():
 
 def test_pictures_are_light():
     assert (ROOT / ".github/pictures/page.png").stat().st_size <= 250_000
+    assert (ROOT / ".github/pictures/motion.webp").stat().st_size <= 1_500_000
     assert sum(path.stat().st_size for path in (ROOT / "static/thumbnails").iterdir()) <= 1_000_000
 
 
