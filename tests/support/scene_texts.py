@@ -302,7 +302,7 @@ ROWS = {
         "through 1, 2, 3 (": lambda s: tuple(np.arange(s.animation.start, s.animation.end + 1.0)),
     },
     "suslov": {
-        "with 16 × 16 cells. It grows finer while you look: everywhere up to 128 × 128 cells, then only along the "
+        "with 16 × 16 cells and becomes finer while you look: everywhere up to 128 × 128 cells, then only along the "
         "boundaries, up to 512 × 512. Parts of a basin thinner than 1/128 of": (
             *(CELLS, CELLS),
             *2 * (CELLS << basins._EVERYWHERE - 1,),
@@ -315,7 +315,7 @@ ROWS = {
             attraction.CROSSINGS,
             attraction._TRANSIENT + attraction._LONG,
         ),
-        "512 × 256 such cells. A set that fewer than two of these orbits approach is not seen, and only the twelve": (
+        "512 × 256 cells. A set that fewer than two of these orbits approach is missed, and only the twelve": (
             *attraction._CELLS,
             attraction._FEWEST,
             attraction._MOST,
