@@ -1,9 +1,12 @@
 """The documentation: its tutorials run, every public name is in it, and it loads nothing from another host."""
 
+import math
 import re
 import webbrowser
 from importlib.resources import files
+from itertools import pairwise
 
+import numpy as np
 import pytest
 
 import hess_explorer
@@ -17,15 +20,43 @@ TUTORIALS = files("hess_explorer") / "docs" / "tutorials"
 thorough = pytest.mark.thorough  # the build takes a minute
 
 
-@pytest.mark.parametrize("name", ["circle_map", "section", "theorem"])
-def test_the_code_of_a_tutorial_runs(name, tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
+def run(name):
+    """Run the cells of a tutorial as a notebook does; return its names."""
     text = (TUTORIALS / f"{name}.md").read_text(encoding="utf-8")
     cells = re.findall(r"^```\{code-cell\}\n(?::[^\n]*\n)*(.*?)^```", text, re.DOTALL | re.MULTILINE)
     assert len(cells) == text.count("```{code-cell}") > 0
-    names = {}
+    names = {"__name__": "__main__"}
     for cell in cells:
         exec(compile(cell, name, "exec"), names)
+    return names
+
+
+@pytest.mark.parametrize("name", ["circle_map", "section", "theorem"])
+def test_the_code_of_a_tutorial_runs(name, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    run(name)
+
+
+def test_what_the_tutorial_on_certainty_says_is_so(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    names = run("certainty")
+    draft, standard, precise = names["orbits"].values()
+    for coarse, fine in ((draft, standard), (standard, precise)):
+        change = np.abs(coarse.states - fine.states).max()
+        assert 0.0 < change <= coarse.error_estimate + fine.error_estimate
+    # The integral over one period in closed form: Wallis' product.
+    n = 100_000_000
+    exact = 100.0 / math.sqrt(math.pi) * math.exp(math.lgamma((n + 1) / 2) - math.lgamma(n / 2 + 1))
+    assert names["exact"] == pytest.approx(exact, rel=1e-6)
+    missed, *met = names["ends"].values()
+    assert missed == 0.0
+    # A rounded sine to the power n has a relative error of n times 1e-16.
+    assert met == pytest.approx([exact, exact], rel=1e-7)
+    values = names["values"]
+    assert all(0.0 < after < 0.7 * before for before, after in pairwise(values))
+    proved = names["proved"]
+    assert proved.tube.complete
+    assert 0.0 < proved.least <= proved.largest <= proved.orbit.error_estimate
 
 
 @pytest.fixture(scope="module")

@@ -1,6 +1,6 @@
 """Bytes, opening and dragging of pages without a server: `python tests/manual/benchmark_offline.py`.
 
-It rewrites the table of app/hess_explorer/offline/README.md.
+It rewrites the table of tests/manual/offline.md.
 """
 
 import statistics
@@ -16,7 +16,7 @@ from hess_explorer.lessons import shipped
 from hess_explorer.offline.pages import lesson_page, state_page
 from manual.timing import report
 
-README = Path(__file__).resolve().parents[2] / "app" / "hess_explorer" / "offline" / "README.md"
+README = Path(__file__).with_name("offline.md")
 COUNT, ROUNDS = 40, 5
 # In the page's own time, which begins with its address.
 READY = """new MutationObserver(() => {

@@ -1,6 +1,6 @@
 """Cost of a sweep beside a bare loop, in a store, and on two workers: `python tests/manual/benchmark_sweep.py`.
 
-It prints the table of app/hess_explorer/sweep/README.md, and keeps it there.
+It prints the table of tests/manual/sweep.md, and keeps it there.
 """
 
 import math
@@ -20,7 +20,7 @@ from hess_mechanics.catalogue import find
 from hess_mechanics.suslov_hess.rotation_number import values_at
 from manual.timing import in_turn, report
 
-README = Path(__file__).resolve().parents[2] / "app" / "hess_explorer" / "sweep" / "README.md"
+README = Path(__file__).with_name("sweep.md")
 TORI = {"h": (0.2, 2.0, 316), "f": (0.01, 1.0, 316)}
 MOTIONS = {"w1": (0.2, 1.4, 40), "I22": (1.0, 2.0, 30)}
 

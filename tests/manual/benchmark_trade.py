@@ -1,7 +1,6 @@
 """Cost and error of every level: `python tests/manual/benchmark_trade.py` measures the pictures of all scenes.
 
-The table of all kinds of computation goes to the words of "Speed and accuracy", the ten scenes and kinds that take
-longest to app/README.md.
+The table by kind goes to the text of "Speed and accuracy".
 """
 
 import math
@@ -69,15 +68,8 @@ def draft_computes(kind):
 
 
 def main():
-    """Measure for two minutes, print all, write the tables."""
+    """Measure for two minutes, print all, write the table by kind."""
     found = [(scene, trial, measured(scene, trial)) for scene, trial in trials()]
-    rows = []
-    for scene, trial, samples in sorted(found, key=lambda one: -one[2][-1].ms)[:10]:
-        cells = [f"{rounded(one.ms)} ms, {rounded(one.error)}" for one in samples]
-        least = enough(samples, trial.seen) if any(one.is_measured for one in samples) else "–"
-        ratio = f"{rounded(samples[-1].ms / samples[0].ms)} ×"
-        rows.append([scene.name, str(trial.kind), *cells, ratio, least, trial.unit])
-    report(["computation of", "kind", *LEVELS, "ratio", "enough", "error in"], rows, APP / "README.md")
     rows = []
     for kind in Kind:
         own = [(trial, samples) for _, trial, samples in found if trial.kind == kind]

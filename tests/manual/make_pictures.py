@@ -1,6 +1,7 @@
 """Make the pictures of the scenes, in *Scenes* and in the README: `python tests/manual/make_pictures.py [SCENE…]`.
 
-Each is the inside of a picture's axes, or a sphere, in the light and in the dark theme; with them goes the whole page.
+Each is the inside of a picture's axes, or a sphere, in the light and in the dark theme.  With them go the whole page
+(`page`) and the moving picture of the README (`motion`).
 """
 
 import io
@@ -9,10 +10,14 @@ import tempfile
 from pathlib import Path
 from urllib.parse import urlencode
 
+import numpy as np
 from PIL import Image
 
 from hess_explorer.assets import STATIC
+from hess_explorer.export.formats import FileRequest
+from hess_explorer.export.picture_data import picture_data
 from hess_explorer.headless.browser import launched, wait_ready
+from hess_explorer.headless.film import frames
 from hess_explorer.headless.screenshot import screenshot, server_process
 from hess_explorer.scenes import scenes
 from support.modules import look_inside
@@ -42,6 +47,15 @@ FRONT = {
 """Scene → beginning of the name of an example, and its front picture."""
 EDGE = 320
 VIEWPORT = {"width": 560, "height": 680}
+DURATION, FRAMES = 14.0, 70
+SIDE = 400
+BODY = {"I22": 1.5, "I13": 0.5, "I23": 0.7, "span": DURATION}
+SHOWN = (
+    # k = 1.0067 is I11 = 2; the start has the energy h = 2, next to the unstable rotation.
+    ("free-suslov", "body", {"k": 1.0067, "w1": 1.3702, "w2": -0.4040, "Gamma": 0.7, "phi": 0.5}),
+    ("singular-measures", "omega", {"I11": 2.0, "h": 2.0}),
+)
+"""Scene, picture and values of the moving picture, from left to right: one body, and many of its motions."""
 INSIDE = """name => {
   const plot = hess.plots.find(({ model }) => model.name === name)
   if (plot === undefined) return null
@@ -70,8 +84,23 @@ def taken(page, base, name, theme):
     return Image.open(io.BytesIO(shot)).convert("RGB").resize((EDGE, EDGE), Image.Resampling.LANCZOS)
 
 
+def motion(file):
+    """Write the moving picture of the README, frame by frame as the export of films draws it."""
+    whole = [Image.new("RGB", (SIDE * len(SHOWN), SIDE)) for _ in range(FRAMES)]
+    for column, (scene, picture, values) in enumerate(SHOWN):
+        data = picture_data(urlencode({"scene": scene, **BODY, **values}), picture)
+        drawn = frames(data, FileRequest("webm", 60.0), np.linspace(0.0, DURATION, FRAMES))
+        for image, png in zip(whole, drawn, strict=True):
+            frame = Image.open(io.BytesIO(png)).convert("RGB")
+            image.paste(frame.resize((SIDE, SIDE), Image.Resampling.LANCZOS), (SIDE * column, 0))
+    lasting = [100] * (FRAMES - 1) + [1500]
+    whole[0].save(file, save_all=True, append_images=whole[1:], duration=lasting, loop=0, quality=50, method=4)
+
+
 def main(names):
     """Make the named pictures, or all."""
+    if not names or "motion" in names:
+        motion(README / "motion.webp")
     with (
         launched() as browser,
         tempfile.TemporaryDirectory() as folder,

@@ -22,18 +22,22 @@ DOCUMENTS = [
         "tests/manual/integrators/README.md",
         "tests/models/README.md",
         "tests/manual/README.md",
+        "tests/manual/offline.md",
+        "tests/manual/server.md",
+        "tests/manual/sweep.md",
         "app/hess_explorer/sweep/README.md",
+        "app/hess_explorer/server/README.md",
+        "tests/README.md",
         ".github/CONTRIBUTING.md",
         ".github/CHANGELOG.md",
     )
 ] + sorted((ROOT / "app/hess_explorer/docs").rglob("*.md"))
 MEASURED = {
     "tests/manual/README.md": "tests/manual/benchmark_page.py",
-    "app/README.md": "tests/manual/benchmark_trade.py",
     "app/hess_explorer/scenes/shared/levels.md": "tests/manual/benchmark_trade.py",
     "tests/manual/integrators/README.md": "tests/manual/bench.py",
-    "app/hess_explorer/sweep/README.md": "tests/manual/benchmark_sweep.py",
-    "app/hess_explorer/offline/README.md": "tests/manual/benchmark_offline.py",
+    "tests/manual/sweep.md": "tests/manual/benchmark_sweep.py",
+    "tests/manual/offline.md": "tests/manual/benchmark_offline.py",
 }
 
 
@@ -68,6 +72,7 @@ def test_the_runs_on_other_processors_name_tests_that_exist():
 
 def test_pictures_are_light():
     assert (ROOT / ".github/pictures/page.png").stat().st_size <= 250_000
+    assert (ROOT / ".github/pictures/motion.webp").stat().st_size <= 1_500_000
     assert sum(path.stat().st_size for path in (ROOT / "static/thumbnails").iterdir()) <= 1_000_000
 
 
