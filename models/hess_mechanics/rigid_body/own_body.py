@@ -209,17 +209,17 @@ class OwnBody:
     Parameters
     ----------
     inertia : tuple of float, shape (6,)
-        I11, I22, I33, I12, I13, I23.
+        I11, I22, I33, I12, I13, I23, positive definite; their unit is the unit I.
     potential : Polynomial, optional
-        The potential U(γ).
+        The potential U(γ), in units I/T².
     constraint : (float, float, float), optional
-        The vector a of the constraint (a, ω) = 0; None for a free body.
+        The vector a of the constraint (a, ω) = 0, nonzero; None for a free body.
     momentum : (float, float, float), optional
-        Constant part k of the gyrostatic momentum.
+        Constant part k of the gyrostatic momentum, in units I/T.
     drive : (float, float, float), optional
-        Amplitude d of its periodic part d p(cos Ωt, sin Ωt).
+        Amplitude d of its periodic part d p(cos Ωt, sin Ωt), in units I/T.
     frequency : float, optional
-        Frequency Ω of the drive.
+        Frequency Ω of the drive, any finite number, in rad/T.
     shape : Polynomial, optional
         The polynomial p.  By default p = cos Ωt.
 
@@ -295,7 +295,10 @@ class OwnBody:
     def system(self) -> System:
         """The equations of motion, shared by all bodies with the same terms of potential and drive.
 
-        Raises `WorkLimit`.
+        Raises
+        ------
+        WorkLimit
+            If too many forms of equations have been compiled in this process.
         """
         if _system.cache_info().currsize >= _FORMS:
             raise WorkLimit(f"{_FORMS} forms of equations have been compiled here: restart the program.")

@@ -1,5 +1,5 @@
 # mypy: allow-untyped-defs
-"""Kernel of `kharlamova`: the zeros of the quartic P(τ) next to τ = 0."""
+"""Kernel of `kharlamova`: the zeros of the quartic P(τ) next to τ = 0.  Not for users."""
 
 from __future__ import annotations
 
