@@ -1,9 +1,9 @@
 # mypy: allow-untyped-defs
 """Kernels of `bifurcation`: the largest f, the roots of the gyroscopic function, and the period of n3, units b = 1.
 
-The roots of p(n) = 2(h+n)(1−n²) − f² come from its expansions about its two extrema, p(n_c+s) = p_c ∓ 2D s² − 2s³
-with D = √(h²+3).  The gaps between the roots then keep their relative accuracy, however close (h, f) is to the
-bifurcation curve, to the separatrix (1, 0) or to the bottom (−1, 0).
+Not for users.  The roots of p(n) = 2(h+n)(1−n²) − f² come from its expansions about its two extrema,
+p(n_c+s) = p_c ∓ 2D s² − 2s³ with D = √(h²+3).  The gaps between the roots then keep their relative accuracy, however
+close (h, f) is to the bifurcation curve, to the separatrix (1, 0) or to the bottom (−1, 0).
 """
 
 from __future__ import annotations
