@@ -1,5 +1,8 @@
 # mypy: allow-untyped-defs
-"""Kernels of `andoyer`: crossings of the surface g = π/2, G²γ3 − f M3 = 0 with (γ, v) > 0, and its roots G."""
+"""Kernels of `andoyer`: crossings of the surface g = π/2, G²γ3 − f M3 = 0 with (γ, v) > 0, and its roots G.
+
+Not for users.
+"""
 
 from __future__ import annotations
 

@@ -29,11 +29,20 @@ LineEnds = tuple[tuple[float, float], tuple[float, float]]
 
 @dataclass(frozen=True)
 class RotationProfile(Result):
-    """Rotation numbers `rho` (n,) of orbits that start at `along` (n,) on a line, each in parts without a gap.
+    """Rotation numbers of orbits that start on a line; the result of `rotation_along_line`.
 
     They lie in (−½, ½] or, if all of them are within half a turn of one another modulo 1, in an unbroken range.
-    librations : (n,), starts of closed curves that do not wind round, and so have no rotation number.
-    sea : (n, 2), parts of the line whose orbits do not lie on closed curves, each from one place to another.
+
+    Attributes
+    ----------
+    along : tuple of ndarray
+        Places on the line where orbits start, each in parts without a gap.
+    rho : tuple of ndarray
+        Rotation numbers in turns per return, in the same parts.
+    librations : ndarray, shape (n,)
+        Starts of closed curves that do not wind round, and so have no rotation number.
+    sea : ndarray, shape (n, 2)
+        Parts of the line whose orbits do not lie on closed curves, each from one place to another.
     """
 
     along: tuple[Array, ...]
@@ -42,7 +51,13 @@ class RotationProfile(Result):
     sea: Array
 
     def labels(self) -> Labels:
-        """Return ρ over the place on the line, with NaN in each gap."""
+        """Return ρ over the place on the line, with NaN in each gap.
+
+        Returns
+        -------
+        Labels
+            The rotation numbers over the places.
+        """
         gap = np.full(1, np.nan)
         along, rho = ([piece for part in parts for piece in (part, gap)][:-1] for parts in (self.along, self.rho))
         empty = [np.empty(0)]
@@ -54,12 +69,12 @@ class RotationProfile(Result):
 
     @property
     def places(self) -> Array:
-        """All places on the line (n,)."""
+        """All places on the line, shape (n,)."""
         return np.concatenate([np.empty(0), *self.along])
 
     @property
     def numbers(self) -> Array:
-        """All rotation numbers (n,)."""
+        """All rotation numbers, shape (n,), in turns per return."""
         return np.concatenate([np.empty(0), *self.rho])
 
     @property
@@ -72,9 +87,19 @@ class RotationProfile(Result):
         return None
 
     def distance(self, exact: RotationProfile) -> float:
-        """Return the median of the differences over the places where both profiles know ρ.
+        """Return the median difference from another profile, over the places where both know ρ.
 
-        Elsewhere the line crosses chaotic seas.  NaN if one of them knows none.
+        Elsewhere the line crosses chaotic seas.
+
+        Parameters
+        ----------
+        exact : RotationProfile
+            The other profile.
+
+        Returns
+        -------
+        float
+            The difference in turns per return; NaN if one of them knows no ρ.
         """
         if not (self.numbers.size and exact.numbers.size):
             return math.nan
@@ -83,9 +108,26 @@ class RotationProfile(Result):
 
 
 def on_line(section: AndoyerSection, ends: LineEnds, count: int) -> tuple[tuple[float, tuple[float, ...]], ...]:
-    """Return shares of the way along the line between the ends (l, L/G), at most `count`, and the states there.
+    """Return the states of a section at equidistant points of a line.
 
-    Raises `InvalidParameter`.
+    Parameters
+    ----------
+    section : AndoyerSection
+        The section.
+    ends : LineEnds
+        The two ends (l, L/G) of the line; l in radians.
+    count : int
+        Number of points.
+
+    Returns
+    -------
+    tuple of (float, tuple of float)
+        Share of the way along the line, 0 to 1, and the state, of each point with motion.
+
+    Raises
+    ------
+    InvalidParameter
+        If L/G is out of range.
     """
     shares = (np.arange(count) + 0.5) / count
     l, x = ((1.0 - shares) * a + shares * b for a, b in zip(*ends, strict=True))
@@ -103,10 +145,27 @@ def rotation_along(
     count: int,
     resolved: float = RESOLVED,
 ) -> RotationProfile:
-    """Return the profile of orbits (n, 2) that start at these shares of the line, out of `count` equidistant ones.
+    """Return the profile of orbits that start on a line.
 
-    about_first : if true, turns are counted about the first end, and the place is l; otherwise they are turns of the
-    angle l, and the place is L/G.  resolved : largest difference of both halves of an orbit on a closed curve.
+    Parameters
+    ----------
+    ends : LineEnds
+        The two ends (l, L/G) of the line; l in radians.
+    shares : sequence of float
+        Share of the way along the line of each start, out of `count` equidistant ones.
+    orbits : sequence of ndarray, shape (n, 2)
+        Crossings (l, L/G) of each orbit.
+    about_first : bool
+        Count turns about the first end, over l; otherwise turns of the angle l, over L/G.
+    count : int
+        Number of equidistant starts.
+    resolved : float, default RESOLVED
+        Largest difference of the rotation numbers of both halves of an orbit on a closed curve.
+
+    Returns
+    -------
+    RotationProfile
+        The profile.
     """
     centre, axis = (ends[0], 0) if about_first else (None, 1)
     found = [
