@@ -69,8 +69,7 @@ def names_of(module: ModuleType) -> list[str]:
 def public_names() -> Iterator[str]:
     """Yield the full names of all public functions and classes, and of the methods and properties that these define.
 
-    A name is yielded once, from the first module or class that has it.  A member that overrides a public one of another
-    class of these packages shares its documentation.
+    A name is yielded once, from the first module that has it; a member from the class that defines it.
     """
     seen: set[int] = set()
     for module in modules():
@@ -89,7 +88,7 @@ def public_names() -> Iterator[str]:
                         and id(value) not in seen
                     ):
                         seen.add(id(value))
-                        yield f"{module.__name__}.{name}.{member}"
+                        yield f"{base.__module__}.{base.__qualname__}.{member}"
 
 
 def errors_of(name: str, ignored: set[str]) -> list[str]:

@@ -26,7 +26,20 @@ _LARGE = 1e6
 
 
 def plain(value: float, digits: int = 6) -> str:
-    """Return a number with up to `digits` significant digits, as one writes it: 1200 for 1.2e+03, 1e6 for 1e+06."""
+    """Return a number as text in ordinary notation, such as 1200 for 1.2e+03 and 1e6 for 1e+06.
+
+    Parameters
+    ----------
+    value : float
+        The number.
+    digits : int, default 6
+        Largest number of significant digits.
+
+    Returns
+    -------
+    str
+        The text.
+    """
     # Adding 0 turns −0 into 0.
     text = f"{value + 0.0:.{digits}g}"
     if "e" in text and 1.0 <= abs(float(text)) < _LARGE:

@@ -258,17 +258,33 @@ _SHARE = 0.2
 """Step size close to the line, as a share of the radius of convergence of the series in time."""
 
 
-def tolerance(y: Array, p: Array, order: int, asked: float) -> float:
-    """Return the tolerance for a start y (5,) close to, but not on, the line I13ω1 + I23ω2 = 0 without a field.
+def tolerance(y: Array, p: Array, order: int, default: float) -> float:
+    """Return the tolerance for a start close to, but not on, the line I13ω1 + I23ω2 = 0 without a field.
 
     The distance from the line is tiny beside γ, so that the step control ignores it and the series of 1/d: the steps
     would be too long.  The time of departure depends on all digits of that distance.
+
+    Parameters
+    ----------
+    y : ndarray, shape (5,)
+        Initial state.
+    p : ndarray, shape (8,)
+        Parameters of the ball.
+    order : int
+        Order of the Taylor series.
+    default : float
+        Tolerance of the level.
+
+    Returns
+    -------
+    float
+        The tolerance, at most `default`.
     """
     I11, I22, I13, I23, D = p[0], p[1], p[2], p[3], p[4]
     size, speed = math.hypot(I13, I23), math.hypot(y[0], y[1])
     distance = abs(I13 * y[0] + I23 * y[1])
     if p[5] != 0.0 or p[6] != 0.0 or p[7] != 0.0 or distance == 0.0 or distance > _CLOSE * size * speed:
-        return asked
+        return default
     smallest = min(I11, I22)
     added = D * (y[2] * y[2] + y[3] * y[3] + y[4] * y[4])
     turn = _SHARE * min(math.sqrt(smallest / (smallest + added)), smallest / size)
@@ -276,7 +292,7 @@ def tolerance(y: Array, p: Array, order: int, asked: float) -> float:
     term = 1.0
     for k in range(order):
         term *= turn / (k + 1.0)
-    return min(asked, term)
+    return min(default, term)
 
 
 SYSTEM = System(

@@ -260,7 +260,7 @@ def clouds(
     duration : float
         Time; negative: backward.
     field : float or None
-        b3 of the second cloud, which has I13 = I23 = 0; None for no second cloud.
+        Component b3 of the second cloud, which has I13 = I23 = 0; None for no second cloud.
     accuracy : str or Level
         Accuracy level.
 

@@ -368,9 +368,36 @@ def extension(
     points: int = 200,
     longest: float = _LONGEST,
 ) -> Branch:
-    """Return the continuation of a branch that has a `heading`, between the same ends of the range.
+    """Return the continuation of a branch between the same ends of its range.
 
-    Its first point is the last one of `branch`.  Raises as `branch_from`.
+    Parameters
+    ----------
+    family : MapFamily
+        Function from λ to the map.
+    branch : Branch
+        Branch that has a `heading`.
+    end : float
+        Value of λ at which the branch ends.
+    edge : float
+        Other end of the range of λ.
+    points : int, default 200
+        Largest number of further points.
+    longest : float, default _LONGEST
+        Longest step along the branch, in units of the coordinates and of the width of the range.
+
+    Returns
+    -------
+    Branch
+        The continuation; its first point is the last one of `branch`.
+
+    Raises
+    ------
+    InvalidParameter
+        If the branch cannot be continued.
+    NotConverged
+        If Newton's method does not return to the branch.
+    WorkLimit
+        If a map needs too many steps.
     """
     if branch.heading is None:
         raise InvalidParameter(f"This branch cannot be continued: {branch.end_reason}")

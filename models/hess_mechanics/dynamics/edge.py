@@ -25,10 +25,26 @@ _MOST = 12
 
 
 def saddle_between(map_: Map, one: Array, other: Array, number_of: Callable[[Array], int]) -> PeriodicOrbit:
-    """Return a saddle on the boundary between two places (2,) in different basins.
+    """Return a saddle on the boundary between two points in different basins.
 
-    number_of : returns the basin of a place.  Raises `NotConverged` if there is no saddle, or if the boundary is not
-    smooth.
+    Parameters
+    ----------
+    map_ : Map
+        The return map.
+    one, other : ndarray, shape (2,)
+        Points in different basins.
+    number_of : callable
+        Function from a point to the number of its basin.
+
+    Returns
+    -------
+    PeriodicOrbit
+        The saddle.
+
+    Raises
+    ------
+    NotConverged
+        If no saddle is found, or the boundary is not smooth.
     """
     a, b = np.asarray(one, float), one + apart(map_.turns, other, one)
     own = number_of(a)

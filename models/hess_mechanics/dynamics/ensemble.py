@@ -39,10 +39,38 @@ def integrated(
     max_steps: int,
     threads: int,
 ) -> tuple[Array, Indices, Array]:
-    """Return the states (n, m, d) of many orbits at the times (m,), the steps (n,) and the times (n,) reached.
+    """Return the states of many orbits at given times, in scaled units.
 
-    Units are scaled.  An orbit that could not be followed has the negative steps of `taylor_kernels.orbit_integrator`,
-    and its last state in the row of the next time.
+    An orbit that could not be followed has the negative steps of `taylor_kernels.orbit_integrator`, and its last state
+    in the row of the next time.
+
+    Parameters
+    ----------
+    kernel : callable
+        Kernel of an ensemble, see `System.ensemble`.
+    states : ndarray, shape (n, d)
+        Initial states.
+    parameters : ndarray, shape (q,)
+        Parameters of the system.
+    times : ndarray, shape (m,)
+        Times, monotonic from 0.
+    level : Level
+        Order and tolerance.
+    longest : float
+        Longest step.
+    max_steps : int
+        Largest number of steps of one orbit.
+    threads : int
+        Number of threads.
+
+    Returns
+    -------
+    states : ndarray, shape (n, m, d)
+        States of the orbits.
+    steps : ndarray of int, shape (n,)
+        Steps of each orbit, or a negative code.
+    ends : ndarray, shape (n,)
+        Time that each orbit reached.
     """
     count = len(states)
     out, steps, ends = np.full((count, times.size, states.shape[1]), np.nan), np.zeros(count, np.int64), np.zeros(count)
@@ -84,7 +112,7 @@ def ensemble(
     threads : int, optional
         Number of threads.  By default one per core, at most eight.
     max_step : float, optional
-        Longest step, see `solve`.
+        Longest step, positive, in the unit of time, see `solve`.
     max_steps : int, default 2 000 000
         Largest number of steps of one orbit in one run.
 
@@ -197,7 +225,23 @@ M = TypeVar("M", bound=_Several)
 
 
 def complete(found: M) -> M:
-    """Return the motions.  Raises `WorkLimit` with the reason of the first one that is incomplete."""
+    """Return motions, all of which must be complete.
+
+    Parameters
+    ----------
+    found : M
+        Motions with `reasons`, such as an `Ensemble`.
+
+    Returns
+    -------
+    M
+        The same motions.
+
+    Raises
+    ------
+    WorkLimit
+        If one is incomplete, with its reason.
+    """
     reason = next(filter(None, found.reasons), None)
     if reason is not None:
         raise WorkLimit(reason)

@@ -381,10 +381,21 @@ def _error(curve: _Curve, points: Array, parameters: Array) -> float:
 
 @dataclass(frozen=True)
 class Intersection:
-    """Crossing of two manifolds: the point (2,), τ on both, the angle between them, and the error of the point.
+    """Crossing of the manifolds of two saddles: a homoclinic or heteroclinic point.
 
-    certain : True if the manifolds change sides between one chord before and one chord after the crossing, by more than
-    their errors.  It is False where they run together.
+    Attributes
+    ----------
+    place : ndarray, shape (2,)
+        The point.
+    parameters : (float, float)
+        Parameter τ on each manifold.
+    angle : float
+        Angle between the manifolds, in radians, 0 to π/2.
+    error : float
+        Estimated error of the point, ≥ 0.
+    certain : bool
+        True if the manifolds change sides between one chord before and one chord after the crossing, by more than their
+        errors; False where they run together.
     """
 
     place: Array
@@ -395,10 +406,22 @@ class Intersection:
 
 
 def crossings_of(one: Manifold, other: Manifold, most: int = 100) -> list[Intersection]:
-    """Return at most `most` homoclinic or heteroclinic points, in the order of the first manifold.
+    """Return homoclinic or heteroclinic points, in the order of the first manifold.
 
-    Intersecting segments of the two polylines are the initial guesses for Newton's method on W_1(τ_1) = W_2(τ_2).
-    The saddles themselves are excluded; points closer together than their errors count once.
+    Intersecting segments of the two polylines are the initial guesses for Newton's method on W_1(τ_1) = W_2(τ_2).  The
+    saddles themselves are excluded; points closer together than their errors count once.
+
+    Parameters
+    ----------
+    one, other : Manifold
+        The manifolds, of the same map.
+    most : int, default 100
+        Largest number of points.
+
+    Returns
+    -------
+    list of Intersection
+        The points.
     """
     found: list[Intersection] = []
     for i, j in _meeting(one, other):
@@ -486,9 +509,26 @@ def _changes_sides(one: Manifold, other: Manifold, tau: Array, chord: float, alo
 
 
 def heights_at(curve: Manifold, axis: int, value: float) -> Array:
-    """Return the other coordinate (n,) at all points where the coordinate `axis` has this value, along the manifold.
+    """Return the other coordinate at all points of a manifold where one coordinate has a given value.
 
-    Raises `NotConverged` if there is no such point.
+    Parameters
+    ----------
+    curve : Manifold
+        The manifold.
+    axis : int
+        Index of the coordinate that has the value, 0 or 1.
+    value : float
+        The value.
+
+    Returns
+    -------
+    ndarray, shape (n,)
+        Values of the other coordinate, in the order of the manifold.
+
+    Raises
+    ------
+    NotConverged
+        If there is no such point.
     """
     along = curve.points[:, axis] - value
     change = np.flatnonzero((along[1:-1] <= 0.0) != (along[2:] <= 0.0)) + 1
@@ -513,10 +553,30 @@ def _height_on(curve: Manifold, axis: int, value: float, i: int) -> float:
 
 
 def split(unstable: Manifold, stable: Manifold, axis: int, value: float) -> tuple[float, float]:
-    """Return the distance between two manifolds where the coordinate `axis` has this value, and its error.
+    """Return the distance between two manifolds where one coordinate has a given value.
 
     If they pass there more than once, the two closest passages are compared.
-    Raises `NotConverged` if one of them never has this value.
+
+    Parameters
+    ----------
+    unstable, stable : Manifold
+        The manifolds, of the same map.
+    axis : int
+        Index of the coordinate that has the value, 0 or 1.
+    value : float
+        The value.
+
+    Returns
+    -------
+    distance : float
+        Other coordinate of the unstable manifold minus that of the stable one.
+    error : float
+        Its estimated error, ≥ 0.
+
+    Raises
+    ------
+    NotConverged
+        If one of them never has this value.
     """
     gaps = heights_at(unstable, axis, value)[:, None] - heights_at(stable, axis, value)
     closest = gaps.ravel()[int(np.argmin(np.abs(gaps)))]

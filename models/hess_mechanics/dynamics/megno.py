@@ -47,16 +47,16 @@ _SHARE = 4
 
 @dataclass(frozen=True)
 class Megno(Result):
-    """MEGNO of several motions.
+    """MEGNO of several motions; the result of `megno`.
 
     Attributes
     ----------
     t : float
-        Time span.
+        Time span, positive.
     values : ndarray, shape (n,)
         Ȳ of each motion.
     divergence, divergence_error : ndarray, shape (n,)
-        Weighted mean of div ẏ over the last four fifths of the time, and its standard error.
+        Weighted mean of div ẏ over the last four fifths of the time, and its standard error, both in 1/T.
     windows : ndarray, shape (n, 4)
         The same mean, and those over the first, middle and last half of that time.
     no_chaos : tuple of str
@@ -117,9 +117,26 @@ class Megno(Result):
 
 
 def longest_span(body: Body, start: Sequence[float] | Array) -> float:
-    """Return the longest time span of MEGNO for motions next to `start`.
+    """Return the longest time span of MEGNO for motions next to a state.
 
     A third is left as a reserve, because ν differs between neighbouring states.
+
+    Parameters
+    ----------
+    body : Body
+        The body.
+    start : array_like, shape (d,)
+        The state.
+
+    Returns
+    -------
+    float
+        The time span, in units of the problem.
+
+    Raises
+    ------
+    InvalidParameter
+        If a number is not finite.
     """
     return _LONGEST / (1.5 * Problem.of(body, [start]).nu)
 
@@ -202,7 +219,7 @@ def megno(
         along = tangent(problem, start, direction, t, level, LONGEST)
         steps[i] = along.steps
         length = np.concatenate([[0.0], along.lengths[:, 0]])
-        # ∫ s dL = tL − ∫ L ds, with sums for integrals, in units of the distance of samples.
+        # ∫ s dL = tL − ∫ L ds, with sums for integrals, in units of the sample spacing.
         number = np.arange(1, samples + 1)
         below = np.cumsum(0.5 * (length[1:] + length[:-1]))
         y = 2.0 * (length[1:] - below / number)

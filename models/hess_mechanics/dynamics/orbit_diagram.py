@@ -1,9 +1,10 @@
 """Orbit diagrams of a section over a parameter, and cascades of period doublings.
 
-An orbit is followed from value to value, each time from its last point at the value before, so that it stays with its
-attractor as long as there is one; the way back may differ.  Alternatively it starts again at the same point.  The map
-backward in time shows repellers.  Periods in a diagram are read from the orbit; period doublings are computed: there an
-orbit found by Newton's method has the multiplier −1.
+An orbit diagram shows where an orbit settles.  A bifurcation diagram in the strict sense also shows unstable orbits:
+`continuation.branch_from` computes its branches.  An orbit is followed from value to value, each time from its last
+point at the value before, so that it stays with its attractor as long as there is one; the way back may differ.
+Alternatively it starts again at the same point.  The map backward in time shows repellers.  Periods in a diagram are
+read from the orbit; period doublings are computed: there an orbit found by Newton's method has the multiplier −1.
 """
 
 from __future__ import annotations
@@ -70,7 +71,20 @@ class Followed(Map, Protocol):
         """True if the map preserves a volume and has no attractors."""
 
     def orbit(self, place: Array, count: int) -> Array:
-        """Return the next `count` points (n, d) of the orbit; fewer if the motion stays away."""
+        """Return the next points of an orbit.
+
+        Parameters
+        ----------
+        place : ndarray, shape (d,)
+            Point where the orbit starts.
+        count : int
+            Number of points.
+
+        Returns
+        -------
+        ndarray, shape (n, d)
+            The points; n < `count` if the motion does not come back.
+        """
 
 
 @dataclass(frozen=True)
@@ -128,11 +142,30 @@ class Diagram(Result):
 def period_of(
     turns: Sequence[float], places: Array, promise: float = 0.0, most: int = MAX_PERIOD, same: float = SAME
 ) -> tuple[int, bool]:
-    """Return the least period of the points (n, d) of an orbit, 0 if none is found, and True if the orbit has settled.
+    """Return the least period that the points of an orbit show, and whether the orbit has settled.
 
-    A period is found if the orbit shows it at least three times.  An orbit that closes better in its second half is
-    still settling.  `promise` is the error of the points, `most` the largest period tried; points closer than `same`
-    count as equal: this is what the orbit shows, and only Newton's method tells whether it is periodic.
+    A period counts if the orbit shows it at least three times.  An orbit that closes better in its second half is still
+    settling.  Only Newton's method tells whether the orbit is periodic.
+
+    Parameters
+    ----------
+    turns : sequence of float
+        Period of each coordinate, ∞ if it is not an angle.
+    places : ndarray, shape (n, d)
+        Points of the orbit.
+    promise : float, default 0.0
+        Error of the points.
+    most : int, default MAX_PERIOD
+        Largest period tried.
+    same : float, default SAME
+        Distance within which two points count as equal.
+
+    Returns
+    -------
+    period : int
+        The period; 0 if there is none.
+    settled : bool
+        True if the orbit has settled.
     """
     most = min(most, len(places) // 3)
     if most < 1:
@@ -269,11 +302,20 @@ def _has_approached(map_: Followed, orbit: Array) -> bool:
 
 
 def first_doubling(parts: Sequence[Diagram]) -> tuple[float, Array, float] | None:
-    """Return the first doubling of the smallest period in a diagram, or None if no period doubles between neighbours.
+    """Return the first doubling of the smallest period in a diagram.
 
     Next to a doubling orbits settle slowly, so that a few values between may have no period.
-    parts : the parts of the diagram, in order.  They are searched forward, and backward if nothing is found.
-    The result is the value before the doubling, the points (m, d) there, and the last value in that direction.
+
+    Parameters
+    ----------
+    parts : sequence of Diagram
+        Parts of the diagram, in order.  They are searched forward, and backward if nothing is found.
+
+    Returns
+    -------
+    (float, ndarray, float), or None
+        Value before the doubling, the points (m, d) there, and the last value in that direction; None if no period
+        doubles between neighbours.
     """
     known = [
         one for part in parts for one in zip(part.values.tolist(), part.periods.tolist(), part.places, strict=True)
@@ -376,10 +418,37 @@ class Cascade(Result):
 def cascade(
     family: Callable[[float], Map], parameter: str, orbit: PeriodicOrbit, start: float, end: float, doublings: int = 6
 ) -> Cascade:
-    """Return the period doublings of an orbit of the map at λ = `start`, towards λ = `end`.
+    """Return the period doublings of a periodic orbit over a parameter λ.
 
     The orbit is continued up to its flip; beyond it, Newton's method finds the orbit of twice the period in the
-    direction in which it is born; and so on.  Raises as `branch_from` for the first branch.
+    direction in which it is born; and so on.
+
+    Parameters
+    ----------
+    family : callable
+        Function from λ to the map.
+    parameter : str
+        Name of λ.
+    orbit : PeriodicOrbit
+        A periodic orbit at λ = `start`.
+    start, end : float
+        First and last value of λ.
+    doublings : int, default 6
+        Largest number of doublings.
+
+    Returns
+    -------
+    Cascade
+        The doublings with their errors.
+
+    Raises
+    ------
+    InvalidParameter
+        If the range is empty or not finite.
+    NotConverged
+        If the first branch cannot be started.
+    WorkLimit
+        If a map needs too many steps.
     """
     found: list[Bifurcation] = []
     direction = math.copysign(1.0, end - start)

@@ -73,32 +73,118 @@ class Map(Protocol):
         """True if the map cannot be computed more accurately."""
 
     def image(self, place: Array) -> Array:
-        """Return P(x) at a point (d,) or at several points (m, d), in the same shape."""
+        """Return P(x) at one point or several.
+
+        Parameters
+        ----------
+        place : ndarray, shape (d,) or (m, d)
+            The points.
+
+        Returns
+        -------
+        ndarray, shape (d,) or (m, d)
+            Their images.
+        """
 
     def after(self, place: Array, count: int) -> Array:
-        """Return P^count(x) at a point (d,) or at several points (m, d), in the same shape."""
+        """Return the images after several iterations.
+
+        Parameters
+        ----------
+        place : ndarray, shape (d,) or (m, d)
+            The points.
+        count : int
+            Number of iterations.
+
+        Returns
+        -------
+        ndarray, shape (d,) or (m, d)
+            The images P^count(x).
+        """
 
     def with_derivative(self, place: Array) -> tuple[Array, Array]:
-        """Return P(x), and DP(x), shape (d, d) or (m, d, d)."""
+        """Return P(x) and its derivative at one point or several.
+
+        Parameters
+        ----------
+        place : ndarray, shape (d,) or (m, d)
+            The points.
+
+        Returns
+        -------
+        image : ndarray, shape (d,) or (m, d)
+            The images P(x).
+        derivative : ndarray, shape (d, d) or (m, d, d)
+            The derivatives DP(x).
+        """
 
     def inverse(self) -> Map:
-        """Return P⁻¹."""
+        """Return the inverse map P⁻¹.
+
+        Returns
+        -------
+        Map
+            The inverse.
+        """
 
     def symmetries_of(self, places: Array, near: float) -> Sequence[str]:
-        """Return the names of the symmetries that take an orbit (m, d) to itself, to within a distance."""
+        """Return the symmetries that take an orbit to itself.
+
+        Parameters
+        ----------
+        places : ndarray, shape (m, d)
+            Points of the orbit.
+        near : float
+            Distance within which two points count as equal.
+
+        Returns
+        -------
+        sequence of str
+            Names of the symmetries.
+        """
 
     def tighter(self) -> Map:
-        """Return the same map, computed more accurately and with other roundings."""
+        """Return the same map, computed more accurately and with other roundings.
+
+        Returns
+        -------
+        Map
+            The more accurate map.
+        """
 
 
 def place_units(names: Sequence[str]) -> dict[str, str]:
-    """Return the units of the coordinates of a section, by name; canonical coordinates have none."""
+    """Return the units of the coordinates of a section; canonical coordinates have none.
+
+    Parameters
+    ----------
+    names : sequence of str
+        Names of the coordinates.
+
+    Returns
+    -------
+    dict of str to str
+        Units by name.
+    """
     units = {"l": "rad", "L/G": "1", "ψ": "rad", "δ": "rad", "φ": "rad"}
     return {name: units[name] for name in names if name in units}
 
 
 def apart(turns: Sequence[float], a: Array, b: Array) -> Array:
-    """Return a − b (..., d), with differences of angles reduced to half a turn."""
+    """Return the difference a − b, with differences of angles reduced to half a turn.
+
+    Parameters
+    ----------
+    turns : sequence of float
+        Period of each coordinate, ∞ if it is not an angle.
+    a, b : ndarray, shape (..., d)
+        Points; their shapes are broadcast.
+
+    Returns
+    -------
+    ndarray, shape (..., d)
+        The differences.
+    """
     difference: Array = np.asarray(a, float) - np.asarray(b, float)
     for i, turn in enumerate(turns):
         if math.isfinite(turn):
@@ -108,7 +194,17 @@ def apart(turns: Sequence[float], a: Array, b: Array) -> Array:
 
 @dataclass(frozen=True)
 class Shot:
-    """Points (m, d), residuals P(x_i) − x_(i+1) (m, d) and derivatives DP(x_i) (m, d, d) of multiple shooting."""
+    """Equations of multiple shooting for a periodic orbit.
+
+    Attributes
+    ----------
+    places : ndarray, shape (m, d)
+        Points x_i.
+    left : ndarray, shape (m, d)
+        Residuals P(x_i) − x_(i+1).
+    derivatives : ndarray, shape (m, d, d)
+        Derivatives DP(x_i).
+    """
 
     places: Array
     left: Array
@@ -116,7 +212,7 @@ class Shot:
 
     @property
     def jacobian(self) -> Array:
-        """Jacobian J (m d, m d) of the residuals."""
+        """Jacobian J of the residuals, shape (m d, m d)."""
         m, d = self.places.shape
         J = np.zeros((m, d, m, d))
         for i in range(m):
@@ -125,9 +221,17 @@ class Shot:
         return np.asarray(J.reshape(m * d, m * d))
 
     def step(self, family: float = _FAMILY) -> Array:
-        """Return Newton's step −J⁻¹ times the residuals, (m, d); if J is singular, the shortest step.
+        """Return Newton's step; if the Jacobian is singular, the shortest step.
 
-        Singular values below `family`, relative to the largest one or 1, count as 0.
+        Parameters
+        ----------
+        family : float, default _FAMILY
+            Singular values below this, relative to the largest one or 1, count as 0.
+
+        Returns
+        -------
+        ndarray, shape (m, d)
+            The step −J⁻¹ times the residuals.
         """
         u, values, v = np.linalg.svd(self.jacobian)
         kept = values > family * max(1.0, float(values[0]))
@@ -141,16 +245,48 @@ class Shot:
 
 
 def shoot(map_: Map, places: Array) -> Shot:
-    """Return the map and its derivatives at all points (m, d).  Raises as the map."""
+    """Return the equations of multiple shooting at given points.
+
+    Parameters
+    ----------
+    map_ : Map
+        The map.
+    places : ndarray, shape (m, d)
+        The points.
+
+    Returns
+    -------
+    Shot
+        Residuals and derivatives.
+
+    Raises
+    ------
+    ModelError
+        If the map has no image at a point.
+    """
     images, derivatives = map_.with_derivative(places)
     return Shot(places, apart(map_.turns, images, np.roll(places, -1, axis=0)), derivatives)
 
 
 def multipliers_of(derivatives: Array) -> tuple[Complex, float, float]:
-    """Return the eigenvalues (d,) of the product M of the derivatives (m, d, d), its trace and its determinant.
+    """Return the multipliers of a periodic orbit, and trace and determinant of their matrix.
 
-    The largest eigenvalue comes first.  The smaller one comes from the product of the determinants, because M itself
-    loses it if the larger one is large.
+    The matrix M is the product of the derivatives.  Its smaller eigenvalue comes from the product of the determinants,
+    because M itself loses it if the other one is large.
+
+    Parameters
+    ----------
+    derivatives : ndarray, shape (m, d, d)
+        Derivatives along the orbit, d = 1 or 2.
+
+    Returns
+    -------
+    multipliers : ndarray of complex, shape (d,)
+        Eigenvalues of M, the largest first.
+    trace : float
+        Trace of M.
+    determinant : float
+        Determinant of M.
     """
     M = np.eye(derivatives.shape[1])
     for one in derivatives:
@@ -187,7 +323,20 @@ def _multiplier_error(derivatives: Array, better: Array) -> float:
 
 
 def kind_of(multipliers: Complex, error: float) -> str:
-    """Return the type of an orbit with these multipliers; borders closer than the error count as reached."""
+    """Return the type of an orbit from its multipliers.
+
+    Parameters
+    ----------
+    multipliers : ndarray of complex, shape (d,)
+        The multipliers, the largest first.
+    error : float
+        Their error; borders between types that are closer count as reached.
+
+    Returns
+    -------
+    str
+        The type, see `PeriodicOrbit`.
+    """
     sizes = np.abs(multipliers)
     if np.any(np.abs(multipliers - 1.0) <= error):
         return "parabolic"
@@ -413,7 +562,27 @@ def _closeness(map_: Map, a: Array, b: Array) -> Array:
 
 
 def images_of(map_: Map, place: Array, count: int) -> Array:
-    """Return the point and its images, as far as it returns.  Raises `NotConverged` if it never does."""
+    """Return a point and its images, as far as they exist.
+
+    Parameters
+    ----------
+    map_ : Map
+        The map.
+    place : ndarray, shape (d,)
+        The point.
+    count : int
+        Number of iterations.
+
+    Returns
+    -------
+    ndarray, shape (n, d)
+        The point and its images, n ≤ count + 1.
+
+    Raises
+    ------
+    NotConverged
+        If the point itself has no image.
+    """
     orbit = [place]
     try:
         for _ in range(count):

@@ -59,9 +59,9 @@ class Plane:
     Parameters
     ----------
     normal : tuple of float, shape (d,)
-        Normal vector; its length does not matter.
-    offset : float, default 0
-        Value of normal·y on the plane.
+        Normal vector, nonzero; its length does not matter.
+    offset : float, default 0.0
+        Value of normal·y on the plane, any finite number.
     sense : {1, -1, 0}, default 1
         Crossings that count: from below (1), from above (−1), or both (0).
 
@@ -216,14 +216,47 @@ class Surface(Protocol):
     """A surface in state space."""
 
     def gradient(self, state: Array) -> Array:
-        """Return the gradient (d,) of the function that vanishes on the surface, at a state (d,) of the surface."""
+        """Return the gradient of the function that vanishes on the surface.
+
+        Parameters
+        ----------
+        state : ndarray, shape (d,)
+            State on the surface.
+
+        Returns
+        -------
+        ndarray, shape (d,)
+            The gradient.
+        """
 
     @property
     def sense(self) -> int:
         """Crossings that count: 1 from below, −1 from above, 0 both."""
 
     def crossing_kernel(self, system: System, problem: Problem) -> tuple[Callable[..., tuple[int, int]], Array, float]:
-        """Return the crossing kernel, the normal and the offset in units in which the states are O(1)."""
+        """Return the crossing kernel with the surface in the units of a problem.
+
+        Parameters
+        ----------
+        system : System
+            The equations of motion.
+        problem : Problem
+            The initial states and their units.
+
+        Returns
+        -------
+        kernel : callable
+            Kernel that finds the crossings.
+        constants : ndarray
+            Constants of the surface, such as a normal, in scaled units.
+        offset : float
+            Value of the function on the surface, in scaled units.
+
+        Raises
+        ------
+        InvalidParameter
+            If the surface does not fit the system.
+        """
 
 
 @dataclass(frozen=True)
@@ -355,7 +388,22 @@ class _Search:
 
 
 def time_error(safety: float, times: Array, others: Array) -> float:
-    """Return the error of the times (n,) of crossings, from those of another run and from their own rounding."""
+    """Return the error of the times of crossings, from those of another run and from their own rounding.
+
+    Parameters
+    ----------
+    safety : float
+        Factor from the difference of two runs to the error.
+    times : ndarray, shape (n,)
+        Times of one run.
+    others : ndarray, shape (m,)
+        Times of the other run.
+
+    Returns
+    -------
+    float
+        The error, ≥ 0.
+    """
     both = min(times.size, others.size)
     off = float(np.abs(times[:both] - others[:both]).max(initial=0.0))
     return safety * off + 4e-16 * float(np.abs(times).max(initial=0.0))
@@ -382,11 +430,11 @@ def section(
     plane : Plane or Surface
         The surface.
     duration : float
-        End of the time span; may be negative.
+        Time up to which crossings are found, in units of the problem; negative: backward.
     accuracy : str or Level
         Accuracy level.
     crossings : int, default 100 000
-        Largest number of crossings.
+        Largest number of crossings, 1 to 100 000.
     max_step : float, optional
         Longest step, see `solve`.
     max_steps : int, default 5 000 000
@@ -473,7 +521,26 @@ class SectionPoints(Result):
 def labels_of_orbits(
     names: Sequence[str], orbits: Sequence[Array], dim: str, units: Mapping[str, str], facts: Mapping[str, Any]
 ) -> Labels:
-    """Return the named columns of all points (n, k) of some orbits, labelled with the number of the orbit."""
+    """Return the points of some orbits, labelled with the number of the orbit.
+
+    Parameters
+    ----------
+    names : sequence of str
+        Names of the k coordinates.
+    orbits : sequence of ndarray, shape (n, k)
+        Points of each orbit.
+    dim : str
+        Name of the dimension of the points.
+    units : mapping of str to str
+        Units of the coordinates, by name.
+    facts : mapping of str to object
+        Facts about the computation, by name.
+
+    Returns
+    -------
+    Labels
+        The labelled coordinates over all points.
+    """
     number = np.repeat(np.arange(len(orbits)), [len(one) for one in orbits])
     points = np.concatenate([np.empty((0, len(names))), *orbits])
     return Labels({"orbit": ((dim,), number)}, components(names, points, dim), units, facts)
@@ -503,11 +570,11 @@ def section_points(
     plane : Plane or Surface
         The surface.
     duration : float
-        End of the time span; may be negative.
+        Time up to which crossings are found, in units of the problem; negative: backward.
     accuracy : str or Level
         Accuracy level.
     crossings : int
-        Largest number of crossings per orbit.
+        Largest number of crossings per orbit, 1 to 100 000.
     threads : int, optional
         Number of threads.  By default one per core, at most eight.
     most_steps : int, default 5 000 000

@@ -32,9 +32,20 @@ class _Number:
 
 
 class Along(_Number):
-    """A Taylor model: a function of s in [0, δ] as a polynomial and a bound on its error there.
+    """A Taylor model: a function of s in [0, δ] as a polynomial and an upper bound on its error there.
 
     Polynomials have at most 2 `terms` coefficients; higher terms are added to the bound.
+
+    Parameters
+    ----------
+    polynomial : arb_poly
+        The polynomial.
+    delta : arb
+        Length δ of the interval.
+    terms : int
+        Number of terms of a series.
+    rest : arb, optional
+        Upper bound on the error.  By default the polynomial is exact.
     """
 
     __slots__ = ("_most", "delta", "polynomial", "rest", "terms")
@@ -45,7 +56,22 @@ class Along(_Number):
 
     @classmethod
     def number(cls, value: Any, delta: ArbBall, terms: int) -> Along:
-        """Return a constant."""
+        """Return a constant as a Taylor model.
+
+        Parameters
+        ----------
+        value : object
+            The constant, a number or a ball.
+        delta : arb
+            Length δ of the interval.
+        terms : int
+            Number of terms of a series.
+
+        Returns
+        -------
+        Along
+            The constant.
+        """
         from flint import arb_poly
 
         return cls(arb_poly([value]), delta, terms)
@@ -62,13 +88,24 @@ class Along(_Number):
 
     @property
     def most(self) -> ArbBall:
-        """A bound on |polynomial| on [0, δ]."""
+        """Upper bound on |polynomial| on [0, δ]."""
         if self._most is None:
             self._most = _size(self.polynomial.coeffs(), self.delta)
         return self._most
 
     def distance(self, other: ArbBall) -> ArbBall:
-        """Return a bound on the distance from a polynomial on [0, δ]."""
+        """Return an upper bound on the distance from a polynomial on [0, δ].
+
+        Parameters
+        ----------
+        other : arb_poly
+            The polynomial.
+
+        Returns
+        -------
+        arb
+            The bound.
+        """
         found = _size((self.polynomial - other).coeffs(), self.delta)
         return found if self.rest is None else found + self.rest
 
@@ -106,7 +143,18 @@ class Along(_Number):
         return found
 
     def inverse(self) -> Along:
-        """Return 1/b from its truncated series q: 1/b = q/(1 − η), η = 1 − qb.  Raises `ZeroDivisionError`."""
+        """Return 1/b from its truncated series q: 1/b = q/(1 − η), η = 1 − qb.
+
+        Returns
+        -------
+        Along
+            The inverse.
+
+        Raises
+        ------
+        ZeroDivisionError
+            If b may vanish on the interval.
+        """
         from flint import arb, arb_poly, arb_series, ctx
 
         before, ctx.cap = ctx.cap, self.terms
@@ -138,7 +186,15 @@ def _size(coefficients: list[ArbBall], delta: ArbBall) -> ArbBall:
 
 
 class Slope(_Number):
-    """A dual number: a value and its partial derivatives."""
+    """A dual number: a value and its partial derivatives.
+
+    Parameters
+    ----------
+    value : arb
+        The value.
+    slopes : list of arb
+        Its partial derivatives.
+    """
 
     __slots__ = ("slopes", "value")
 
@@ -147,7 +203,22 @@ class Slope(_Number):
 
     @classmethod
     def of(cls, value: ArbBall, i: int, count: int) -> Slope:
-        """Return the i-th of `count` variables."""
+        """Return one of several variables as a dual number.
+
+        Parameters
+        ----------
+        value : arb
+            Value of the variable.
+        i : int
+            Index of the variable.
+        count : int
+            Number of variables.
+
+        Returns
+        -------
+        Slope
+            The dual number.
+        """
         return cls(value, [value * 0 + (1 if i == j else 0) for j in range(count)])
 
     def __neg__(self) -> Slope:

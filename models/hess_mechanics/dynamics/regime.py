@@ -570,7 +570,35 @@ def dynamics_of(
 
 
 def comparison(map_: ReturnMap, motion: Regime, start: Sequence[float] | Array, transient: int, kept: int) -> Dynamics:
-    """Return the same for a motion whose kind is already known."""
+    """Classify the dynamics around orbits whose kind of motion is already known.
+
+    Parameters
+    ----------
+    map_ : ReturnMap
+        Return map of the section.
+    motion : Regime
+        Kind of the motion forward in time.
+    start : array_like, shape (d,)
+        Point where the orbits start, 1e-8 from each other.
+    transient : int
+        Crossings discarded of each orbit.
+    kept : int
+        Crossings used of each orbit.
+
+    Returns
+    -------
+    Dynamics
+        The verdict, with the two sets and their distance.
+
+    Raises
+    ------
+    NoReturn
+        If the motion does not return often enough.
+    OutsideRegion
+        If no motion crosses the section at the point.
+    WorkLimit
+        If an orbit needs too many steps.
+    """
     origin = np.array(start, float)
     pairs: list[tuple[Array, Array]] = []
     for i in range(_MEMBERS):

@@ -106,7 +106,7 @@ class PoincareSection(Protocol):
 
     @property
     def integrable(self) -> str:
-        """Name of the integrable case to which the body exactly belongs; empty if none is known."""
+        """Name of the integrable case to which the body belongs exactly; empty if none is known."""
         return ""
 
     @property
@@ -115,14 +115,48 @@ class PoincareSection(Protocol):
         return ""
 
     def at_constant(self, name: str, value: float) -> PoincareSection:
-        """Return the section at another value of a constant.  Raises a `ModelError` if there is none."""
+        """Return the section at another value of a constant.
+
+        Parameters
+        ----------
+        name : str
+            Name of the constant, one of `constants`.
+        value : float
+            Its new value.
+
+        Returns
+        -------
+        PoincareSection
+            The other section.
+
+        Raises
+        ------
+        ModelError
+            If there is no section at this value.
+        """
 
     @property
     def states_at(self) -> Callable[..., tuple[Array, Mask]]:
-        """Function of coordinates (n,) that returns states (n, d) and a mask (n,) of the points that motions cross."""
+        """Function of coordinates, arrays (n,), that returns states (n, d) and a mask (n,) of possible points."""
 
     def state_at(self, *place: float) -> tuple[float, ...]:
-        """Return the state (d,) at the coordinates of a point.  Raises `OutsideRegion` if no motion crosses there."""
+        """Return the state at a point of the section.
+
+        Parameters
+        ----------
+        *place : float
+            Coordinates of the point.
+
+        Returns
+        -------
+        tuple of float
+            State with d components.
+
+        Raises
+        ------
+        OutsideRegion
+            If no motion crosses the section there.
+        """
         states, there = self.states_at(*np.array(place, float)[:, None])
         if not there[0]:
             where = ", ".join(f"{name} = {x:.6g}" for name, x in zip(self.names, place, strict=True))
@@ -130,9 +164,19 @@ class PoincareSection(Protocol):
         return tuple(states[0].tolist())
 
     def spread(self, count: int, window: Window | None = None) -> tuple[tuple[float, ...], ...]:
-        """Return `count` states, spread evenly over the part of a window that motions cross; fewer if it is tiny.
+        """Return states that are spread evenly over the part of a window that motions cross.
 
-        window : by default the whole section.
+        Parameters
+        ----------
+        count : int
+            Number of states.
+        window : ((float, float), (float, float)), optional
+            Two opposite corners of the window.  By default the whole section.
+
+        Returns
+        -------
+        tuple of tuple of float
+            The states; fewer if that part is tiny.
         """
         low, high = np.array(self.window).T[..., None] if window is None else np.array(window)[..., None]
         for tried in _TRIED:
@@ -143,10 +187,32 @@ class PoincareSection(Protocol):
         return tuple(map(tuple, states[there][:count].tolist()))
 
     def places_of(self, states: Array) -> Array:
-        """Return the coordinates (n, k) of states (n, d)."""
+        """Return the points of the section at which given states lie.
+
+        Parameters
+        ----------
+        states : ndarray, shape (n, d)
+            States of the section.
+
+        Returns
+        -------
+        ndarray, shape (n, k)
+            Coordinates of the points.
+        """
 
     def is_on(self, states: Array) -> Mask:
-        """Return a mask (n,) of the states (n, d) on this sheet; all of them if there is a single sheet."""
+        """Return True for states on this sheet of the section; for all of them if there is a single sheet.
+
+        Parameters
+        ----------
+        states : ndarray, shape (n, d)
+            States of the section.
+
+        Returns
+        -------
+        ndarray of bool, shape (n,)
+            True for states on this sheet.
+        """
         return np.ones(len(states), bool)
 
 
@@ -160,10 +226,38 @@ def section_crossings(
     turns: float = _TURNS,
     **limits: int,
 ) -> SectionPoints:
-    """Return the crossings of several orbits, see `section_points`, that follow each other within a time limit.
+    """Return the crossings of several orbits that follow each other within a time limit, see `section_points`.
 
-    longest : the time limit per crossing, by default so many `turns` of 1/ν times the slowness of the section; few
-    orbits take longer.  limits : `threads` and `most_steps`.
+    Parameters
+    ----------
+    section : PoincareSection
+        The section.
+    starts : array_like, shape (n, d)
+        Initial states.
+    crossings : int
+        Number of crossings of each orbit.
+    accuracy : str or Level
+        Accuracy level.
+    backward : bool, default False
+        Follow the orbits backward in time.
+    longest : float, optional
+        Time limit per crossing, positive.  By default `turns`; few orbits take longer.
+    turns : float, default _TURNS
+        Time limit per crossing in units of 1/ν times the slowness of the section.
+    **limits : int
+        Arguments `threads` and `most_steps` of `section_points`.
+
+    Returns
+    -------
+    SectionPoints
+        The crossings.
+
+    Raises
+    ------
+    InvalidParameter
+        As `section_points`.
+    WorkLimit
+        As `section_points`.
     """
     end = crossings * (turns * section.slowness / Problem.of(section, starts).nu if longest is None else longest)
     return section_points(section, starts, section.surface, -end if backward else end, accuracy, crossings, **limits)
@@ -213,7 +307,7 @@ class ReturnMap:
 
     @property
     def is_floor(self) -> bool:
-        """True at the last accuracy level."""
+        """True at the finest accuracy level."""
         return self.accuracy.is_floor
 
     def tighter(self) -> ReturnMap:

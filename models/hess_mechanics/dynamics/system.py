@@ -151,8 +151,8 @@ class System:
     integrals : callable, optional
         First integrals by name, integrals(y, p), in plain arithmetic on sequences.
     frequency : callable, optional
-        A bound ν of every |ω|, frequency(y, p), for y of shape (d,) or (d, n).  Orbits are integrated in units of time
-        1/ν.  Without it and `rescale`, the user's own units are kept: choose them so that states are O(1).
+        An upper bound ν on every |ω|, frequency(y, p), for y of shape (d,) or (d, n).  Orbits are integrated in units
+        of time 1/ν.  Without it and `rescale`, the user's own units are used: choose them so that states are O(1).
     rescale : callable, optional
         States and parameters in units of time 1/ν, rescale(y, p, nu), for y of shape (d,) or (d, n).  It divides the
         leading variables by ν and `unit`, leaves the others, and scales p so that the motion stays the same.
@@ -161,7 +161,8 @@ class System:
     unit : callable, optional
         Scale unit(p) of the leading variables besides ν.  By default 1.
     tolerance : callable, optional
-        Tolerance for an orbit from y whose series needs a smaller one, tolerance(y, p, order, asked).  It is compiled.
+        Tolerance for an orbit from y whose series needs a smaller one than the level's `default`, tolerance(y, p,
+        order, default).  It is compiled.
     angles : str or sequence of str, default none
         Names of variables that are angles in radians: the field is the same after a full turn, and sections count them
         up to full turns.
@@ -367,7 +368,13 @@ class System:
 
     @cached_property
     def recursion(self) -> Recursion:
-        """Taylor recursion of the field.  Raises `NotTraceable`."""
+        """Taylor recursion of the field.
+
+        Raises
+        ------
+        NotTraceable
+            If the field cannot be traced.
+        """
         return trace(self.field, len(self.variables), len(self.parameters))
 
     def longest_step(self, level: Level, duration: float, max_step: float = math.inf) -> float:
@@ -396,7 +403,7 @@ class System:
         return expressions(self.field, len(self.variables), len(self.parameters))
 
     def rates_with_rounding(self, y: Array, parameters: Array) -> tuple[Array, Array]:
-        """Return the rates at a state with bounds on their round-off.
+        """Return the rates at a state with upper bounds on their round-off.
 
         Parameters
         ----------
@@ -407,10 +414,10 @@ class System:
 
         Returns
         -------
-        ndarray, shape (d,)
+        rates : ndarray, shape (d,)
             The rates.
-        ndarray, shape (d,)
-            Bounds on their round-off.
+        bounds : ndarray, shape (d,)
+            Upper bounds on their round-off.
 
         Raises
         ------
@@ -474,7 +481,10 @@ class System:
 
     @cached_property
     def with_rounding(self) -> System:
-        """The system with a constant error of each rate, by further parameters: how much its rounding matters."""
+        """The same system with a constant error of each rate, given by further parameters.
+
+        Its orbits show how much the round-off of the rates matters.
+        """
         d, q = len(self.variables), len(self.parameters)
         return System(
             f"{self.name} with rounding",
@@ -540,7 +550,13 @@ class System:
 
     @cached_property
     def variation(self) -> Variation:
-        """The field with its Jacobian.  Raises `NotTraceable`."""
+        """The field with its Jacobian.
+
+        Raises
+        ------
+        NotTraceable
+            If the field cannot be traced.
+        """
         return variation(self.field, len(self.variables), len(self.parameters))
 
     @cached_property
@@ -688,7 +704,18 @@ def _modules() -> tuple[ModuleType, ...]:
 
 
 def declared(name: str) -> list[object]:
-    """Return what the modules of the package define under a name, such as SYSTEM."""
+    """Return all objects that the modules of the package define under a name.
+
+    Parameters
+    ----------
+    name : str
+        The name, such as "SYSTEM".
+
+    Returns
+    -------
+    list of object
+        One object for each module that has this name.
+    """
     return [getattr(module, name) for module in _modules() if hasattr(module, name)]
 
 
@@ -748,7 +775,25 @@ class Problem:
 
     @classmethod
     def of(cls, body: Body, states: Sequence[Sequence[float] | Array] | Array) -> Problem:
-        """Validate a body and states (n, d), and scale them.  Raises `InvalidParameter`."""
+        """Validate a body and states, and scale them.
+
+        Parameters
+        ----------
+        body : Body
+            The body.
+        states : array_like, shape (n, d)
+            Initial states, in the user's units.
+
+        Returns
+        -------
+        Problem
+            The scaled problem.
+
+        Raises
+        ------
+        InvalidParameter
+            If the body has no equations of motion, a number is not finite, or the scaled numbers overflow.
+        """
         if not (isinstance(getattr(body, "system", None), System) and hasattr(body, "parameters")):
             raise InvalidParameter(
                 f"{body!r:.80} is not a body with equations of motion: give a SuslovBody, a PlaneBody, a QuarticBody, "
@@ -778,17 +823,45 @@ class Problem:
         return cls(system, np.ascontiguousarray(scaled.T), p, nu, scale)
 
     def nearby(self) -> Problem:
-        """Return the same problem with starts that differ by roundings, see `measured.nearby`."""
+        """Return the same problem with starts that differ by roundings, see `measured.nearby`.
+
+        Returns
+        -------
+        Problem
+            The other problem.
+        """
         return replace(self, states=nearby(self.states))
 
     def rounded(self, motion: Array) -> Problem:
-        """Return the problem with rates that are wrong by their round-off, if they cancel at states (n, d)."""
+        """Return the problem with rates that are wrong by their round-off, if they cancel along a motion.
+
+        Parameters
+        ----------
+        motion : ndarray, shape (n, d)
+            States of the motion, in scaled units.
+
+        Returns
+        -------
+        Problem
+            The other problem; the same one if no rate cancels.
+        """
         rounding = self.system.rounding(motion, self.parameters)
         if rounding is None:
             return self
         return replace(self, system=self.system.with_rounding, parameters=np.concatenate((self.parameters, rounding)))
 
     def times(self, t: Array) -> Array:
-        """Return the times (m,) in units of 1/ν; on overflow ∞, which no step limit reaches."""
+        """Return times in units of 1/ν.
+
+        Parameters
+        ----------
+        t : ndarray, shape (m,)
+            Times, in the user's unit.
+
+        Returns
+        -------
+        ndarray, shape (m,)
+            Scaled times; on overflow ∞, which no step limit reaches.
+        """
         with np.errstate(over="ignore"):
             return t * self.nu

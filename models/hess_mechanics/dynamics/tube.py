@@ -1,8 +1,8 @@
-"""Tubes: intervals that are proved to contain the true states of an orbit, computed in Arb's ball arithmetic.
+"""Tubes: rigorous (validated) integration, with intervals that are proved to contain the true states of an orbit.
 
-At time t the state lies within |D⁻¹(y − c)| ≤ ρ of a centre c, where D holds the sizes of the components.  Let p(s) be
-any polynomials with p(0) = c, here the Taylor series of the centre; their digits need not be right.  For the true
-solution y of ẏ = f(y), the distance e = D⁻¹(y − p) obeys
+The intervals are computed in Arb's ball arithmetic.  At time t the state lies within |D⁻¹(y − c)| ≤ ρ of a centre c,
+where D holds the sizes of the components.  Let p(s) be any polynomials with p(0) = c, here the Taylor series of the
+centre; their digits need not be right.  For the true solution y of ẏ = f(y), the distance e = D⁻¹(y − p) obeys
 
     |e|˙ ≤ μ|e| + Δ,   Δ ≥ |D⁻¹(ṗ − f(p))|,   μ ≥ the largest eigenvalue of the symmetric part of D⁻¹ f′ D,
 
@@ -70,7 +70,7 @@ _GUARD_BITS, _LOW_BITS = 32, 64
 
 @dataclass(frozen=True)
 class Tube(Result):
-    """Intervals that contain the true states of an orbit.
+    """Intervals that contain the true states of an orbit; the result of `tube`.
 
     Attributes
     ----------
@@ -81,7 +81,7 @@ class Tube(Result):
     states : tuple of tuple of Enclosure
         For each time, an interval for each component.
     width : float
-        Largest width of an interval, relative to the size of the component.
+        Largest width of an interval, ≥ 0, relative to the size of the component.
     complete : bool
         True if all requested times were reached.
     steps : int
@@ -89,12 +89,12 @@ class Tube(Result):
     bits : int
         Working precision in bits.
     seconds : float
-        Elapsed time.
-    variables : tuple of str
+        Elapsed wall time, in seconds.
+    variables : tuple of str, default ()
         Names of the variables.
-    work_limited : bool
+    work_limited : bool, default False
         True if more work would have reached more times.
-    digits : int
+    digits : int, default 18
         Requested number of digits, with which `labels` writes the intervals.
     """
 
@@ -143,8 +143,8 @@ class ProvedOrbit(Result):
         The orbit.
     tube : Tube
         The intervals that contain the true states of the same motion, at the same times.
-    right_to : float, default 1e-6
-        Largest error of a component of a state that counts as right.
+    right_to : float, default 1e-06
+        Largest error of a component of a state that counts as right, positive.
 
     Raises
     ------
@@ -175,7 +175,7 @@ class ProvedOrbit(Result):
 
     @cached_property
     def bounds(self) -> Array:
-        """Upper bounds (m, d) of the error of each component at the times of the tube."""
+        """Upper bounds on the error of each component at the times of the tube, shape (m, d)."""
         found = [[math.nextafter(float(most), math.inf) for _, most in sample] for sample in self._errors]
         return frozen(np.array(found, float).reshape(len(found), self.orbit.states.shape[1]))
 
@@ -218,7 +218,7 @@ def tube(
 ) -> Tube:
     """Return intervals that are proved to contain the orbit from a state.
 
-    Parameters
+    Rigorous (validated) integration.    Parameters
     ----------
     body : Body
         The body; its parameters are taken as exact.
@@ -229,7 +229,8 @@ def tube(
     digits : int, default 18
         Accuracy of the intervals, in decimal digits, 1 to 100.
     most_work : float, optional
-        Limit on the work, by default about 4 s.  If it does not suffice, the tube ends earlier.
+        Limit on the work, positive, in units of 1/`WORK_PER_SECOND` s; by default about 4 s.  If it does not suffice,
+        the tube ends earlier.
 
     Returns
     -------
@@ -568,11 +569,11 @@ def proved_orbit(
     accuracy : str or Level, default "standard"
         Accuracy level of the orbit.
     right_to : float, default 1e-6
-        Largest error of a component that counts as right.
+        Largest error of a component that counts as right, positive.
     digits : int, default 18
-        Number of digits of the intervals, see `tube`.
+        Number of digits of the intervals, 1 to 100, see `tube`.
     most_work : float, optional
-        Work limit, see `tube`.
+        Limit on the work, positive, see `tube`.
 
     Returns
     -------

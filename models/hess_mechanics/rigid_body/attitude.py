@@ -46,7 +46,13 @@ class Attitude:
         return np.asarray(np.einsum("nij,nj->ni", self.axes, np.broadcast_to(vector, self.axes.shape[:2])))
 
     def every_second(self) -> Attitude:
-        """Return the first, every second and the last of the samples, for a preview."""
+        """Return the first, every second and the last of the samples, for a preview.
+
+        Returns
+        -------
+        Attitude
+            The attitude at these times.
+        """
         kept = [*range(0, len(self.times) - 1, 2), len(self.times) - 1]
         return replace(self, times=frozen(self.times[kept]), axes=frozen(self.axes[kept]))
 

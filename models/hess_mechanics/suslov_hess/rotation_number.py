@@ -190,7 +190,7 @@ class ParameterLine:
         Returns
         -------
         dict
-            a, h and f, by name.
+            Parameters a, h and f, by name.
         """
         return {**vars(self.torus), self.name: values}
 
