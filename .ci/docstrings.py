@@ -75,7 +75,10 @@ def public_names() -> Iterator[str]:
     for module in modules():
         for name in names_of(module):
             found = getattr(module, name)
-            if id(found) in seen or not (inspect.isfunction(inspect.unwrap(found)) or inspect.isclass(found)):
+            plain = inspect.unwrap(found) if callable(found) else found
+            if not (inspect.isfunction(plain) or inspect.isclass(plain)) or not plain.__module__.startswith(PACKAGES):
+                continue
+            if id(found) in seen:
                 continue
             seen.add(id(found))
             yield f"{module.__name__}.{name}"

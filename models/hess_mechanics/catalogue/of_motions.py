@@ -63,7 +63,18 @@ def _enclosed(
 
 
 def computations(system: System) -> Iterator[Computation]:
-    """Yield the computations of the motions of a system."""
+    """Yield the computations of the motions of a system.
+
+    Parameters
+    ----------
+    system : System
+        The system.
+
+    Yields
+    ------
+    Computation
+        A computation, without the parameters of the system.
+    """
     names = system.variables
     yield Computation(
         "orbit",

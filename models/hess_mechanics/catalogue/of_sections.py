@@ -97,7 +97,17 @@ _OF_MOTION: Mapping[str, Number] = {
 def computations(example: PoincareSection, period: int) -> Iterator[Computation]:
     """Yield the computations of a kind of section.
 
-    example : one of them; period : number of returns of the periodic orbit in the examples.
+    Parameters
+    ----------
+    example : PoincareSection
+        One of these sections.
+    period : int
+        Number of returns of the periodic orbit in the examples.
+
+    Yields
+    ------
+    Computation
+        A computation, without the parameters of the section.
     """
     constants = example.constants
     # By default, a little above the energy.

@@ -218,7 +218,9 @@ def tube(
 ) -> Tube:
     """Return intervals that are proved to contain the orbit from a state.
 
-    Rigorous (validated) integration.    Parameters
+    This is rigorous (validated) integration.
+
+    Parameters
     ----------
     body : Body
         The body; its parameters are taken as exact.

@@ -1,8 +1,8 @@
 # mypy: allow-untyped-defs
 """Ensembles of orbits of one system: several orbits at a time with their own step sizes, on any number of threads.
 
-The recursion is that of `taylor_kernels`, with lanes in place of each number, which become vector instructions.
-A lane takes the next orbit as soon as its orbit is complete, so that no lane waits for another.
+Not for users.  The recursion is that of `taylor_kernels`, with lanes in place of each number, which become vector
+instructions.  A lane takes the next orbit as soon as its orbit is complete, so that no lane waits for another.
 """
 
 from __future__ import annotations

@@ -1,11 +1,11 @@
 # mypy: allow-untyped-defs
 """Crossings of a surface by an orbit: roots of the Taylor polynomial of each step, each found exactly once.
 
-During a step the height e(s) over a plane is a polynomial.  Let |e″| ≤ D on a piece of width w.  The piece lies within
-D w²/8 of its chord, and its slope within D w/2 of the slope of the chord.  A piece that starts and ends on the same
-side, farther from the plane than D w²/8, has no root.  A piece that changes sides more steeply than D w/2 has exactly
-one.  Any other piece is bisected.  The side of the plane is carried from step to step, so that a crossing between two
-steps is found exactly once.
+Not for users.  During a step the height e(s) over a plane is a polynomial.  Let |e″| ≤ D on a piece of width w.  The
+piece lies within D w²/8 of its chord, and its slope within D w/2 of the slope of the chord.  A piece that starts and
+ends on the same side, farther from the plane than D w²/8, has no root.  A piece that changes sides more steeply than
+D w/2 has exactly one.  Any other piece is bisected.  The side of the plane is carried from step to step, so that a
+crossing between two steps is found exactly once.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ def value_and_slope(e, s):
 
 @inner
 def largest_bend(e, h):
-    """Return the bound D = Σ k(k−1)|e_k| h^(k−2) of |e″| on [0, h]."""
+    """Return the upper bound D = Σ k(k−1)|e_k| h^(k−2) on |e″| over [0, h]."""
     even = 0.0
     odd = 0.0
     # Finite, so that 0 times it is 0.

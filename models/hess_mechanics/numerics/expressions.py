@@ -1,4 +1,7 @@
-"""Expressions that a traced field records: operations on variables and parameters, with their derivatives."""
+"""Expressions that a traced field records: operations on variables and parameters, with their derivatives.
+
+Not for users.
+"""
 
 from __future__ import annotations
 
@@ -138,7 +141,7 @@ class Tape:
         if b is one and operation in "*/":
             return a
         if operation == "/" and b.operation == "pow":
-            # The inverse is shared by all quotients, and costs no product.
+            # The inverse is shared by all quotients, and needs no series product.
             return self.apply("*", a, self.power(b.arguments[0], self.negative(b.arguments[1])))
         if operation == "*" and a is b and a.operation == "sqrt":
             return a.arguments[0]
@@ -156,7 +159,7 @@ class Tape:
         """Return a to the power of a number or another expression."""
         n = exponent.value if exponent.operation == "number" else None
         if a.operation in ("sqrt", "pow") and isinstance(n, int):
-            # A power of a power: r³ with r = √x costs no product.
+            # A power of a power: r³ with r = √x needs no series product.
             inner = a.arguments[1] if a.operation == "pow" else self.number(0.5)
             return self.power(a.arguments[0], self.apply("*", inner, exponent))
         if n == 0.5:

@@ -29,7 +29,7 @@ class Undefined(ArithmeticError):
 def values_with_rounding(
     nodes: Sequence[Node], names: tuple[Sequence[str], Sequence[str]], y: Sequence[float], p: Sequence[float]
 ) -> list[tuple[float, float]]:
-    """Return the values of expressions, each with a bound on its round-off, by running error analysis.
+    """Return the values of expressions, each with an upper bound on its round-off, by running error analysis.
 
     Parameters
     ----------
@@ -63,7 +63,22 @@ def values_with_rounding(
 
 
 def values_at(node: Node, y: Sequence[Array], p: Sequence[float]) -> Array:
-    """Return the values (n,) of an expression at variables (n,), NaN or ∞ where they are undefined."""
+    """Return the values of an expression.
+
+    Parameters
+    ----------
+    node : Node
+        The expression.
+    y : sequence of ndarray, shape (n,)
+        Values of each variable.
+    p : sequence of float
+        Values of the parameters.
+
+    Returns
+    -------
+    ndarray, shape (n,)
+        The values; NaN or ∞ where they are undefined.
+    """
     known: dict[Node, Array | float] = {}
     with np.errstate(all="ignore"):
         for one in below([node]):

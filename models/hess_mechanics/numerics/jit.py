@@ -1,4 +1,4 @@
-"""Compilation of kernels: one decorator, and a cache that is never stale.
+"""Compilation of kernels: one decorator, and a cache that is never stale.  Not for users.
 
 Numba validates its cache by the file of the compiled function alone.  These kernels are assembled from several files,
 so the cache folder of a kernel is named by a hash of its subpackage, of the subpackages it imports, and of `numerics`

@@ -1,8 +1,8 @@
 """Kernel cache on disk that never fails: a file that cannot be read or written only costs a compilation.
 
-Numba assumes that its files are complete and that the disk has room.  A power failure truncates files, a full disk
-takes none, and if two processes write at once, the index of one may name a file of the other.  It also lets two
-processes that start together compile each kernel twice.
+Not for users.  Numba assumes that its files are complete and that the disk has room.  A power failure truncates files,
+a full disk takes none, and if two processes write at once, the index of one may name a file of the other.  It also lets
+two processes that start together compile each kernel twice.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ class KernelFiles(FunctionCache):  # type: ignore[misc]  # numba has no types
         return self._locks[process]
 
     def load_overload(self, sig: Any, target_context: Any) -> Any:
-        """Return the kernel for these argument types, if need be that which another process is compiling.
+        """Return the kernel for these argument types; wait for another process that is compiling it.
 
         Returns None if there is none that can be read; then this process is the one that compiles it.
         """

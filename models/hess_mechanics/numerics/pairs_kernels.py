@@ -1,8 +1,8 @@
 # mypy: allow-untyped-defs
-"""Arithmetic with 31 digits: a number is the sum of two doubles, high + low, stored as the complex high + i low.
+"""Double-double arithmetic, with 31 digits: a number is the sum of two doubles, stored as the complex high + i low.
 
-|low| is at most half a unit in the last place of high.  The arithmetic is that of Dekker (1971) and Knuth (The Art of
-Computer Programming 2, 4.2.2).
+Not for users.  |low| is at most half a unit in the last place of high.  The arithmetic is that of Dekker (1971) and
+Knuth (The Art of Computer Programming 2, 4.2.2).
 
 exp, sin and cos are series after a reduction of the argument.  The inverse functions are a Newton step from the double,
 which squares its relative error of 1e-16.

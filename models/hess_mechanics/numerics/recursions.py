@@ -1,4 +1,4 @@
-"""Recursions of Taylor coefficients, derived from recorded expressions and written as Python source.
+"""Recursions of Taylor coefficients, derived from recorded expressions and written as Python source.  Not for users.
 
 Taylor coefficients of sums are sums, those of a product are Cauchy products q_k = Σ_m a_m b_(k−m).  Hence the recorded
 field is brought into the form

@@ -1,5 +1,5 @@
 # mypy: allow-untyped-defs
-"""Taylor series of traced fields: steps, dense output, compensated sums.
+"""Taylor series of traced fields: steps, dense output, compensated sums.  Not for users.
 
 All kernels are generated from the `Recursion` of a field (see `tracing`): one orbit here, many orbits in
 `batch_kernels`, crossings of a surface in `events_kernels`.

@@ -1,4 +1,4 @@
-"""Generated source with unrolled loops.
+"""Generated source with unrolled loops.  Not for users.
 
 LLVM keeps numbers in registers and packs them into vectors if each of them has a name.  Numba's loops over tuples
 prevent this, so the few loops that matter are unrolled here.

@@ -1,8 +1,8 @@
 # mypy: allow-untyped-defs
-"""Variational equations V̇ = J(y(t)) V, solved by Taylor series along with the orbit.
+"""Variational equations V̇ = J(y(t)) V, solved by Taylor series along with the orbit.  Not for users.
 
-The Jacobian J is derived symbolically from the traced field.  The series of its nonzero entries, quotients included,
-are computed along with the motion.  The recursion
+V with V(0) = 1 is the fundamental matrix.  The Jacobian J is derived symbolically from the traced field.  The series of
+its nonzero entries, quotients included, are computed along with the motion.  The recursion
 
     (k+1) V_(k+1) = Σ_m J_m V_(k−m)
 
