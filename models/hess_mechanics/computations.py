@@ -72,7 +72,7 @@ def cloud(
     >>> cloud(BallBody(2.0, 1.0, 0.5, 0.7, 0.0), 2.0, 5.0, count=50, accuracy="draft").omega.shape[0]
     50
     """
-    found = phase_cloud_density.clouds(
+    result = phase_cloud_density.clouds(
         body,
         h,
         angle,
@@ -82,7 +82,7 @@ def cloud(
         None,
         as_level(accuracy),
     )
-    return found.cloud
+    return result.cloud
 
 
 def rotation_numbers(
@@ -185,11 +185,11 @@ def rotation_along_line(
         raise OutsideRegion("No motion crosses the section on this line: choose another line, or a larger h.")
     chosen = plan(Kind.ROTATION, accuracy)
     crossings = as_integer("crossings", crossings, 20, 10_000)
-    found = section_crossings(section, [state for _, state in started], crossings, chosen.level)
+    orbits = section_crossings(section, [state for _, state in started], crossings, chosen.level)
     return rotation_along(
         (first, last),
         [one for one, _ in started],
-        [section.places_of(one) for one in found.states],
+        [section.places_of(one) for one in orbits.states],
         about_first,
         count,
         chosen.promise,

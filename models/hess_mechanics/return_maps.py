@@ -165,27 +165,27 @@ def return_map(
     >>> P.image((0.3, 1.2)).shape, P.names
     ((2,), ('ψ', 'δ'))
     """
-    asked: dict[str, float | None] = {"E": E, "h": h, "f": f}
-    found: PoincareSection
+    values: dict[str, float | None] = {"E": E, "h": h, "f": f}
+    section: PoincareSection
     if isinstance(body, SuslovBody | BallBody):
         energy = "E" if h is None else "h"
         kind: type[AngleSection] = SuslovSection if isinstance(body, SuslovBody) else BallSection
-        found = kind(body, 0.0, as_integer("plane", plane, 1, 3)).at_constant(energy, *_given(asked, energy))
-        found.require_reached()
+        section = kind(body, 0.0, as_integer("plane", plane, 1, 3)).at_constant(energy, *_given(values, energy))
+        section.require_reached()
     elif isinstance(body, HeavyBody):
-        at = _given(asked, "h", "f")
-        found = AndoyerSection(body, at[0], at[1], as_integer("sheet", sheet, 0, 2))
+        at = _given(values, "h", "f")
+        section = AndoyerSection(body, at[0], at[1], as_integer("sheet", sheet, 0, 2))
     elif isinstance(body, ParametrizedSystem):
-        given = {name: value for name, value in asked.items() if value is not None}
-        found = variable_section(body, {**given, **(integrals or {})}, surface, coordinates, window, sense)
+        given = {name: value for name, value in values.items() if value is not None}
+        section = variable_section(body, {**given, **(integrals or {})}, surface, coordinates, window, sense)
     elif isinstance(body, QuarticBody):
-        _given(asked)
-        found = QuarticSection(body)
+        _given(values)
+        section = QuarticSection(body)
     else:
-        found = TorusSection(body.a, *_given(asked, "h", "f"))
+        section = TorusSection(body.a, *_given(values, "h", "f"))
     if longest is not None and not longest > 0.0:
-        raise InvalidParameter(f"longest = {longest:g} is no waiting time: choose a positive number.")
-    return ReturnMap(found, as_level(accuracy), backward, longest)
+        raise InvalidParameter(f"longest = {longest:g} is not a waiting time: choose a positive number.")
+    return ReturnMap(section, as_level(accuracy), backward, longest)
 
 
 def section_orbits(
@@ -238,15 +238,15 @@ def section_orbits(
     if not len(states):
         raise OutsideRegion("No motion crosses the section here: choose a larger energy.")
     level = plan(Kind.SECTION, map_.accuracy).level
-    found = section_crossings(section, states, count, level, map_.backward, map_.longest)
+    points = section_crossings(section, states, count, level, map_.backward, map_.longest)
     x, y = section.names
     return PlanePoints(
         (x, y),
-        tuple(section.places_of(one) for one in found.states),
+        tuple(section.places_of(one) for one in points.states),
         {
             "level": map_.level,
-            **found.facts,
-            **{f"orbit {i}": reason for i, reason in enumerate(found.reasons) if reason},
+            **points.facts,
+            **{f"orbit {i}": reason for i, reason in enumerate(points.reasons) if reason},
             **angle_facts(
                 (name for name, turn in zip(section.names, section.turns, strict=True) if math.isfinite(turn)),
                 counts=False,
@@ -287,8 +287,8 @@ def periodic_orbit(map_: ReturnMap, at: Sequence[float], period: int | None = No
     >>> periodic_orbit(P, (-2.0,)).kind  # the stable limit cycle
     'stable node'
     """
-    found = find_periodic(map_, at, None if period is None else as_integer("period", period, 1, MAX_PERIOD))
-    return replace(found, symmetric=tuple(map_.symmetries_of(found.places)))
+    orbit = find_periodic(map_, at, None if period is None else as_integer("period", period, 1, MAX_PERIOD))
+    return replace(orbit, symmetric=tuple(map_.symmetries_of(orbit.places)))
 
 
 def continued_orbit(map_: ReturnMap, orbit: PeriodicOrbit, parameter: str, to: float, points: int = 200) -> Branch:
@@ -401,11 +401,11 @@ def orbit_diagram(
     transient, kept = as_integer("transient", transient, 0, 20_000), as_integer("kept", kept, 1, 20_000)
     if len(np.atleast_1d(values)) * kept > _MOST_PLACES:
         raise WorkLimit(f"An orbit diagram has at most {_MOST_PLACES} places: choose fewer values, or crossings kept.")
-    found = diagram_over(partial(map_.at_constant, parameter), parameter, values, place, transient, kept, follow)
-    if not any(map(len, found.places)):
+    diagram = diagram_over(partial(map_.at_constant, parameter), parameter, values, place, transient, kept, follow)
+    if not any(map(len, diagram.places)):
         # Say why.
-        map_.at_constant(parameter, float(found.values[0])).state_at(np.array(place))
-    return found
+        map_.at_constant(parameter, float(diagram.values[0])).state_at(np.array(place))
+    return diagram
 
 
 def period_doublings(map_: ReturnMap, orbit: PeriodicOrbit, parameter: str, to: float, most: int = 6) -> Cascade:
@@ -497,9 +497,9 @@ class Basins(Result):
             Both arrays over the cells.
         """
         divergence = {f"divergence {i}": f"{one.mean:.6g} ± {one.error:.2g}" for i, one in enumerate(self.divergence)}
-        found = {"attractor": self.attractor, "crossings": self.crossings}
+        arrays = {"attractor": self.attractor, "crossings": self.crossings}
         facts = {"attractors": self.attractors, **divergence, "level": self.level}
-        return labels_of_cells(self.names, self.x, self.y, found, facts)
+        return labels_of_cells(self.names, self.x, self.y, arrays, facts)
 
 
 def basins(
@@ -550,8 +550,8 @@ def basins(
     number, crossings = np.empty((n, m)), np.empty((n, m))
 
     def row(i: int) -> None:
-        found = arrivals(SectionOrbits(section, level), there.sets, x, np.full(m, y[i]))
-        number[i], crossings[i] = found.number, found.crossings
+        ends = arrivals(SectionOrbits(section, level), there.sets, x, np.full(m, y[i]))
+        number[i], crossings[i] = ends.number, ends.crossings
 
     share(row, n)
     crossings[number < 0.0] = np.nan
@@ -568,14 +568,14 @@ def basins(
     )
 
 
-def _given(asked: dict[str, float | None], *names: str) -> list[float]:
+def _given(values: dict[str, float | None], *names: str) -> list[float]:
     """Return the values of these integrals; any other integral must be absent.  Raises `InvalidParameter`."""
-    lost = [name for name in names if asked[name] is None]
+    lost = [name for name in names if values[name] is None]
     if lost:
         raise InvalidParameter(f"The section of this body lies at given {' and '.join(names)}: give {lost[0]}.")
-    extra = [name for name, value in asked.items() if value is not None and name not in names]
+    extra = [name for name, value in values.items() if value is not None and name not in names]
     if extra:
         raise InvalidParameter(
             f"The section of this body takes {' and '.join(names) or 'its own energy'} and no {extra[0]}: leave it out."
         )
-    return [as_number(name, asked[name]) for name in names]
+    return [as_number(name, values[name]) for name in names]

@@ -43,17 +43,17 @@ def motions() -> Mapping[str, Motions]:
     mapping of str to Motions
         The motions.
     """
-    found = {name: anywhere(system) for name, system in systems().items()}
-    found |= {one.name: one for one in declared("SECTION") if isinstance(one, Motions)}
-    sectioned = {one.system.name for one in found.values() if one.section is not None}
+    result = {name: anywhere(system) for name, system in systems().items()}
+    result |= {one.name: one for one in declared("SECTION") if isinstance(one, Motions)}
+    sectioned = {one.system.name for one in result.values() if one.section is not None}
     for name, system in systems().items():
         if name not in sectioned and (section := section_of(system)) is not None:
-            found[section.name] = section
-    return found
+            result[section.name] = section
+    return result
 
 
 def computations_of(system: System | Motions) -> Mapping[str, Computation]:
-    """Return the computations of a system of one's own.
+    """Return the computations of a user's system.
 
     Parameters
     ----------

@@ -321,16 +321,16 @@ class Computation:
         given = given or {}
         for name in given.keys() - {one.name for one in self.choices}:
             self.parameter(name)
-        found: dict[str, Value] = {}
+        values: dict[str, Value] = {}
         for one in self.parameters:
             value = one.check(as_number(one.name, given.get(one.name, one.default)))
-            found[one.name] = int(value) if one.whole else value
+            values[one.name] = int(value) if one.whole else value
         for choice in self.choices:
             word = str(given.get(choice.name, choice.default))
             if word not in choice.names:
                 raise InvalidParameter(f"{choice.name} is one of {', '.join(choice.names)}, not {word[:40]!r}.")
-            found[choice.name] = word
-        return found
+            values[choice.name] = word
+        return values
 
     def compute(self, given: Mapping[str, Any] | None = None, accuracy: Accuracy = "precise") -> Any:
         """Return the result for some values.
@@ -352,8 +352,8 @@ class Computation:
         ModelError
             If there is no result for these values.
         """
-        found = (self.call or self.function)(accuracy=as_level(accuracy), **self.values(given))
-        return Scalar(found) if isinstance(found, float) else found
+        result = (self.call or self.function)(accuracy=as_level(accuracy), **self.values(given))
+        return Scalar(result) if isinstance(result, float) else result
 
     def error(self, result: Any, exact: Any) -> float:
         """Return the distance of a result from a more accurate one.

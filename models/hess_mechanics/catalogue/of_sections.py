@@ -59,21 +59,21 @@ def _along(function: Callable[..., Any]) -> Callable[..., Any]:
 
 
 def _decided(name: str) -> Callable[[Regime], float]:
-    def number(found: Regime) -> float:
-        if found.kind in _UNDECIDED:
+    def number(motion: Regime) -> float:
+        if motion.kind in _UNDECIDED:
             raise NoValue(
-                f"The motion is {found.kind.words}: MEGNO is {found.megno:.3g} after t = {found.t:.4g}. Choose a "
+                f"The motion is {motion.kind.words}: MEGNO is {motion.megno:.3g} after t = {motion.t:.4g}. Choose a "
                 "longer time, or skip more crossings."
             )
-        return float(getattr(found, name))
+        return float(getattr(motion, name))
 
     return number
 
 
-def _first(found: Cascade) -> float:
-    if not len(found.values):
+def _first(cascade: Cascade) -> float:
+    if not len(cascade.values):
         raise NoValue("No period doubles on this range: choose a longer one.")
-    return float(found.values[0])
+    return float(cascade.values[0])
 
 
 _OF_MOTION: Mapping[str, Number] = {

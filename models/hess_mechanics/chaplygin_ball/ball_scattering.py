@@ -328,7 +328,7 @@ def ball_scattering(
     if not 0.0 <= theta_minus <= math.pi:
         raise InvalidParameter(f"θ⁻ = {theta_minus:g}, but it is an angle between two vectors: choose 0 ≤ θ⁻ ≤ π.")
     if not 1e-10 <= abs(distance) <= 0.1:
-        raise InvalidParameter(f"The distance from N^u is {distance:g}: choose it from 1e-10 to 0.1, or minus that.")
+        raise InvalidParameter(f"The distance from N^u is {distance:g}: choose 1e-10 to 0.1, of either sign.")
 
     states, before = starts(strip, theta_minus, phis, distance)
     rates = _rates(strip, np.array([theta_minus, *np.linspace(0.0, math.pi, 33)]))
@@ -346,13 +346,13 @@ def ball_scattering(
             f"γ settles on its circle so slowly that θ⁺ takes about {steps:.0e} steps: choose larger I13 or "
             "I23, or a smaller 𝒟."
         )
-    found = complete(ensemble(body, states, [span], tight))
-    end = found.states[:, 0]
+    orbits = complete(ensemble(body, states, [span], tight))
+    end = orbits.states[:, 0]
     along, across = end[:, 2:4] @ xi, np.hypot(end[:, 2:4] @ eta, end[:, 4])
     theta_plus = np.arctan2(across, along)
 
     # The angle by which θ would still change, ∫ (ω, η) dt ≈ (ω, η)/λ.
-    errors = found.errors + before + np.abs(end[:, :2] @ eta) / _rates(strip, theta_plus)
+    errors = orbits.errors + before + np.abs(end[:, :2] @ eta) / _rates(strip, theta_plus)
     wall_ms = (time.perf_counter() - start) * 1e3
     return BallScattering(
         float(theta_minus),
@@ -361,7 +361,7 @@ def ball_scattering(
         frozen(errors),
         level.name,
         level.status(float(errors.max())),
-        Cost(found.cost.steps, wall_ms),
+        Cost(orbits.cost.steps, wall_ms),
     )
 
 

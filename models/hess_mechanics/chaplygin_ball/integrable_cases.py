@@ -178,15 +178,15 @@ def period(body: BallBody, start: Sequence[float], accuracy: Accuracy = "precise
     end = _TURNS * math.sqrt(moment / least) / nu
     # The promise of a section is that of its states; here it holds for the time in units 1/ν, too.
     for each in (level, *(one for one in LEVELS.values() if one.promise < level.promise)):
-        found = section(body, given, _EITHER_WAY, end, each, crossings=2)
-        error = 4.0 * found.time_error
+        crossings = section(body, given, _EITHER_WAY, end, each, crossings=2)
+        error = 4.0 * crossings.time_error
         if error * nu <= level.promise:
             break
-    speeds = np.abs(SYSTEM.field(list(found.states.T), body.parameters)[4]) if len(found.times) else np.zeros(1)
-    if len(found.times) < 2 or np.min(speeds) <= _TOUCHES * nu:
+    speeds = np.abs(SYSTEM.field(list(crossings.states.T), body.parameters)[4]) if len(crossings.times) else np.zeros(1)
+    if len(crossings.times) < 2 or np.min(speeds) <= _TOUCHES * nu:
         raise InvalidParameter(
             f"Up to t = {end:.6g} this orbit does not cross the equator γ3 = 0 twice: choose another start."
         )
-    first, second = found.times.tolist()
+    first, second = crossings.times.tolist()
     status = Status.OK if error * nu <= level.promise else each.status(math.inf)
-    return Period(2.0 * (second - first), (first, second), level.name, status, error, found.cost)
+    return Period(2.0 * (second - first), (first, second), level.name, status, error, crossings.cost)

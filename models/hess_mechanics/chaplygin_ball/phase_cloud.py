@@ -305,15 +305,15 @@ def frame_times(body: BallBody, states: Array, duration: float, field: float = 0
     turning = math.sqrt(twice / (least + body.D * r * r)) * r**0.25
     about = shell(body, 0.5 * twice, 0.01, 256)
     rate = float(np.abs(divergence(body, about[:, :2], about[:, 2:])).max())
-    wanted = abs(duration) * max(turning / _TURN, rate / _CHANGE) + 1.0
+    frames = abs(duration) * max(turning / _TURN, rate / _CHANGE) + 1.0
     most = max(_LEAST_FRAMES, _MOST_NUMBERS // (5 * len(states)))
-    if not wanted <= _SPARSE * most:
-        longest = abs(duration) * _SPARSE * most / wanted
+    if not frames <= _SPARSE * most:
+        longest = abs(duration) * _SPARSE * most / frames
         raise WorkLimit(
             f"In this time the cloud turns too often for {most} frames: choose a time span below {plain(longest, 2)}, "
             "or fewer points."
         )
-    return np.linspace(0.0, duration, max(_LEAST_FRAMES, min(most, math.ceil(wanted))))
+    return np.linspace(0.0, duration, max(_LEAST_FRAMES, min(most, math.ceil(frames))))
 
 
 def _run(states: Array, p: Array, times: Array, level: Level, max_steps: int) -> tuple[Array, int]:

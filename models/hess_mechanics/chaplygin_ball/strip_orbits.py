@@ -59,8 +59,8 @@ def strip_orbits(body: BallBody, count: int, accuracy: Accuracy = DRAFT) -> tupl
         before, after = (_as_far_as_the_line(states[i, :2], half[i], eta, tick) for half in (back, there))
         track = np.concatenate([before[:0:-1], after])
         length = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(track, axis=0), axis=1))])
-        kept = np.unique(np.floor(length / tick), return_index=True)[1]
-        orbits.append((frozen(track[kept]), int(np.searchsorted(kept, len(before) - 1))))
+        indices = np.unique(np.floor(length / tick), return_index=True)[1]
+        orbits.append((frozen(track[indices]), int(np.searchsorted(indices, len(before) - 1))))
     return tuple(orbits)
 
 

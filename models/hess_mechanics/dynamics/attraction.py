@@ -93,8 +93,8 @@ class RecurrentSets:
             These sets.
         """
         numbers = np.append(np.where(which, np.cumsum(which) - 1, LOST), LOST).astype(np.int16)
-        kept = tuple(state for state, wanted in zip(self.states, which, strict=True) if wanted)
-        return RecurrentSets(frozen(numbers[np.where(self.table < 0, -1, self.table)]), kept)
+        states = tuple(state for state, flag in zip(self.states, which, strict=True) if flag)
+        return RecurrentSets(frozen(numbers[np.where(self.table < 0, -1, self.table)]), states)
 
     def of(self, section: PoincareSection, states: Array) -> NDArray[np.int16]:
         """Return the number of the set at each state.
@@ -179,14 +179,14 @@ def recurrent_sets(orbits: Orbits) -> RecurrentSets:
     (x0, x1), (y0, y1) = section.window
     x, y = (one.ravel() for one in np.meshgrid(centres(x0, x1, _STARTS), centres(y0, y1, _STARTS)))
     states, there = section.states_at(x, y)
-    found = [orbit for orbit in orbits.follow(states[there], CROSSINGS) if len(orbit) == CROSSINGS]
+    complete = [orbit for orbit in orbits.follow(states[there], CROSSINGS) if len(orbit) == CROSSINGS]
     table = np.full(_CELLS[::-1], LOST, np.int16)
-    if not found:
+    if not complete:
         return RecurrentSets(frozen(table), ())
-    of_each = _joined([_cells(section, orbit[-CROSSINGS // 4 :]) for orbit in found])
+    of_each = _joined([_cells(section, orbit[-CROSSINGS // 4 :]) for orbit in complete])
     sizes = np.bincount(of_each)
     largest = [one for one in np.argsort(-sizes, kind="stable")[:_MOST] if sizes[one] >= _FEWEST]
-    ends = [found[int(np.argmax(of_each == one))][-1] for one in largest]
+    ends = [complete[int(np.argmax(of_each == one))][-1] for one in largest]
     long = [one[_TRANSIENT:] for one in orbits.follow(np.array(ends), _TRANSIENT + _LONG) if len(one) > _TRANSIENT]
     if not long:
         return RecurrentSets(frozen(table), ())
@@ -236,12 +236,12 @@ def arrivals(orbits: Orbits, sets: RecurrentSets, x: Array, y: Array) -> Arrival
         if not left.size:
             break
         go_on()
-        found = orbits.follow(states, piece)
-        whole = np.array([len(orbit) == piece for orbit in found])
+        following = orbits.follow(states, piece)
+        whole = np.array([len(orbit) == piece for orbit in following])
         left, before = left[whole], before[whole]
         if not left.size:
             break
-        together = np.concatenate([orbit for orbit, kept in zip(found, whole, strict=True) if kept])
+        together = np.concatenate([orbit for orbit, flag in zip(following, whole, strict=True) if flag])
         seen = np.hstack([before, sets.of(orbits.section, together).reshape(-1, piece)])
         rows = np.lib.stride_tricks.sliding_window_view(seen, _ROW, axis=1)
         arrived = (rows[..., 0] >= 0) & np.all(rows == rows[..., :1], axis=2)

@@ -84,7 +84,7 @@ def arrivals_of_cells(orbits: Orbits, sets: RecurrentSets, window: Window, mask:
     return arrivals(orbits, sets, centres(x0, x1, m)[columns], centres(y0, y1, n)[rows])
 
 
-def joined(before: Arrivals | None, mask: Mask, found: Sequence[tuple[slice, Arrivals]]) -> Arrivals:
+def joined(before: Arrivals | None, mask: Mask, parts: Sequence[tuple[slice, Arrivals]]) -> Arrivals:
     """Return the arrivals from all cells: new ones where a mask is True, elsewhere those from before.
 
     Parameters
@@ -104,7 +104,7 @@ def joined(before: Arrivals | None, mask: Mask, found: Sequence[tuple[slice, Arr
     first = np.empty(mask.shape, np.int16)
     number, crossings = (first, first.copy()) if before is None else (_halved(before.number), _halved(before.crossings))
     rows, columns = np.nonzero(mask)
-    for part, one in found:
+    for part, one in parts:
         at = rows[part], columns[part]
         number[at], crossings[at] = one.number, one.crossings
     return Arrivals(frozen(number), frozen(crossings))

@@ -132,10 +132,10 @@ def contraction(body: Body, start: Sequence[float], duration: float) -> Contract
     WorkLimit
         As `solve`.
     """
-    course = mean_divergence(body, start, duration)
-    sums = np.concatenate([[0.0], course.mean * course.times])
+    means = mean_divergence(body, start, duration)
+    sums = np.concatenate([[0.0], means.mean * means.times])
     at = np.linspace(duration / 3.0, duration, _BATCHES + 1)
-    stretches = np.diff(np.interp(at, np.concatenate([[0.0], course.times]), sums)) / np.diff(at)
+    stretches = np.diff(np.interp(at, np.concatenate([[0.0], means.times]), sums)) / np.diff(at)
     return Contraction(float(stretches.mean()), float(stretches.std(ddof=1) / math.sqrt(_BATCHES)))
 
 
@@ -176,10 +176,10 @@ class SectionOrbits:
         """
         if not len(starts):
             return []
-        found = section_crossings(
+        result = section_crossings(
             self.section, starts, crossings, self.level, turns=_TURNS, threads=1, most_steps=_MOST_STEPS
         )
-        return complete(found).states
+        return complete(result).states
 
 
 @dataclass(frozen=True)
@@ -237,6 +237,6 @@ def attractors(section: PoincareSection, duration: float, accuracy: Accuracy) ->
     WorkLimit
         If an orbit needs too many steps.
     """
-    found = recurrent_sets(SectionOrbits(section, accuracy))
-    on_each = tuple(contraction(section, state, duration) for state in found.states)
-    return Attractors(found.kept([one.attracts for one in on_each]), on_each)
+    sets = recurrent_sets(SectionOrbits(section, accuracy))
+    on_each = tuple(contraction(section, state, duration) for state in sets.states)
+    return Attractors(sets.kept([one.attracts for one in on_each]), on_each)

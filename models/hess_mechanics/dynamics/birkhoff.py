@@ -87,7 +87,7 @@ def irregularity(turns: Sequence[float], places: Array, precision: float) -> flo
     places : ndarray, shape (n, d)
         Points of the orbit.
     precision : float
-        Error of the points, which is no irregularity.
+        Error of the points, which does not count as irregularity.
 
     Returns
     -------

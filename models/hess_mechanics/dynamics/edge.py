@@ -58,9 +58,9 @@ def saddle_between(map_: Map, one: Array, other: Array, number_of: Callable[[Arr
     last = int(np.argmax(away > 1e-3)) if np.any(away > 1e-3) else both
     for first in range(max(0, last - _MOST - 1), -1, -_MOST):
         try:
-            found = find_periodic(map_, orbits[0][first], None, _MOST)
+            orbit = find_periodic(map_, orbits[0][first], None, _MOST)
         except ModelError:
             continue
-        if found.kind.startswith("saddle"):
-            return found
+        if orbit.kind.startswith("saddle"):
+            return orbit
     raise NotConverged(f"No saddle up to period {_MOST} is found on the boundary here.")

@@ -77,8 +77,8 @@ def integrated(
 
     def part(i: int) -> None:
         own = slice(i * _SHARE, (i + 1) * _SHARE)
-        found = out[own], steps[own], ends[own]
-        kernel(states[own], parameters, times, level.order, level.tolerance, longest, max_steps, *found)
+        results = out[own], steps[own], ends[own]
+        kernel(states[own], parameters, times, level.order, level.tolerance, longest, max_steps, *results)
 
     share(part, -(-count // _SHARE), threads)
     return out, steps, ends
@@ -164,16 +164,16 @@ def ensemble(
     # As in `measured`, for the orbits that still miss the promise.
     while todo.size:
         tighter = current.tighter()
-        found, more, _ = run(problems[tighter.aside], todo, tighter)
+        finer, more, _ = run(problems[tighter.aside], todo, tighter)
         total += int(np.maximum(more, 0).sum())
-        difference = np.abs(before - found)
+        difference = np.abs(before - finer)
         difference[more < 0] = np.inf
         off = difference.max(axis=(1, 2))
         safety = safety_of(off, scaled_errors[todo])
         scaled_errors[todo] = safety * off + 2e-16
         errors[todo] = safety * (difference * problem.scale).max(axis=(1, 2)) + 2e-16 * max(1.0, problem.nu)
         if not tighter.aside:
-            out[todo] = found
+            out[todo] = finer
         if current.is_floor:
             todo = todo[scaled_errors[todo] > UNSURE]
             third, more, _ = run(problems[current.aside], todo, current.variant())
@@ -184,7 +184,7 @@ def ensemble(
             errors[todo] = np.maximum(errors[todo], SAFETY * (difference * problem.scale).max(axis=(1, 2)))
             break
         missed = scaled_errors[todo] > level.promise
-        todo, before, current = todo[missed], found[missed], tighter
+        todo, before, current = todo[missed], finer[missed], tighter
 
     statuses = [level.status(float(error)) for error in scaled_errors]
     ends, last, reasons = np.full(count, t[-1]), out[:, -1].copy(), [""] * count
@@ -224,7 +224,7 @@ class _Several(Protocol):
 M = TypeVar("M", bound=_Several)
 
 
-def complete(found: M) -> M:
+def complete(motions: M) -> M:
     """Return motions, all of which must be complete.
 
     Parameters
@@ -242,7 +242,7 @@ def complete(found: M) -> M:
     WorkLimit
         If one is incomplete, with its reason.
     """
-    reason = next(filter(None, found.reasons), None)
+    reason = next(filter(None, motions.reasons), None)
     if reason is not None:
         raise WorkLimit(reason)
-    return found
+    return motions

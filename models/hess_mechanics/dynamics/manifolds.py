@@ -423,17 +423,17 @@ def crossings_of(one: Manifold, other: Manifold, most: int = 100) -> list[Inters
     list of Intersection
         The points.
     """
-    found: list[Intersection] = []
+    crossings: list[Intersection] = []
     for i, j in _meeting(one, other):
         crossing = _refined(one, other, (i, j))
         if crossing is not None and all(
             np.abs(apart(one.turns, crossing.place, known.place)).max() > 1e-9 + crossing.error + known.error
-            for known in found
+            for known in crossings
         ):
-            found.append(crossing)
-            if len(found) == most:
+            crossings.append(crossing)
+            if len(crossings) == most:
                 break
-    return found
+    return crossings
 
 
 def _meeting(one: Manifold, other: Manifold) -> list[tuple[int, int]]:

@@ -203,7 +203,7 @@ def megno(
     t = duration * problem.nu * np.arange(1, samples + 1) / samples
     first = samples // 5
     direction = one_direction(size)
-    found, steps, no_chaos_because = np.empty((6, count)), np.zeros(count, int), [""] * count
+    numbers, steps, no_chaos_because = np.empty((6, count)), np.zeros(count, int), [""] * count
     ends, reasons = np.full(count, abs(duration)), [""] * count
 
     def one(i: int) -> None:
@@ -211,7 +211,7 @@ def megno(
             follow(i)
         except (WorkLimit, InvalidParameter) as error:
             # Another motion is not lost with this one.
-            found[:, i], reasons[i] = math.nan, str(error)
+            numbers[:, i], reasons[i] = math.nan, str(error)
             ends[i] = abs(error.time) if isinstance(error, MotionEnds) else math.nan
 
     def follow(i: int) -> None:
@@ -229,18 +229,18 @@ def megno(
         # The error of the steps, the scatter of stretches, and the remainder on tori, which no scatter shows.
         floor = (level.tolerance + 1e-15) * steps[i] / abs(duration)
         scatter = batch_error(volume[:, None], times)[1][0]
-        found[:, i] = y.mean(), *windows, max(scatter, float(np.abs(windows[1:] - windows[0]).max())) + floor
-        require_finite_rates(found[:, i])
+        numbers[:, i] = y.mean(), *windows, max(scatter, float(np.abs(windows[1:] - windows[0]).max())) + floor
+        require_finite_rates(numbers[:, i])
         grows = count <= _FEW and bool(y.mean() > CHAOTIC)
         no_chaos_because[i] = no_chaos(problem, start, along.states, float(t[-1]), level, grows)
 
     share(one, count, threads, _SHARE)
     return Megno(
         abs(duration),
-        frozen(found[0].copy()),
-        frozen(found[1].copy()),
-        frozen(found[5].copy()),
-        frozen(found[1:5].T.copy()),
+        frozen(numbers[0].copy()),
+        frozen(numbers[1].copy()),
+        frozen(numbers[5].copy()),
+        frozen(numbers[1:5].T.copy()),
         tuple(no_chaos_because),
         frozen(ends),
         tuple(reasons),

@@ -68,16 +68,16 @@ class MegnoMap(Result):
         Labels
             Both arrays over the cells.
         """
-        found = {"MEGNO": self.values, "kind": self.kind, "end": self.ends}
+        arrays = {"MEGNO": self.values, "kind": self.kind, "end": self.ends}
         facts = {"t": self.t, "level": self.level}
-        return labels_of_cells(self.names, self.x, self.y, found, facts, MEGNO="1", end="T")
+        return labels_of_cells(self.names, self.x, self.y, arrays, facts, MEGNO="1", end="T")
 
 
 def labels_of_cells(
     names: tuple[str, str],
     x: Array,
     y: Array,
-    found: Mapping[str, Array],
+    arrays: Mapping[str, Array],
     facts: Mapping[str, Any],
     **units: str,
 ) -> Labels:
@@ -106,7 +106,7 @@ def labels_of_cells(
     across, up = names
     return Labels(
         {up: ((up,), y), across: ((across,), x)},
-        {name: ((up, across), of) for name, of in found.items()},
+        {name: ((up, across), of) for name, of in arrays.items()},
         {**place_units(names), **units},
         facts,
     )
@@ -150,9 +150,9 @@ def row_of_cells(
     out = np.full((3, m), np.nan)
     out[1] = NOWHERE
     if there.any():
-        found = megno(section, states[there], duration, accuracy, threads=1)
-        kinds = np.where(np.array(found.reasons, bool), ENDED, found.chaotic + 2 * found.dissipative)
-        out[:, there] = found.values, kinds, found.ends
+        row_values = megno(section, states[there], duration, accuracy, threads=1)
+        kinds = np.where(np.array(row_values.reasons, bool), ENDED, row_values.chaotic + 2 * row_values.dissipative)
+        out[:, there] = row_values.values, kinds, row_values.ends
     return frozen(out)
 
 

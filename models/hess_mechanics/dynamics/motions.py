@@ -48,7 +48,7 @@ _KNOWN: Mapping[str, Parameter] = {
 """Parameters and variables of the systems of the paper, by name."""
 _REDUCED = {one.name: one for one in known.REDUCED_OMEGA}
 _FREE = (-1e6, 1e6)
-"""Bounds of a number of a system of one's own."""
+"""Bounds of a number of a user's system."""
 
 
 def usual(of: Parameter, default: float, doc: str = "") -> Parameter:
@@ -133,11 +133,11 @@ class Motions:
 
 
 def _parameter(system: System, name: str, default: float) -> Parameter:
-    """Return the parameter of this name, without a description for a system of one's own."""
+    """Return the parameter of this name, without a description for a user's system."""
     own = _KNOWN if system.labels else {}
-    found = (_REDUCED if system.name == "hess" else {}).get(name) or own.get(name)
-    if found is not None:
-        return usual(found, default)
+    parameter = (_REDUCED if system.name == "hess" else {}).get(name) or own.get(name)
+    if parameter is not None:
+        return usual(parameter, default)
     reach = max(1.0, 2.0 * abs(default))
     return Parameter(name, name, name, default, (-reach, reach), reach / 100.0, _FREE)
 

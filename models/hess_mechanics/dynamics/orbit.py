@@ -308,7 +308,7 @@ def require_finite_states(states: Array) -> None:
         raise InvalidParameter("The motion exceeded the range of double precision: choose less extreme parameters.")
 
 
-def require_finite_neighbours(*found: Array) -> None:
+def require_finite_neighbours(*results: Array) -> None:
     """Raise an error if the variational equations have overflowed.
 
     Parameters
@@ -321,7 +321,7 @@ def require_finite_neighbours(*found: Array) -> None:
     WorkLimit
         If a number is not finite.
     """
-    if not all(np.all(np.isfinite(one)) for one in found):
+    if not all(np.all(np.isfinite(one)) for one in results):
         raise WorkLimit(
             "Nearby orbits separate beyond the range of double precision: choose a shorter time span, or less "
             "extreme parameters."
@@ -497,10 +497,10 @@ def solve(
             problems[1] = nearby.rounded(out)
         return out, steps
 
-    found = measured(level, run, lambda one, other: float(np.abs(one - other).max()))
-    states = found.result * problem.scale
+    result = measured(level, run, lambda one, other: float(np.abs(one - other).max()))
+    states = result.result * problem.scale
     drift = drift_of(body.system, np.asarray(start, float), states, np.asarray(body.parameters, float))
-    absolute = found.safety * float((np.abs(found.result - found.other) * problem.scale).max()) + 2e-16 * max(
+    absolute = result.safety * float((np.abs(result.result - result.other) * problem.scale).max()) + 2e-16 * max(
         1.0, problem.nu
     )
     return Orbit(
@@ -508,10 +508,10 @@ def solve(
         level.name,
         frozen(times),
         frozen(states),
-        found.status,
+        result.status,
         absolute,
         drift,
-        found.cost,
+        result.cost,
         variables=body.system.variables,
         angles=body.system.angles,
     )

@@ -235,7 +235,7 @@ def diagram_over(
     if not (kept >= 1 and transient >= 0 and transient + kept <= MAX_CROSSINGS):
         raise WorkLimit(f"At most {MAX_CROSSINGS} crossings per value are allowed: choose fewer.")
     first = np.array(start, float)
-    anew = first if again is None else np.array(again, float)
+    restart = first if again is None else np.array(again, float)
     place = first
     places: list[Array] = []
     periods, conservative = np.zeros(along.size, np.int64), np.zeros(along.size, bool)
@@ -244,30 +244,30 @@ def diagram_over(
     level = ""
     for i, value in enumerate(along.tolist()):
         go_on()
-        found = np.empty((0, first.size))
+        points = np.empty((0, first.size))
         try:
             map_ = family(value)
             names, level = map_.names, map_.level
             conservative[i] = map_.preserves_volume
-            for origin in (place, anew) if follow else (anew,):
+            for origin in (place, restart) if follow else (restart,):
                 try:
                     orbit = _after_transient(map_, origin, transient, kept)
                 except OutsideRegion:
                     continue
                 if len(orbit) == kept:
-                    found = orbit
+                    points = orbit
                     break
         except WorkLimit:
             raise
         except ModelError:
             # At this value there is no such body, or no motion: the diagram has a gap.
             pass
-        places.append(frozen(found.copy()))
-        if len(found):
-            periods[i], _ = period_of(map_.turns, found, map_.promise)
-            ends[i] = place = found[-1]
+        places.append(frozen(points.copy()))
+        if len(points):
+            periods[i], _ = period_of(map_.turns, points, map_.promise)
+            ends[i] = place = points[-1]
         else:
-            place = anew
+            place = restart
     return Diagram(
         parameter,
         names,
@@ -450,16 +450,16 @@ def cascade(
     WorkLimit
         If a map needs too many steps.
     """
-    found: list[Bifurcation] = []
+    flips: list[Bifurcation] = []
     direction = math.copysign(1.0, end - start)
     at, far = start, end
     ended = f"After {doublings} doublings."
-    while len(found) < doublings:
+    while len(flips) < doublings:
         go_on()
         try:
             branch = branch_from(family, orbit, parameter, at, far, _POINTS, until="flip")
         except NotConverged as error:
-            if not found:
+            if not flips:
                 raise
             ended = str(error)
             break
@@ -467,27 +467,27 @@ def cascade(
         if flip is None:
             ended = f"The orbit of period {orbit.period} keeps its period: {branch.end_reason}"
             break
-        found.append(flip)
-        if len(found) == doublings:
+        flips.append(flip)
+        if len(flips) == doublings:
             break
         if 2 * orbit.period > MAX_PERIOD:
             ended = f"Orbits are looked for up to period {MAX_PERIOD}."
             break
-        step = abs(flip.value - (found[-2].value if len(found) > 1 else start)) / _GROWTH
+        step = abs(flip.value - (flips[-2].value if len(flips) > 1 else start)) / _GROWTH
         born = _doubled(family, flip, direction * step)
         if born is None:
             ended = f"Beyond {parameter} = {flip.value:.9g} no orbit of period {2 * orbit.period} is found."
             break
         at, orbit = born
         # The first step says little about the distance to the next doubling.
-        far = end if len(found) == 1 else flip.value + direction * 4.0 * step
+        far = end if len(flips) == 1 else flip.value + direction * 4.0 * step
     return Cascade(
         parameter,
         orbit.names,
-        frozen(np.array([one.value for one in found])),
-        frozen(np.array([one.error for one in found])),
-        frozen(np.array([len(one.places) for one in found], np.int64)),
-        tuple(one.places for one in found),
+        frozen(np.array([one.value for one in flips])),
+        frozen(np.array([one.error for one in flips])),
+        frozen(np.array([len(one.places) for one in flips], np.int64)),
+        tuple(one.places for one in flips),
         ended,
         orbit.level,
     )

@@ -234,8 +234,8 @@ class Shot:
             The step −J⁻¹ times the residuals.
         """
         u, values, v = np.linalg.svd(self.jacobian)
-        kept = values > family * max(1.0, float(values[0]))
-        solution = -(v[kept].T / values[kept]) @ (u.T[kept] @ self.left.ravel())
+        nonzero = values > family * max(1.0, float(values[0]))
+        solution = -(v[nonzero].T / values[nonzero]) @ (u.T[nonzero] @ self.left.ravel())
         return np.asarray(solution.reshape(self.places.shape))
 
     @property
@@ -520,12 +520,12 @@ def find_periodic(
     others: set[int] = set()
     for guess in _guesses(map_, places[0], period, most, near):
         try:
-            found = _measured(map_, *_converged(map_, guess))
+            orbit = _measured(map_, *_converged(map_, guess))
         except NotConverged:
             continue
-        if period in (None, found.period):
-            return found
-        others.add(found.period)
+        if period in (None, orbit.period):
+            return orbit
+        others.add(orbit.period)
     if period is None:
         raise NotConverged(
             f"Newton's method finds no periodic orbit up to period {most} from here: start closer to one, "
@@ -618,12 +618,13 @@ def _measured(map_: Map, shot: Shot, iterations: int) -> PeriodicOrbit:
         family = max(_FAMILY, current.promise)
         step = there.step(family)
         values = np.linalg.svd(there.jacobian, compute_uv=False)
-        kept = values[values > family * max(1.0, float(values[0]))]
-        condition = float(kept[0] / kept[-1]) if kept.size else 1.0
+        nonzero = values[values > family * max(1.0, float(values[0]))]
+        condition = float(nonzero[0] / nonzero[-1]) if nonzero.size else 1.0
         size = max(1.0, float(np.abs(shot.places).max()))
         # Relative to the smallest singular value, not the condition: a unit residual becomes 1/σ.
-        error = SAFETY * float(np.abs(step).max()) + 4.0 * _ROUNDING * size / float(kept[-1] if kept.size else 1.0)
-        if kept.size < values.size:
+        least = float(nonzero[-1]) if nonzero.size else 1.0
+        error = SAFETY * float(np.abs(step).max()) + 4.0 * _ROUNDING * size / least
+        if nonzero.size < values.size:
             # In a family no point is distinguished; only the residual is known.
             error = max(error, SAFETY * there.size)
         if error <= map_.promise or current.is_floor:

@@ -308,7 +308,7 @@ class _Search:
         room, total = min(self.crossings, _ROOM), 0
         while True:
             times, states = np.full(room, np.nan), np.zeros((room, self.problem.scale.size))
-            found, steps = cross(
+            number, steps = cross(
                 start,
                 problem.parameters,
                 normal,
@@ -323,22 +323,22 @@ class _Search:
                 states,
             )
             ended: WorkLimit | None = None
-            if found < 0:
-                ended = unfinished(self.problem, found, times[-1], states[-1], self.max_steps)
-                found = room - 1
-            elif np.abs(states[:found]).max(initial=0.0) >= ESCAPED:
+            if number < 0:
+                ended = unfinished(self.problem, number, times[-1], states[-1], self.max_steps)
+                number = room - 1
+            elif np.abs(states[:number]).max(initial=0.0) >= ESCAPED:
                 # Round-off has taken the motion past a pole.
                 ended = end_of(problem, start, duration)
             if ended is not None:
                 if not isinstance(ended, MotionEnds):
                     raise ended
-                found = int(np.count_nonzero(np.abs(times[:found]) < abs(ended.time) * self.problem.nu - _BEFORE))
+                number = int(np.count_nonzero(np.abs(times[:number]) < abs(ended.time) * self.problem.nu - _BEFORE))
             total += steps
-            if ended or found < room or room == self.crossings:
+            if ended or number < room or room == self.crossings:
                 break
             room = min(self.crossings, 10 * room)
-        require_finite_states(states[:found])
-        return (times[:found].copy(), states[:found].copy()), total, ended
+        require_finite_states(states[:number])
+        return (times[:number].copy(), states[:number].copy()), total, ended
 
     def measured(self) -> SectionCrossings:
         """Return the crossings of the first orbit, with an error from a more accurate run with a nearby start."""
@@ -354,24 +354,24 @@ class _Search:
                 problems[1] = nearby.rounded(np.vstack((self.problem.states, crossings[1])))
             return crossings, steps
 
-        found = measured(self.level, run, self._apart)
-        (times, scaled), (other_times, others) = found.result, found.other
+        result = measured(self.level, run, self._apart)
+        (times, scaled), (other_times, others) = result.result, result.other
         both = min(len(scaled), len(others))
         nu, scale = self.problem.nu, self.problem.scale
         states = scaled * scale
-        difference = found.safety * np.abs(scaled[:both] - others[:both])
+        difference = result.safety * np.abs(scaled[:both] - others[:both])
         system, p = self.body.system, np.asarray(self.body.parameters, float)
         return SectionCrossings(
             system.name,
             self.level.name,
             frozen(times / nu),
             frozen(states),
-            found.status,
+            result.status,
             float((difference * scale).max(initial=0.0)) + 2e-16 * max(1.0, nu),
             drift_of(system, self.starts[0], states, p),
-            found.cost,
+            result.cost,
             system.variables,
-            time_error(found.safety, times, other_times) / nu,
+            time_error(result.safety, times, other_times) / nu,
             angles=system.angles,
         )
 
@@ -608,7 +608,7 @@ def section_points(
     parts = max(1, min(_PARTS, crossings // 10))
     one_part = replace(search, crossings=-(-crossings // parts))
     problem = search.problem.nearby() if level.aside else search.problem
-    found: dict[int, tuple[Array, int]] = {}
+    results: dict[int, tuple[Array, int]] = {}
     reasons = [""] * count
 
     def follow(orbit: int) -> tuple[Array, int]:
@@ -636,7 +636,7 @@ def section_points(
         # A single orbit beyond the limit stops the whole section.
         if not refused:
             try:
-                found[orbit] = follow(orbit)
+                results[orbit] = follow(orbit)
             except WorkLimit as error:
                 refused.append(error)
 
@@ -644,13 +644,13 @@ def section_points(
     if refused:
         raise refused[0]
     p = np.asarray(body.parameters, float)
-    drifts = [drift_of(body.system, search.starts[i], found[i][0], p) for i in range(count) if len(found[i][0])]
+    drifts = [drift_of(body.system, search.starts[i], results[i][0], p) for i in range(count) if len(results[i][0])]
     drift = {name: max(one[name] for one in drifts) for name in (drifts[0] if drifts else ())}
     wall_ms = (time.perf_counter() - begun) * 1e3
     return SectionPoints(
-        [frozen(found[i][0]) for i in range(count)],
+        [frozen(results[i][0]) for i in range(count)],
         drift,
-        Cost(sum(steps for _, steps in found.values()), wall_ms),
+        Cost(sum(steps for _, steps in results.values()), wall_ms),
         body.system.variables,
         tuple(reasons),
         body.system.angles,

@@ -106,8 +106,8 @@ class Along(_Number):
         arb
             The bound.
         """
-        found = _size((self.polynomial - other).coeffs(), self.delta)
-        return found if self.rest is None else found + self.rest
+        bound = _size((self.polynomial - other).coeffs(), self.delta)
+        return bound if self.rest is None else bound + self.rest
 
     def __neg__(self) -> Along:
         return Along(-self.polynomial, self.delta, self.terms, self.rest)
@@ -136,11 +136,11 @@ class Along(_Number):
         return self._with(self.polynomial * other.polynomial, rest)
 
     def __pow__(self, exponent: int) -> Along:
-        found = Along.number(1, self.delta, self.terms)
+        product = Along.number(1, self.delta, self.terms)
         factor = self if exponent >= 0 else self.inverse()
         for _ in range(abs(exponent)):
-            found = found * factor
-        return found
+            product = product * factor
+        return product
 
     def inverse(self) -> Along:
         """Return 1/b from its truncated series q: 1/b = q/(1 − η), η = 1 − qb.
@@ -165,11 +165,11 @@ class Along(_Number):
             raise ZeroDivisionError("a divisor that may vanish where a step begins") from None
         finally:
             ctx.cap = before
-        found = Along(q, self.delta, self.terms)
-        off = (found * self).distance(arb_poly([1]))
+        truncation = Along(q, self.delta, self.terms)
+        off = (truncation * self).distance(arb_poly([1]))
         if not off < 1:
             raise ZeroDivisionError("a divisor that may vanish along a step")
-        return Along(q, self.delta, self.terms, (found.most * off / (1 - off)).abs_upper() + arb(0))
+        return Along(q, self.delta, self.terms, (truncation.most * off / (1 - off)).abs_upper() + arb(0))
 
     def __truediv__(self, other: Any) -> Along:
         return self * (other.inverse() if isinstance(other, Along) else 1 / (other + 0 * self.delta))

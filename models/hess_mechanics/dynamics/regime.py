@@ -62,7 +62,7 @@ slowly modulated quasi-periodic motions stays close to 1 for long."""
 _SMOOTH = 3e-3
 """Largest `irregularity` of a quasi-periodic motion; at least 0.01 in narrow bands of chaos."""
 _PRECISION = 1e3
-"""Differences of averages that are no irregularity, in errors of the map: an orbit drifts by some of them."""
+"""Differences of averages that do not count as irregularity, in errors of the map: an orbit drifts by some of them."""
 _LINEAR = 0.1
 """Largest distance of MEGNO from 2 of motions whose neighbours part linearly, as those of tori do."""
 _FEWEST, _MANY = 800, 6000
@@ -374,8 +374,8 @@ def _closes(map_: ReturnMap, places: Array, m: int) -> bool:
         return False
     periods = len(places) // m
     away = np.abs(apart(map_.turns, places[-periods * m :].reshape(periods, m, -1), orbit.places)).max(axis=(1, 2))
-    closing = float(np.abs(apart(map_.turns, places[m:], places[:-m])).max())
-    if away[-1] <= precision or (closing <= precision and away[-1] <= SAME):
+    gap = float(np.abs(apart(map_.turns, places[m:], places[:-m])).max())
+    if away[-1] <= precision or (gap <= precision and away[-1] <= SAME):
         return True
     # An attracting orbit is the limit if the distance falls as its multiplier says.
     rate = float(np.abs(orbit.multipliers).max()) + orbit.multiplier_error
@@ -389,7 +389,7 @@ def _at_rest(map_: ReturnMap, place: Array, precision: float) -> bool:
 
 def _ensemble(map_: ReturnMap, places: Array) -> Array:
     """Return the end points (m, d) of orbits that started next to different points (n, d) of an orbit."""
-    found, count = [], min(len(places), _INDEPENDENT)
+    ends, count = [], min(len(places), _INDEPENDENT)
     for i in range(_MEMBERS):
         start = places[i * len(places) // _MEMBERS]
         try:
@@ -397,8 +397,8 @@ def _ensemble(map_: ReturnMap, places: Array) -> Array:
         except OutsideRegion:
             following = map_.orbit(start, count)
         if len(following):
-            found.append(following[-1])
-    return np.array(found)
+            ends.append(following[-1])
+    return np.array(ends)
 
 
 def _indicated(map_: ReturnMap, places: Array, duration: float) -> Megno:
@@ -440,10 +440,10 @@ def _has_a_curve(map_: ReturnMap, place: Array, duration: float) -> bool:
 
     An attracting invariant curve has such an exponent; an attracting periodic orbit, however long, does not.
     """
-    found = lyapunov_spectrum(
+    spectrum = lyapunov_spectrum(
         map_.section, map_.state_at(place), -duration if map_.backward else duration, map_.accuracy
     )
-    return found.zeros >= found.integrals + 2
+    return spectrum.zeros >= spectrum.integrals + 2
 
 
 @dataclass(frozen=True)

@@ -490,15 +490,15 @@ class ReturnMap:
         start = problem.states[0]
         while left > 0:
             go_on()
-            wanted = min(left, _PIECE)
-            found, times, states = search(start, wanted + 1, self._limit(problem, _WAIT))
+            target = min(left, _PIECE)
+            number, times, states = search(start, target + 1, self._limit(problem, _WAIT))
             require_steps(
-                found,
-                f"{wanted} returns need more than {MAX_STEPS} steps here: choose another place, or a cheaper level.",
-                partial(unfinished, problem, found, times[-1], states[-1], MAX_STEPS),
+                number,
+                f"{target} returns need more than {MAX_STEPS} steps here: choose another place, or a cheaper level.",
+                partial(unfinished, problem, number, times[-1], states[-1], MAX_STEPS),
             )
-            first = int(found > 0 and abs(times[0]) < _AT_ONCE)
-            states = states[first : min(found, first + wanted)] * problem.scale
+            first = int(number > 0 and abs(times[0]) < _AT_ONCE)
+            states = states[first : min(number, first + target)] * problem.scale
             require_finite_states(states)
             on = np.flatnonzero(section.is_on(states))
             if not on.size:
@@ -601,9 +601,9 @@ class ReturnMap:
             np.array([section.surface.gradient(state) for state in states]),
         )
         moved = onto @ frame.swapaxes(1, 2) @ (self._tangents(several) / scale).swapaxes(1, 2)
-        found = np.asarray(section.places_of(states))
-        derivatives = self._in_plane(states, found, moved.swapaxes(1, 2))
-        return found.reshape(places.shape), derivatives.reshape(*places.shape, places.shape[-1])
+        images = np.asarray(section.places_of(states))
+        derivatives = self._in_plane(states, images, moved.swapaxes(1, 2))
+        return images.reshape(places.shape), derivatives.reshape(*places.shape, places.shape[-1])
 
     def _places(self, place: Array) -> Array:
         """Return coordinates as an array (k,) or (m, k).  Raises `InvalidParameter`."""
@@ -630,7 +630,7 @@ class ReturnMap:
         m, d = problem.states.shape
         rates = system.rates(problem.states, problem.parameters)[:, :, None]
         frames = np.linalg.qr(np.concatenate([rates, np.broadcast_to(np.eye(d), (m, d, d))], axis=2))[0][:, :, 1:]
-        found = np.empty((m, d, d - 1))
+        derivatives = np.empty((m, d, d - 1))
         state, growth, volume = np.empty((1, d)), np.empty((1, d - 1)), np.empty(1)
         for i in range(m):
             steps = system.vary_others(
@@ -643,13 +643,13 @@ class ReturnMap:
                 MAX_STEPS,
                 math.inf,
                 state,
-                found[i : i + 1],
+                derivatives[i : i + 1],
                 growth,
                 volume,
             )
             require_steps(steps, _TOO_LONG, partial(end_of, problem, problem.states[i], times[i]))
-        require_finite_states(found)
-        return found, frames
+        require_finite_states(derivatives)
+        return derivatives, frames
 
     def _search(self, starts: Array) -> tuple[Problem, _Search]:
         """Return the scaled problem, and the search for the crossings of one of its orbits.
@@ -664,9 +664,9 @@ class ReturnMap:
         cross, normal, offset = surface.crossing_kernel(section.system, problem)
         direction = section.slowness * (-1.0 if self.backward else 1.0)
 
-        def search(start: Array, wanted: int, longest: float) -> tuple[int, Array, Array]:
-            times, states = np.empty(wanted), np.empty((wanted, problem.scale.size))
-            found, _ = cross(
+        def search(start: Array, target: int, longest: float) -> tuple[int, Array, Array]:
+            times, states = np.empty(target), np.empty((target, problem.scale.size))
+            number, _ = cross(
                 start,
                 problem.parameters,
                 normal,
@@ -680,7 +680,7 @@ class ReturnMap:
                 times,
                 states,
             )
-            return found, times, states
+            return number, times, states
 
         return problem, search
 
@@ -691,16 +691,16 @@ class ReturnMap:
         times, states = np.empty(len(starts)), np.empty_like(problem.states)
         for i, start in enumerate(problem.states):
             go_on()
-            wanted = count
+            target = count
             while True:
-                found, all_times, all_states = search(start, wanted, longest * count)
+                number, all_times, all_states = search(start, target, longest * count)
                 # Round-off may put the start a little before a curved surface, which it then crosses at once.
-                if not (found and wanted == count and abs(all_times[0]) < _AT_ONCE):
+                if not (number and target == count and abs(all_times[0]) < _AT_ONCE):
                     break
-                wanted += 1
-            end = partial(unfinished, problem, found, all_times[-1], all_states[-1], MAX_STEPS)
-            require_steps(found, _TOO_LONG, end)
-            if found < wanted:
+                target += 1
+            end = partial(unfinished, problem, number, all_times[-1], all_states[-1], MAX_STEPS)
+            require_steps(number, _TOO_LONG, end)
+            if number < target:
                 limit = longest * count * self.section.slowness / problem.nu
                 raise NoReturn(
                     f"From here the motion did not return to the section {_times(count)} within t = "
@@ -715,7 +715,7 @@ class ReturnMap:
     def _tangents(self, places: Array) -> Array:
         """Return ∂Y/∂x (m, k, d) at points (m, k).  Raises `OutsideRegion` at the very edge of the section."""
         m, k = places.shape
-        found = np.empty((m, k, len(self.section.system.variables)))
+        tangents = np.empty((m, k, len(self.section.system.variables)))
         left, step = np.arange(m), _STEP
         while left.size:
             sizes = np.array([step, 0.25 * step])
@@ -728,11 +728,11 @@ class ReturnMap:
             size = np.abs(both).max(axis=(1, 2, 3), initial=1.0)
             agree = np.abs(both[:, 0] - both[:, 1]).max(axis=(1, 2), initial=0.0) <= _AGREE / step * size
             whole[whole] = done = agree | (step < 1e-5)
-            found[left[whole]] = both[done, 0]
+            tangents[left[whole]] = both[done, 0]
             left, step = left[~whole], 0.25 * step
             if left.size and step < 1e-6:
                 raise OutsideRegion("This point is too close to the edge of the section: choose another one.")
-        return found
+        return tangents
 
     def _in_plane(self, states: Array, places: Array, away: Array) -> Array:
         """Return ∂x/∂Y at states (m, d) along directions (m, k, d); column j belongs to direction j."""
@@ -819,7 +819,7 @@ class ReturnMap:
         tuple of str
             Names of the `mirrors` that map the orbit to itself.
         """
-        found = []
+        names = []
         for mirror in self.mirrors:
             images = [self.mirror_image(mirror, place) for place in places]
             if all(
@@ -827,8 +827,8 @@ class ReturnMap:
                 and np.abs(apart(self.turns, places, image)).max(axis=1).min() < max(near, 1e3 * self.promise)
                 for image in images
             ):
-                found.append(mirror.name)
-        return tuple(found)
+                names.append(mirror.name)
+        return tuple(names)
 
 
 def _times(count: int) -> str:

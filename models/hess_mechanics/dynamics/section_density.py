@@ -111,15 +111,15 @@ def visits(
     starts = np.asarray(starts, float)
     for first in range(0, len(starts), _TOGETHER):
         some = starts[first : first + _TOGETHER]
-        found = complete(section_crossings(section, some, crossings, accuracy, not forward, threads=1))
-        for states in found.states:
+        orbits = complete(section_crossings(section, some, crossings, accuracy, not forward, threads=1))
+        for states in orbits.states:
             places = section.places_of(states[section.is_on(states)])
             within = places[np.all((places >= low) & (places < high), axis=1)]
             at = ((within - low) * (cells / (high - low))).astype(int)
             np.add.at(counts, at[:, 1] * cells[0] + at[:, 0], 1)
             points += len(within)
             ends.extend(states[-1:])
-        drift = _larger(drift, found.drift)
+        drift = _larger(drift, orbits.drift)
     return Visits(
         frozen(counts.reshape(cells[::-1])), frozen(np.array(ends).reshape(-1, starts.shape[1])), points, drift
     )
@@ -185,20 +185,20 @@ def visits_over(
             state, there = section.states_at(*np.array(start)[:, None])
             if not there[0]:
                 continue
-            found = complete(section_crossings(section, state, skipped + crossings, accuracy, not forward, threads=1))
+            orbits = complete(section_crossings(section, state, skipped + crossings, accuracy, not forward, threads=1))
         except WorkLimit:
             raise
         except ModelError:
             # At this value there is no such body, or no motion.
             continue
-        states = found.states[0]
+        states = orbits.states[0]
         places = section.places_of(states[section.is_on(states)])
         ends[j] = places[-1] if len(places) else np.nan
         y = places[skipped:, side]
         within = y[(y >= low) & (y < high)]
         np.add.at(counts[:, j], ((within - low) * (rows / (high - low))).astype(int), 1)
         points += len(within)
-        drift = _larger(drift, found.drift)
+        drift = _larger(drift, orbits.drift)
     return Visits(frozen(counts), frozen(ends), points, drift)
 
 

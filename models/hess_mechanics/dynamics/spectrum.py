@@ -165,8 +165,8 @@ class Spectrum(Result):
         zero = [sign == "0" for sign in self.signs]
         values, errors = np.where(zero, 0.0, self.values), np.where(zero, 0.0, self.errors)
         order = np.argsort(-values, kind="stable")
-        kept = np.delete(order, np.flatnonzero(np.array(zero)[order])[: self.integrals])
-        return kaplan_yorke(values[kept], errors[kept], self.divergence, self.divergence_error)
+        rest = np.delete(order, np.flatnonzero(np.array(zero)[order])[: self.integrals])
+        return kaplan_yorke(values[rest], errors[rest], self.divergence, self.divergence_error)
 
     def labels(self) -> Labels:
         """Return the running means over time, and the exponents with their errors.
@@ -346,11 +346,11 @@ def lyapunov_exponent(body: Body, start: Sequence[float], duration: float, accur
     count = max(1, math.ceil(samples))
     times = span * np.arange(1, count + 1) / count
     state = problem.states[0]
-    found = tangent(problem, state, one_direction(state.size), problem.times(times), level, LONGEST)
-    rates = found.lengths[:, 0] / np.abs(times)
+    motion = tangent(problem, state, one_direction(state.size), problem.times(times), level, LONGEST)
+    rates = motion.lengths[:, 0] / np.abs(times)
     require_finite_rates(rates)
     later = rates[count // 2 :]
-    reason = no_chaos(problem, state, found.states, span * problem.nu, level, True)
+    reason = no_chaos(problem, state, motion.states, span * problem.nu, level, True)
     return Exponent(frozen(np.abs(times)), frozen(rates), float(later.max() - later.min()), reason)
 
 
@@ -412,21 +412,21 @@ def lyapunov_spectrum(
     where = partial(end_of, problem, y, end)
     while i < count:
         go_on()
-        found = tangent(problem, y, frame, part, level, LIMIT, ahead, steps, where)
-        steps += found.steps
+        motion = tangent(problem, y, frame, part, level, LIMIT, ahead, steps, where)
+        steps += motion.steps
         if ahead:
-            speeds = speed * np.linalg.norm(found.vectors[:, :, 0], axis=1)
+            speeds = speed * np.linalg.norm(motion.vectors[:, :, 0], axis=1)
             speed = float(speeds[-1])
             if not speeds.min() > _SLOW:
                 # From here on f is integrated like all other vectors.
                 ahead = False
                 continue
-        columns, lengths = np.linalg.qr(found.vectors)
+        columns, lengths = np.linalg.qr(motion.vectors)
         diagonal = np.abs(np.diagonal(lengths, axis1=1, axis2=2))
         now = slice(i + 1, i + _SAMPLES + 1)
-        growth[now] = growth[i] + found.log_growth + np.log(np.maximum(diagonal, 1e-300))
-        volume[now] = volume[i] + found.volume
-        y, frame = found.states[-1].copy(), columns[-1]
+        growth[now] = growth[i] + motion.log_growth + np.log(np.maximum(diagonal, 1e-300))
+        volume[now] = volume[i] + motion.volume
+        y, frame = motion.states[-1].copy(), columns[-1]
         i += _SAMPLES
     times = abs(duration) * np.arange(count + 1) / count
     first = _SETTLES * _SAMPLES

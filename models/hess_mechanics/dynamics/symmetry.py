@@ -84,7 +84,7 @@ def sign_symmetries(system: System, parameters: Sequence[float]) -> tuple[Mirror
     with np.errstate(all="ignore"):
         rates = system.rates(states, parameters)
     size = float(np.abs(rates).max()) or 1.0
-    found = []
+    mirrors = []
     for choice in itertools.product((1.0, -1.0), repeat=d):
         signs = np.array(choice)
         if np.all(signs > 0.0):
@@ -94,5 +94,5 @@ def sign_symmetries(system: System, parameters: Sequence[float]) -> tuple[Mirror
         for reverses, image in ((False, here), (True, -here)):
             if float(np.abs(there - image).max()) < 1e-13 * size:
                 changed = [name for name, sign in zip(system.variables, choice, strict=True) if sign < 0.0]
-                found.append(Mirror(f"{', '.join([*changed, *(['t'] if reverses else [])])} → −", signs, reverses))
-    return tuple(found)
+                mirrors.append(Mirror(f"{', '.join([*changed, *(['t'] if reverses else [])])} → −", signs, reverses))
+    return tuple(mirrors)

@@ -107,21 +107,21 @@ def _plain(p: Array) -> float:
 def _names(system: str, what: str, given: str | Iterable[str]) -> tuple[str, ...]:
     """Return names given as a text or a sequence.  Raises `InvalidParameter`."""
     parts = given.replace(",", " ").split() if isinstance(given, str) else given
-    found = tuple(parts) if np.iterable(parts) else (parts,)
-    if not all(isinstance(name, str) and name for name in found) or (what == "variables" and not found):
+    names = tuple(parts) if np.iterable(parts) else (parts,)
+    if not all(isinstance(name, str) and name for name in names) or (what == "variables" and not names):
         raise InvalidParameter(f'{system}: `{what}` must be names, such as "x y" or ("x", "y").')
-    return found
+    return names
 
 
 def _numbers(what: str, names: tuple[str, ...], values: Any) -> tuple[float, ...]:
     """Return one finite number for each name.  Raises `InvalidParameter`."""
     try:
-        found = tuple(float(x) for x in (values if np.iterable(values) else (values,)))
+        numbers = tuple(float(x) for x in (values if np.iterable(values) else (values,)))
     except (TypeError, ValueError, OverflowError):
-        found = (math.nan,)
-    if len(found) != len(names) or not all(map(math.isfinite, found)):
+        numbers = (math.nan,)
+    if len(numbers) != len(names) or not all(map(math.isfinite, numbers)):
         raise InvalidParameter(f"{what} must be finite numbers, {len(names)} of them: {', '.join(names) or 'none'}.")
-    return found
+    return numbers
 
 
 @dataclass(frozen=True, init=False, repr=False)
@@ -251,9 +251,9 @@ class System:
 
     def _checked_example(self, example: Any, values: Sequence[float]) -> tuple[tuple[float, ...], tuple[float, ...]]:
         """Return the example, completed by defaults.  Raises `InvalidParameter`."""
-        found = tuple((i + 1) / 10 for i in range(len(self.variables))) if example is None else example
-        is_pair = isinstance(found, Sequence) and len(found) == 2 and np.iterable(found[0])
-        state, p = found if is_pair else (found, values)
+        pair = tuple((i + 1) / 10 for i in range(len(self.variables))) if example is None else example
+        is_pair = isinstance(pair, Sequence) and len(pair) == 2 and np.iterable(pair[0])
+        state, p = pair if is_pair else (pair, values)
         return (
             _numbers(f"{self.title}: the state of the example", self.variables, state),
             _numbers(f"{self.title}: the parameters", self.parameters, p),
@@ -268,12 +268,12 @@ class System:
                 raise InvalidParameter(f"{self.title}: `{what}` must be a function of y and p.")
         check(self.field, len(self.variables), len(self.parameters))
         try:
-            found = dict(self.integrals(*self.example))
+            integrals = dict(self.integrals(*self.example))
         except (TypeError, ValueError, LookupError, ArithmeticError) as error:
             raise InvalidParameter(
                 f'{self.title}: `integrals` must return first integrals by name, such as {{"E": …}}: {error}.'
             ) from error
-        if not all(isinstance(key, str) and np.ndim(value) == 0 for key, value in found.items()):
+        if not all(isinstance(key, str) and np.ndim(value) == 0 for key, value in integrals.items()):
             raise InvalidParameter(f"{self.title}: `integrals` must return one number for each name, for one state.")
 
     def _check_scaling(self) -> None:
@@ -314,18 +314,18 @@ class System:
         state, parameters = (np.array(values, float) for values in self.example)
         for name in self.angles:
             if name not in self.variables[self.angular_velocities :]:
-                raise InvalidParameter(f"{self.title}: the angle {name} must be a variable that is no velocity.")
-            turned = state + 2.0 * math.pi * (np.array(self.variables) == name)
-            one, other = self._rates(state, parameters), self._rates(turned, parameters)
+                raise InvalidParameter(f"{self.title}: the angle {name} must be a variable that is not a velocity.")
+            after = state + 2.0 * math.pi * (np.array(self.variables) == name)
+            one, other = self._rates(state, parameters), self._rates(after, parameters)
             if not np.allclose(one, other, rtol=_ROUNDING, atol=_ROUNDING):
-                raise InvalidParameter(f"{self.title}: {name} is no angle: after a full turn the field is another one.")
+                raise InvalidParameter(f"{self.title}: {name} is not an angle: a full turn changes the field.")
 
     def _compare(self, y: Array, p: Array, scaled: Array, problem: Problem) -> None:
         expected = np.concatenate([y, self._rates(y, p)])
         rates = self._rates(scaled, problem.parameters)
-        found = np.concatenate([problem.scale * scaled, problem.scale * problem.nu * rates])
+        actual = np.concatenate([problem.scale * scaled, problem.scale * problem.nu * rates])
         names = [*self.variables, *(f"d{name}/dt" for name in self.variables)]
-        for name, one, other in zip(names, expected, found, strict=True):
+        for name, one, other in zip(names, expected, actual, strict=True):
             # Where a rate is NaN, nothing is compared.
             if abs(one - other) > _ROUNDING * float(np.max(np.abs(expected))):
                 leading = ", ".join(self.variables[: self.angular_velocities]) or "none"
@@ -340,10 +340,10 @@ class System:
         """Return the field (d,) in floats; NaN where it is not finite, or everywhere if it raises an error."""
         try:
             with np.errstate(all="ignore"):
-                found = np.array(self.field(y.tolist(), p.tolist()), float)
+                rates = np.array(self.field(y.tolist(), p.tolist()), float)
         except (TypeError, ValueError, ArithmeticError, LookupError):
             return np.full(y.shape, math.nan)
-        return np.where(np.isfinite(found), found, math.nan)
+        return np.where(np.isfinite(rates), rates, math.nan)
 
     def rates(self, states: Array, parameters: Sequence[float] | Array) -> Array:
         """Return the field at states.
@@ -360,11 +360,11 @@ class System:
         ndarray, shape (n, d)
             The rates.
         """
-        found = np.empty(states.shape)
+        rates = np.empty(states.shape)
         for i, rate in enumerate(self.field(list(states.T), np.asarray(parameters).tolist())):
             # A rate may be a plain number.
-            found[:, i] = rate
-        return found
+            rates[:, i] = rate
+        return rates
 
     @cached_property
     def recursion(self) -> Recursion:
@@ -425,8 +425,8 @@ class System:
             If an operation of the field has no finite result at the state.
         """
         names = self.variables, self.parameters
-        found = values_with_rounding(self.expressions, names, y.tolist(), parameters.tolist())
-        values, errors = np.array(found[: y.size]).T
+        pairs = values_with_rounding(self.expressions, names, y.tolist(), parameters.tolist())
+        values, errors = np.array(pairs[: y.size]).T
         return values, errors
 
     def rounding(self, states: Array, parameters: Array) -> Array | None:
@@ -449,13 +449,13 @@ class System:
         """
         if self.rescale is not _as_it_is:
             return None
-        found = [np.zeros(len(self.variables))]
+        sizes = [np.zeros(len(self.variables))]
         for y in states[:: max(1, len(states) // _SAMPLES)]:
             with suppress(Undefined):  # at a removable zero of a divisor
                 values, errors = self.rates_with_rounding(y, parameters)
                 size = max(np.abs(y).max(), np.abs(values).max())
-                found.append(np.where(errors > _CANCELS * size, errors, 0.0))
-        mean = np.asarray(np.sum(found, axis=0) / max(1, len(found) - 1))
+                sizes.append(np.where(errors > _CANCELS * size, errors, 0.0))
+        mean = np.asarray(np.sum(sizes, axis=0) / max(1, len(sizes) - 1))
         return mean if mean.any() else None
 
     @cached_property
@@ -608,12 +608,12 @@ class System:
                 f"{derived}\n\ndef {name}({arguments}):\n    return run({passed})\n"
             )
             module = getattr(self.field, "__module__", __name__)
-            found = derived_kernel(name, source, module, **names)
+            compiled = derived_kernel(name, source, module, **names)
             # The kernels of this package are compiled when it starts for the first time.
             if module.startswith("hess_mechanics."):
-                return found
+                return compiled
             count = len(self.recursion.pairs) if written is None else written
-            return announced(found, f"the kernel {task} of {self.name}", _COMPILE[0] + _COMPILE[1] * count)
+            return announced(compiled, f"the kernel {task} of {self.name}", _COMPILE[0] + _COMPILE[1] * count)
 
     def at(self, parameters: Sequence[float] | Array | None = None, **values: float) -> ParametrizedSystem:
         """Return the system with values of its parameters.
@@ -740,13 +740,13 @@ def systems() -> dict[str, System]:
     >>> "suslov" in systems()
     True
     """
-    found = {one.name: one for one in declared("SYSTEM") if isinstance(one, System)}
+    known = {one.name: one for one in declared("SYSTEM") if isinstance(one, System)}
     for brought in entry_points(group="hess_mechanics.systems"):
         system = brought.load()
-        if not isinstance(system, System) or system.name in found:
-            raise InvalidParameter(f"{brought.value} must be a System with a name of its own, not {system!r}.")
-        found[system.name] = system
-    return found
+        if not isinstance(system, System) or system.name in known:
+            raise InvalidParameter(f"{brought.value} must be a System whose name no other system has, not {system!r}.")
+        known[system.name] = system
+    return known
 
 
 @dataclass(frozen=True)

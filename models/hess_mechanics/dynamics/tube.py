@@ -176,14 +176,14 @@ class ProvedOrbit(Result):
     @cached_property
     def bounds(self) -> Array:
         """Upper bounds on the error of each component at the times of the tube, shape (m, d)."""
-        found = [[math.nextafter(float(most), math.inf) for _, most in sample] for sample in self._errors]
-        return frozen(np.array(found, float).reshape(len(found), self.orbit.states.shape[1]))
+        rows = [[math.nextafter(float(most), math.inf) for _, most in sample] for sample in self._errors]
+        return frozen(np.array(rows, float).reshape(len(rows), self.orbit.states.shape[1]))
 
     @property
     def least(self) -> float:
         """Lower bound on the largest error of any component at these times; NaN if there is none."""
-        found = max((least for sample in self._errors for least, _ in sample), default=math.nan)
-        return math.nextafter(float(found), 0.0)
+        bound = max((least for sample in self._errors for least, _ in sample), default=math.nan)
+        return math.nextafter(float(bound), 0.0)
 
     @property
     def largest(self) -> float:
@@ -257,23 +257,23 @@ def tube(
     """
     as_integer("digits", digits, 1, 100)
     begun = time.perf_counter()
-    asked = checked_times(times)
+    targets = checked_times(times)
     problem, system = Problem.of(body, [start]), body.system
-    length = abs(float(asked[-1]))
+    length = abs(float(targets[-1]))
     best: Tube | None = None
     bits, left = max(_FIRST_BITS, _whole(3.33 * digits + _GUARD_BITS)), most_work
     while True:
         with working(bits):
             walk = _Walk(system, [float(x) for x in start], [float(x) for x in body.parameters], problem.scale, bits)
-            found, width = walk.through(asked, 10.0 ** (-digits), left)
+            states, width = walk.through(targets, 10.0 ** (-digits), left)
         left -= walk.work
-        if best is None or len(found) > len(best.states):
+        if best is None or len(states) > len(best.states):
             best = Tube(
                 system.name,
-                asked[: len(found)],
-                tuple(found),
+                targets[: len(states)],
+                tuple(states),
                 width,
-                len(found) == asked.size,
+                len(states) == targets.size,
                 walk.steps,
                 bits,
                 0.0,
@@ -375,19 +375,19 @@ class _Walk:
         """Return the states at the times as long as they are narrower than `tolerance`, and the largest width."""
         from flint import arb
 
-        found: list[tuple[Enclosure, ...]] = []
+        states: list[tuple[Enclosure, ...]] = []
         widest = 0.0
-        wanted = [Fraction(float(t)) for t in times]
-        sign = -1 if wanted[-1] < 0 else 1
-        while len(found) < len(wanted):
+        targets = [Fraction(float(t)) for t in times]
+        sign = -1 if targets[-1] < 0 else 1
+        while len(states) < len(targets):
             go_on()
-            left = math.nextafter(float(abs(wanted[-1] - self.t)), math.inf)
+            left = math.nextafter(float(abs(targets[-1] - self.t)), math.inf)
             step = self._step(sign, left, most_work)
             if step is None:
                 break
             end = self.t + sign * Fraction(step.length)
-            while len(found) < len(wanted) and sign * (wanted[len(found)] - end) <= 0:
-                gone = abs(wanted[len(found)] - self.t)
+            while len(states) < len(targets) and sign * (targets[len(states)] - end) <= 0:
+                gone = abs(targets[len(states)] - self.t)
                 radius = step.radius if gone else self.radius
                 y = [
                     one(arb(rational(gone))) + arb(0, (radius * size).abs_upper())
@@ -395,20 +395,20 @@ class _Walk:
                 ]
                 width = max(2.0 * float(x.rad()) / size for x, size in zip(y, self.scale, strict=False))
                 if width > tolerance:
-                    return found, widest
+                    return states, widest
                 widest = max(widest, width)
-                found.append(tuple(enclosure(x) for x in y))
+                states.append(tuple(enclosure(x) for x in y))
                 self.work += self.terms
-                if self.work > most_work and len(found) < len(wanted):
+                if self.work > most_work and len(states) < len(targets):
                     self.work_limited = True
-                    return found, widest
+                    return states, widest
             self._go_to(step, end)
             if 2.0 * float(self.radius) > tolerance:
                 break
             if self.work > most_work:
                 self.work_limited = True
                 break
-        return found, widest
+        return states, widest
 
     def _go_to(self, step: _Step, end: Fraction) -> None:
         from flint import arb
@@ -502,10 +502,10 @@ class _Walk:
         turn = arb_mat(Q.tolist())
         near = turn.inv() * S * turn
         most = [near[i, i] + sum((abs(near[i, j]) for j in range(n) if j != i), 0 * box[0]) for i in range(n)]
-        found = most[0].upper()
+        bound = most[0].upper()
         for one in most[1:]:
-            found = found.max(one.upper())
-        return found
+            bound = bound.max(one.upper())
+        return bound
 
 
 def _norm(sizes: Sequence[ArbBall]) -> ArbBall:
@@ -595,9 +595,9 @@ def proved_orbit(
     >>> proved_orbit(*systems()["hess"].example_motion, [0.5]).largest < 1e-6
     True
     """
-    found = tube(body, start, times, digits, most_work)
-    if not found.times.size:
+    intervals = tube(body, start, times, digits, most_work)
+    if not intervals.times.size:
         raise WorkLimit(
             "No time is enclosed: reduce the digits or the time, or allow more work; or choose less extreme parameters."
         )
-    return ProvedOrbit(solve(body, start, found.times, accuracy), found, right_to)
+    return ProvedOrbit(solve(body, start, intervals.times, accuracy), intervals, right_to)

@@ -171,7 +171,7 @@ class VariableSection(PoincareSection):
         unknown, here = [self._index(name) for name in self.solved], self._index(self.variable)
         example = np.array(self.system.example[0])
         size = max(1.0, float(np.abs(example).max()))
-        found = y.copy()
+        states = y.copy()
         there = np.zeros(y.shape[1], bool)
         with np.errstate(all="ignore"):
             for start in (np.full(example.size, _FAR * size), np.full(example.size, -_FAR * size), example):
@@ -183,9 +183,9 @@ class VariableSection(PoincareSection):
                 rate = np.broadcast_to(self.system.field(list(tried), self.parameters)[here], solved.shape)
                 solved &= self.sense * rate > 0.0
                 new = solved & ~there
-                found[:, new] = tried[:, new]
+                states[:, new] = tried[:, new]
                 there |= solved
-        return found.T.copy(), there
+        return states.T.copy(), there
 
     def _solve(self, y: Array, unknown: list[int]) -> Mask:
         """Move the unknown variables of y (d, n) to the values of the integrals; return a mask of those that are."""

@@ -163,9 +163,9 @@ def tangent(
     known = int(ahead and d > 1)
     vary = system.vary_others if known else system.vary_one if k == 1 else system.vary
     states, volume = np.empty((times.size, d)), np.empty(times.size)
-    found, removed = np.empty((times.size, d, k - known)), np.empty((times.size, k - known))
+    frames, removed = np.empty((times.size, d, k - known)), np.empty((times.size, k - known))
     own, options = np.ascontiguousarray(vectors[:, known:]), (level.order, level.tolerance, MAX_STEPS - spent, limit)
-    steps = vary(start, own, p, times, *options, states, found, removed, volume)
+    steps = vary(start, own, p, times, *options, states, frames, removed, volume)
     require_steps(
         steps,
         f"This motion needs more than {MAX_STEPS} steps: choose a shorter time span or a cheaper accuracy.",
@@ -176,10 +176,10 @@ def tangent(
         # An overflow is found below.
         with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
             along = system.rates(states, p) / (vectors[:, 0] @ system.field(start.tolist(), p.tolist()))
-        found = np.concatenate([along[:, :, None], found], axis=2)
+        frames = np.concatenate([along[:, :, None], frames], axis=2)
         removed = np.concatenate([np.zeros((times.size, 1)), removed], axis=1)
-    require_finite_neighbours(found, removed, volume)
-    return Tangent(steps, states, found, removed, volume)
+    require_finite_neighbours(frames, removed, volume)
+    return Tangent(steps, states, frames, removed, volume)
 
 
 def onto_surface(matrix: Array, rate: Array, gradient: Array) -> Array:

@@ -395,15 +395,15 @@ class AndoyerSection(PoincareSection):
         K, P, Q = self._factors(l, x)
         ratio = f / np.maximum(G, 1e-300)
         across = np.sqrt(np.maximum(0.0, 1.0 - ratio * ratio))
-        found = np.where((K * G * G + ratio * P) * across < ratio * ratio * Q, 1, 0)
+        sheets = np.where((K * G * G + ratio * P) * across < ratio * ratio * Q, 1, 0)
         # On the third sheet ∂h/∂G > 0 as on the first, with ∂h/∂G < 0 for some larger α = arccos |f|/G.  This
         # requires K f² tan α/cos²α < √(P² + Q²).
         steep = K * G**3 * across < abs(f) * np.hypot(P, Q)
-        unsure = np.flatnonzero((found == 0) & (f * P < 0.0) & (Q < 0.0) & steep) if f else np.empty(0, int)
+        unsure = np.flatnonzero((sheets == 0) & (f * P < 0.0) & (Q < 0.0) & steep) if f else np.empty(0, int)
         if unsure.size:
             larger = self.roots(l[unsure], x[unsure]) > G[unsure, None] * (1.0 + 1e-9)
-            found[unsure] = np.where(larger.sum(axis=1) == 2, 2, 0)
-        return found
+            sheets[unsure] = np.where(larger.sum(axis=1) == 2, 2, 0)
+        return sheets
 
     def is_on(self, states: Array) -> Mask:
         """Return True for states on this sheet.

@@ -158,17 +158,17 @@ def run_free(
         if held:
             state[:3] -= (state[:3] @ axis) * axis
         piece = np.append(scaled[first[i] : first[i + 1]], edges[i + 1]) - edges[i]
-        found = np.empty((piece.size, 6))
+        rows = np.empty((piece.size, 6))
         longest = SYSTEM.longest_step(level, piece[-1])
         steps, _ = SYSTEM.orbit(
-            state, problem.parameters, piece, level.order, level.tolerance, longest, MAX_STEPS, found
+            state, problem.parameters, piece, level.order, level.tolerance, longest, MAX_STEPS, rows
         )
         if steps < 0:
             raise WorkLimit(f"This motion needs more than {MAX_STEPS} steps: choose a shorter time span.")
-        require_finite_states(found)
+        require_finite_states(rows)
         total += steps
-        out[first[i] : first[i + 1]] = found[:-1]
-        state = found[-1].copy()
+        out[first[i] : first[i + 1]] = rows[:-1]
+        state = rows[-1].copy()
     out[first[-1] :] = state
     states = out * problem.scale
     drift = drift_of(SYSTEM, states[0], states, np.array(body.parameters))

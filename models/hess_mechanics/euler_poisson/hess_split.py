@@ -162,7 +162,7 @@ def saddles(torus: HessTorus, accuracy: Accuracy) -> Saddles:
             "and f where |trace| of the circle map is larger than 2."
         )
     turning, map_ = turning_points(h, f), torus.map_at(0.0, accuracy)
-    found = []
+    cycles = []
     for point in sorted(theta.fixed_points, key=lambda one: one.stable):
         state = bridge.from_reduced(bridge.hess.from_units_of_b(turning.state_at_lower_turn(point.phi)[None]))[0]
         crossing = section_crossings(AndoyerSection(body, torus.h, torus.f), state[None], 1, REFERENCE, threads=1)
@@ -170,8 +170,8 @@ def saddles(torus: HessTorus, accuracy: Accuracy) -> Saddles:
             raise OutsideRegion(
                 "A limit cycle of the Hess manifold does not cross the section g = π/2 here: choose other h and f."
             )
-        found.append(find_periodic(map_, map_.section.places_of(crossing.states[0])[0], near=True).places)
-    repels, attracts = found
+        cycles.append(find_periodic(map_, map_.section.places_of(crossing.states[0])[0], near=True).places)
+    repels, attracts = cycles
     half = 0.5 * math.remainder(float(attracts[0, 0] - repels[0, 0]), 2.0 * math.pi)
     return Saddles(repels, attracts, float(repels[0, 0]) + half)
 
@@ -234,10 +234,10 @@ def _towards(map_: ReturnMap, places: Array, l: float, stable: bool) -> Manifold
     # `grown` takes the direction whose larger component is positive.
     d = curve[1] - curve[0]
     side = 1 if d[int(np.argmax(np.abs(d)))] > 0.0 else -1
-    found = manifold(map_, orbit, length + _ROOM, stable=stable, side=side, sagitta=_SAGITTA, longest=_CHORD)
+    branch = manifold(map_, orbit, length + _ROOM, stable=stable, side=side, sagitta=_SAGITTA, longest=_CHORD)
     # The angles continue without jumps; shift them to the turn of l.
     shift = (l - from_) - way
-    return replace(found, points=frozen(found.points + np.array([shift, 0.0])))
+    return replace(branch, points=frozen(branch.points + np.array([shift, 0.0])))
 
 
 def slope_of(close: Sequence[Split]) -> tuple[float, float]:

@@ -168,12 +168,12 @@ def rotation_along(
         The profile.
     """
     centre, axis = (ends[0], 0) if about_first else (None, 1)
-    found = [
+    numbers = [
         (share, *rotation_number(points, centre))
         for share, points in zip(shares, orbits, strict=True)
         if len(points) >= _FEWEST
     ]
-    going = [(share, turns) for share, turns, spread in found if spread <= resolved < abs(turns)]
+    going = [(share, turns) for share, turns, spread in numbers if spread <= resolved < abs(turns)]
 
     def place(share: Array) -> Array:
         return np.asarray((1.0 - share) * ends[0][axis] + share * ends[1][axis])
@@ -182,13 +182,13 @@ def rotation_along(
     rho = _side_by_side(rho)
     # Split the curve at gaps, and at the jump from ½ to −½.
     cuts = np.flatnonzero((np.diff(along) > 1.5 / count) | (np.abs(np.diff(rho)) > 0.5)) + 1
-    at_sea = np.array([share for share, _, spread in found if spread > resolved])
+    at_sea = np.array([share for share, _, spread in numbers if spread > resolved])
     coasts = np.flatnonzero(np.diff(at_sea) > 1.5 / count) + 1
     seas = [(part[0] - 0.5 / count, part[-1] + 0.5 / count) for part in np.split(at_sea, coasts) if part.size]
     return RotationProfile(
         tuple(np.split(place(along), cuts)),
         tuple(np.split(rho, cuts)),
-        place(np.array([share for share, turns, spread in found if spread <= resolved and abs(turns) <= resolved])),
+        place(np.array([share for share, turns, spread in numbers if spread <= resolved and abs(turns) <= resolved])),
         place(np.array(seas).reshape(-1, 2)),
     )
 
@@ -197,7 +197,7 @@ def _side_by_side(rho: Array) -> Array:
     """Return the numbers (n,) shifted by integers to lie within half a turn, or unchanged if that is impossible."""
     order = np.sort(rho)
     for first in order:
-        turned = first + (rho - first) % 1.0
-        if np.ptp(turned) <= 0.5:
-            return np.asarray(turned - np.ceil(0.5 * (turned.min() + turned.max()) - 0.5))
+        shifted = first + (rho - first) % 1.0
+        if np.ptp(shifted) <= 0.5:
+            return np.asarray(shifted - np.ceil(0.5 * (shifted.min() + shifted.max()) - 0.5))
     return rho

@@ -101,10 +101,10 @@ def as_level_name(accuracy: Accuracy) -> str:
     InvalidParameter
         If it is not one of the four.
     """
-    found = as_level(accuracy)
-    if LEVELS.get(found.name) != found:
+    result = as_level(accuracy)
+    if LEVELS.get(result.name) != result:
         raise InvalidParameter(f"Only a named level is possible here: choose one of {', '.join(LEVELS)}.")
-    return found.name
+    return result.name
 
 
 def as_number(name: str, value: Any) -> float:
@@ -189,10 +189,10 @@ def as_parts(name: str, value: Any, count: int | None = None) -> tuple[Any, ...]
     """
     if isinstance(value, (str, Mapping)) or not np.iterable(value):
         raise InvalidParameter(f"{name} = {_short(value)} is not a sequence{'' if count is None else f' of {count}'}.")
-    found = tuple(value)
-    if count not in (None, len(found)):
+    parts = tuple(value)
+    if count not in (None, len(parts)):
         raise InvalidParameter(f"{name} = {_short(value)} must have {count} parts.")
-    return found
+    return parts
 
 
 def as_cells(cells: Any) -> tuple[int, int]:
@@ -377,23 +377,23 @@ def _one_of(name: str, kinds: Sequence[Any], value: Any) -> Any:
     errors = []
     for kind in kinds:
         try:
-            found = _fitted(name, kind, value)
+            result = _fitted(name, kind, value)
             # A fraction or a large integer keeps its digits.
-            return value if kind is float else found
+            return value if kind is float else result
         except InvalidParameter as error:
             errors.append(error)
     if len(classes) == len(kinds):
         known = ", ".join(kind.__name__ for kind in classes if kind is not NoneType)
-        raise InvalidParameter(f"{name} = {_short(value)} is none of these: {known}.")
+        raise InvalidParameter(f"{name} = {_short(value)} is not one of these: {known}.")
     raise errors[0]
 
 
 def _as_array(name: str, value: Any) -> Any:
     try:
-        found = np.asarray(value)
-        if found.dtype.kind not in "fiuO":
+        array = np.asarray(value)
+        if array.dtype.kind not in "fiuO":
             raise ValueError
-        return found.astype(float)
+        return array.astype(float)
     except (TypeError, ValueError, OverflowError):
         raise InvalidParameter(
             f"{name} = {_short(value)} is not an array of numbers; write it like [1.5, 2.0]."

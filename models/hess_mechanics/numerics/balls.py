@@ -165,14 +165,14 @@ def _decimal(text: str) -> Fraction:
     """
     if len(text) > 3 * _MOST_DIGITS or not text.isascii() or "_" in text:
         raise ValueError
-    found = Decimal(text)
+    number = Decimal(text)
     if (
-        not found.is_finite()
-        or len(found.as_tuple().digits) > _MOST_DIGITS
-        or (found and abs(found.adjusted()) > _MOST_EXPONENT)
+        not number.is_finite()
+        or len(number.as_tuple().digits) > _MOST_DIGITS
+        or (number and abs(number.adjusted()) > _MOST_EXPONENT)
     ):
         raise ValueError
-    return Fraction(found)
+    return Fraction(number)
 
 
 def rational(value: Fraction | int) -> Any:
@@ -267,8 +267,8 @@ class Enclosure:
 
 def _rounded(number: Fraction, digits: int, rounding: str) -> str:
     with localcontext(prec=digits, rounding=rounding, Emax=10**9, Emin=-(10**9)):
-        found = (Decimal(number.numerator) / Decimal(number.denominator)).normalize()
-    return f"{found:f}" if -6 < found.adjusted() < digits + 6 else str(found)
+        decimal = (Decimal(number.numerator) / Decimal(number.denominator)).normalize()
+    return f"{decimal:f}" if -6 < decimal.adjusted() < digits + 6 else str(decimal)
 
 
 def enclosure(ball: ArbBall) -> Enclosure:
@@ -323,9 +323,9 @@ def to_digits(digits: int, compute: Callable[[Any], ArbBall]) -> Enclosure:
     bits = 128
     while bits <= _MOST_BITS:
         with working(bits) as library:
-            found = compute(library)
-            if found.is_finite() and enclosure(found).precision < 10.0 ** (-digits):
-                return enclosure(found)
+            ball = compute(library)
+            if ball.is_finite() and enclosure(ball).precision < 10.0 ** (-digits):
+                return enclosure(ball)
         bits *= 2
     raise WorkLimit("These numbers need more precision than a closed form may take: choose less extreme ones.")
 
@@ -345,5 +345,5 @@ def series_coefficients(series: Any, terms: int) -> list[ArbBall]:
     list of arb
         The coefficients.
     """
-    found = series.coeffs()
-    return [*found, *([0 * series[0]] * (terms - len(found)))]
+    coefficients = series.coeffs()
+    return [*coefficients, *([0 * series[0]] * (terms - len(coefficients)))]

@@ -128,10 +128,10 @@ class Tape:
         if operation == "/" and b is zero:
             raise NotTraceable("This field cannot be traced: it divides by 0.")
         if a.operation == b.operation == "number":
-            found = _ARITHMETIC[operation](a.value, b.value)
+            value = _ARITHMETIC[operation](a.value, b.value)
             # 1/3 stays a quotient: its double would be wrong in arithmetic with more digits.
-            if found == _ARITHMETIC[operation](Fraction(a.value), Fraction(b.value)):
-                return self.number(found)
+            if value == _ARITHMETIC[operation](Fraction(a.value), Fraction(b.value)):
+                return self.number(value)
         if b is zero and operation in "+-":
             return a
         if a is zero and operation in "+-":
@@ -187,7 +187,7 @@ class Tape:
     def functions(self, results: Sequence[Node], variables: int) -> dict[Node, Node]:
         """Return the functions of the state in a field that returns these results, with their rates."""
         self._rates = results[:variables]
-        found: dict[Node, Node] = {}
+        rates: dict[Node, Node] = {}
         waiting = list(results)
         seen: set[Node] = set()
         while waiting:
@@ -196,11 +196,11 @@ class Tape:
                 continue
             seen.add(node)
             if node.moves and node.operation in _RATES:
-                found[node] = self.derivative(node)
-                waiting.append(found[node])
+                rates[node] = self.derivative(node)
+                waiting.append(rates[node])
             else:
                 waiting += node.arguments
-        return found
+        return rates
 
     def derivative(self, x: Node, y: Node | None = None) -> Node:
         """Return ∂x/∂y for a variable y, or by default the rate of x along the motion."""

@@ -36,9 +36,9 @@ def work_limit(check: Callable[[], None], spend: Callable[[float], None]) -> Ite
 
 def go_on() -> None:
     """Raise the error of the request's check, if the request has been cancelled or has used up its budget."""
-    asked = _asked.get()
-    if asked is not None:
-        asked[0]()
+    limit = _asked.get()
+    if limit is not None:
+        limit[0]()
 
 
 def charge(seconds: float) -> None:
@@ -49,6 +49,6 @@ def charge(seconds: float) -> None:
     seconds : float
         CPU time, in seconds.
     """
-    asked = _asked.get()
-    if asked is not None:
-        asked[1](seconds)
+    limit = _asked.get()
+    if limit is not None:
+        limit[1](seconds)

@@ -89,8 +89,8 @@ def derivative(x: Any, y: Symbol) -> Any:
     """
     if not isinstance(x, Symbol):
         return 0
-    found = x.tape.derivative(x.node, y.node)
-    return 0 if found is x.tape.number(0) else Symbol(x.tape, found)
+    node = x.tape.derivative(x.node, y.node)
+    return 0 if node is x.tape.number(0) else Symbol(x.tape, node)
 
 
 def trace(field: Field, variables: int, parameters: int, observed: int = 0) -> Recursion:
@@ -117,16 +117,16 @@ def trace(field: Field, variables: int, parameters: int, observed: int = 0) -> R
     NotTraceable
         If the field uses anything but arithmetic and `FUNCTIONS`.
     """
-    tape, found = _record(field, variables, parameters, observed)
-    functions = tape.functions(found, variables)
+    tape, results = _record(field, variables, parameters, observed)
+    functions = tape.functions(results, variables)
     watched = [(node.operation, node.arguments[0]) for node in functions if node.operation in _SATURATED]
-    quotients = [node for node in below(found[:variables]) if node.operation == "/" and node.arguments[1].moves]
+    quotients = [node for node in below(results[:variables]) if node.operation == "/" and node.arguments[1].moves]
     divisors = [
         *(node.arguments[1] for node in quotients if node.arguments[1] not in tape.positive),
         *(node for node in functions if node.operation == "sqrt"),
     ]
     watched += [("/", node) for node in dict.fromkeys(divisors)]
-    rates = [*found[:variables], *functions.values(), *found[variables:], *(node for _, node in watched)]
+    rates = [*results[:variables], *functions.values(), *results[variables:], *(node for _, node in watched)]
     kinds = tuple(kind for kind, _ in watched)
     plain = Series(tape, variables, [*functions], multiplies_out=True).recursion(rates, parameters, kinds)
     if not plain.stages:
@@ -156,8 +156,8 @@ def expressions(field: Field, variables: int, parameters: int) -> list[Node]:
     NotTraceable
         If the field cannot be traced.
     """
-    tape, found = _record(field, variables, parameters, 0)
-    return [*found, *tape.functions(found, variables).values()]
+    tape, results = _record(field, variables, parameters, 0)
+    return [*results, *tape.functions(results, variables).values()]
 
 
 def divergence(field: Field, variables: int, parameters: int) -> Node:
@@ -216,10 +216,10 @@ def _record(field: Field, variables: int, parameters: int, observed: int) -> tup
     y = tuple(Symbol(tape, tape.leaf("variable", i)) for i in range(variables))
     p = tuple(Symbol(tape, tape.leaf("parameter", i)) for i in range(parameters))
     try:
-        found = field(y, p)
-        if not hasattr(found, "__iter__"):
+        results = field(y, p)
+        if not hasattr(results, "__iter__"):
             raise NotTraceable("A field returns a sequence of rates, one for each variable: (rate,) for a single one.")
-        rates = [tape.lifted(rate) for rate in found]
+        rates = [tape.lifted(rate) for rate in results]
     except NotTraceable:
         raise
     except IndexError as error:

@@ -53,8 +53,8 @@ class Attitude:
         Attitude
             The attitude at these times.
         """
-        kept = [*range(0, len(self.times) - 1, 2), len(self.times) - 1]
-        return replace(self, times=frozen(self.times[kept]), axes=frozen(self.axes[kept]))
+        samples = [*range(0, len(self.times) - 1, 2), len(self.times) - 1]
+        return replace(self, times=frozen(self.times[samples]), axes=frozen(self.axes[samples]))
 
 
 TURN = 0.1
@@ -98,10 +98,10 @@ def attitude_along(times: Array, omega: Array, gamma: Array) -> Attitude:
     angle = np.concatenate([[0.0], np.cumsum(turn)])
     e = np.cos(angle) * e + np.sin(angle) * f
     # Sample the total rotation in steps of TURN; the small term avoids a division by 0 for a body at rest.
-    turned = np.concatenate([[0.0], np.cumsum(length + 1e-12)])
-    at = np.linspace(0.0, turned[-1], max(2, int(min(MOST_TURNS, np.ceil(turned[-1] / TURN))) + 1))
-    i = np.clip(np.searchsorted(turned, at, side="right") - 1, 0, len(step) - 1)
-    share = (at - turned[i]) / (turned[i + 1] - turned[i])
+    total = np.concatenate([[0.0], np.cumsum(length + 1e-12)])
+    at = np.linspace(0.0, total[-1], max(2, int(min(MOST_TURNS, np.ceil(total[-1] / TURN))) + 1))
+    i = np.clip(np.searchsorted(total, at, side="right") - 1, 0, len(step) - 1)
+    share = (at - total[i]) / (total[i + 1] - total[i])
     v, length = share * v[:, i], share * length[i]
     g, e = _turned((g[:, i], e[:, i]), v, length)
     axes = np.stack([g.T, e.T, _cross(g, e).T], axis=1)
@@ -138,11 +138,11 @@ def contact_arc(axes: Array, at: Sequence[float] | Array, e: Sequence[float] | A
 
 def _cross(u: Array, v: Array) -> Array:
     """Return u × v of columns (3, n); `np.cross` takes several times as long."""
-    found = np.empty(u.shape)
+    product = np.empty(u.shape)
     for k in range(3):
         i, j = (k + 1) % 3, (k + 2) % 3
-        np.subtract(u[i] * v[j], u[j] * v[i], out=found[k])
-    return found
+        np.subtract(u[i] * v[j], u[j] * v[i], out=product[k])
+    return product
 
 
 def _frames(gamma: Array) -> tuple[Array, Array, Array]:

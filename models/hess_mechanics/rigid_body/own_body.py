@@ -1,4 +1,4 @@
-"""A rigid body of one's own: a fixed point, a linear constraint, a gyrostatic momentum, a polynomial potential.
+"""A user-defined rigid body: a fixed point, a linear constraint, a gyrostatic momentum, a polynomial potential.
 
 State y = (ω1, ω2, ω3, γ1, γ2, γ3), and with a drive (cos Ωt, sin Ωt, W) after these.  With M = Iω + K,
 
@@ -178,13 +178,13 @@ def _system(exponents: Exponents, is_constrained: bool, drive: Exponents) -> Sys
         I, k, a, _, c = split(p)
         omega, gamma = y[:3], y[3:6]
         E = _dot(_times(I, omega), omega) / 2 + _value(exponents, c, gamma)
-        found = {"E − W": E - y[8]} if is_driven else {"E": E}
-        found["γ²"] = _dot(gamma, gamma)
+        values = {"E − W": E - y[8]} if is_driven else {"E": E}
+        values["γ²"] = _dot(gamma, gamma)
         if is_constrained:
-            found["(a, ω)"] = _dot(a, omega)
+            values["(a, ω)"] = _dot(a, omega)
         elif not is_driven:
-            found["(M, γ)"] = _dot([one + other for one, other in zip(_times(I, omega), k, strict=True)], gamma)
-        return found
+            values["(M, γ)"] = _dot([one + other for one, other in zip(_times(I, omega), k, strict=True)], gamma)
+        return values
 
     state = (0.5, 0.4, 0.0, 0.6, 0.0, 0.8, *((1.0, 0.0, 0.0) if is_driven else ()))
     values = [2.0, 1.5, 1.0, 0.0, 0.1, 0.2, 0.0, 0.0, 0.3]
@@ -287,8 +287,8 @@ class OwnBody:
     def surface(self) -> Plane:
         """The section of its motions, crossed upwards: γ3 = 0, or sin Ωt = 0, once in a period of a drive."""
         is_periodic = self.is_driven and self.frequency != 0.0
-        wanted = "sinΩt" if is_periodic else "γ3"
-        normal = tuple(float(name == wanted) for name in self.system.variables)
+        variable = "sinΩt" if is_periodic else "γ3"
+        normal = tuple(float(name == variable) for name in self.system.variables)
         return Plane(normal, sense=-1 if is_periodic and self.frequency < 0.0 else 1)
 
     @property

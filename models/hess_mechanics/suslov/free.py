@@ -174,7 +174,7 @@ def shape(body: SuslovBody) -> PassageConstants:
         about = f"about {plain(angle, 2)}" if math.isfinite(angle) else "more than 1e308"
         raise WorkLimit(
             f"γ turns too often while ω passes from the unstable to the stable point ({about} radians; at most "
-            f"{_MAX_SHAPE:g} are computed): choose larger I13, I23, or I11 and I22 less different."
+            f"{_MAX_SHAPE:g} are computed): choose larger I13, I23, or more similar I11 and I22."
         )
     return PassageConstants(frozen(np.array([n2, -n1, 0.0])), frozen(np.array([n1, n2, 0.0])), J, w, K, kappa, c)
 
@@ -504,10 +504,10 @@ def transfer(of: PassageConstants, arc: int, u: Array, accuracy: Accuracy) -> tu
         # Factor 4: a rotation is quadratic in A and B, and both its ends have errors.
         return 4.0 * float((np.abs(one[0] - other[0]) + np.abs(one[1] - other[1])).max())
 
-    found = measured(level, run, apart)
-    A, B = found.result
+    result = measured(level, run, apart)
+    A, B = result.result
     A, B = A * A[0].conj() + B.conj() * B[0], B * A[0].conj() - A.conj() * B[0]
-    return A, B, found.error + 1e-15 * (1.0 + of.size), found.cost.steps
+    return A, B, result.error + 1e-15 * (1.0 + of.size), result.cost.steps
 
 
 def rotation(motion: Passage, elapsed: Array, accuracy: Accuracy) -> tuple[Array, Array, float, int]:

@@ -45,7 +45,6 @@ __all__ = [
     "forbidden",
     "level_curve",
     "motion_from",
-    "separable_integral",
 ]
 
 MOST_SAMPLES = 6000
@@ -371,7 +370,7 @@ SYSTEM = System(
 )
 
 
-def separable_integral(body: PotentialBody, states: Array) -> Array:
+def _separable_integral(body: PotentialBody, states: Array) -> Array:
     """Return F2 = ½(I11ω1² + c2γ2²), an integral if the body `separates`.
 
     Parameters
@@ -458,7 +457,7 @@ def motion_from(body: PotentialBody, start: tuple[float, ...], duration: float, 
     """
     orbit = sampled_orbit(body, start, duration, (0.0, 0.0, *(0.5 * PIXELS,) * 3), accuracy, MOST_SAMPLES)
     fixed = not np.any(np.array(SYSTEM.field(start, body.parameters)))
-    F2 = separable_integral(body, orbit.states)
+    F2 = _separable_integral(body, orbit.states)
     integral = float(np.ptp(F2)) / max(float(np.abs(F2).max()), 1e-300)
     period, left = None, math.inf
     if not fixed:

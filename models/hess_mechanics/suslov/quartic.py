@@ -100,8 +100,8 @@ class QuarticBody(PlaneProblem):
         if not 1.0 / _MOST_SIZE <= smallest <= largest <= _MOST_SIZE:
             sizes = " and ".join(f"{plain(one, 2)}" if math.isfinite(one) else "beyond 1e308" for one in self.axes)
             raise InvalidParameter(
-                f"The region in the plane has half axes {sizes}, which no picture can show: choose E, b3 and the "
-                "moments of inertia less different in size."
+                f"The region in the plane has half axes {sizes}, which no picture can show: choose more similar sizes "
+                "of E, b3 and the moments of inertia."
             )
 
     @property
@@ -350,7 +350,7 @@ def state_at(body: QuarticBody, q: Sequence[float], direction: float) -> tuple[f
     if abs(g3) > 1.0 + _EDGE:
         raise OutsideRegion(
             f"At q = ({q[0]:.6g}, {q[1]:.6g}) the potential is {0.5 * g3 * g3:.6g}, above the level ½: γ₃ would be "
-            f"{g3:.6g}. Choose a start that is not grey."
+            f"{g3:.6g}. Choose a start in the region of motion."
         )
     g3 = min(1.0, max(-1.0, g3))
     size = math.sqrt((1.0 - g3) * (1.0 + g3))

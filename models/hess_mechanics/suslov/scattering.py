@@ -284,7 +284,7 @@ def cos_chi_over(low: int, high: int, I22: float, I13: float, I23: float) -> Arr
     return frozen(np.array(rows).reshape(-1, 2))
 
 
-def theta_plus_grid(found: Scattering, m: int, n: int) -> Array:
+def theta_plus_grid(rotation: Scattering, m: int, n: int) -> Array:
     """Return θ⁺ at the centres of the cells of −π < φ < π, 0 < θ⁻ < π.
 
     Parameters
@@ -300,7 +300,7 @@ def theta_plus_grid(found: Scattering, m: int, n: int) -> Array:
         Angles θ⁺ in radians; each row has one θ⁻.
     """
     phi, theta = centres(-math.pi, math.pi, m), centres(0.0, math.pi, n)
-    return frozen(found.theta_plus(theta[:, None], phi[None, :]))
+    return frozen(rotation.theta_plus(theta[:, None], phi[None, :]))
 
 
 def start(

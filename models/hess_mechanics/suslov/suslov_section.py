@@ -339,9 +339,9 @@ class SuslovSection(AngleSection):
 
 def _section(values: Mapping[str, float]) -> SuslovSection:
     body = SuslovBody(*(values[name] for name in SYSTEM.parameters))
-    found = SuslovSection(body, 0.0, int(values["k"])).at_constant("h", values["h"])
-    found.require_reached()
-    return found
+    section = SuslovSection(body, 0.0, int(values["k"])).at_constant("h", values["h"])
+    section.require_reached()
+    return section
 
 
 SECTION = on_section(

@@ -241,14 +241,14 @@ def turning_points(h: float, f: float) -> TurningPoints:
     """
     _check_h(h)
     h, f = float(h), as_number("f", f) + 0.0  # f = −0.0 is f = 0
-    fm, found, period = f_max_and_roots(h, f)
+    fm, numbers, period = f_max_and_roots(h, f)
     if abs(f) > fm * (1 + 1e-15):
         # Rounded down, so that the bound in the message is itself accepted.
         raise OutsideRegion(
             f"No motion has h = {h:.15g} and f = {f:.15g}: at this h choose |f| ≤ {fm * (1 - 1e-11):.12g}, "
             "or a larger h."
         )
-    n0, n1, n2, _, _, _, w1, v1 = found
+    n0, n1, n2, _, _, _, w1, v1 = numbers
     if not math.isfinite(period):
         raise Separatrix("h = 1, f = 0 is the separatrix: no return. Move h or f a little.")
     return TurningPoints(h, f, (n0, n1, n2), 2.0 * w1, v1, period)

@@ -100,8 +100,8 @@ def discriminants(rows: Array) -> Array:
     re, im, im_beta, log_scale, *_ = np.moveaxis(rows, -1, 0)
     unit = np.exp(-log_scale)
     cancels = im**2 + im_beta**2 > 1e4 * (re**2 + unit**2)
-    found: Array = np.where(cancels, (re - unit) * (re + unit), (im_beta - im) * (im_beta + im))
-    return found
+    values: Array = np.where(cancels, (re - unit) * (re + unit), (im_beta - im) * (im_beta + im))
+    return values
 
 
 def rotation_numbers_of(rows: Array) -> Array:
@@ -329,8 +329,8 @@ _PROBES = np.linspace(-math.pi, math.pi, 32, endpoint=False)
 
 def _difference(m: Array, n: Array) -> float:
     """Return the difference of two maps, rows of `matrices`: the larger of those in Θ (32 phases) and the trace."""
-    turned = _theta((m[0], m[1], m[2]), _PROBES) - _theta((n[0], n[1], n[2]), _PROBES)
-    angle = float(np.max(np.abs(np.angle(np.exp(1j * turned)))))
+    angles = _theta((m[0], m[1], m[2]), _PROBES) - _theta((n[0], n[1], n[2]), _PROBES)
+    angle = float(np.max(np.abs(np.angle(np.exp(1j * angles)))))
     other = m[0] - n[0] * math.exp(n[3] - m[3])
     return max(angle, 2 * abs(float(other)) * _weight(m))
 
@@ -431,8 +431,8 @@ def circle_map(a: float, h: float, f: float, accuracy: Accuracy) -> CircleMap:
         row: Array = matrices(a, energies, fs, at)[0]
         return row, int(row[5])
 
-    found = measured(level, run, lambda one, other: _difference(one, other) + _rounding(one))
-    coarse, error = found.result, found.error
+    result = measured(level, run, lambda one, other: _difference(one, other) + _rounding(one))
+    coarse, error = result.result, result.error
     re, im, im_beta, log_scale = (float(x) for x in coarse[:4])
 
     log_trace = math.log(2 * abs(re)) + log_scale if re else -math.inf
@@ -468,7 +468,7 @@ def circle_map(a: float, h: float, f: float, accuracy: Accuracy) -> CircleMap:
         rho,
         fixed,
         turning.period,
-        found.status,
+        result.status,
         error,
-        found.cost,
+        result.cost,
     )

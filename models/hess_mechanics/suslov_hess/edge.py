@@ -121,5 +121,5 @@ def _double_root(h: Fraction, f: Fraction) -> Fraction:
     return -(2 * h - f * f - 2 * h / 9) / (Fraction(4, 3) + 4 * h * h / 9)
 
 
-def _opposite(found: Enclosure) -> Enclosure:
-    return Enclosure(-found.high, -found.low)
+def _opposite(interval: Enclosure) -> Enclosure:
+    return Enclosure(-interval.high, -interval.low)

@@ -116,8 +116,8 @@ def _times(n0: float, n1: float, n2: float, theta: Array) -> Array:
     # Imported here because it takes 0.2 s, and few commands draw a torus.
     from scipy.special import ellipk, ellipkinc
 
-    found = math.sqrt(2.0 / (n2 - n0)) * (ellipk(m) - ellipkinc(0.5 * (math.pi - theta), m))
-    return np.asarray(np.maximum(0.0, found))
+    times = math.sqrt(2.0 / (n2 - n0)) * (ellipk(m) - ellipkinc(0.5 * (math.pi - theta), m))
+    return np.asarray(np.maximum(0.0, times))
 
 
 def density_along(theta: CircleMap, count: int, accuracy: Accuracy) -> Complex:

@@ -152,10 +152,10 @@ def zeta_at(theta: CircleMap, times: Sequence[float] | Array, accuracy: Accuracy
         raise jumps
     turning = turning_points(theta.h, theta.f)
     starts = np.angle((_CUBE_ROOTS + measure.zeta) / (1.0 + measure.zeta * _CUBE_ROOTS))
-    found = [
+    orbits = [
         solve(SYSTEM.at((theta.a, 1.0)), turning.state_at_lower_turn(phi), times, accuracy) for phi in starts.tolist()
     ]
-    w1, w2 = np.stack([orbit.states[:, :2] for orbit in found]).transpose(2, 0, 1)
+    w1, w2 = np.stack([orbit.states[:, :2] for orbit in orbits]).transpose(2, 0, 1)
     size = np.hypot(w1, w2)
     if not size.all():
         raise jumps
@@ -163,7 +163,7 @@ def zeta_at(theta: CircleMap, times: Sequence[float] | Array, accuracy: Accuracy
     one, two, three = _CUBE_ROOTS
     ratio = one * (two - three) / (three * (two - one)) * (z2 - z1) / (z2 - z3)
     zeta = (z1 - ratio * z3) / (1.0 - ratio)
-    error = max(orbit.error_estimate for orbit in found)
+    error = max(orbit.error_estimate for orbit in orbits)
     if np.min(1.0 - np.abs(zeta)) < max(_NARROWEST, 10.0 * error):
         raise narrow
     return frozen(zeta)

@@ -134,7 +134,7 @@ def critical_each(h: Array, f: Array, accuracy: Accuracy, high: float) -> Array:
     WorkLimit
         If a torus needs too many steps.
     """
-    level, found = as_level(accuracy), np.full(h.size, np.nan)
+    level, result = as_level(accuracy), np.full(h.size, np.nan)
 
     def locked(a: Array) -> Array:
         return _locked(a, h[own], f[own], level)
@@ -142,8 +142,8 @@ def critical_each(h: Array, f: Array, accuracy: Accuracy, high: float) -> Array:
     low, top = np.full(h.size, 1e-9), np.full(h.size, high)
     own = np.arange(h.size)
     own = np.flatnonzero((locked(low) < 0.0) & (locked(top) > 0.0))
-    found[own] = _rising_roots(locked, low[own], top[own])
-    return found
+    result[own] = _rising_roots(locked, low[own], top[own])
+    return result
 
 
 def critical_a(h: float, f: float, accuracy: Accuracy, high: float = 10.0) -> float:
@@ -183,10 +183,10 @@ def critical_a(h: float, f: float, accuracy: Accuracy, high: float = 10.0) -> fl
     """
     check_a(high)
     turning_points(h, f)
-    found = float(critical_each(np.array([h], float), np.array([f], float), accuracy, high)[0])
-    if math.isnan(found):
+    a = float(critical_each(np.array([h], float), np.array([f], float), accuracy, high)[0])
+    if math.isnan(a):
         raise InvalidParameter(f"No lock boundary crosses this h and f between a = 0 and a = {high:g}.")
-    return found
+    return a
 
 
 CELLS = (100, 75)

@@ -237,7 +237,7 @@ def prove(
     if at[2] == 0 and at[1] < 1:
         with working(FIRST_BITS):
             return _oscillation(*at, begun)
-    bits, found = FIRST_BITS, None
+    bits, proof = FIRST_BITS, None
     while True:
         with working(bits):
             turns = _turns(at[1], at[2], bits)
@@ -246,16 +246,16 @@ def prove(
                 plan.append(step)
                 work += step[2] ** 2
                 if work > most_work:
-                    if found is None:
+                    if proof is None:
                         raise WorkLimit(
                             f"This proof needs more than {len(plan)} steps: choose smaller |a|, or (h, f) "
                             "farther from (1, 0)."
                         )
-                    return found
-            found = _proof(at, turns, plan, bits, begun)
-        known = found.trace.precision < 10.0**-digits and found.rotation_number is not None
-        if (known and found.statement != UNDECIDED) or 2 * bits > most_bits:
-            return found
+                    return proof
+            proof = _proof(at, turns, plan, bits, begun)
+        known = proof.trace.precision < 10.0**-digits and proof.rotation_number is not None
+        if (known and proof.statement != UNDECIDED) or 2 * bits > most_bits:
+            return proof
         bits *= 2
 
 

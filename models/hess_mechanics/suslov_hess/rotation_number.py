@@ -706,8 +706,8 @@ def periodic_torus(rho: Fraction, line: ParameterLine, accuracy: Accuracy) -> Pe
     place = place_of(float(rho), line, accuracy)
     if place is None:
         return None
-    found = Torus(**line.tori(place))
-    return PeriodicTorus(found, return_error(found, rho.denominator, accuracy))
+    torus = Torus(**line.tori(place))
+    return PeriodicTorus(torus, return_error(torus, rho.denominator, accuracy))
 
 
 def plateaus(rho: Array, possible: Mask) -> list[Fraction]:

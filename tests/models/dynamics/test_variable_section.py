@@ -129,7 +129,8 @@ def test_a_uniform_rotation_passes_an_angle_once_a_turn(sense, end):
 
 
 @mark.parametrize(
-    ("angles", "words"), [("q", "the angle q must be a variable"), ("v", "v is no angle: after a full turn the field")]
+    ("angles", "words"),
+    [("q", "the angle q must be a variable"), ("v", "v is not an angle: a full turn changes")],
 )
 def test_what_is_no_angle_is_refused(angles, words):
     with raises(InvalidParameter, match=words):
