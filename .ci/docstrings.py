@@ -1,9 +1,9 @@
 """Validate the docstrings of all public names by numpydoc, with the checks of `pyproject.toml`.
 
-Public are the names in `__all__` of the packages below and of all modules of the mechanics, and the public methods and
-properties of these classes.  Modules of kernels, and modules whose docstring says "Not for users.", are left out.  A
-class documents its fields as Parameters, or as Attributes where its users do not construct it.  Functions of a package
-also need Examples.
+Public are the names in `__all__` of the packages below, all names without an underscore in the modules of the
+mechanics, and the public methods and properties of these classes.  Modules whose docstring says "Not for users.", as
+those of kernels do, are left out.  A class documents its fields as Parameters, or as Attributes where its users do not
+construct it.  Functions of a package also need Examples.
 """
 
 from __future__ import annotations
@@ -60,10 +60,10 @@ def modules() -> Iterator[ModuleType]:
             yield module
 
 
-def names_of(module: ModuleType) -> list[str]:
-    """Return the names in `__all__`; without it, all names without an underscore that the module defines."""
+def names_of(module: ModuleType) -> Iterator[str]:
+    """Yield the names in `__all__`, and those without an underscore that the module defines."""
     own = [name for name, value in vars(module).items() if getattr(value, "__module__", "") == module.__name__]
-    return getattr(module, "__all__", [name for name in own if not name.startswith("_")])
+    yield from dict.fromkeys([*getattr(module, "__all__", ()), *(name for name in own if not name.startswith("_"))])
 
 
 def public_names() -> Iterator[str]:

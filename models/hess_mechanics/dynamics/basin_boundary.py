@@ -93,7 +93,7 @@ def joined(before: Arrivals | None, mask: Mask, parts: Sequence[tuple[slice, Arr
         Arrivals from cells of twice the size; None for the first cells.
     mask : ndarray of bool, shape (n, m)
         True for the cells that were computed.
-    found : sequence of (slice, Arrivals)
+    parts : sequence of (slice, Arrivals)
         New arrivals, in parts.
 
     Returns

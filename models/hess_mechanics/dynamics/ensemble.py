@@ -229,7 +229,7 @@ def complete(motions: M) -> M:
 
     Parameters
     ----------
-    found : M
+    motions : M
         Motions with `reasons`, such as an `Ensemble`.
 
     Returns

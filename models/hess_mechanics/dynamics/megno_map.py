@@ -91,7 +91,7 @@ def labels_of_cells(
         Centres of the cells across.
     y : ndarray, shape (n,)
         Centres of the cells up.
-    found : mapping of str to ndarray, shape (n, m)
+    arrays : mapping of str to ndarray, shape (n, m)
         The arrays, by name.
     facts : mapping of str to object
         Facts about the computation, by name.

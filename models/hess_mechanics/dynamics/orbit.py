@@ -313,7 +313,7 @@ def require_finite_neighbours(*results: Array) -> None:
 
     Parameters
     ----------
-    *found : ndarray
+    *results : ndarray
         Results of these equations.
 
     Raises

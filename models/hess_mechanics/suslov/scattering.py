@@ -289,7 +289,7 @@ def theta_plus_grid(rotation: Scattering, m: int, n: int) -> Array:
 
     Parameters
     ----------
-    found : Scattering
+    rotation : Scattering
         The scattering.
     m, n : int
         Number of cells in φ and in θ⁻.
