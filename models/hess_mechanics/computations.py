@@ -41,13 +41,13 @@ def cloud(
     body : BallBody
         The ball.
     h : float
-        Energy about which the points are spread at time 0.
+        Energy about which the points are spread at time 0, h > 0.
     duration : float
-        Time, in units of the problem; may be negative.
+        Time, in units T; negative: backward.
     count : int, default 1000
         Number of points, 1 to 20 000.
     spread : float, default 0.1
-        Spread of the energies, or the radius of the patch if an `angle` is given.
+        Spread of the energies relative to h, or the radius of the patch if an `angle` is given; 0 to 1.
     angle : float, optional
         Start in a patch about the ω at this angle, in radians, with γ = e₃.  By default the points fill the energy
         surface.
@@ -95,9 +95,9 @@ def rotation_numbers(
     Parameters
     ----------
     a : float or array_like, shape (n,)
-        Inertia parameter.
+        Inertia parameter a = I23/I22, |a| ≤ 1e6.
     h : float or array_like, shape (n,)
-        Energy integral, in units b = 1.
+        Energy integral, |h| ≤ 1e12, in units b = 1.
     f : float or array_like, shape (n,)
         Area integral, in units b = 1.
     accuracy : str or Level, default "precise"
@@ -143,9 +143,9 @@ def rotation_along_line(
     body : HeavyBody
         The body.
     h : float
-        Energy integral.
+        Energy integral, any finite number, in units I/T².
     f : float
-        Area integral.
+        Area integral, any finite number, in units I/T.
     ends : ((float, float), (float, float))
         The two ends (l, L/G) of the line; l in radians.
     count : int, default 24

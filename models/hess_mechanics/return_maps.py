@@ -121,11 +121,12 @@ def return_map(
     body : SuslovBody, BallBody, HeavyBody, HessBody, QuarticBody or ParametrizedSystem
         The body.
     E : float, optional
-        Energy of a `SuslovBody` or `BallBody`.
+        Energy of a `SuslovBody` or `BallBody`, in units I/T².
     h : float, optional
-        Energy of a `SuslovBody` or `BallBody` above the lowest; energy integral of a `HeavyBody` or `HessBody`.
+        Energy of a `SuslovBody` or `BallBody` above the lowest, positive; energy integral of a `HeavyBody`, or of a
+        `HessBody` in units b = 1, h > −1.
     f : float, optional
-        Area integral of a `HeavyBody` or `HessBody`.
+        Area integral of a `HeavyBody`, in units I/T, or of a `HessBody` in units b = 1.
     plane : int, default 3
         Index k of the plane γ_k = 0 of a `SuslovBody` or `BallBody`: 1, 2 or 3.
     sheet : int, default 0
@@ -305,7 +306,7 @@ def continued_orbit(map_: ReturnMap, orbit: PeriodicOrbit, parameter: str, to: f
     parameter : str
         Name of the parameter, one of `map_.section.constants`.
     to : float
-        Value of the parameter towards which the branch starts and at which it ends.
+        Value of the parameter towards which the branch starts and at which it ends, in the unit of the parameter.
     points : int, default 200
         Largest number of points of the branch, 2 to 2000.
 
@@ -422,7 +423,7 @@ def period_doublings(map_: ReturnMap, orbit: PeriodicOrbit, parameter: str, to: 
     parameter : str
         Name of the parameter, one of `map_.section.constants`.
     to : float
-        Value towards which the parameter changes, from its current value.
+        Value towards which the parameter changes, from its current value; in the unit of the parameter.
     most : int, default 6
         Largest number of doublings, 1 to 6.
 
@@ -519,7 +520,7 @@ def basins(
     window : ((float, float), (float, float)), optional
         Corners (x0, y0) and (x1, y1) of the window.  By default the whole section.
     duration : float, default 1000
-        Time over which the divergence is averaged.
+        Time over which the divergence is averaged, positive, in units T.
 
     Returns
     -------

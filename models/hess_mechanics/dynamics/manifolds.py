@@ -59,7 +59,7 @@ class Manifold(Result):
     side : int
         1 along the direction of the saddle, −1 against it.
     multiplier : float
-        Multiplier of F, on the manifold greater than 1.
+        Multiplier of F on the manifold, > 1.
     points : ndarray, shape (n, 2)
         Polyline along the branch; angles continue without jumps.
     parameters : ndarray, shape (n,)
@@ -69,7 +69,7 @@ class Manifold(Result):
     sagitta : float
         Largest distance between the curve and the polyline.
     error_estimate : float
-        Estimated error of the points across the curve.
+        Estimated error of the points across the curve, ≥ 0, in units of the coordinates.
     end_reason : str
         Reason why the branch ends.
     level : str
@@ -224,7 +224,7 @@ def manifold(
     saddle : PeriodicOrbit
         A saddle of this map.
     length : float
-        Length along the curve at which the branch ends, in units of the coordinates.
+        Length along the curve at which the branch ends, positive, in units of the coordinates.
     stable : bool, default False
         Return the stable manifold instead of the unstable one.
     side : {1, -1}, default 1
@@ -232,9 +232,9 @@ def manifold(
     place : int, default 0
         Index of the point of the saddle orbit from which the branch starts.
     sagitta : float, default 1e-3
-        Largest distance between the curve and the returned polyline.
+        Largest distance between the curve and the returned polyline, positive, in units of the coordinates.
     longest : float, default 0.1
-        Longest chord of the polyline.
+        Longest chord of the polyline, positive, in units of the coordinates.
     most : int, default 4000
         Largest number of points.
     returns : int, default 2 000 000

@@ -46,7 +46,7 @@ class MegnoMap(Result):
     ends : ndarray, shape (n, m)
         Time up to which each motion was followed; NaN where that is not known.
     t : float
-        Time span.
+        Time span, positive, in units T.
     level : str
         Name of the accuracy level.
     """

@@ -418,7 +418,7 @@ def solve(
     start : array_like, shape (d,)
         Initial state at time 0: the variables of the body's system, in their order.
     times : float or array_like, shape (n,)
-        Times of the result, monotonic from 0 forward or backward; or a single number, the end of the time span.
+        Times of the result, in units T, monotonic from 0 forward or backward; or a single number, the last time.
     accuracy : str or Level, default "precise"
         Accuracy level: "draft", "standard", "precise", "reference", or a level of your own.
     samples : int, default 500

@@ -370,9 +370,9 @@ class PeriodicOrbit(Result):
         focus", "unstable focus", "elliptic", "parabolic" (multiplier 1: a fold or a family) or "parabolic with
         reflection" (−1).
     error_estimate : float
-        Estimated error of the points.
+        Estimated error of the points, ≥ 0, in units of the coordinates.
     multiplier_error : float
-        Estimated error of the multipliers.
+        Estimated error of the multipliers, ≥ 0.
     condition : float
         Condition number of Newton's equations.
     iterations : int
@@ -384,9 +384,9 @@ class PeriodicOrbit(Result):
     symmetric : tuple of str
         Symmetries of the map that take the orbit to itself.
     time : float
-        Time of one period; NaN if the map does not know it.
+        Time of one period, in units T; NaN if the map does not know it.
     time_error : float
-        Estimated error of this time.
+        Estimated error of this time, ≥ 0, in units T.
     """
 
     names: tuple[str, ...]

@@ -436,7 +436,7 @@ def section(
     crossings : int, default 100 000
         Largest number of crossings, 1 to 100 000.
     max_step : float, optional
-        Longest step, see `solve`.
+        Longest step, positive, in units T, see `solve`.
     max_steps : int, default 5 000 000
         Largest number of steps of all runs together.
 

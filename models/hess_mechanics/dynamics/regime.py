@@ -130,15 +130,16 @@ class Regime(Result):
     places : Array, shape (n, d)
         Its crossings after the transient.
     t : float
-        Time of MEGNO; for a motion that did not return, the time limit.
+        Time of MEGNO, positive, in units T; for a motion that did not return, the time limit.
     period : int
         Number of returns after which it repeats; 0 if no period was found.
     megno : float
-        Ȳ after the time t, the median over the ensemble.
+        Ȳ after the time t, the median over the ensemble; near 2 for regular motions, > 3 for chaotic ones.
     k : float
         K of the 0–1 test, the largest of every crossing, every second, fourth and so on; NaN if there are too few.
     divergence, divergence_error : float
-        Mean of div ẏ along the motion and its error, by an ensemble of orbits; three errors are a 99.7 % interval.
+        Mean of div ẏ along the motion and its error, in 1/T, by an ensemble of orbits; three errors are a 99.7 %
+        interval.
     measure : str
         Reason why the mean divergence is exactly 0 although the divergence is not; empty if none is known.
     """
@@ -257,7 +258,7 @@ def regime(
     kept : int, default 200
         Crossings kept, 1 to 20 000.  Up to 64 times as many are used if they do not decide, at most 20 000.
     duration : float, default 200
-        Time of MEGNO, at least 30 returns.  Up to 64 times as long if it does not decide.
+        Time of MEGNO, positive, in units T; at least 30 returns.  Up to 64 times as long if it does not decide.
 
     Returns
     -------
@@ -540,7 +541,7 @@ def dynamics_of(
     kept : int, default 2000
         Crossings kept of each orbit, 8 to 20 000.
     duration : float, default 1000
-        Time over which the divergence of each orbit is averaged.
+        Time over which the divergence of each orbit is averaged, positive, in units T.
 
     Returns
     -------

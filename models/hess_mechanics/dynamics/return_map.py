@@ -338,7 +338,7 @@ class ReturnMap:
         name : str
             Name of the constant, one of `section.constants`.
         value : float
-            New value.
+            New value, in the unit of the constant.
 
         Returns
         -------

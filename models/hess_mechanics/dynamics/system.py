@@ -385,14 +385,14 @@ class System:
         level : Level
             Level of the run, see `Level.longest_step`.
         duration : float
-            Duration of the motion, in scaled time.
+            Duration of the motion, in units of 1/ν.
         max_step : float, default ∞
-            A smaller limit, in scaled time.
+            A smaller limit, positive, in units of 1/ν.
 
         Returns
         -------
         float
-            The longest step, in scaled time.
+            The longest step, in units of 1/ν.
         """
         part = LONGEST if self.recursion.functions else 1.0
         return level.longest_step(min(max_step, part * abs(duration)))
@@ -623,7 +623,7 @@ class System:
         parameters : sequence of float, shape (q,), optional
             Values of the parameters.  By default those of the example.
         **values : float
-            Values of single parameters by name, which replace these.
+            Values of single parameters by name, any finite numbers, which replace these.
 
         Returns
         -------

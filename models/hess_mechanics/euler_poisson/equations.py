@@ -152,7 +152,7 @@ class HeavyBody:
         Parameters
         ----------
         f : float
-            Area integral (M, γ).
+            Area integral (M, γ), any finite number, in units I/T.
 
         Returns
         -------

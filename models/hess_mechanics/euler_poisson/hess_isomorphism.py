@@ -236,9 +236,9 @@ class Bridge:
         Parameters
         ----------
         H : float
-            Energy of the heavy body.
+            Energy of the heavy body, in units I/T².
         F1 : float
-            Area integral (M, γ).
+            Area integral (M, γ), in units I/T.
 
         Returns
         -------
@@ -268,9 +268,9 @@ class Bridge:
         Returns
         -------
         H : float
-            Energy of the heavy body, equal to E of the Suslov body.
+            Energy of the heavy body, in units I/T², equal to E of the Suslov body.
         F1 : float
-            Area integral (M, γ), equal to −F2 of the Suslov body.
+            Area integral (M, γ), in units I/T, equal to −F2 of the Suslov body.
 
         Raises
         ------

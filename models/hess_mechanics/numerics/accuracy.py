@@ -106,7 +106,7 @@ class Level:
         Parameters
         ----------
         limit : float
-            The limit, for example the duration of the motion.
+            The limit, for example the duration of the motion, in any unit of time.
 
         Returns
         -------

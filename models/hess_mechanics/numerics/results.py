@@ -158,7 +158,7 @@ class Sampled(Result):
     status : Status
         How the computation ended.
     error_estimate : float
-        Largest estimated error of any component at any time.
+        Largest estimated error of any component at any time, ≥ 0, in the unit of the component.
     drift : dict of str to float
         max |F(t) − F(0)| of each integral F, relative to |F(0)| if that exceeds 1.
     cost : Cost
@@ -220,7 +220,7 @@ class Orbit(Sampled):
     status : Status
         How the computation ended.
     error_estimate : float
-        Largest estimated error of any component at any time.
+        Largest estimated error of any component at any time, ≥ 0, in the unit of the component.
     drift : dict of str to float
         max |F(t) − F(0)| of each integral F, relative to |F(0)| if that exceeds 1.
     cost : Cost
@@ -253,7 +253,7 @@ class Ensemble(Sampled):
     status : Status
         How the computation ended, for the least accurate orbit.
     error_estimate : float
-        Largest estimated error of any component at any time of any orbit.
+        Largest estimated error of any component at any time of any orbit, ≥ 0, in the unit of the component.
     drift : dict of str to float
         Largest drift of each integral over all orbits, see `Orbit`.
     cost : Cost
@@ -300,7 +300,7 @@ class SectionCrossings(Sampled):
     status : Status
         How the computation ended.
     error_estimate : float
-        Largest estimated error of any component at any crossing.
+        Largest estimated error of any component at any crossing, ≥ 0, in the unit of the component.
     drift : dict of str to float
         max |F(t) − F(0)| of each integral F, relative to |F(0)| if that exceeds 1.
     cost : Cost
@@ -310,7 +310,8 @@ class SectionCrossings(Sampled):
     angles : tuple of str
         Names of those that are angles; they count on over full turns.
     time_error : float
-        Largest estimated error of any time.  Along a conservative motion it grows, and the error of the states may not.
+        Largest estimated error of any time, ≥ 0, in units T.  Along a conservative motion it grows, and the error of the
+        states may not.
     """
 
     dims = ("crossing",)

@@ -139,11 +139,11 @@ def check_body(I11: float, I22: float, I13: float, I23: float) -> BodyCheck:
     I11 : float
         Moment of inertia about the first axis, I11 > 0.
     I22 : float
-        Moment of inertia about the second axis, I22 > 0.
+        Moment of inertia about the second axis, I22 > 0, in the unit of I11.
     I13 : float
-        Product of inertia.
+        Product of inertia, any finite number, in the unit of I11.
     I23 : float
-        Product of inertia.
+        Product of inertia, any finite number, in the unit of I11.
 
     Returns
     -------

@@ -182,7 +182,7 @@ class AdditionalIntegral:
     c : ndarray of float, shape ((k + 1)/2,)
         Coefficients of V3.
     inertia : float
-        Moment of inertia about ξ: I11, in case 2 I22.
+        Moment of inertia about ξ: I11, in case 2 I22; positive, in units I.
     """
 
     k: int
@@ -221,7 +221,7 @@ class AdditionalIntegral:
         omega : array_like of float, shape (2,)
             Angular velocity (ω1, ω2).
         level : float
-            Value of F2.
+            Value of F2, any finite number.
 
         Returns
         -------

@@ -595,7 +595,7 @@ class FreeMotion(Result):
     status : Status
         State of the computation, see `Status`.
     error_estimate : float
-        Estimated absolute error of any component of ω and γ.
+        Estimated absolute error of any component of ω and γ, ≥ 0.
     drift : mapping of str to float
         Drift of E, F1 and, if it exists, F2, as in `Orbit`.
     cost : Cost

@@ -63,7 +63,7 @@ class Scattering(Result):
     status : Status
         State of the computation, see `Status`.
     error_estimate : float
-        Estimated error of Γ⁺, for any θ⁻ and φ.
+        Estimated error of Γ⁺, ≥ 0, for any θ⁻ and φ.
     cost : Cost
         Steps and time of the computation.
 

@@ -178,7 +178,7 @@ class CircleMap(Result):
     trace : float
         |2 Re α|, ≥ 0; ∞ beyond the range of doubles.
     log_trace : float
-        Natural logarithm of `trace`; −∞ if that is 0.
+        Natural logarithm of `trace`, any number; −∞ if the trace is 0.
     rotation_number : float
         Rotation number ρ of the lifted map, in turns per return.
     fixed_points : tuple of FixedPoint

@@ -116,7 +116,7 @@ class HessBody:
         Parameters
         ----------
         I33 : float
-            The third moment of inertia, which the equations do not contain.
+            The third moment of inertia, positive, in units I; the equations do not contain it.
 
         Returns
         -------
