@@ -310,8 +310,8 @@ class SectionCrossings(Sampled):
     angles : tuple of str
         Names of those that are angles; they count on over full turns.
     time_error : float
-        Largest estimated error of any time, ≥ 0, in units T.  Along a conservative motion it grows, and the error of the
-        states may not.
+        Largest estimated error of any time, ≥ 0, in units T.  Along a conservative motion it grows, and the error of
+        the states may not.
     """
 
     dims = ("crossing",)
