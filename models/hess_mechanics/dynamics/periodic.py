@@ -608,7 +608,10 @@ def _least_period(map_: Map, places: Array, error: float) -> int:
 
 
 def _measured(map_: Map, shot: Shot, iterations: int) -> PeriodicOrbit:
-    """Return the orbit with its error, measured with a more accurate map, which takes over on a broken promise."""
+    """Return the orbit with its error, measured with a more accurate map.
+
+    If the error exceeds the promise, the more accurate map takes over.
+    """
     current = map_
     shot = shoot(current, shot.places[: _least_period(current, shot.places, map_.promise)])
     while True:

@@ -657,7 +657,7 @@ class System:
 
 
 class Body(Protocol):
-    """Interface of anything that moves: equations of motion and values of their parameters.
+    """Interface of a moving body: equations of motion and values of their parameters.
 
     Examples
     --------

@@ -1,5 +1,5 @@
 # mypy: allow-untyped-defs
-"""Length of a Taylor step: from the last terms of the series, checked where the series may not show what comes.
+"""Length of a Taylor step, from the last terms of the series; checked where these may miss a change ahead.
 
 Not for users.  The last terms of a series bound its error only if the terms after them fall as well.  They need not:
 the series of τ⁴⁰ at 0 ends before it begins, tanh(x) rounds to 1 and stays constant whatever x does later, x/√(x²) is 1

@@ -51,7 +51,7 @@ class CrossSection:
 
 
 def embed(reduced: Array, h: float) -> Array:
-    """Return the points that show reduced states.
+    """Return the points of the unit ball that represent reduced states.
 
     Parameters
     ----------
@@ -63,7 +63,7 @@ def embed(reduced: Array, h: float) -> Array:
     Returns
     -------
     ndarray, shape (n, 3)
-        Points (X, Y, Z) of the unit ball.
+        Points (X, Y, Z).
     """
     w1, w2, n1, n2, _ = reduced.T
     square = 2.0 * (h + 1.0)
