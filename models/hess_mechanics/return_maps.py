@@ -443,8 +443,8 @@ def period_doublings(map_: ReturnMap, orbit: PeriodicOrbit, parameter: str, to: 
     --------
     >>> from hess_mechanics import SuslovBody, period_doublings, periodic_orbit, return_map
     >>> P = return_map(SuslovBody(1.0, 2.11, 0.6, 0.6, -1.0, -0.5, 0.7), E=0.681)
-    >>> found = period_doublings(P, periodic_orbit(P, (0.83, 1.89), 1), "I22", 2.4, most=1)
-    >>> found.periods.tolist(), round(float(found.values[0]), 3)
+    >>> result = period_doublings(P, periodic_orbit(P, (0.83, 1.89), 1), "I22", 2.4, most=1)
+    >>> result.periods.tolist(), round(float(result.values[0]), 3)
     ([1], 2.126)
     """
     return cascade(

@@ -198,23 +198,25 @@ def history(cloud: Cloud) -> CloudHistory:
 
 
 def density(cloud: Cloud) -> Density:
-    """Return the density in bins of width `BIN` from the smallest |s|, but not below `SMALLEST`, to the largest.
+    """Return the density of a cloud over ln|s|.
+
+    The bins have the width `BIN` and reach from the smallest |s|, but not below `SMALLEST`, to the largest.
 
     Parameters
     ----------
     cloud : Cloud
-        The cloud, see `cloud`.
+        The cloud.
 
     Returns
     -------
     Density
-        Histograms over ln|s|, at first, at last and over the time.
+        Densities at the start, at the end and averaged over time.
 
     Examples
     --------
     >>> from hess_mechanics import BallBody, cloud, density
-    >>> found = density(cloud(BallBody(2.0, 1.0, 0.3, 0.5, 0.0), 2.0, 1.0, count=20))
-    >>> bool(abs(found.last.sum() * (found.log_s[1] - found.log_s[0]) - 1.0) < 1e-12)
+    >>> result = density(cloud(BallBody(2.0, 1.0, 0.3, 0.5, 0.0), 2.0, 1.0, count=20))
+    >>> bool(abs(result.last.sum() * (result.log_s[1] - result.log_s[0]) - 1.0) < 1e-12)
     True
     """
     low = max(SMALLEST, float(cloud.log_s.min()))

@@ -187,8 +187,8 @@ def megno_map(
     Examples
     --------
     >>> from hess_mechanics import QuarticBody, megno_map, return_map
-    >>> found = megno_map(return_map(QuarticBody(2.0, 1.0, 1.0, 0.8), accuracy="standard"), cells=(6, 4), duration=50.0)
-    >>> found.values.shape, found.names
+    >>> chart = megno_map(return_map(QuarticBody(2.0, 1.0, 1.0, 0.8), accuracy="standard"), cells=(6, 4), duration=50.0)
+    >>> chart.values.shape, chart.names
     ((4, 6), ('q', 'p'))
     """
     section, level = map_.section, map_.accuracy

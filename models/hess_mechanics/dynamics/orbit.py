@@ -459,8 +459,8 @@ def solve(
     Examples
     --------
     >>> from hess_mechanics import SuslovBody, solve, systems
-    >>> found = solve(SuslovBody(2.0, 1.0, 0.3, 0.5, 0.3, -0.5, 1.0), (0.8, -0.4, 0.6, 0.0, 0.8), 10.0)
-    >>> found.states.shape, str(found.status), found.variables
+    >>> result = solve(SuslovBody(2.0, 1.0, 0.3, 0.5, 0.3, -0.5, 1.0), (0.8, -0.4, 0.6, 0.0, 0.8), 10.0)
+    >>> result.states.shape, str(result.status), result.variables
     ((500, 5), 'ok', ('ω1', 'ω2', 'γ1', 'γ2', 'γ3'))
     >>> solve(*systems()["suslov"].example_motion, [0.0, 1.0, 2.0], "draft").states.shape
     (3, 5)

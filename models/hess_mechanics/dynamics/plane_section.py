@@ -155,8 +155,8 @@ class AnglePlane:
     >>> from hess_mechanics import System, section
     >>> from hess_mechanics.dynamics.plane_section import AnglePlane
     >>> turning = System("turning", lambda y, p: (1,), "phase")
-    >>> found = section(turning.at(), (0.0,), AnglePlane(0, math.pi), 20.0, "precise")
-    >>> [round(t / math.pi, 9) for t in found.times]
+    >>> result = section(turning.at(), (0.0,), AnglePlane(0, math.pi), 20.0, "precise")
+    >>> [round(t / math.pi, 9) for t in result.times]
     [1.0, 3.0, 5.0]
     """
 
@@ -463,8 +463,8 @@ def section(
     --------
     >>> from hess_mechanics import Plane, level, section, systems
     >>> suslov = systems()["suslov"]
-    >>> found = section(*suslov.example_motion, Plane((0.0, 0.0, 0.0, 0.0, 1.0)), 50.0, level("precise"), 5)
-    >>> bool(abs(found.states[:, 4]).max() < 1e-9)
+    >>> result = section(*suslov.example_motion, Plane((0.0, 0.0, 0.0, 0.0, 1.0)), 50.0, level("precise"), 5)
+    >>> bool(abs(result.states[:, 4]).max() < 1e-9)
     True
     """
     start = np.array(start, float)[None]

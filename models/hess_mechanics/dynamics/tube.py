@@ -251,8 +251,8 @@ def tube(
     Examples
     --------
     >>> from hess_mechanics import systems, tube
-    >>> found = tube(systems()["hess"].at((0.75, 1.0)), (0.3, 0.9, 0.6, 0.0, 0.8), [1.0])
-    >>> found.complete, found.width < 1e-18
+    >>> result = tube(systems()["hess"].at((0.75, 1.0)), (0.3, 0.9, 0.6, 0.0, 0.8), [1.0])
+    >>> result.complete, result.width < 1e-18
     (True, True)
     """
     as_integer("digits", digits, 1, 100)

@@ -71,8 +71,8 @@ class AndoyerPlane:
     >>> from hess_mechanics import AndoyerPlane, HeavyBody, section
     >>> body = HeavyBody.hess((1.0, 1.5, 2.0), 3.0)
     >>> start = (1.0, 0.5, 0.3, 0.6, 0.0, 0.8)
-    >>> found = section(body, start, AndoyerPlane(f=0.84), 20.0, "standard")
-    >>> len(found.times)
+    >>> result = section(body, start, AndoyerPlane(f=0.84), 20.0, "standard")
+    >>> len(result.times)
     5
     """
 

@@ -187,8 +187,8 @@ def scattering(body: SuslovBody, accuracy: Accuracy, arc: int = 1, distance: flo
     Examples
     --------
     >>> from hess_mechanics import SuslovBody, scattering
-    >>> found = scattering(SuslovBody(4.0, 1.0, 0.0, 0.75), "precise")
-    >>> round(found.cos_chi, 6)
+    >>> result = scattering(SuslovBody(4.0, 1.0, 0.0, 0.75), "precise")
+    >>> round(result.cos_chi, 6)
     -0.907965
     """
     level = as_level(accuracy)

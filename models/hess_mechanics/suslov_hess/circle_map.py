@@ -225,8 +225,8 @@ class CircleMap(Result):
         Examples
         --------
         >>> from hess_mechanics import circle_map
-        >>> found = circle_map(a=0.5, h=1.5, f=0.6, accuracy="standard")
-        >>> found.theta([0.0, 1.0]).round(4)
+        >>> result = circle_map(a=0.5, h=1.5, f=0.6, accuracy="standard")
+        >>> result.theta([0.0, 1.0]).round(4)
         array([-1.8468, -1.7131])
         """
         return _theta(self.matrix, np.asarray(phi, float))
@@ -415,8 +415,8 @@ def circle_map(a: float, h: float, f: float, accuracy: Accuracy) -> CircleMap:
     Examples
     --------
     >>> from hess_mechanics import circle_map, level
-    >>> found = circle_map(a=0.0, h=1.5, f=0.6, accuracy=level("precise"))  # for a = 0 the map does not lock
-    >>> found.kind, len(found.fixed_points)
+    >>> result = circle_map(a=0.0, h=1.5, f=0.6, accuracy=level("precise"))  # for a = 0 the map does not lock
+    >>> result.kind, len(result.fixed_points)
     ('elliptic', 0)
     """
     level = as_level(accuracy)
