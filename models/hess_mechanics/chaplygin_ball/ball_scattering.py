@@ -284,8 +284,8 @@ def ball_scattering(
     distance : float
         Distance of the start from N^u: ω(0) is along ξ + distance·η.  Its sign selects the side; 1e-10 ≤ |distance| ≤
         0.1.
-    accuracy : Level or str
-        Accuracy level or its name, see `accuracy`.
+    accuracy : str or Level
+        Accuracy level or its name, see `level`.
     most_steps : float, optional
         Limit on the steps, positive; they are estimated beforehand.
 

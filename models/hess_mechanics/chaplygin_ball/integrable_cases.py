@@ -137,7 +137,7 @@ def period(body: BallBody, start: Sequence[float], accuracy: Accuracy = "precise
         Ball with I13 = I23 = 0 and b3 = 0.
     start : sequence of five floats
         Initial state (ω1, ω2, γ1, γ2, γ3).
-    accuracy : Level or str, optional
+    accuracy : str or Level, optional
         Accuracy level or its name, see `level`.
 
     Returns

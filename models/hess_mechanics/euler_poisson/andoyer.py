@@ -96,7 +96,7 @@ class AndoyerPlane:
         return np.array([*(2.0 * g3 * M[:2]), 2.0 * g3 * M[2] - self.f, 0.0, 0.0, M @ M])
 
     def crossing_kernel(self, system: System, problem: Problem) -> tuple[Callable[..., tuple[int, int]], Array, float]:
-        """Return the kernel of the surface with its constants in the units of a problem, see `section.Surface`.
+        """Return the kernel of the surface with its constants in the units of a problem, see `plane_section.Surface`.
 
         Parameters
         ----------

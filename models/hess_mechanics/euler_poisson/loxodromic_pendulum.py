@@ -276,8 +276,8 @@ def loxodromic_motion(pendulum: LoxodromicPendulum, duration: float, accuracy: A
         The pendulum.
     duration : float
         Time span in the units of the body.
-    accuracy : Level or str
-        Accuracy level or its name, see `accuracy`.
+    accuracy : str or Level
+        Accuracy level or its name, see `level`.
 
     Returns
     -------

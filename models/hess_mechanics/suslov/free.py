@@ -654,8 +654,8 @@ def free_motion(
         Vertical γ at t = 0; it is normalised, with a note if its length was not 1.
     times : array_like of float, shape (m,)
         Times in order, all ≥ 0 or all ≤ 0, as in `solve`.
-    accuracy : Level or str
-        Accuracy level or its name, see `accuracy`.
+    accuracy : str or Level
+        Accuracy level or its name, see `level`.
 
     Returns
     -------

@@ -2,7 +2,7 @@
 
 The vector field is γ3 P ∇E with a Poisson structure P: Hamiltonian in the time τ, dτ = γ3 dt.  It conserves the
 standard measure (its divergence is 0), in τ the measure γ3 dω dγ.  The case b3 = 0 is `kharlamova`, the
-case b1 = b2 = 0 is `quartic`; for general b the motion is chaotic, see `SuslovSection.invariant_density`.
+case b1 = b2 = 0 is `quartic`; for general b the motion is chaotic, without attractors.
 
 On the equator γ3 = 0 two of the brackets are infinite and τ reverses, while the motion itself is regular.
 """

@@ -156,8 +156,8 @@ def scattering(body: SuslovBody, accuracy: Accuracy, arc: int = 1, distance: flo
     ----------
     body : SuslovBody
         Body with b = 0 and I13 or I23 not 0.
-    accuracy : Level or str
-        Accuracy level or its name, see `accuracy`.
+    accuracy : str or Level
+        Accuracy level or its name, see `level`.
     arc : int, optional
         Arc σ = ±1, the sign of I13ω1 + I23ω2.
     distance : float, optional

@@ -384,8 +384,8 @@ def circle_map(a: float, h: float, f: float, accuracy: Accuracy) -> CircleMap:
         Energy, −1 < h ≤ 1e12, in units b = 1.
     f : float
         The area integral, |f| ≤ f_max(h), in units b = 1.
-    accuracy : Level or str
-        Accuracy level or its name, see `accuracy`.
+    accuracy : str or Level
+        Accuracy level or its name, see `level`.
 
     Returns
     -------

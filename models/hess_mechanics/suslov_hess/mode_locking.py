@@ -66,8 +66,8 @@ def lock_boundary(a: float, accuracy: Accuracy, points: int = 48) -> Array:
     ----------
     a : float
         Inertia parameter a = I23/I22, |a| ≤ 1e5.
-    accuracy : Level or str
-        Accuracy level or its name, see `accuracy`.
+    accuracy : str or Level
+        Accuracy level or its name, see `level`.
     points : int, optional
         Number of points, 3 to 100 000.
 
@@ -155,8 +155,8 @@ def critical_a(h: float, f: float, accuracy: Accuracy, high: float = 10.0) -> fl
         Energy, −1 < h ≤ 1e12, in units b = 1.
     f : float
         Area integral, |f| ≤ f_max(h), in units b = 1.
-    accuracy : Level or str
-        Accuracy level or its name, see `accuracy`.
+    accuracy : str or Level
+        Accuracy level or its name, see `level`.
     high : float, optional
         Upper end of the search interval (0, high), at most 1e6.
 
