@@ -371,7 +371,15 @@ L = Parameter(
 )
 X = Parameter("x", "L/G", "Inclination L/G", 0.2, (-1.0, 1.0), 0.01, (-1.0, 1.0), "M₃/|M| at t = 0.")
 SHEET = Parameter(
-    "sheet", "sheet", "Sheet", 0, (0, 2), 1, (0, 2), "Which momentum G of this energy; the largest is 0.", whole=True
+    "sheet",
+    "sheet",
+    "Sheet",
+    0,
+    (0, 2),
+    1,
+    (0, 2),
+    "Number of the momentum G of this energy; 0 is the largest.",
+    whole=True,
 )
 H_PENDULUM = Parameter(
     "energy",
@@ -495,7 +503,7 @@ THETA = Parameter(
     unit="rad",
 )
 CIRCLE_PHASE = Parameter(
-    "phi", "φ", "Phase φ", 0.5, _TURN, 0.01, _ANGLES, "Where on that circle γ starts, in radians.", unit="rad"
+    "phi", "φ", "Phase φ", 0.5, _TURN, 0.01, _ANGLES, "Angle on that circle at which γ starts, in radians.", unit="rad"
 )
 GAMMA_CIRCLE = Parameter(
     "Gamma",
@@ -540,7 +548,7 @@ SPAN = Parameter(
     (1.0, 200.0),
     1.0,
     (1e-3, 1e6),
-    "How long the motion is followed.",
+    "Duration of the motion.",
     "Computation",
     "time",
 )

@@ -352,7 +352,7 @@ def orbit_diagram(
     at: Sequence[float],
     *,
     transient: int = 200,
-    kept: int = 64,
+    crossings: int = 64,
     follow: bool = True,
 ) -> Diagram:
     """Return the orbit diagram of a section: the points where an orbit settles, over a parameter.
@@ -370,9 +370,9 @@ def orbit_diagram(
     at : sequence of float, shape (d,)
         Point of the section where the orbit starts.
     transient : int, default 200
-        Crossings discarded at each value.
-    kept : int, default 64
-        Crossings kept at each value.
+        Crossings discarded at each value, 0 to 20 000.
+    crossings : int, default 64
+        Crossings shown at each value, 1 to 20 000.
     follow : bool, default True
         Start each value from the last point of the one before.  Otherwise each value starts from `at`.
 
@@ -399,10 +399,10 @@ def orbit_diagram(
     """
     map_.constant(parameter)
     place = as_place(map_.names, at)
-    transient, kept = as_integer("transient", transient, 0, 20_000), as_integer("kept", kept, 1, 20_000)
-    if len(np.atleast_1d(values)) * kept > _MOST_PLACES:
-        raise WorkLimit(f"An orbit diagram has at most {_MOST_PLACES} places: choose fewer values, or crossings kept.")
-    diagram = diagram_over(partial(map_.at_constant, parameter), parameter, values, place, transient, kept, follow)
+    transient, crossings = as_integer("transient", transient, 0, 20_000), as_integer("crossings", crossings, 1, 20_000)
+    if len(np.atleast_1d(values)) * crossings > _MOST_PLACES:
+        raise WorkLimit(f"An orbit diagram has at most {_MOST_PLACES} points: choose fewer values or crossings.")
+    diagram = diagram_over(partial(map_.at_constant, parameter), parameter, values, place, transient, crossings, follow)
     if not any(map(len, diagram.places)):
         # Say why.
         map_.at_constant(parameter, float(diagram.values[0])).state_at(np.array(place))

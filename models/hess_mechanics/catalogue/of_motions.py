@@ -121,7 +121,7 @@ def computations(system: System) -> Iterator[Computation]:
             usual(known.TIME, 100.0, "Time up to which crossings are counted; negative: backward."),
             *_STEPS,
         ),
-        {"crossings": Number("n", "how often the motion crosses the plane", lambda r: len(r.times))},
+        {"crossings": Number("n", "number of crossings of the plane", lambda r: len(r.times))},
         Kind.SECTION,
         "times",
         _crossings,

@@ -32,8 +32,8 @@ Place = tuple[float, ...]
 
 _UNDECIDED = (MotionKind.UNDECIDED, MotionKind.SETTLING)
 _TRANSIENT = whole("transient", "N₀", 300, 0, 20_000, "Crossings skipped.")
-_KEPT = whole("kept", "N", 200, 8, 20_000, "Crossings analysed.")
-_MEASURED = _TRANSIENT, _KEPT, usual(known.SPAN, 200.0, "Time of MEGNO and of the mean divergence.")
+_CROSSINGS = whole("crossings", "N", 200, 8, 20_000, "Crossings analysed.")
+_MEASURED = _TRANSIENT, _CROSSINGS, usual(known.SPAN, 200.0, "Time of MEGNO and of the mean divergence.")
 
 
 # ---- functions of a point of a section ------------------------------------------------------------------------------
@@ -88,7 +88,7 @@ _OF_MOTION: Mapping[str, Number] = {
         "±",
         "change of phase volume about the motion",
         _decided("volume"),
-        categories={0: "kept", -1: "shrinks", 1: "grows"},
+        categories={0: "constant", -1: "shrinks", 1: "grows"},
     ),
     "megno": Number("Ȳ", "MEGNO", "megno"),
 }
@@ -176,7 +176,7 @@ def computations(example: PoincareSection, period: int) -> Iterator[Computation]
             *ends,
             values,
             transient,
-            whole("kept", "N", 64, 1, 20_000, "Crossings shown at each value."),
+            whole("crossings", "N", 64, 1, 20_000, "Crossings shown at each value."),
             whole("follow", "f", 1, 0, 1, "1: each value starts where the one before ends; 0: at the place."),
             whole("backward", "−t", 0, 0, 1, "1: backward in time, to repellers."),
         ),
@@ -187,7 +187,7 @@ def computations(example: PoincareSection, period: int) -> Iterator[Computation]
             map_.inverse() if backward else map_, place, **more
         ),
         choices=over,
-        example={"values": 3.0, "transient": 30.0, "kept": 8.0},
+        example={"values": 3.0, "transient": 30.0, "crossings": 8.0},
     )
     yield Computation(
         "regime",
@@ -209,7 +209,7 @@ def computations(example: PoincareSection, period: int) -> Iterator[Computation]
             "shared": Number("s", "fraction of the places that both share", "overlap"),
         },
         Kind.INDICATOR,
-        example={"transient": 60.0, "kept": 64.0, "duration": 50.0},
+        example={"transient": 60.0, "crossings": 64.0, "duration": 50.0},
     )
     if len(example.names) != 2:
         return

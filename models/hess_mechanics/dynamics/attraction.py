@@ -79,7 +79,7 @@ class RecurrentSets:
     table: NDArray[np.int16]
     states: tuple[tuple[float, ...], ...]
 
-    def kept(self, which: Sequence[bool]) -> RecurrentSets:
+    def subset(self, which: Sequence[bool]) -> RecurrentSets:
         """Return some of the sets, renumbered.
 
         Parameters

@@ -239,4 +239,4 @@ def attractors(section: PoincareSection, duration: float, accuracy: Accuracy) ->
     """
     sets = recurrent_sets(SectionOrbits(section, accuracy))
     on_each = tuple(contraction(section, state, duration) for state in sets.states)
-    return Attractors(sets.kept([one.attracts for one in on_each]), on_each)
+    return Attractors(sets.subset([one.attracts for one in on_each]), on_each)

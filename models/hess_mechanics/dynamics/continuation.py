@@ -241,7 +241,7 @@ class _Track:
 
     def _step(self, point: _Point, across: Array, left: float) -> Array:
         matrix = np.vstack([point.bordered, across])
-        return np.linalg.solve(matrix, -np.append(point.shot.left.ravel() / self.root, left))
+        return np.linalg.solve(matrix, -np.append(point.shot.residuals.ravel() / self.root, left))
 
     def corrected(self, guess: Array, across: Array) -> _Point:
         """Return the point of the branch in the plane through `guess` across a direction.  Raises `NotConverged`."""

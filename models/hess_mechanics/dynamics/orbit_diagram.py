@@ -191,7 +191,7 @@ def diagram_over(
     values: Sequence[float] | Array,
     start: Sequence[float] | Array,
     transient: int = 200,
-    kept: int = 64,
+    crossings: int = 64,
     follow: bool = True,
     again: Sequence[float] | Array | None = None,
 ) -> Diagram:
@@ -208,10 +208,10 @@ def diagram_over(
     start : array_like, shape (d,)
         Point where the orbit starts.
     transient : int, default 200
-        Largest number of crossings discarded at each value.  The points are kept as soon as the orbit has come a
+        Largest number of crossings discarded at each value.  The transient ends as soon as the orbit has come a
         thousand times closer to a periodic one than it was.
-    kept : int, default 64
-        Crossings kept at each value.
+    crossings : int, default 64
+        Crossings shown at each value.
     follow : bool, default True
         Start each value from the last point of the one before; from `again` if that fails.
     again : array_like, shape (d,), optional
@@ -232,7 +232,7 @@ def diagram_over(
     along = np.array(values, float, ndmin=1)
     if not (along.ndim == 1 and np.all(np.isfinite(along)) and 1 <= along.size <= MAX_VALUES):
         raise InvalidParameter(f"An orbit diagram needs 1 to {MAX_VALUES} finite values of its parameter.")
-    if not (kept >= 1 and transient >= 0 and transient + kept <= MAX_CROSSINGS):
+    if not (crossings >= 1 and transient >= 0 and transient + crossings <= MAX_CROSSINGS):
         raise WorkLimit(f"At most {MAX_CROSSINGS} crossings per value are allowed: choose fewer.")
     first = np.array(start, float)
     restart = first if again is None else np.array(again, float)
@@ -251,10 +251,10 @@ def diagram_over(
             conservative[i] = map_.preserves_volume
             for origin in (place, restart) if follow else (restart,):
                 try:
-                    orbit = _after_transient(map_, origin, transient, kept)
+                    orbit = _after_transient(map_, origin, transient, crossings)
                 except OutsideRegion:
                     continue
-                if len(orbit) == kept:
+                if len(orbit) == crossings:
                     points = orbit
                     break
         except WorkLimit:
@@ -280,15 +280,15 @@ def diagram_over(
     )
 
 
-def _after_transient(map_: Followed, origin: Array, transient: int, kept: int) -> Array:
-    """Return `kept` points of an orbit after its transient; fewer if the motion stays away."""
+def _after_transient(map_: Followed, origin: Array, transient: int, crossings: int) -> Array:
+    """Return `crossings` points of an orbit after its transient; fewer if the motion stays away."""
     orbit = np.asarray(origin, float)[None]
     while len(orbit) <= transient and not _has_approached(map_, orbit):
         piece = map_.orbit(orbit[-1], min(_WATCHED, transient + 1 - len(orbit)))
         if not len(piece):
             return piece
         orbit = np.concatenate([orbit, piece])
-    return map_.orbit(orbit[-1], kept)
+    return map_.orbit(orbit[-1], crossings)
 
 
 def _has_approached(map_: Followed, orbit: Array) -> bool:

@@ -200,14 +200,14 @@ class Shot:
     ----------
     places : ndarray, shape (m, d)
         Points x_i.
-    left : ndarray, shape (m, d)
+    residuals : ndarray, shape (m, d)
         Residuals P(x_i) − x_(i+1).
     derivatives : ndarray, shape (m, d, d)
         Derivatives DP(x_i).
     """
 
     places: Array
-    left: Array
+    residuals: Array
     derivatives: Array
 
     @property
@@ -235,13 +235,13 @@ class Shot:
         """
         u, values, v = np.linalg.svd(self.jacobian)
         nonzero = values > family * max(1.0, float(values[0]))
-        solution = -(v[nonzero].T / values[nonzero]) @ (u.T[nonzero] @ self.left.ravel())
+        solution = -(v[nonzero].T / values[nonzero]) @ (u.T[nonzero] @ self.residuals.ravel())
         return np.asarray(solution.reshape(self.places.shape))
 
     @property
     def size(self) -> float:
         """Largest residual."""
-        return float(np.abs(self.left).max())
+        return float(np.abs(self.residuals).max())
 
 
 def shoot(map_: Map, places: Array) -> Shot:

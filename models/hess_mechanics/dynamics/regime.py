@@ -243,7 +243,7 @@ class _Evidence:
 
 
 def regime(
-    map_: ReturnMap, start: Sequence[float] | Array, transient: int = 300, kept: int = 200, duration: float = 200.0
+    map_: ReturnMap, start: Sequence[float] | Array, transient: int = 300, crossings: int = 200, duration: float = 200.0
 ) -> Regime:
     """Classify the motion from a point of a section.
 
@@ -255,8 +255,8 @@ def regime(
         Point where the motion starts.
     transient : int, default 300
         Crossings discarded, 0 to 20 000.
-    kept : int, default 200
-        Crossings kept, 1 to 20 000.  Up to 64 times as many are used if they do not decide, at most 20 000.
+    crossings : int, default 200
+        Crossings used, 1 to 20 000.  Up to 64 times as many are used if they do not decide, at most 20 000.
     duration : float, default 200
         Time of MEGNO, positive, in units T; at least 30 returns.  Up to 64 times as long if it does not decide.
 
@@ -281,13 +281,13 @@ def regime(
     >>> regime(P, (0.3,), duration=100.0).kind.words  # it tends to the stable limit cycle
     'fixed point'
     """
-    transient, kept = (
+    transient, crossings = (
         as_integer("transient", transient, 0, _MOST_CROSSINGS),
-        as_integer("kept", kept, 1, _MOST_CROSSINGS),
+        as_integer("crossings", crossings, 1, _MOST_CROSSINGS),
     )
     start = as_place(map_.names, start)
-    places = map_.orbit(np.array(start), transient + kept)
-    if len(places) < transient + kept:
+    places = map_.orbit(np.array(start), transient + crossings)
+    if len(places) < transient + crossings:
         return _not_seen(map_, places, start)
     places = places[transient:]
     # A time of 0, or none, is refused by the indicator itself.
@@ -526,7 +526,11 @@ class Dynamics(Result):
 
 
 def dynamics_of(
-    map_: ReturnMap, start: Sequence[float] | Array, transient: int = 500, kept: int = 2000, duration: float = 1000.0
+    map_: ReturnMap,
+    start: Sequence[float] | Array,
+    transient: int = 500,
+    crossings: int = 2000,
+    duration: float = 1000.0,
 ) -> Dynamics:
     """Classify the dynamics around the orbits from a point: conservative, dissipative or mixed.
 
@@ -538,8 +542,8 @@ def dynamics_of(
         Point where the orbits start, 1e-8 from each other.
     transient : int, default 500
         Crossings discarded of each orbit, 0 to 20 000.
-    kept : int, default 2000
-        Crossings kept of each orbit, 8 to 20 000.
+    crossings : int, default 2000
+        Crossings used of each orbit, 8 to 20 000.
     duration : float, default 1000
         Time over which the divergence of each orbit is averaged, positive, in units T.
 
@@ -563,14 +567,16 @@ def dynamics_of(
     --------
     >>> from hess_mechanics import QuarticBody, dynamics_of, return_map
     >>> P = return_map(QuarticBody(2.0, 1.0, 1.0, 0.8), accuracy="standard")
-    >>> dynamics_of(P, (0.3, 0.2), transient=60, kept=64, duration=100.0).verdict  # I₁₃ = I₂₃ = 0: the volume is kept
+    >>> dynamics_of(P, (0.3, 0.2), transient=60, crossings=64, duration=100.0).verdict  # I₁₃ = I₂₃ = 0 preserves volume
     'conservative'
     """
-    kept = as_integer("kept", kept, 8, _MOST_CROSSINGS)
-    return comparison(map_, regime(map_, start, transient, min(kept, 400), duration), start, transient, kept)
+    crossings = as_integer("crossings", crossings, 8, _MOST_CROSSINGS)
+    return comparison(map_, regime(map_, start, transient, min(crossings, 400), duration), start, transient, crossings)
 
 
-def comparison(map_: ReturnMap, motion: Regime, start: Sequence[float] | Array, transient: int, kept: int) -> Dynamics:
+def comparison(
+    map_: ReturnMap, motion: Regime, start: Sequence[float] | Array, transient: int, crossings: int
+) -> Dynamics:
     """Classify the dynamics around orbits whose kind of motion is already known.
 
     Parameters
@@ -583,7 +589,7 @@ def comparison(map_: ReturnMap, motion: Regime, start: Sequence[float] | Array, 
         Point where the orbits start, 1e-8 from each other.
     transient : int
         Crossings discarded of each orbit.
-    kept : int
+    crossings : int
         Crossings used of each orbit.
 
     Returns
@@ -606,8 +612,8 @@ def comparison(map_: ReturnMap, motion: Regime, start: Sequence[float] | Array, 
         go_on()
         pair: list[Array] = []
         for one in (map_, map_.inverse()):
-            orbit = one.orbit(origin + _SHIFT * i, transient + kept)
-            if len(orbit) < transient + kept:
+            orbit = one.orbit(origin + _SHIFT * i, transient + crossings)
+            if len(orbit) < transient + crossings:
                 way = "backward" if one.backward else "forward"
                 raise NoReturn(
                     f"Followed {way} in time, the motion returned only {len(orbit)} times: choose another point."
