@@ -202,7 +202,7 @@ class _Point:
 class _Track:
     """The constants of a branch; z holds the points (m, d) divided by √m, and λ divided by the width of its range.
 
-    at : the family of maps, which keeps the last ones.
+    at : the family of maps, with a cache of the last ones.
     """
 
     at: MapFamily

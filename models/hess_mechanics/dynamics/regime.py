@@ -196,7 +196,7 @@ class Regime(Result):
 class _Evidence:
     """The findings of one round; early and late are Ȳ at half the time and at all of it.
 
-    regular : a theorem excludes chaos; winds : one says that a motion without a period is quasi-periodic.
+    regular : a theorem excludes chaos; winds : by a theorem, a motion without a period is quasi-periodic.
     """
 
     crossings: int

@@ -654,7 +654,7 @@ class ReturnMap:
     def _search(self, starts: Array) -> tuple[Problem, _Search]:
         """Return the scaled problem, and the search for the crossings of one of its orbits.
 
-        search(start, wanted, longest) returns the number of crossings found within a time limit, with their times and
+        search(start, target, longest) returns the number of crossings found within a time limit, with their times and
         states in the problem's units.
         """
         section, accuracy = self.section, self.accuracy

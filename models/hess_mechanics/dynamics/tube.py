@@ -164,7 +164,7 @@ class ProvedOrbit(Result):
 
     @cached_property
     def _errors(self) -> list[list[tuple[Fraction, Fraction]]]:
-        """Bounds, from below and from above, of the error of each component at each time of the tube."""
+        """Lower and upper bounds on the error of each component at each time of the tube."""
 
         def error(value: float, one: Enclosure) -> tuple[Fraction, Fraction]:
             above, below = one.high - Fraction(value), Fraction(value) - one.low
@@ -337,7 +337,7 @@ def _functions(recursion: Recursion) -> dict[str, Callable[..., Any]]:
 
 @dataclass(frozen=True)
 class _Step:
-    """Polynomials along a step of the given length, and a bound on |e| over the whole step."""
+    """Polynomials along a step of the given length, and an upper bound on |e| over the whole step."""
 
     series: list[ArbBall]
     length: float
@@ -457,7 +457,7 @@ class _Walk:
         return shortest
 
     def _radius(self, along: list[ArbBall], length: float, sign: int) -> ArbBall | None:
-        """Return a bound on |e| over a step; None if the step is too long."""
+        """Return an upper bound on |e| over a step; None if the step is too long."""
         from flint import arb, ctx
 
         delta = arb(length)
@@ -483,7 +483,7 @@ class _Walk:
         return most if most < R else None
 
     def _rate(self, box: list[ArbBall], sign: int) -> ArbBall | None:
-        """Return a bound on the eigenvalues of the symmetric part of ±D⁻¹ f′ D over a box; None if there is none.
+        """Return an upper bound on the eigenvalues of the symmetric part of ±D⁻¹ f′ D over a box, or None.
 
         Raises `ZeroDivisionError` if a divisor may vanish.
         """

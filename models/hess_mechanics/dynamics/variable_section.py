@@ -193,7 +193,7 @@ class VariableSection(PoincareSection):
             return np.ones(y.shape[1], bool)
         last = np.full((len(unknown), y.shape[1]), np.inf)
         for _ in range(_ITERATIONS):
-            # All differences at once: one call of the integrals is dear, whatever its length.
+            # All differences at once: a call of the integrals is expensive, whatever its length.
             step = _STEP * np.maximum(1.0, np.abs(y[unknown]))
             moved = np.repeat(y[:, None], 2 * len(unknown) + 1, axis=1)
             for j, i in enumerate(unknown):

@@ -231,7 +231,7 @@ def _towards(map_: ReturnMap, places: Array, l: float, stable: bool) -> Manifold
     along = np.linspace(from_, from_ + way, 200)
     curve = np.column_stack([along, hess_curve(sheet.body, along)])
     length = float(np.hypot(*np.diff(curve, axis=0).T).sum())
-    # `grown` takes the direction whose larger component is positive.
+    # `manifold` takes the direction whose larger component is positive.
     d = curve[1] - curve[0]
     side = 1 if d[int(np.argmax(np.abs(d)))] > 0.0 else -1
     branch = manifold(map_, orbit, length + _ROOM, stable=stable, side=side, sagitta=_SAGITTA, longest=_CHORD)

@@ -278,7 +278,7 @@ class _LongCompilations(event.Listener):  # type: ignore[misc]  # numba has no t
     def on_end(self, event: Any) -> None:
         if _announcement(event):
             self.of.runs = False
-        # Not `event.is_failed`, which in some versions of Numba says the contrary.
+        # Not `event.is_failed`, which means the opposite in some versions of Numba.
         if event.kind == "numba:compile" and tuple(event.data["args"]) not in event.data["dispatcher"].overloads:
             let_go(event.data["dispatcher"])
 
