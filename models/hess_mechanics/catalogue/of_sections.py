@@ -44,7 +44,7 @@ def _periodic(map_: ReturnMap, place: Place, period: int) -> PeriodicOrbit:
 
 
 def _from_orbit(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Return a function of a map and a place, from one of a map and a periodic orbit."""
+    """Return a function of a map and a point, from one of a map and a periodic orbit."""
     return lambda map_, place, period, **more: function(map_, _periodic(map_, place, period), **more)
 
 

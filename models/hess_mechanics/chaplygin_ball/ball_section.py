@@ -124,7 +124,7 @@ class BallSection(AngleSection):
 
     @property
     def integrable(self) -> str:
-        """The case of `integrable_cases` in words, or an empty string."""
+        """Name of the integrable case, see `integrable_cases`; empty if none is known."""
         if is_reversible(self.body):
             return "the case I₁₃ = I₂₃ = b₃ = 0, whose orbits are closed"
         return "the integrable case I₁₁ = I₂₂, b along e₃" if has_area_integral(self.body) else ""

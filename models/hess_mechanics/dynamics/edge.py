@@ -1,6 +1,6 @@
 """Saddles on the boundary of two basins, whose stable manifolds bound them.
 
-Between two places in different basins the segment is halved until its ends part only after many crossings.  Meanwhile
+Between two points in different basins the segment is halved until its ends part only after many crossings.  Meanwhile
 their orbits follow the boundary and approach a set that attracts within it: on a smooth boundary a saddle.  Newton's
 method starts from there.
 """

@@ -213,7 +213,7 @@ def split_at(torus: HessTorus, away: float, accuracy: Accuracy) -> Split:
 
 
 def _towards(map_: ReturnMap, places: Array, l: float, stable: bool) -> Manifold:
-    """Return the branch along the Hess manifold, from the saddle next to these places to l and beyond."""
+    """Return the branch along the Hess manifold, from the saddle next to these points to l and beyond."""
     orbit = find_periodic(map_, places if len(places) > 1 else places[0], None if len(places) > 1 else 1, near=True)
     if (
         not orbit.kind.startswith("saddle")

@@ -51,7 +51,7 @@ class RotationProfile(Result):
     sea: Array
 
     def labels(self) -> Labels:
-        """Return ρ over the place on the line, with NaN in each gap.
+        """Return ρ over the position on the line, with NaN in each gap.
 
         Returns
         -------
@@ -69,7 +69,7 @@ class RotationProfile(Result):
 
     @property
     def places(self) -> Array:
-        """All places on the line, shape (n,)."""
+        """All positions on the line, shape (n,)."""
         return np.concatenate([np.empty(0), *self.along])
 
     @property
@@ -87,7 +87,7 @@ class RotationProfile(Result):
         return None
 
     def distance(self, exact: RotationProfile) -> float:
-        """Return the median difference from another profile, over the places where both know ρ.
+        """Return the median difference from another profile, where both know ρ.
 
         Elsewhere the line crosses chaotic seas.
 
