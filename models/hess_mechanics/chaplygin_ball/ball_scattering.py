@@ -328,7 +328,7 @@ def ball_scattering(
     if not 0.0 <= theta_minus <= math.pi:
         raise InvalidParameter(f"θ⁻ = {theta_minus:g}, but it is an angle between two vectors: choose 0 ≤ θ⁻ ≤ π.")
     if not 1e-10 <= abs(distance) <= 0.1:
-        raise InvalidParameter(f"The distance from N^u is {distance:g}: choose 1e-10 to 0.1, of either sign.")
+        raise InvalidParameter(f"The distance from N^u is {distance:g}: choose it from 1e-10 to 0.1, of either sign.")
 
     states, before = starts(strip, theta_minus, phis, distance)
     rates = _rates(strip, np.array([theta_minus, *np.linspace(0.0, math.pi, 33)]))
