@@ -1,8 +1,9 @@
 """Validate the docstrings of all public names by numpydoc, with the checks of `pyproject.toml`.
 
-Public are the names in `__all__` of the packages below, and the public methods and properties of these classes.  A
-class documents its fields as Parameters, or as Attributes where its users do not construct it.  Functions also need
-Examples.
+Public are the names in `__all__` of the packages below, all names without an underscore in the modules of the
+mechanics, and the public methods and properties of these classes.  Modules whose docstring says "Not for users.", as
+those of kernels do, are left out.  A class documents its fields as Parameters, or as Attributes where its users do not
+construct it.  Functions of a package also need Examples.
 """
 
 from __future__ import annotations
@@ -10,19 +11,22 @@ from __future__ import annotations
 import functools
 import importlib
 import inspect
+import pkgutil
 import re
 import sys
 import tomllib
 from collections.abc import Iterator
 from enum import Enum
 from pathlib import Path
-from types import FunctionType
+from types import FunctionType, ModuleType
 from typing import Any
 
 from numpydoc.docscrape import get_doc_object
 from numpydoc.validate import Validator, validate
 
 PACKAGES = ("hess_mechanics", "hess_explorer")
+WALKED = "hess_mechanics"
+INTERNAL = "Not for users."
 CONFIGURATION = Path(__file__).parents[1] / "pyproject.toml"
 MEMBERS = (FunctionType, property, classmethod, functools.cached_property)
 OPENING = re.compile(r"(What|Whether|Who|Whose|Of|How|Where|Which)\b")
@@ -46,17 +50,38 @@ class Documented(Validator):  # type: ignore[misc]  # numpydoc has no types
         return [("PR01", f"Fields {missing} not documented")] if missing else []
 
 
+def modules() -> Iterator[ModuleType]:
+    """Yield the packages, and all modules of the mechanics that are for users."""
+    yield from map(importlib.import_module, PACKAGES)
+    root = importlib.import_module(WALKED)
+    for found in pkgutil.walk_packages(root.__path__, f"{WALKED}."):
+        module = importlib.import_module(found.name)
+        if INTERNAL not in (module.__doc__ or ""):
+            yield module
+
+
+def names_of(module: ModuleType) -> Iterator[str]:
+    """Yield the names in `__all__`, and those without an underscore that the module defines."""
+    own = [name for name, value in vars(module).items() if getattr(value, "__module__", "") == module.__name__]
+    yield from dict.fromkeys([*getattr(module, "__all__", ()), *(name for name in own if not name.startswith("_"))])
+
+
 def public_names() -> Iterator[str]:
     """Yield the full names of all public functions and classes, and of the methods and properties that these define.
 
-    Inherited members are named once, in the first class that has them.
+    A name is yielded once, from the first module that has it; a member from the class that defines it.
     """
     seen: set[int] = set()
-    for package in map(importlib.import_module, PACKAGES):
-        for name in package.__all__:
-            found = getattr(package, name)
-            if inspect.isfunction(found) or inspect.isclass(found):
-                yield f"{package.__name__}.{name}"
+    for module in modules():
+        for name in names_of(module):
+            found = getattr(module, name)
+            plain = inspect.unwrap(found) if callable(found) else found
+            if not (inspect.isfunction(plain) or inspect.isclass(plain)) or not plain.__module__.startswith(PACKAGES):
+                continue
+            if id(found) in seen:
+                continue
+            seen.add(id(found))
+            yield f"{module.__name__}.{name}"
             for base in getattr(found, "__mro__", ()):
                 for member, value in vars(base).items() if base.__module__.startswith(PACKAGES) else ():
                     is_field = getattr(value, "__name__", "") == "<lambda>"  # the default of a field
@@ -66,7 +91,7 @@ def public_names() -> Iterator[str]:
                         and id(value) not in seen
                     ):
                         seen.add(id(value))
-                        yield f"{package.__name__}.{name}.{member}"
+                        yield f"{base.__module__}.{base.__qualname__}.{member}"
 
 
 def errors_of(name: str, ignored: set[str]) -> list[str]:

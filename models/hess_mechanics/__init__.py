@@ -38,16 +38,16 @@ def __getattr__(name: str) -> Any:
     if name == "__all__":
         return __dir__()
     try:
-        found = _found(name)
+        value = _found(name)
     except AttributeError:
         # A module is imported by the import system, which asks for it here first.
         if name.startswith("_") or find_spec(f"{__name__}.{name}") or name not in _computations():
             raise
-        found = _computations()[name]
-    if isinstance(found, FunctionType):
+        value = _computations()[name]
+    if isinstance(value, FunctionType):
         from hess_mechanics.numerics.arguments import typed
 
-        found = typed(found)
-        found.__module__ = __name__
-    globals()[name] = found
-    return found
+        value = typed(value)
+        value.__module__ = __name__
+    globals()[name] = value
+    return value

@@ -41,13 +41,13 @@ def cloud(
     body : BallBody
         The ball.
     h : float
-        Energy about which the points are spread at time 0.
+        Energy about which the points are spread at time 0, h > 0.
     duration : float
-        Time, in units of the problem; may be negative.
+        Time, in units T; negative: backward.
     count : int, default 1000
         Number of points, 1 to 20 000.
     spread : float, default 0.1
-        Spread of the energies, or the radius of the patch if an `angle` is given.
+        Spread of the energies relative to h, or the radius of the patch if an `angle` is given; 0 to 1.
     angle : float, optional
         Start in a patch about the ω at this angle, in radians, with γ = e₃.  By default the points fill the energy
         surface.
@@ -72,7 +72,7 @@ def cloud(
     >>> cloud(BallBody(2.0, 1.0, 0.5, 0.7, 0.0), 2.0, 5.0, count=50, accuracy="draft").omega.shape[0]
     50
     """
-    found = phase_cloud_density.clouds(
+    result = phase_cloud_density.clouds(
         body,
         h,
         angle,
@@ -82,7 +82,7 @@ def cloud(
         None,
         as_level(accuracy),
     )
-    return found.cloud
+    return result.cloud
 
 
 def rotation_numbers(
@@ -95,9 +95,9 @@ def rotation_numbers(
     Parameters
     ----------
     a : float or array_like, shape (n,)
-        Inertia parameter.
+        Inertia parameter a = I23/I22, |a| ≤ 1e6.
     h : float or array_like, shape (n,)
-        Energy integral, in units b = 1.
+        Energy integral, |h| ≤ 1e12, in units b = 1.
     f : float or array_like, shape (n,)
         Area integral, in units b = 1.
     accuracy : str or Level, default "precise"
@@ -143,9 +143,9 @@ def rotation_along_line(
     body : HeavyBody
         The body.
     h : float
-        Energy integral.
+        Energy integral, any finite number, in units I/T².
     f : float
-        Area integral.
+        Area integral, any finite number, in units I/T.
     ends : ((float, float), (float, float))
         The two ends (l, L/G) of the line; l in radians.
     count : int, default 24
@@ -185,11 +185,11 @@ def rotation_along_line(
         raise OutsideRegion("No motion crosses the section on this line: choose another line, or a larger h.")
     chosen = plan(Kind.ROTATION, accuracy)
     crossings = as_integer("crossings", crossings, 20, 10_000)
-    found = section_crossings(section, [state for _, state in started], crossings, chosen.level)
+    orbits = section_crossings(section, [state for _, state in started], crossings, chosen.level)
     return rotation_along(
         (first, last),
         [one for one, _ in started],
-        [section.places_of(one) for one in found.states],
+        [section.places_of(one) for one in orbits.states],
         about_first,
         count,
         chosen.promise,

@@ -40,7 +40,12 @@ class WorkLimit(ModelError):
 class MotionEnds(WorkLimit):
     """A motion that escapes to infinity in finite time, or reaches a state without finite rates.
 
-    time : the time of the end, NaN if it is not known.
+    Parameters
+    ----------
+    message : str
+        The message for the user.
+    time : float, optional
+        Time of the end, in units of the problem; NaN if it is not known.
     """
 
     def __init__(self, message: str, time: float = math.nan) -> None:

@@ -26,7 +26,20 @@ _LARGE = 1e6
 
 
 def plain(value: float, digits: int = 6) -> str:
-    """Return a number with up to `digits` significant digits, as one writes it: 1200 for 1.2e+03, 1e6 for 1e+06."""
+    """Return a number as text in ordinary notation, such as 1200 for 1.2e+03 and 1e6 for 1e+06.
+
+    Parameters
+    ----------
+    value : float
+        The number.
+    digits : int, default 6
+        Largest number of significant digits.
+
+    Returns
+    -------
+    str
+        The text.
+    """
     # Adding 0 turns −0 into 0.
     text = f"{value + 0.0:.{digits}g}"
     if "e" in text and 1.0 <= abs(float(text)) < _LARGE:
@@ -358,7 +371,15 @@ L = Parameter(
 )
 X = Parameter("x", "L/G", "Inclination L/G", 0.2, (-1.0, 1.0), 0.01, (-1.0, 1.0), "M₃/|M| at t = 0.")
 SHEET = Parameter(
-    "sheet", "sheet", "Sheet", 0, (0, 2), 1, (0, 2), "Which momentum G of this energy; the largest is 0.", whole=True
+    "sheet",
+    "sheet",
+    "Sheet",
+    0,
+    (0, 2),
+    1,
+    (0, 2),
+    "Number of the momentum G of this energy; 0 is the largest.",
+    whole=True,
 )
 H_PENDULUM = Parameter(
     "energy",
@@ -482,7 +503,7 @@ THETA = Parameter(
     unit="rad",
 )
 CIRCLE_PHASE = Parameter(
-    "phi", "φ", "Phase φ", 0.5, _TURN, 0.01, _ANGLES, "Where on that circle γ starts, in radians.", unit="rad"
+    "phi", "φ", "Phase φ", 0.5, _TURN, 0.01, _ANGLES, "Angle on that circle at which γ starts, in radians.", unit="rad"
 )
 GAMMA_CIRCLE = Parameter(
     "Gamma",
@@ -527,7 +548,7 @@ SPAN = Parameter(
     (1.0, 200.0),
     1.0,
     (1e-3, 1e6),
-    "How long the motion is followed.",
+    "Duration of the motion.",
     "Computation",
     "time",
 )

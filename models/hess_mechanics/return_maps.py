@@ -121,11 +121,12 @@ def return_map(
     body : SuslovBody, BallBody, HeavyBody, HessBody, QuarticBody or ParametrizedSystem
         The body.
     E : float, optional
-        Energy of a `SuslovBody` or `BallBody`.
+        Energy of a `SuslovBody` or `BallBody`, in units I/T².
     h : float, optional
-        Energy of a `SuslovBody` or `BallBody` above the lowest; energy integral of a `HeavyBody` or `HessBody`.
+        Energy of a `SuslovBody` or `BallBody` above the lowest, positive; energy integral of a `HeavyBody`, or of a
+        `HessBody` in units b = 1, h > −1.
     f : float, optional
-        Area integral of a `HeavyBody` or `HessBody`.
+        Area integral of a `HeavyBody`, in units I/T, or of a `HessBody` in units b = 1.
     plane : int, default 3
         Index k of the plane γ_k = 0 of a `SuslovBody` or `BallBody`: 1, 2 or 3.
     sheet : int, default 0
@@ -165,27 +166,27 @@ def return_map(
     >>> P.image((0.3, 1.2)).shape, P.names
     ((2,), ('ψ', 'δ'))
     """
-    asked: dict[str, float | None] = {"E": E, "h": h, "f": f}
-    found: PoincareSection
+    values: dict[str, float | None] = {"E": E, "h": h, "f": f}
+    section: PoincareSection
     if isinstance(body, SuslovBody | BallBody):
         energy = "E" if h is None else "h"
         kind: type[AngleSection] = SuslovSection if isinstance(body, SuslovBody) else BallSection
-        found = kind(body, 0.0, as_integer("plane", plane, 1, 3)).at_constant(energy, *_given(asked, energy))
-        found.require_reached()
+        section = kind(body, 0.0, as_integer("plane", plane, 1, 3)).at_constant(energy, *_given(values, energy))
+        section.require_reached()
     elif isinstance(body, HeavyBody):
-        at = _given(asked, "h", "f")
-        found = AndoyerSection(body, at[0], at[1], as_integer("sheet", sheet, 0, 2))
+        at = _given(values, "h", "f")
+        section = AndoyerSection(body, at[0], at[1], as_integer("sheet", sheet, 0, 2))
     elif isinstance(body, ParametrizedSystem):
-        given = {name: value for name, value in asked.items() if value is not None}
-        found = variable_section(body, {**given, **(integrals or {})}, surface, coordinates, window, sense)
+        given = {name: value for name, value in values.items() if value is not None}
+        section = variable_section(body, {**given, **(integrals or {})}, surface, coordinates, window, sense)
     elif isinstance(body, QuarticBody):
-        _given(asked)
-        found = QuarticSection(body)
+        _given(values)
+        section = QuarticSection(body)
     else:
-        found = TorusSection(body.a, *_given(asked, "h", "f"))
+        section = TorusSection(body.a, *_given(values, "h", "f"))
     if longest is not None and not longest > 0.0:
-        raise InvalidParameter(f"longest = {longest:g} is no waiting time: choose a positive number.")
-    return ReturnMap(found, as_level(accuracy), backward, longest)
+        raise InvalidParameter(f"longest = {longest:g} is not a waiting time: choose a positive number.")
+    return ReturnMap(section, as_level(accuracy), backward, longest)
 
 
 def section_orbits(
@@ -238,15 +239,15 @@ def section_orbits(
     if not len(states):
         raise OutsideRegion("No motion crosses the section here: choose a larger energy.")
     level = plan(Kind.SECTION, map_.accuracy).level
-    found = section_crossings(section, states, count, level, map_.backward, map_.longest)
+    points = section_crossings(section, states, count, level, map_.backward, map_.longest)
     x, y = section.names
     return PlanePoints(
         (x, y),
-        tuple(section.places_of(one) for one in found.states),
+        tuple(section.places_of(one) for one in points.states),
         {
             "level": map_.level,
-            **found.facts,
-            **{f"orbit {i}": reason for i, reason in enumerate(found.reasons) if reason},
+            **points.facts,
+            **{f"orbit {i}": reason for i, reason in enumerate(points.reasons) if reason},
             **angle_facts(
                 (name for name, turn in zip(section.names, section.turns, strict=True) if math.isfinite(turn)),
                 counts=False,
@@ -287,8 +288,8 @@ def periodic_orbit(map_: ReturnMap, at: Sequence[float], period: int | None = No
     >>> periodic_orbit(P, (-2.0,)).kind  # the stable limit cycle
     'stable node'
     """
-    found = find_periodic(map_, at, None if period is None else as_integer("period", period, 1, MAX_PERIOD))
-    return replace(found, symmetric=tuple(map_.symmetries_of(found.places)))
+    orbit = find_periodic(map_, at, None if period is None else as_integer("period", period, 1, MAX_PERIOD))
+    return replace(orbit, symmetric=tuple(map_.symmetries_of(orbit.places)))
 
 
 def continued_orbit(map_: ReturnMap, orbit: PeriodicOrbit, parameter: str, to: float, points: int = 200) -> Branch:
@@ -305,7 +306,7 @@ def continued_orbit(map_: ReturnMap, orbit: PeriodicOrbit, parameter: str, to: f
     parameter : str
         Name of the parameter, one of `map_.section.constants`.
     to : float
-        Value of the parameter towards which the branch starts and at which it ends.
+        Value of the parameter towards which the branch starts and at which it ends, in the unit of the parameter.
     points : int, default 200
         Largest number of points of the branch, 2 to 2000.
 
@@ -351,7 +352,7 @@ def orbit_diagram(
     at: Sequence[float],
     *,
     transient: int = 200,
-    kept: int = 64,
+    crossings: int = 64,
     follow: bool = True,
 ) -> Diagram:
     """Return the orbit diagram of a section: the points where an orbit settles, over a parameter.
@@ -369,9 +370,9 @@ def orbit_diagram(
     at : sequence of float, shape (d,)
         Point of the section where the orbit starts.
     transient : int, default 200
-        Crossings discarded at each value.
-    kept : int, default 64
-        Crossings kept at each value.
+        Crossings discarded at each value, 0 to 20 000.
+    crossings : int, default 64
+        Crossings shown at each value, 1 to 20 000.
     follow : bool, default True
         Start each value from the last point of the one before.  Otherwise each value starts from `at`.
 
@@ -398,14 +399,14 @@ def orbit_diagram(
     """
     map_.constant(parameter)
     place = as_place(map_.names, at)
-    transient, kept = as_integer("transient", transient, 0, 20_000), as_integer("kept", kept, 1, 20_000)
-    if len(np.atleast_1d(values)) * kept > _MOST_PLACES:
-        raise WorkLimit(f"An orbit diagram has at most {_MOST_PLACES} places: choose fewer values, or crossings kept.")
-    found = diagram_over(partial(map_.at_constant, parameter), parameter, values, place, transient, kept, follow)
-    if not any(map(len, found.places)):
+    transient, crossings = as_integer("transient", transient, 0, 20_000), as_integer("crossings", crossings, 1, 20_000)
+    if len(np.atleast_1d(values)) * crossings > _MOST_PLACES:
+        raise WorkLimit(f"An orbit diagram has at most {_MOST_PLACES} points: choose fewer values or crossings.")
+    diagram = diagram_over(partial(map_.at_constant, parameter), parameter, values, place, transient, crossings, follow)
+    if not any(map(len, diagram.places)):
         # Say why.
-        map_.at_constant(parameter, float(found.values[0])).state_at(np.array(place))
-    return found
+        map_.at_constant(parameter, float(diagram.values[0])).state_at(np.array(place))
+    return diagram
 
 
 def period_doublings(map_: ReturnMap, orbit: PeriodicOrbit, parameter: str, to: float, most: int = 6) -> Cascade:
@@ -422,7 +423,7 @@ def period_doublings(map_: ReturnMap, orbit: PeriodicOrbit, parameter: str, to: 
     parameter : str
         Name of the parameter, one of `map_.section.constants`.
     to : float
-        Value towards which the parameter changes, from its current value.
+        Value towards which the parameter changes, from its current value; in the unit of the parameter.
     most : int, default 6
         Largest number of doublings, 1 to 6.
 
@@ -442,8 +443,8 @@ def period_doublings(map_: ReturnMap, orbit: PeriodicOrbit, parameter: str, to: 
     --------
     >>> from hess_mechanics import SuslovBody, period_doublings, periodic_orbit, return_map
     >>> P = return_map(SuslovBody(1.0, 2.11, 0.6, 0.6, -1.0, -0.5, 0.7), E=0.681)
-    >>> found = period_doublings(P, periodic_orbit(P, (0.83, 1.89), 1), "I22", 2.4, most=1)
-    >>> found.periods.tolist(), round(float(found.values[0]), 3)
+    >>> result = period_doublings(P, periodic_orbit(P, (0.83, 1.89), 1), "I22", 2.4, most=1)
+    >>> result.periods.tolist(), round(float(result.values[0]), 3)
     ([1], 2.126)
     """
     return cascade(
@@ -497,9 +498,9 @@ class Basins(Result):
             Both arrays over the cells.
         """
         divergence = {f"divergence {i}": f"{one.mean:.6g} ± {one.error:.2g}" for i, one in enumerate(self.divergence)}
-        found = {"attractor": self.attractor, "crossings": self.crossings}
+        arrays = {"attractor": self.attractor, "crossings": self.crossings}
         facts = {"attractors": self.attractors, **divergence, "level": self.level}
-        return labels_of_cells(self.names, self.x, self.y, found, facts)
+        return labels_of_cells(self.names, self.x, self.y, arrays, facts)
 
 
 def basins(
@@ -519,7 +520,7 @@ def basins(
     window : ((float, float), (float, float)), optional
         Corners (x0, y0) and (x1, y1) of the window.  By default the whole section.
     duration : float, default 1000
-        Time over which the divergence is averaged.
+        Time over which the divergence is averaged, positive, in units T.
 
     Returns
     -------
@@ -550,8 +551,8 @@ def basins(
     number, crossings = np.empty((n, m)), np.empty((n, m))
 
     def row(i: int) -> None:
-        found = arrivals(SectionOrbits(section, level), there.sets, x, np.full(m, y[i]))
-        number[i], crossings[i] = found.number, found.crossings
+        ends = arrivals(SectionOrbits(section, level), there.sets, x, np.full(m, y[i]))
+        number[i], crossings[i] = ends.number, ends.crossings
 
     share(row, n)
     crossings[number < 0.0] = np.nan
@@ -568,14 +569,14 @@ def basins(
     )
 
 
-def _given(asked: dict[str, float | None], *names: str) -> list[float]:
+def _given(values: dict[str, float | None], *names: str) -> list[float]:
     """Return the values of these integrals; any other integral must be absent.  Raises `InvalidParameter`."""
-    lost = [name for name in names if asked[name] is None]
+    lost = [name for name in names if values[name] is None]
     if lost:
         raise InvalidParameter(f"The section of this body lies at given {' and '.join(names)}: give {lost[0]}.")
-    extra = [name for name, value in asked.items() if value is not None and name not in names]
+    extra = [name for name, value in values.items() if value is not None and name not in names]
     if extra:
         raise InvalidParameter(
             f"The section of this body takes {' and '.join(names) or 'its own energy'} and no {extra[0]}: leave it out."
         )
-    return [as_number(name, asked[name]) for name in names]
+    return [as_number(name, values[name]) for name in names]

@@ -36,18 +36,35 @@ __all__ = [
 
 @cache
 def motions() -> Mapping[str, Motions]:
-    """Return the motions of all systems by name: from any state, and from a point of each section."""
-    found = {name: anywhere(system) for name, system in systems().items()}
-    found |= {one.name: one for one in declared("SECTION") if isinstance(one, Motions)}
-    sectioned = {one.system.name for one in found.values() if one.section is not None}
+    """Return the motions of all systems by name: from any state, and from a point of each section.
+
+    Returns
+    -------
+    mapping of str to Motions
+        The motions.
+    """
+    result = {name: anywhere(system) for name, system in systems().items()}
+    result |= {one.name: one for one in declared("SECTION") if isinstance(one, Motions)}
+    sectioned = {one.system.name for one in result.values() if one.section is not None}
     for name, system in systems().items():
         if name not in sectioned and (section := section_of(system)) is not None:
-            found[section.name] = section
-    return found
+            result[section.name] = section
+    return result
 
 
 def computations_of(system: System | Motions) -> Mapping[str, Computation]:
-    """Return the computations of a system of one's own, by name and system."""
+    """Return the computations of a user's system.
+
+    Parameters
+    ----------
+    system : System or Motions
+        The system, or some of its motions.
+
+    Returns
+    -------
+    mapping of str to Computation
+        The computations, by name and system.
+    """
     both = [system] if isinstance(system, Motions) else [anywhere(system), section_of(system)]
     return {one.key: one for of in both if of is not None for one in _of(of)}
 
@@ -63,13 +80,35 @@ def _of(of: Motions) -> Iterator[Computation]:
 
 @cache
 def catalogue() -> Mapping[str, Computation]:
-    """Return all computations by name and system, such as "orbit suslov"."""
+    """Return all computations.
+
+    Returns
+    -------
+    mapping of str to Computation
+        The computations by name and system, such as "orbit suslov".
+    """
     every = [*of_problems.COMPUTATIONS, *(one for of in motions().values() for one in _of(of))]
     return {one.key: one for one in every}
 
 
 def find(key: str) -> Computation:
-    """Return the computation of this name and system.  Raises `InvalidParameter` with those that are close."""
+    """Return a computation of the catalogue.
+
+    Parameters
+    ----------
+    key : str
+        Name and system, such as "orbit suslov".
+
+    Returns
+    -------
+    Computation
+        The computation.
+
+    Raises
+    ------
+    InvalidParameter
+        If there is no such computation; the message lists those with similar names.
+    """
     every = catalogue()
     if isinstance(key, str) and key in every:
         return every[key]

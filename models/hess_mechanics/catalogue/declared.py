@@ -1,4 +1,4 @@
-"""A computation as data: what commands, sweeps, charts, the documentation and the trade know of it."""
+"""A computation as data, for commands, sweeps, charts, the documentation and the trade of speed against accuracy."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ Value = float | str
 
 
 class NoValue(ModelError):
-    """A result has no such number, for example no period because the motion never returns."""
+    """A result without the requested number, for example without a period because the motion never returns."""
 
 
 Reader = str | Callable[[Any], float]
@@ -41,13 +41,22 @@ def _read(reader: Reader, result: Any) -> float:
 class Number:
     """A number of a result, which sweeps and charts take.
 
-    Attributes
+    Parameters
     ----------
-    symbol, title, unit : its symbol, its name in words, and its unit.
-    reader : reads it from the result.  Raises `NoValue`.
-    error_reader : reads its estimated error from the result; None without an estimate.
-    turn : period of the values, for example 1 for rotation numbers; 0 if they are not periodic.
-    categories : values that stand for categories, with their names.
+    symbol : str
+        Symbol in formulas and pictures.
+    title : str
+        Name in words.
+    reader : str or callable, default "value"
+        Name of an attribute of a result, or a function of the result, which may raise `NoValue`.
+    unit : str, default "1"
+        Unit; "1" for a number without one.
+    error_reader : str or callable, optional
+        The same for the estimated error.  By default there is no estimate.
+    turn : float, default 0.0
+        Period of the values, for example 1 for rotation numbers; 0 if they are not periodic.
+    categories : mapping of int to str
+        Values that stand for categories, with their names.
     """
 
     symbol: str
@@ -59,17 +68,56 @@ class Number:
     categories: Mapping[int, str] = field(default_factory=dict)
 
     def read(self, result: Any) -> float:
-        """Return the number.  Raises `NoValue`."""
+        """Return the number.
+
+        Parameters
+        ----------
+        result : object
+            The result.
+
+        Returns
+        -------
+        float
+            Its value.
+
+        Raises
+        ------
+        NoValue
+            If the result has no such number.
+        """
         return _read(self.reader, result)
 
     def error(self, result: Any) -> float:
-        """Return its estimated error, NaN without an estimate."""
+        """Return the estimated error of the number.
+
+        Parameters
+        ----------
+        result : object
+            The result.
+
+        Returns
+        -------
+        float
+            The error; NaN without an estimate.
+        """
         return math.nan if self.error_reader is None else _read(self.error_reader, result)
 
 
 @dataclass(frozen=True)
 class Choice:
-    """An argument that is a word; `sweep` and charts take its default."""
+    """An argument that is a word; `sweep` and charts take its default.
+
+    Parameters
+    ----------
+    name : str
+        Name of the argument.
+    doc : str
+        Meaning, in a sentence.
+    names : tuple of str
+        The words.
+    default : str
+        Default word.
+    """
 
     name: str
     doc: str
@@ -78,13 +126,42 @@ class Choice:
 
 
 def real(name: str, symbol: str, default: float, low: float, high: float, doc: str) -> Parameter:
-    """Return a parameter of a computation that is any number from `low` to `high`."""
+    """Return a parameter of a computation that is a real number.
+
+    Parameters
+    ----------
+    name : str
+        Name in links, options and Python.
+    symbol : str
+        Symbol in formulas and pictures.
+    default : float
+        Default value.
+    low, high : float
+        Smallest and largest value.
+    doc : str
+        Meaning, in a few words.
+
+    Returns
+    -------
+    Parameter
+        The parameter.
+    """
     return Parameter(name, symbol, doc, default, (low, high), 0.01, (low, high), doc, "Computation")
 
 
 @dataclass(frozen=True)
 class Scalar(Result):
-    """A number with its estimated error, and the result to which it belongs unless it stands alone."""
+    """A number with its estimated error, and the result to which it belongs.
+
+    Parameters
+    ----------
+    value : float
+        The number.
+    error : float, optional
+        Its estimated error.  By default NaN, without an estimate.
+    of : object, optional
+        The result; None if the number stands alone.
+    """
 
     value: float
     error: float = math.nan
@@ -96,7 +173,13 @@ class Scalar(Result):
         return getattr(self.of, "status", Status.OK)
 
     def labels(self) -> Labels:
-        """Return those of the result to which the number belongs."""
+        """Return the labels of the result to which the number belongs.
+
+        Returns
+        -------
+        Labels
+            The labels.
+        """
         return Labels({}, {}, facts={"value": self.value}) if self.of is None else self.of.labels()
 
 
@@ -106,26 +189,42 @@ Many = tuple[Mapping[str, Array], Mapping[type[ModelError], Mask]]
 
 @dataclass(frozen=True)
 class Computation:
-    """One thing that can be computed.
+    """A computation of the catalogue.
 
-    Attributes
+    Parameters
     ----------
-    name : its name, such as "circle-map".
-    title : its name in words, without that of the system.
-    function : the public function, whose docstring describes it.
-    parameters : its numbers, whose defaults are the example.
-    numbers : the numbers of a result by name; the first is what a sweep takes by default.
-    kind : row of the table of accuracy: what a level means for it.
-    compared : values of a result that `error` compares: an attribute, or the first number by default.  Or the error, as
-        a function of a result and a more accurate one.
-    call : computes it, call(accuracy, **values), if `function` has other arguments.  Raises `ModelError`.
-    unit : unit of the error.
-    choices : its arguments that are words.
-    example : values that differ from the defaults in the example, so that it takes about a second.
-    system : name of the system; empty for a computation of its own.
-    source : label of the equation in the paper, or a citation.
-    group : heading of its command.
-    many : computes some of the numbers for many cells at once, many(accuracy, **columns).
+    name : str
+        Name, such as "circle-map".
+    title : str
+        Name in words, without that of the system.
+    function : callable
+        The public function, whose docstring describes it.
+    parameters : tuple of Parameter
+        Its numbers, whose defaults are the example.
+    numbers : mapping of str to Number
+        The numbers of a result by name; the first is the default of a sweep.
+    kind : Kind
+        Row of the table of accuracy, which gives levels their meaning.
+    compared : str or callable, default ""
+        Values of a result that `error` compares: an attribute, or the first number by default.  Or the error, as a
+        function of a result and a more accurate one.
+    call : callable, optional
+        Function call(accuracy, **values) that computes it, if `function` has other arguments.  It raises a
+        `ModelError`.
+    unit : str, default "1"
+        Unit of the error.
+    choices : tuple of Choice, default ()
+        Its arguments that are words.
+    example : mapping of str to Value
+        Values that differ from the defaults in the example, so that it takes about a second.
+    system : str, default ""
+        Name of the system; empty for a computation of its own.
+    source : str, default ""
+        Label of the equation in the paper, or a citation.
+    group : {"compute", "prove"}, default "compute"
+        Heading of its command.
+    many : callable, optional
+        Function many(accuracy, **columns) that computes some of the numbers for many cells at once.
     """
 
     name: str
@@ -146,7 +245,7 @@ class Computation:
 
     @property
     def key(self) -> str:
-        """Name and system, as they are typed: "orbit suslov"."""
+        """Name and system, as in a command: "orbit suslov"."""
         return f"{self.name} {self.system}".strip()
 
     @property
@@ -155,7 +254,23 @@ class Computation:
         return (self.function.__doc__ or "").partition("\n\n    Parameters")[0].strip()
 
     def parameter(self, name: str) -> Parameter:
-        """Return the parameter of this name.  Raises `InvalidParameter`, which lists the names."""
+        """Return the parameter of a given name.
+
+        Parameters
+        ----------
+        name : str
+            The name.
+
+        Returns
+        -------
+        Parameter
+            The parameter.
+
+        Raises
+        ------
+        InvalidParameter
+            If there is none; the message lists the names.
+        """
         for one in self.parameters:
             if one.name == name:
                 return one
@@ -164,49 +279,123 @@ class Computation:
         )
 
     def number(self, name: str) -> Number:
-        """Return the number of this name.  Raises `InvalidParameter`, which lists the names."""
+        """Return the number of a given name.
+
+        Parameters
+        ----------
+        name : str
+            The name.
+
+        Returns
+        -------
+        Number
+            The number.
+
+        Raises
+        ------
+        InvalidParameter
+            If there is none; the message lists the names.
+        """
         if name not in self.numbers:
             raise InvalidParameter(f"{self.key} has no number {name!r}; choose from {', '.join(self.numbers)}.")
         return self.numbers[name]
 
     def values(self, given: Mapping[str, Any] | None = None) -> dict[str, Value]:
-        """Return the values of all arguments, checked; those that are not given have their defaults.
+        """Return the checked values of all arguments.
 
-        Raises `InvalidParameter`.
+        Parameters
+        ----------
+        given : mapping of str to object, optional
+            Values by name; the others have their defaults.
+
+        Returns
+        -------
+        dict
+            The values, by name.
+
+        Raises
+        ------
+        InvalidParameter
+            If there is no such argument, or a value is out of range.
         """
         given = given or {}
         for name in given.keys() - {one.name for one in self.choices}:
             self.parameter(name)
-        found: dict[str, Value] = {}
+        values: dict[str, Value] = {}
         for one in self.parameters:
             value = one.check(as_number(one.name, given.get(one.name, one.default)))
-            found[one.name] = int(value) if one.whole else value
+            values[one.name] = int(value) if one.whole else value
         for choice in self.choices:
             word = str(given.get(choice.name, choice.default))
             if word not in choice.names:
                 raise InvalidParameter(f"{choice.name} is one of {', '.join(choice.names)}, not {word[:40]!r}.")
-            found[choice.name] = word
-        return found
+            values[choice.name] = word
+        return values
 
     def compute(self, given: Mapping[str, Any] | None = None, accuracy: Accuracy = "precise") -> Any:
-        """Return the result for some values, a `Result`; the others have their defaults.
+        """Return the result for some values.
 
-        Raises `ModelError`.
+        Parameters
+        ----------
+        given : mapping of str to object, optional
+            Values by name; the others have their defaults.
+        accuracy : str or Level, default "precise"
+            Accuracy level.
+
+        Returns
+        -------
+        Result
+            The result.
+
+        Raises
+        ------
+        ModelError
+            If there is no result for these values.
         """
-        found = (self.call or self.function)(accuracy=as_level(accuracy), **self.values(given))
-        return Scalar(found) if isinstance(found, float) else found
+        result = (self.call or self.function)(accuracy=as_level(accuracy), **self.values(given))
+        return Scalar(result) if isinstance(result, float) else result
 
     def error(self, result: Any, exact: Any) -> float:
-        """Return the distance of a result from a more accurate one, NaN if there is nothing to compare."""
+        """Return the distance of a result from a more accurate one.
+
+        Parameters
+        ----------
+        result : object
+            The result.
+        exact : object
+            The more accurate result.
+
+        Returns
+        -------
+        float
+            The distance, in `unit`; NaN if there is nothing to compare.
+        """
         if callable(self.compared):
             return self.compared(result, exact)
         read = attrgetter(self.compared) if self.compared else next(iter(self.numbers.values())).read
         return largest_difference(read(result), read(exact))
 
     def trade(self, given: Mapping[str, Any] | None = None, repeats: int = 1) -> tuple[LevelCost, ...]:
-        """Return time and error at each level, measured on this machine; the fastest of `repeats` runs counts.
+        """Return time and error at each level, measured on this machine.
 
-        The error is the distance from a run that is finer than `reference`.  Raises `ModelError`.
+        The error is the distance from a run that is finer than `reference`.
+
+        Parameters
+        ----------
+        given : mapping of str to object, optional
+            Values by name; the others have their defaults.
+        repeats : int, default 1
+            Number of runs at each level, of which the fastest counts.
+
+        Returns
+        -------
+        tuple of LevelCost
+            Costs of the levels, the cheapest first.
+
+        Raises
+        ------
+        ModelError
+            If there is no result for these values.
         """
 
         def run(plan: Plan) -> Any:
@@ -219,8 +408,20 @@ class Computation:
 def declare(of: Motions, one: Computation, on_section: bool = False) -> Computation:
     """Return a computation of the motions of a system.
 
-    one : its function takes body, initial state and accuracy, or with `on_section` the return map and a point of the
-    section, before its parameters.
+    Parameters
+    ----------
+    of : Motions
+        The motions.
+    one : Computation
+        Computation whose function takes body, initial state and accuracy before its parameters, or with `on_section`
+        the return map and a point of the section.
+    on_section : bool, default False
+        True for a computation of a section.
+
+    Returns
+    -------
+    Computation
+        The computation of this system.
     """
     own = (*of.parameters, *of.place)
     names = {each.name for each in own}
@@ -244,7 +445,18 @@ def declare(of: Motions, one: Computation, on_section: bool = False) -> Computat
 
 
 def largest_difference(values: Any, exact: Any) -> float:
-    """Return the largest difference of two arrays of one shape; NaN if the shapes differ."""
+    """Return the largest difference of two arrays of one shape.
+
+    Parameters
+    ----------
+    values, exact : array_like
+        The arrays.
+
+    Returns
+    -------
+    float
+        The difference; NaN if the shapes differ or the arrays are empty.
+    """
     one, other = np.asarray(values, float), np.asarray(exact, float)
     if one.shape != other.shape or not one.size:
         return math.nan

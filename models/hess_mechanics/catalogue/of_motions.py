@@ -63,7 +63,18 @@ def _enclosed(
 
 
 def computations(system: System) -> Iterator[Computation]:
-    """Yield the computations of the motions of a system."""
+    """Yield the computations of the motions of a system.
+
+    Parameters
+    ----------
+    system : System
+        The system.
+
+    Yields
+    ------
+    Computation
+        A computation, without the parameters of the system.
+    """
     names = system.variables
     yield Computation(
         "orbit",
@@ -110,7 +121,7 @@ def computations(system: System) -> Iterator[Computation]:
             usual(known.TIME, 100.0, "Time up to which crossings are counted; negative: backward."),
             *_STEPS,
         ),
-        {"crossings": Number("n", "how often the motion crosses the plane", lambda r: len(r.times))},
+        {"crossings": Number("n", "number of crossings of the plane", lambda r: len(r.times))},
         Kind.SECTION,
         "times",
         _crossings,

@@ -38,25 +38,25 @@ _TORUS = (known.A_HESS, known.H_PLANE, known.F_HESS)
 
 
 def _circle_map(accuracy: Level, a: float, h: float, f: float, phi: float) -> Scalar:
-    found = circle_map(a, h, f, accuracy)
-    return Scalar(float(found.theta([phi])[0]), found.error_estimate, found)
+    theta = circle_map(a, h, f, accuracy)
+    return Scalar(float(theta.theta([phi])[0]), theta.error_estimate, theta)
 
 
 def _tori(accuracy: Level, a: Array, h: Array, f: Array, phi: Array) -> Many:
-    found = values_at(a, h, f, accuracy)
+    tori = values_at(a, h, f, accuracy)
     # (h, f) = (1, 0) is the separatrix; all other impossible tori lie outside of the region.
-    separatrix = ~found.possible & (np.hypot(h - 1.0, f) < 1e-6)
-    numbers = {"rotation-number": found.rho, "trace": found.trace, "locked": found.locked.astype(float)}
+    separatrix = ~tori.possible & (np.hypot(h - 1.0, f) < 1e-6)
+    numbers = {"rotation-number": tori.rho, "trace": tori.trace, "locked": tori.locked.astype(float)}
     return (
-        {name: np.where(found.possible, values, np.nan) for name, values in numbers.items()},
-        {Separatrix: separatrix, OutsideRegion: ~found.possible & ~separatrix},
+        {name: np.where(tori.possible, values, np.nan) for name, values in numbers.items()},
+        {Separatrix: separatrix, OutsideRegion: ~tori.possible & ~separatrix},
     )
 
 
-def _cycle(found: CircleMap, number: int) -> FixedPoint:
-    if len(found.fixed_points) != 2:
-        raise NoValue(f"The circle map is {found.kind}: it has no two limit cycles.")
-    return found.fixed_points[number]
+def _cycle(theta: CircleMap, number: int) -> FixedPoint:
+    if len(theta.fixed_points) != 2:
+        raise NoValue(f"The circle map is {theta.kind}: it has no two limit cycles.")
+    return theta.fixed_points[number]
 
 
 # ---- free Suslov problem, free Chaplygin ball -----------------------------------------------------------------------
@@ -76,8 +76,8 @@ _scattered = lru_cache(maxsize=256)(scattering)
 
 
 def _scattering(accuracy: Level, theta: float, phi: float, arc: int, distance: float, **tensor: float) -> Scalar:
-    found = _scattered(SuslovBody(**tensor), accuracy, arc, distance or None)
-    return Scalar(float(found.theta_plus(theta, phi)), found.error_estimate, found)
+    result = _scattered(SuslovBody(**tensor), accuracy, arc, distance or None)
+    return Scalar(float(result.theta_plus(theta, phi)), result.error_estimate, result)
 
 
 # ---- clouds of phase points -----------------------------------------------------------------------------------------
@@ -116,13 +116,13 @@ def _state(w1: float, w2: float, g1: float, g2: float, g3: float) -> tuple[float
 
 
 def _plane_period(accuracy: Level, I11: float, I22: float, b1: float, b2: float, **start: float) -> float:
-    found = arc(PlaneBody(I11, I22, b1, b2), _state(**start))
-    if found.kind != "periodic":
+    result = arc(PlaneBody(I11, I22, b1, b2), _state(**start))
+    if result.kind != "periodic":
         raise NoValue(
             "This motion rests at a fixed point on the equator, or tends to one, and has no period: choose another "
             "start."
         )
-    return found.period
+    return result.period
 
 
 COMPUTATIONS: tuple[Computation, ...] = (

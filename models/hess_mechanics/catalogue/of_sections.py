@@ -32,8 +32,8 @@ Place = tuple[float, ...]
 
 _UNDECIDED = (MotionKind.UNDECIDED, MotionKind.SETTLING)
 _TRANSIENT = whole("transient", "N₀", 300, 0, 20_000, "Crossings skipped.")
-_KEPT = whole("kept", "N", 200, 8, 20_000, "Crossings analysed.")
-_MEASURED = _TRANSIENT, _KEPT, usual(known.SPAN, 200.0, "Time of MEGNO and of the mean divergence.")
+_CROSSINGS = whole("crossings", "N", 200, 8, 20_000, "Crossings analysed.")
+_MEASURED = _TRANSIENT, _CROSSINGS, usual(known.SPAN, 200.0, "Time of MEGNO and of the mean divergence.")
 
 
 # ---- functions of a point of a section ------------------------------------------------------------------------------
@@ -44,7 +44,7 @@ def _periodic(map_: ReturnMap, place: Place, period: int) -> PeriodicOrbit:
 
 
 def _from_orbit(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Return a function of a map and a place, from one of a map and a periodic orbit."""
+    """Return a function of a map and a point, from one of a map and a periodic orbit."""
     return lambda map_, place, period, **more: function(map_, _periodic(map_, place, period), **more)
 
 
@@ -59,21 +59,21 @@ def _along(function: Callable[..., Any]) -> Callable[..., Any]:
 
 
 def _decided(name: str) -> Callable[[Regime], float]:
-    def number(found: Regime) -> float:
-        if found.kind in _UNDECIDED:
+    def number(motion: Regime) -> float:
+        if motion.kind in _UNDECIDED:
             raise NoValue(
-                f"The motion is {found.kind.words}: MEGNO is {found.megno:.3g} after t = {found.t:.4g}. Choose a "
+                f"The motion is {motion.kind.words}: MEGNO is {motion.megno:.3g} after t = {motion.t:.4g}. Choose a "
                 "longer time, or skip more crossings."
             )
-        return float(getattr(found, name))
+        return float(getattr(motion, name))
 
     return number
 
 
-def _first(found: Cascade) -> float:
-    if not len(found.values):
+def _first(cascade: Cascade) -> float:
+    if not len(cascade.values):
         raise NoValue("No period doubles on this range: choose a longer one.")
-    return float(found.values[0])
+    return float(cascade.values[0])
 
 
 _OF_MOTION: Mapping[str, Number] = {
@@ -88,7 +88,7 @@ _OF_MOTION: Mapping[str, Number] = {
         "±",
         "change of phase volume about the motion",
         _decided("volume"),
-        categories={0: "kept", -1: "shrinks", 1: "grows"},
+        categories={0: "constant", -1: "shrinks", 1: "grows"},
     ),
     "megno": Number("Ȳ", "MEGNO", "megno"),
 }
@@ -97,7 +97,17 @@ _OF_MOTION: Mapping[str, Number] = {
 def computations(example: PoincareSection, period: int) -> Iterator[Computation]:
     """Yield the computations of a kind of section.
 
-    example : one of them; period : number of returns of the periodic orbit in the examples.
+    Parameters
+    ----------
+    example : PoincareSection
+        One of these sections.
+    period : int
+        Number of returns of the periodic orbit in the examples.
+
+    Yields
+    ------
+    Computation
+        A computation, without the parameters of the section.
     """
     constants = example.constants
     # By default, a little above the energy.
@@ -166,7 +176,7 @@ def computations(example: PoincareSection, period: int) -> Iterator[Computation]
             *ends,
             values,
             transient,
-            whole("kept", "N", 64, 1, 20_000, "Crossings shown at each value."),
+            whole("crossings", "N", 64, 1, 20_000, "Crossings shown at each value."),
             whole("follow", "f", 1, 0, 1, "1: each value starts where the one before ends; 0: at the place."),
             whole("backward", "−t", 0, 0, 1, "1: backward in time, to repellers."),
         ),
@@ -177,7 +187,7 @@ def computations(example: PoincareSection, period: int) -> Iterator[Computation]
             map_.inverse() if backward else map_, place, **more
         ),
         choices=over,
-        example={"values": 3.0, "transient": 30.0, "kept": 8.0},
+        example={"values": 3.0, "transient": 30.0, "crossings": 8.0},
     )
     yield Computation(
         "regime",
@@ -199,7 +209,7 @@ def computations(example: PoincareSection, period: int) -> Iterator[Computation]
             "shared": Number("s", "fraction of the places that both share", "overlap"),
         },
         Kind.INDICATOR,
-        example={"transient": 60.0, "kept": 64.0, "duration": 50.0},
+        example={"transient": 60.0, "crossings": 64.0, "duration": 50.0},
     )
     if len(example.names) != 2:
         return

@@ -54,11 +54,11 @@ class BallScattering(Result):
     Attributes
     ----------
     theta_minus : float
-        Angle θ⁻ of the initial circle in radians.
+        Angle θ⁻ of the initial circle in radians, 0 to π.
     phis : ndarray of float, shape (n,)
         Phases φ of γ at the start in radians.
     theta_plus : ndarray of float, shape (n,)
-        Angles θ⁺ in [0, π].
+        Angles θ⁺ in [0, π], in radians.
     errors : ndarray of float, shape (n,)
         Estimated errors of θ⁺ in radians.
     level : str
@@ -152,10 +152,32 @@ def _lag(body: BallBody, theta: float, phis: Array) -> Complex | None:
 
 
 def starts(strip: Strip, theta: float, phis: Array, distance: float) -> tuple[Array, Array]:
-    """Return states (n, 5) of motions from the circle θ of N^u, at phases φ (n,), and their errors (n,).
+    """Return initial states of motions from the circle θ of N^u, and how far they are from that circle.
 
-    ω is along ξ + distance·η.  γ is at φ on the circle up to a term of the order of `distance`, see the module.  The
-    errors bound, in radians, how far θ is from the circles from which the motions come.
+    ω is along ξ + distance·η.  γ is at φ on the circle up to a term of the order of `distance`, see the module.
+
+    Parameters
+    ----------
+    strip : Strip
+        The strip of the ball.
+    theta : float
+        Angle θ of the circle, in radians, 0 to π.
+    phis : ndarray, shape (n,)
+        Phases φ, in radians.
+    distance : float
+        Distance from N^u, nonzero.
+
+    Returns
+    -------
+    states : ndarray, shape (n, 5)
+        States (ω1, ω2, γ1, γ2, γ3).
+    errors : ndarray, shape (n,)
+        Upper bounds on the distance of θ from the circles from which the motions come, in radians.
+
+    Raises
+    ------
+    InvalidParameter
+        If I13 = I23 = 0.
     """
     body = strip.body
     xi, eta = line_of_rest(body)
@@ -173,15 +195,60 @@ def starts(strip: Strip, theta: float, phis: Array, distance: float) -> tuple[Ar
 
 
 def start(body: BallBody, h: float, theta: float, phi: float, distance: float) -> tuple[float, ...]:
-    """Return one of the `starts`, the state (5,) with the phase φ and E = h.  Raises `InvalidParameter`."""
+    """Return the initial state of a motion from a circle of N^u, see `starts`.
+
+    Parameters
+    ----------
+    body : BallBody
+        Ball with b = 0.
+    h : float
+        Energy, h > 0.
+    theta : float
+        Angle θ of the circle, in radians, 0 to π.
+    phi : float
+        Phase φ, in radians.
+    distance : float
+        Distance from N^u, nonzero.
+
+    Returns
+    -------
+    tuple of five floats
+        State (ω1, ω2, γ1, γ2, γ3).
+
+    Raises
+    ------
+    InvalidParameter
+        If the ball has a field, h ≤ 0, or I13 = I23 = 0.
+    """
     states, _ = starts(Strip(body, h), theta, np.array([phi]), distance)
     return tuple(map(float, states[0]))
 
 
 def free_theta_plus(body: BallBody, theta: float, distance: float, phis: tuple[float, ...]) -> Array:
-    """Return θ⁺ (n,) of the free Suslov problem with the same tensor, 𝒟 = 0, at these phases.
+    """Return the angles θ⁺ of the free Suslov problem with the same tensor, 𝒟 = 0.
 
-    Raises `InvalidParameter`, `WorkLimit`.
+    Parameters
+    ----------
+    body : BallBody
+        The ball.
+    theta : float
+        Angle θ⁻ of the initial circle, in radians, 0 to π.
+    distance : float
+        Distance of the start from the unstable point, positive.
+    phis : tuple of float
+        Phases φ, in radians.
+
+    Returns
+    -------
+    ndarray, shape (n,)
+        Angles θ⁺ in [0, π], in radians.
+
+    Raises
+    ------
+    InvalidParameter
+        If an argument is out of range, or I13 = I23 = 0.
+    WorkLimit
+        If γ rotates too often during the passage.
     """
     free = SuslovBody(body.I11, body.I22, body.I13, body.I23)
     return frozen(scattering(free, STANDARD, 1, distance).theta_plus(theta, np.array(phis)))
@@ -207,7 +274,7 @@ def ball_scattering(
     Parameters
     ----------
     body : BallBody
-        Ball with b = 0 and I13 or I23 not 0.
+        Ball with b = 0 and I13 or I23 nonzero.
     theta_minus : float
         Angle θ⁻ between γ and ξ on the initial circle in radians, 0 ≤ θ⁻ ≤ π.
     phis : array_like of float, shape (n,)
@@ -217,10 +284,10 @@ def ball_scattering(
     distance : float
         Distance of the start from N^u: ω(0) is along ξ + distance·η.  Its sign selects the side; 1e-10 ≤ |distance| ≤
         0.1.
-    accuracy : Level or str
-        Accuracy level or its name, see `accuracy`.
+    accuracy : str or Level
+        Accuracy level or its name, see `level`.
     most_steps : float, optional
-        Limit on the steps, which are estimated beforehand.
+        Limit on the steps, positive; they are estimated beforehand.
 
     Returns
     -------
@@ -261,7 +328,7 @@ def ball_scattering(
     if not 0.0 <= theta_minus <= math.pi:
         raise InvalidParameter(f"θ⁻ = {theta_minus:g}, but it is an angle between two vectors: choose 0 ≤ θ⁻ ≤ π.")
     if not 1e-10 <= abs(distance) <= 0.1:
-        raise InvalidParameter(f"The distance from N^u is {distance:g}: choose it from 1e-10 to 0.1, or minus that.")
+        raise InvalidParameter(f"The distance from N^u is {distance:g}: choose it from 1e-10 to 0.1, of either sign.")
 
     states, before = starts(strip, theta_minus, phis, distance)
     rates = _rates(strip, np.array([theta_minus, *np.linspace(0.0, math.pi, 33)]))
@@ -279,13 +346,13 @@ def ball_scattering(
             f"γ settles on its circle so slowly that θ⁺ takes about {steps:.0e} steps: choose larger I13 or "
             "I23, or a smaller 𝒟."
         )
-    found = complete(ensemble(body, states, [span], tight))
-    end = found.states[:, 0]
+    orbits = complete(ensemble(body, states, [span], tight))
+    end = orbits.states[:, 0]
     along, across = end[:, 2:4] @ xi, np.hypot(end[:, 2:4] @ eta, end[:, 4])
     theta_plus = np.arctan2(across, along)
 
     # The angle by which θ would still change, ∫ (ω, η) dt ≈ (ω, η)/λ.
-    errors = found.errors + before + np.abs(end[:, :2] @ eta) / _rates(strip, theta_plus)
+    errors = orbits.errors + before + np.abs(end[:, :2] @ eta) / _rates(strip, theta_plus)
     wall_ms = (time.perf_counter() - start) * 1e3
     return BallScattering(
         float(theta_minus),
@@ -294,16 +361,41 @@ def ball_scattering(
         frozen(errors),
         level.name,
         level.status(float(errors.max())),
-        Cost(found.cost.steps, wall_ms),
+        Cost(orbits.cost.steps, wall_ms),
     )
 
 
 def all_phases(
     body: BallBody, theta_minus: float, count: int, distance: float, accuracy: Accuracy, most_steps: float
 ) -> BallScattering:
-    """Return `ball_scattering` at `count` equidistant phases from −π to π; θ⁺ does not depend on the energy.
+    """Return the scattering at equidistant phases from −π to π; θ⁺ does not depend on the energy.
 
-    Raises `InvalidParameter`, `WorkLimit`.
+    Parameters
+    ----------
+    body : BallBody
+        Ball with b = 0 and I13 or I23 nonzero.
+    theta_minus : float
+        Angle θ⁻ of the initial circle, in radians, 0 to π.
+    count : int
+        Number of phases.
+    distance : float
+        Distance of the start from N^u, as in `ball_scattering`.
+    accuracy : str or Level
+        Accuracy level.
+    most_steps : float
+        Limit on the steps, which are estimated beforehand.
+
+    Returns
+    -------
+    BallScattering
+        The angles θ⁺ and their errors.
+
+    Raises
+    ------
+    InvalidParameter
+        As `ball_scattering`.
+    WorkLimit
+        As `ball_scattering`.
     """
     return ball_scattering(
         body, theta_minus, np.linspace(-math.pi, math.pi, count), 1.0, distance, accuracy, most_steps

@@ -29,7 +29,20 @@ _SAMPLES = 129
 
 
 def outside_band(band: tuple[float, float], psi: float) -> float:
-    """Return the possible ψ in [−π, π] next to this one, which is changed only in or next to a forbidden band."""
+    """Return the possible ψ nearest to a given one.
+
+    Parameters
+    ----------
+    band : (float, float)
+        Centre and half width of the band of forbidden ψ, in radians.
+    psi : float
+        Angle ψ, in radians.
+
+    Returns
+    -------
+    float
+        Angle in [−π, π]; it differs from `psi` only in the band or next to it.
+    """
     middle, half = band
     away = math.remainder(psi - middle, 2.0 * math.pi)
     if abs(away) >= half + _EDGE:
@@ -39,14 +52,46 @@ def outside_band(band: tuple[float, float], psi: float) -> float:
 
 
 def fastest(body: BallBody, start: tuple[float, ...], duration: float) -> float:
-    """Return the largest |ω| of a few samples along the orbit from a state (5,).  Raises as `solve`."""
+    """Return the largest |ω| at 129 samples of an orbit.
+
+    Parameters
+    ----------
+    body : BallBody
+        The ball.
+    start : tuple of five floats
+        Initial state.
+    duration : float
+        Time, nonzero; negative: backward.
+
+    Returns
+    -------
+    float
+        The largest |ω|, in rad/T.
+
+    Raises
+    ------
+    InvalidParameter
+        As `solve`.
+    WorkLimit
+        As `solve`.
+    """
     coarse = solve(body, start, np.linspace(0.0, duration, _SAMPLES), DRAFT)
     return float(np.hypot(*coarse.states[:, :2].T).max())
 
 
 @dataclass(frozen=True)
 class BallSection(AngleSection):
-    """Section γ_k = 0 of a ball, by default γ3 = 0; h counts from the lowest energy of the plane."""
+    """Section γ_k = 0 of a ball; h counts from the lowest energy of the plane.
+
+    Parameters
+    ----------
+    body : BallBody
+        The ball.
+    E : float
+        Energy, any finite number.
+    k : int, default 3
+        Index of the section, 1, 2 or 3.
+    """
 
     body: BallBody
 
@@ -58,9 +103,12 @@ class BallSection(AngleSection):
 
     @property
     def forbidden(self) -> tuple[float, float] | None:
-        """Centre and half width of the band of ψ that the energy forbids, (b, γ) > E; None if every ψ is possible.
+        """Centre and half width, in radians, of the band of ψ that the energy forbids; None if every ψ is possible.
 
-        Raises `OutsideRegion` if no ψ is possible.
+        Raises
+        ------
+        OutsideRegion
+            If no ψ is possible.
         """
         self.require_reached()
         (first, second), size = self._field, -self.lowest_energy
@@ -76,7 +124,7 @@ class BallSection(AngleSection):
 
     @property
     def integrable(self) -> str:
-        """The case of `integrable_cases` in words, or an empty string."""
+        """Name of the integrable case, see `integrable_cases`; empty if none is known."""
         if is_reversible(self.body):
             return "the case I₁₃ = I₂₃ = b₃ = 0, whose orbits are closed"
         return "the integrable case I₁₁ = I₂₂, b along e₃" if has_area_integral(self.body) else ""

@@ -28,9 +28,24 @@ _GOLDEN = (math.sqrt(5.0) - 1.0) / 2.0
 
 
 def line_of_rest(body: BallBody) -> tuple[Array, Array]:
-    """Return ξ = (I23, −I13)/|…| and η = (I13, I23)/|…|, each (2,): the directions along and across the line.
+    """Return the directions along and across the line of equilibria, I13 ω1 + I23 ω2 = 0.
 
-    Raises `InvalidParameter` for I13 = I23 = 0, where without a field every ω is constant.
+    Parameters
+    ----------
+    body : BallBody
+        The ball.
+
+    Returns
+    -------
+    xi : ndarray, shape (2,)
+        Unit vector ξ = (I23, −I13)/|…| along the line.
+    eta : ndarray, shape (2,)
+        Unit vector η = (I13, I23)/|…| across it.
+
+    Raises
+    ------
+    InvalidParameter
+        If I13 = I23 = 0, so that without a field every ω is constant.
     """
     length = math.hypot(body.I13, body.I23)
     if length == 0.0:
@@ -80,7 +95,13 @@ class Strip:
 
     @property
     def xi(self) -> Array:
-        """The unit vector ξ (3,) along the line on which ω is constant.  Raises `InvalidParameter`."""
+        """The unit vector ξ (3,) along the line on which ω is constant.
+
+        Raises
+        ------
+        InvalidParameter
+            If I13 = I23 = 0.
+        """
         return np.append(line_of_rest(self.body)[0], 0.0)
 
     @property
@@ -156,7 +177,13 @@ class Strip:
 
     @property
     def unstable(self) -> Array:
-        """The ends of N^u on σ2 and on σ1 in the (ω1, ω2) plane, shape (2, 2).  Raises `InvalidParameter`."""
+        """The ends of N^u on σ2 and on σ1 in the (ω1, ω2) plane, shape (2, 2).
+
+        Raises
+        ------
+        InvalidParameter
+            If I13 = I23 = 0.
+        """
         xi, _ = line_of_rest(self.body)
         moment = self.body.I11 * xi[0] ** 2 + self.body.I22 * xi[1] ** 2
         ends: Array = np.sqrt(2.0 * self.h / np.array([[moment + self.body.D], [moment]])) * xi
@@ -169,16 +196,48 @@ class Strip:
 
 
 def lowest_energy(body: BallBody) -> float:
-    """Return −|b|, the minimum of E over states with F1 = 1: the ball at rest, its centre of mass at the bottom."""
+    """Return −|b|, the minimum of E over states with F1 = 1: the ball at rest, its centre of mass at the bottom.
+
+    Parameters
+    ----------
+    body : BallBody
+        The ball.
+
+    Returns
+    -------
+    float
+        The lowest energy, ≤ 0.
+    """
     return -math.hypot(body.b1, body.b2, body.b3)
 
 
 def omega_of_energy(
     body: BallBody, direction: Sequence[float], gamma: Sequence[float], h: float
 ) -> tuple[float, float]:
-    """Return (ω1, ω2) along `direction` (2,) with E = h at this γ (3,).
+    """Return the angular velocity along a direction that has a given energy.
 
-    Raises `OutsideRegion` for h < (b, γ), `InvalidParameter` for a direction that is 0 or not finite.
+    Parameters
+    ----------
+    body : BallBody
+        The ball.
+    direction : sequence of float, shape (2,)
+        Direction of (ω1, ω2), nonzero.
+    gamma : sequence of float, shape (3,)
+        Vertical γ.
+    h : float
+        Energy, at least (b, γ).
+
+    Returns
+    -------
+    tuple of two floats
+        Angular velocity (ω1, ω2), in rad/T.
+
+    Raises
+    ------
+    OutsideRegion
+        If h < (b, γ).
+    InvalidParameter
+        If the direction is 0 or not finite.
     """
     length = math.hypot(*direction)
     if not (math.isfinite(length) and length > 0.0):

@@ -40,21 +40,21 @@ class BallBody:
     Parameters
     ----------
     I11 : float
-        Moment of inertia of the body about the first axis, I11 > 0.
+        Moment of inertia of the body about the first axis, I11 > 0; its unit is the unit I of all moments and products.
     I22 : float
-        Moment of inertia about the second axis, I22 > 0.
+        Moment of inertia about the second axis, I22 > 0, in units I; I11/I22 from 1e-20 to 1e20.
     I13 : float
-        Product of inertia.
+        Product of inertia, any finite number, in units I.
     I23 : float
-        Product of inertia.
+        Product of inertia, any finite number, in units I.
     D : float
-        The constant 𝒟 = (R/R_s)² I_s of the inner ball, 𝒟 ≥ 0.
+        The constant 𝒟 = (R/R_s)² I_s of the inner ball, 𝒟 ≥ 0, in units I; 0 is the Suslov problem.
     b1 : float, optional
-        First component of **b** = −mg **r**, with **r** the centre of mass.
+        First component of **b** = −mg **r**, with **r** the centre of mass; any finite number, in units I/T².
     b2 : float, optional
-        Second component of **b**.
+        Second component of **b**, any finite number, in units I/T².
     b3 : float, optional
-        Third component of **b**.
+        Third component of **b**, along the constraint; any finite number, in units I/T².
 
     Raises
     ------
@@ -105,7 +105,20 @@ def _require_not_negative(D: float) -> None:
 
 
 def field(y: Sequence[Any], p: Sequence[Any]) -> tuple[Any, ...]:
-    """Return the right-hand side of `eq29`, solved for ω̇."""
+    """Return the right-hand side of `eq29`, solved for ω̇.
+
+    Parameters
+    ----------
+    y : sequence, shape (5,)
+        State (ω1, ω2, γ1, γ2, γ3): numbers, arrays or symbols.
+    p : sequence, shape (8,)
+        Parameters (I11, I22, I13, I23, 𝒟, b1, b2, b3).
+
+    Returns
+    -------
+    tuple of length 5
+        Rates of the state.
+    """
     w1, w2, g1, g2, g3 = y
     I11, I22, I13, I23, D, b1, b2, b3 = p
     s = I13 * w1 + I23 * w2
@@ -114,7 +127,24 @@ def field(y: Sequence[Any], p: Sequence[Any]) -> tuple[Any, ...]:
 
 
 def inverse_times(F: Sequence[Any], gamma: Sequence[Any] | Array, I11: Any, I22: Any, D: Any) -> tuple[Any, Any]:
-    """Return Î⁻¹F for F of two components, see the docstring of the module."""
+    """Return Î⁻¹F, see the docstring of the module.
+
+    Parameters
+    ----------
+    F : sequence, shape (2,)
+        Right-hand side of `eq29`.
+    gamma : sequence or ndarray, shape (3,) or (3, n)
+        Vertical γ.
+    I11, I22 : object
+        Moments of inertia, positive.
+    D : object
+        The constant 𝒟 ≥ 0.
+
+    Returns
+    -------
+    tuple of length 2
+        Components of Î⁻¹F.
+    """
     g1, g2, g3 = gamma
     square = constant(g1**2 + g2**2 + g3**2)
     J1, J2 = I11 + D * square, I22 + D * square
@@ -127,21 +157,60 @@ def inverse_times(F: Sequence[Any], gamma: Sequence[Any] | Array, I11: Any, I22:
 
 
 def determinant(gamma: Sequence[Any] | Array, p: Sequence[Any]) -> Any:
-    """Return det Î of `eq29`, expanded."""
+    """Return det Î of `eq29`, expanded.
+
+    Parameters
+    ----------
+    gamma : sequence or ndarray, shape (3,) or (3, n)
+        Vertical γ.
+    p : sequence, shape (8,)
+        Parameters of the ball.
+
+    Returns
+    -------
+    object
+        The determinant, number or array.
+    """
     g1, g2, g3 = gamma
     I11, I22, D = p[0], p[1], p[4]
     return I11 * I22 + D * (I11 * (g1**2 + g3**2) + I22 * (g2**2 + g3**2) + D * g3**2 * (g1**2 + g2**2 + g3**2))
 
 
 def kinetic_energy(y: Sequence[Any] | Array, p: Sequence[Any] | Array) -> Any:
-    """Return ½(Îω, ω) of `eq30`, as a sum of squares."""
+    """Return the kinetic energy ½(Îω, ω) of `eq30`, as a sum of squares.
+
+    Parameters
+    ----------
+    y : sequence or ndarray, shape (5,) or (5, n)
+        States (ω1, ω2, γ1, γ2, γ3).
+    p : sequence or ndarray, shape (8,)
+        Parameters of the ball.
+
+    Returns
+    -------
+    object
+        The energy, number or array.
+    """
     w1, w2, g1, g2, g3 = y
     I11, I22, D = p[0], p[1], p[4]
     return (I11 * w1**2 + I22 * w2**2 + D * ((g1 * w2 - g2 * w1) ** 2 + g3**2 * (w1**2 + w2**2))) / 2
 
 
 def integrals(y: Sequence[Any], p: Sequence[Any]) -> Mapping[str, Any]:
-    """Return the energy E and F1 = γ² (`eq30`)."""
+    """Return the energy E and F1 = γ² (`eq30`).
+
+    Parameters
+    ----------
+    y : sequence, shape (5,)
+        State (ω1, ω2, γ1, γ2, γ3): numbers, arrays or symbols.
+    p : sequence, shape (8,)
+        Parameters of the ball.
+
+    Returns
+    -------
+    mapping of str to object
+        Values of the integrals, by name.
+    """
     _, _, g1, g2, g3 = y
     b1, b2, b3 = p[5:]
     return {
@@ -151,9 +220,26 @@ def integrals(y: Sequence[Any], p: Sequence[Any]) -> Mapping[str, Any]:
 
 
 def frequency(y: Array, p: Array) -> Array | float:
-    """Return ν = √(2(E+|b||γ|)/min(I11, I22)), a bound on |ω| along the motion, of states (5,) or (5, n).
+    """Return ν = √(2(E+|b||γ|)/min(I11, I22)), an upper bound on |ω| along the motion.
 
-    Raises `NotPositiveDefinite`, `InvalidParameter`.
+    Parameters
+    ----------
+    y : ndarray, shape (5,) or (5, n)
+        One or several states.
+    p : ndarray, shape (8,)
+        Parameters of the ball.
+
+    Returns
+    -------
+    float or ndarray, shape (n,)
+        The bound of each state, in rad/T.
+
+    Raises
+    ------
+    NotPositiveDefinite
+        If I11 ≤ 0 or I22 ≤ 0.
+    InvalidParameter
+        If the ratio of I11 and I22 is beyond 1e20, or 𝒟 is negative or too large.
     """
     I11, I22, D = p[0], p[1], p[4]
     require_comparable(I11, I22)
@@ -172,17 +258,33 @@ _SHARE = 0.2
 """Step size close to the line, as a share of the radius of convergence of the series in time."""
 
 
-def tolerance(y: Array, p: Array, order: int, asked: float) -> float:
-    """Return the tolerance for a start y (5,) close to, but not on, the line I13ω1 + I23ω2 = 0 without a field.
+def tolerance(y: Array, p: Array, order: int, default: float) -> float:
+    """Return the tolerance for a start close to, but not on, the line I13ω1 + I23ω2 = 0 without a field.
 
     The distance from the line is tiny beside γ, so that the step control ignores it and the series of 1/d: the steps
     would be too long.  The time of departure depends on all digits of that distance.
+
+    Parameters
+    ----------
+    y : ndarray, shape (5,)
+        Initial state.
+    p : ndarray, shape (8,)
+        Parameters of the ball.
+    order : int
+        Order of the Taylor series.
+    default : float
+        Tolerance of the level.
+
+    Returns
+    -------
+    float
+        The tolerance, at most `default`.
     """
     I11, I22, I13, I23, D = p[0], p[1], p[2], p[3], p[4]
     size, speed = math.hypot(I13, I23), math.hypot(y[0], y[1])
     distance = abs(I13 * y[0] + I23 * y[1])
     if p[5] != 0.0 or p[6] != 0.0 or p[7] != 0.0 or distance == 0.0 or distance > _CLOSE * size * speed:
-        return asked
+        return default
     smallest = min(I11, I22)
     added = D * (y[2] * y[2] + y[3] * y[3] + y[4] * y[4])
     turn = _SHARE * min(math.sqrt(smallest / (smallest + added)), smallest / size)
@@ -190,7 +292,7 @@ def tolerance(y: Array, p: Array, order: int, asked: float) -> float:
     term = 1.0
     for k in range(order):
         term *= turn / (k + 1.0)
-    return min(asked, term)
+    return min(default, term)
 
 
 SYSTEM = System(

@@ -41,23 +41,72 @@ _TURNS = 300.0
 
 
 def is_reversible(body: BallBody) -> bool:
-    """Return True if the reflection γ3 → −γ3 reverses the motions: I13 = I23 = 0 and b3 = 0."""
+    """Return True if the reflection γ3 → −γ3 reverses the motions: I13 = I23 = 0 and b3 = 0.
+
+    Parameters
+    ----------
+    body : BallBody
+        The ball.
+
+    Returns
+    -------
+    bool
+        True if it is reversible in this sense.
+    """
     return body.I13 == body.I23 == body.b3 == 0.0
 
 
 def has_area_integral(body: BallBody) -> bool:
-    """Return True if F2 = ω1γ1 + ω2γ2 is an integral by symmetry: I13 = I23 = 0, I11 = I22 and b ∥ e3."""
+    """Return True if F2 = ω1γ1 + ω2γ2 is an integral by symmetry: I13 = I23 = 0, I11 = I22 and b ∥ e3.
+
+    Parameters
+    ----------
+    body : BallBody
+        The ball.
+
+    Returns
+    -------
+    bool
+        True if it has this integral.
+    """
     return body.I13 == body.I23 == body.b1 == body.b2 == 0.0 and body.I11 == body.I22
 
 
 def area_integral(states: Array) -> Array:
-    """Return F2 = ω1γ1 + ω2γ2 (...) of states (..., 5)."""
+    """Return F2 = ω1γ1 + ω2γ2 of states.
+
+    Parameters
+    ----------
+    states : ndarray, shape (..., 5)
+        States (ω1, ω2, γ1, γ2, γ3).
+
+    Returns
+    -------
+    ndarray, shape (...,)
+        Values of F2.
+    """
     return np.asarray(states[..., 0] * states[..., 2] + states[..., 1] * states[..., 3])
 
 
 @dataclass(frozen=True)
 class Period(Result):
-    """Period of one orbit and its error; `crossings` are the first two times at which it crosses the equator."""
+    """Period of one orbit; the result of `period`.
+
+    Attributes
+    ----------
+    value : float
+        The period, positive, in units T.
+    crossings : tuple of two floats
+        The first two times at which the orbit crosses the equator.
+    level : str
+        Name of the accuracy level.
+    status : Status
+        State of the computation, see `Status`.
+    error_estimate : float
+        Estimated error of the period, ≥ 0.
+    cost : Cost
+        Steps and time of the computation.
+    """
 
     value: float
     crossings: tuple[float, float]
@@ -67,7 +116,13 @@ class Period(Result):
     cost: Cost
 
     def labels(self) -> Labels:
-        """Return the times of both crossings with names and units."""
+        """Return the times of both crossings with names and units.
+
+        Returns
+        -------
+        Labels
+            The times; the period is a fact.
+        """
         return Labels(
             {}, {"t": (("crossing",), np.array(self.crossings))}, {"t": "T"}, {"period": self.value, **facts_of(self)}
         )
@@ -82,7 +137,7 @@ def period(body: BallBody, start: Sequence[float], accuracy: Accuracy = "precise
         Ball with I13 = I23 = 0 and b3 = 0.
     start : sequence of five floats
         Initial state (ω1, ω2, γ1, γ2, γ3).
-    accuracy : Level or str, optional
+    accuracy : str or Level, optional
         Accuracy level or its name, see `level`.
 
     Returns
@@ -123,15 +178,15 @@ def period(body: BallBody, start: Sequence[float], accuracy: Accuracy = "precise
     end = _TURNS * math.sqrt(moment / least) / nu
     # The promise of a section is that of its states; here it holds for the time in units 1/ν, too.
     for each in (level, *(one for one in LEVELS.values() if one.promise < level.promise)):
-        found = section(body, given, _EITHER_WAY, end, each, crossings=2)
-        error = 4.0 * found.time_error
+        crossings = section(body, given, _EITHER_WAY, end, each, crossings=2)
+        error = 4.0 * crossings.time_error
         if error * nu <= level.promise:
             break
-    speeds = np.abs(SYSTEM.field(list(found.states.T), body.parameters)[4]) if len(found.times) else np.zeros(1)
-    if len(found.times) < 2 or np.min(speeds) <= _TOUCHES * nu:
+    speeds = np.abs(SYSTEM.field(list(crossings.states.T), body.parameters)[4]) if len(crossings.times) else np.zeros(1)
+    if len(crossings.times) < 2 or np.min(speeds) <= _TOUCHES * nu:
         raise InvalidParameter(
             f"Up to t = {end:.6g} this orbit does not cross the equator γ3 = 0 twice: choose another start."
         )
-    first, second = found.times.tolist()
+    first, second = crossings.times.tolist()
     status = Status.OK if error * nu <= level.promise else each.status(math.inf)
-    return Period(2.0 * (second - first), (first, second), level.name, status, error, found.cost)
+    return Period(2.0 * (second - first), (first, second), level.name, status, error, crossings.cost)

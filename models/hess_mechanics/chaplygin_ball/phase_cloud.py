@@ -61,11 +61,30 @@ _SPARSE = 1.5
 
 @dataclass(frozen=True)
 class Cloud(Result):
-    """Cloud of n phase points at m times, without a field.
+    """Cloud of n phase points of a ball at m times, without a field.
 
-    times : (m,); along : (n, m), x = (ω, ξ); log_s : (n, m), ln|s|; signs : (n,), the sign of s, which is constant;
-    gamma : (n, m, 3).
-    error_estimate : largest estimated error of x/ν, ln|s| and γ, with ν a bound on |ω|.
+    Attributes
+    ----------
+    body : BallBody
+        The ball.
+    times : ndarray, shape (m,)
+        Times.
+    along : ndarray, shape (n, m)
+        Component x = (ω, ξ) along the line of equilibria, in rad/T.
+    log_s : ndarray, shape (n, m)
+        ln|s|, s = I13ω1 + I23ω2.
+    signs : ndarray, shape (n,)
+        Sign of s of each point, which is constant: 1 or −1.
+    gamma : ndarray, shape (n, m, 3)
+        Vertical γ.
+    level : str
+        Name of the accuracy level.
+    status : Status
+        State of the computation, see `Status`.
+    error_estimate : float
+        Largest estimated error of x/ν, ln|s| and γ, with ν an upper bound on |ω|.
+    cost : Cost
+        Steps and time of the computation.
     """
 
     body: BallBody
@@ -81,18 +100,24 @@ class Cloud(Result):
 
     @cached_property
     def omega(self) -> Array:
-        """Angular velocity (ω1, ω2), shape (n, m, 2)."""
+        """Angular velocity (ω1, ω2), shape (n, m, 2), in rad/T."""
         J, (n1, n2) = _direction(self.body)
         across = self.signs[:, None] * np.exp(self.log_s) / J
         return frozen(np.stack([n2 * self.along + n1 * across, n2 * across - n1 * self.along], axis=-1))
 
     @cached_property
     def divergence(self) -> Array:
-        """Divergence div v at every point, (n, m)."""
+        """Divergence div v at every point, shape (n, m), in 1/T."""
         return frozen(divergence(self.body, self.omega, self.gamma))
 
     def labels(self) -> Labels:
-        """Return ω, γ and ln|s| of each point over t, with names, units and coordinates."""
+        """Return ω, γ and ln|s| of each point over t, with names, units and coordinates.
+
+        Returns
+        -------
+        Labels
+            The variables over points and times.
+        """
         dims = ("point", "t")
         named = {
             "ω1": self.omega[..., 0],
@@ -109,12 +134,12 @@ class Cloud(Result):
 
     @property
     def log_growth(self) -> Array:
-        """The logarithm of the growth of small volumes, ln s(t)/s(0), (n, m); that of the density is its negative."""
+        """Logarithm of the growth of small volumes, ln s(t)/s(0), shape (n, m); that of the density is its negative."""
         return self.log_s - self.log_s[:, :1]
 
     @property
     def volume(self) -> Array:
-        """The volume of the cloud relative to that at the first time, (m,), for points that start evenly spread."""
+        """Volume of the cloud relative to that at the first time, shape (m,), for points that start evenly spread."""
         relative: Array = np.exp(self.log_growth).mean(axis=0)
         return relative
 
@@ -125,7 +150,22 @@ def _direction(body: BallBody) -> tuple[float, Array]:
 
 
 def divergence(body: BallBody, omega: Array, gamma: Array) -> Array:
-    """Return div v = (I13, I23) Î⁻¹ (−ω2, ω1), also with a field; ω (..., 2), γ (..., 3) of length 1, result (...)."""
+    """Return the divergence div v = (I13, I23) Î⁻¹ (−ω2, ω1) of the equations of motion, also with a field.
+
+    Parameters
+    ----------
+    body : BallBody
+        The ball.
+    omega : ndarray, shape (..., 2)
+        Angular velocities (ω1, ω2), in rad/T.
+    gamma : ndarray, shape (..., 3)
+        Verticals γ of length 1.
+
+    Returns
+    -------
+    ndarray, shape (...,)
+        Divergence, in 1/T.
+    """
     torque = -omega[..., 1], omega[..., 0]
     h1, h2 = inverse_times(torque, np.moveaxis(gamma, -1, 0), body.I11, body.I22, body.D)
     return np.asarray(body.I13 * h1 + body.I23 * h2, float)
@@ -142,10 +182,31 @@ def _require_cloud(h: float, spread: float, count: int) -> None:
 
 
 def shell(body: BallBody, h: float, spread: float, count: int) -> Array:
-    """Return states (count, 5) uniform in the phase volume h(1 − spread) < E < h(1 + spread), F1 = 1, for b = 0.
+    """Return states that are uniform in the phase volume h(1 − spread) < E < h(1 + spread), F1 = 1, for b = 0.
 
     The volume dω1 dω2 dA(γ) is dE dθ dA/√det Î with ω = √(2E) Î^(−1/2) (cos θ, sin θ), so γ is accepted with a
-    probability ∝ 1/√det Î.  Every call returns the same points.  Raises `InvalidParameter`.
+    probability ∝ 1/√det Î.  Every call returns the same points.
+
+    Parameters
+    ----------
+    body : BallBody
+        The ball.
+    h : float
+        Energy, h > 0.
+    spread : float
+        Relative half width of the range of energies, 0 to 1.
+    count : int
+        Number of states, positive.
+
+    Returns
+    -------
+    ndarray, shape (count, 5)
+        States (ω1, ω2, γ1, γ2, γ3).
+
+    Raises
+    ------
+    InvalidParameter
+        If a number is out of range.
     """
     _require_cloud(h, spread, count)
     random = np.random.default_rng(1)
@@ -167,11 +228,32 @@ def shell(body: BallBody, h: float, spread: float, count: int) -> Array:
 
 
 def patch(body: BallBody, h: float, angle: float, spread: float, count: int) -> Array:
-    """Return states (count, 5) uniform in a disc of ω and a cap of γ about e3.
+    """Return states that are uniform in a disc of ω and a cap of γ about e3.
 
-    The centre of the disc is at `angle` in the (ω1, ω2) plane and has the energy h with γ = e3; the radius of the disc
-    is `spread` times |ω| there, that of the cap `spread` radians.  Every call returns the same points.
-    Raises `InvalidParameter`.
+    The centre of the disc has the energy h with γ = e3.  Every call returns the same points.
+
+    Parameters
+    ----------
+    body : BallBody
+        The ball.
+    h : float
+        Energy of the centre, h > 0.
+    angle : float
+        Angle of the centre in the (ω1, ω2) plane, in radians.
+    spread : float
+        Radius of the disc, in units of |ω| at its centre, and of the cap, in radians; 0 to 1.
+    count : int
+        Number of states, positive.
+
+    Returns
+    -------
+    ndarray, shape (count, 5)
+        States (ω1, ω2, γ1, γ2, γ3).
+
+    Raises
+    ------
+    InvalidParameter
+        If a number is out of range.
     """
     _require_cloud(h, spread, count)
     require_finite(angle=angle)
@@ -190,26 +272,48 @@ def _twice_energy(body: BallBody, states: Array) -> float:
 
 
 def frame_times(body: BallBody, states: Array, duration: float, field: float = 0.0) -> Array:
-    """Return equidistant times from 0 to `duration`, both included, for the frames of a cloud from `states` (n, 5).
+    """Return equidistant times for the frames of a cloud, close enough for cubic interpolation.
 
     The error of cubic interpolation of γ over a time Δ is |d⁴γ/dt⁴| Δ⁴/384, about r|ω|⁴Δ⁴/384 with r = sin(γ, ω), for
-    which 2E ≥ (min(I11, I22) + 𝒟r²) ω².  ω changes at the rate div v.  field : |b| of a second cloud from the same
-    points.  Raises `InvalidParameter`, and `WorkLimit` if more frames are needed than allowed.
+    which 2E ≥ (min(I11, I22) + 𝒟r²) ω².  ω changes at the rate div v.
+
+    Parameters
+    ----------
+    body : BallBody
+        The ball.
+    states : ndarray, shape (n, 5)
+        Initial states of the cloud.
+    duration : float
+        Time; negative: backward.
+    field : float, default 0.0
+        Strength |b| of the field of a second cloud from the same points.
+
+    Returns
+    -------
+    ndarray, shape (m,)
+        Times from 0 to `duration`, both included.
+
+    Raises
+    ------
+    InvalidParameter
+        If the energy is not positive.
+    WorkLimit
+        If more frames are needed than allowed.
     """
     twice, least = _twice_energy(body, states) + 4.0 * abs(field), min(body.I11, body.I22)
     r = min(1.0, math.sqrt(least / (3.0 * body.D))) if body.D else 1.0
     turning = math.sqrt(twice / (least + body.D * r * r)) * r**0.25
     about = shell(body, 0.5 * twice, 0.01, 256)
     rate = float(np.abs(divergence(body, about[:, :2], about[:, 2:])).max())
-    wanted = abs(duration) * max(turning / _TURN, rate / _CHANGE) + 1.0
+    frames = abs(duration) * max(turning / _TURN, rate / _CHANGE) + 1.0
     most = max(_LEAST_FRAMES, _MOST_NUMBERS // (5 * len(states)))
-    if not wanted <= _SPARSE * most:
-        longest = abs(duration) * _SPARSE * most / wanted
+    if not frames <= _SPARSE * most:
+        longest = abs(duration) * _SPARSE * most / frames
         raise WorkLimit(
             f"In this time the cloud turns too often for {most} frames: choose a time span below {plain(longest, 2)}, "
             "or fewer points."
         )
-    return np.linspace(0.0, duration, max(_LEAST_FRAMES, min(most, math.ceil(wanted))))
+    return np.linspace(0.0, duration, max(_LEAST_FRAMES, min(most, math.ceil(frames))))
 
 
 def _run(states: Array, p: Array, times: Array, level: Level, max_steps: int) -> tuple[Array, int]:
@@ -228,12 +332,34 @@ def _run(states: Array, p: Array, times: Array, level: Level, max_steps: int) ->
 
 
 def cloud_of(body: BallBody, states: Array, times: Array, accuracy: Accuracy) -> Cloud:
-    """Return the cloud of the phase points `states` (n, 5) at `times` (m,), all ≥ 0 or all ≤ 0, with b = 0.
+    """Return the cloud of given phase points at given times, with b = 0.
 
     The error of every sixteenth point, and of those that start closest to s = 0, is estimated by a second run with a
     hundredth of the tolerance from a start `nearby`.  If it exceeds the promise of the level all points are recomputed
-    with that tolerance, down to the floor of double precision. Raises `InvalidParameter` (a field; I13 = I23 = 0; a
-    point with s = 0), `WorkLimit`.
+    with that tolerance, down to the floor of double precision.
+
+    Parameters
+    ----------
+    body : BallBody
+        Ball with b = 0 and I13 or I23 nonzero.
+    states : ndarray, shape (n, 5)
+        Initial states (ω1, ω2, γ1, γ2, γ3), off the line I13ω1 + I23ω2 = 0.
+    times : ndarray, shape (m,)
+        Times in order, all ≥ 0 or all ≤ 0.
+    accuracy : str or Level
+        Accuracy level.
+
+    Returns
+    -------
+    Cloud
+        The cloud.
+
+    Raises
+    ------
+    InvalidParameter
+        If the ball has a field, I13 = I23 = 0, or a point has s = 0.
+    WorkLimit
+        If the motions need too many steps, or come too close to s = 0.
     """
     level = as_level(accuracy)
     start = time.perf_counter()
@@ -287,11 +413,39 @@ def _shares(log_s: Array, edges: Array) -> Array:
 
 
 def histogram(cloud: Cloud, frame: int, edges: Array) -> Array:
-    """Return the density (k,) of points per unit of ln|s| in one frame, between equidistant edges (k + 1,) of ln|s|."""
+    """Return the density of points over ln|s| in one frame.
+
+    Parameters
+    ----------
+    cloud : Cloud
+        The cloud.
+    frame : int
+        Index of the time.
+    edges : ndarray, shape (k + 1,)
+        Equidistant values of ln|s|.
+
+    Returns
+    -------
+    ndarray, shape (k,)
+        Share of the points per unit of ln|s|, between two edges each.
+    """
     return _shares(cloud.log_s[:, frame], edges)
 
 
 def occupation(cloud: Cloud, edges: Array) -> Array:
-    """Return the time average of `histogram`, the share of time that the cloud spends per unit of ln|s|, (k,)."""
+    """Return the density of points over ln|s|, averaged over time.
+
+    Parameters
+    ----------
+    cloud : Cloud
+        The cloud.
+    edges : ndarray, shape (k + 1,)
+        Equidistant values of ln|s|.
+
+    Returns
+    -------
+    ndarray, shape (k,)
+        Share of time that the cloud spends per unit of ln|s|, between two edges each.
+    """
     before, after = cloud.log_s[:, :-1, None], cloud.log_s[:, 1:, None]
     return _shares(before + (after - before) * ((np.arange(_PARTS) + 0.5) / _PARTS), edges)

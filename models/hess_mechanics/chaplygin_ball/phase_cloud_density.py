@@ -32,7 +32,19 @@ SMALLEST = math.log(1e-30)
 
 @dataclass(frozen=True)
 class CloudHistory(Result):
-    """Mean, minimum and maximum at each time (m,), (3, m), of div v and of ln s(t)/s(0); volume: (m,), see `Cloud`."""
+    """Growth of a cloud over time; the result of `history`.
+
+    Attributes
+    ----------
+    times : ndarray, shape (m,)
+        Times.
+    divergence : ndarray, shape (3, m)
+        Mean, minimum and maximum of div v over the points, in 1/T.
+    log_growth : ndarray, shape (3, m)
+        Mean, minimum and maximum of ln s(t)/s(0).
+    volume : ndarray, shape (m,)
+        Volume relative to that at the first time, see `Cloud`.
+    """
 
     times: Array
     divergence: Array
@@ -40,7 +52,13 @@ class CloudHistory(Result):
     volume: Array
 
     def labels(self) -> Labels:
-        """Return volume, growth and divergence over t."""
+        """Return volume, growth and divergence over t.
+
+        Returns
+        -------
+        Labels
+            The variables over the times.
+        """
         along = ("t",)
         parts = {
             f"{what} {name}": (along, values[i])
@@ -52,9 +70,20 @@ class CloudHistory(Result):
 
 @dataclass(frozen=True)
 class Density(Result):
-    """Shares of the points per unit of ln|s|, in the bins about `log_s`: at the start, at the end, mean over the time.
+    """Density of a cloud over ln|s|; the result of `density`.
 
-    height : the mean in bins that all points pass.
+    Attributes
+    ----------
+    log_s : ndarray, shape (k,)
+        Centres of the bins of ln|s|.
+    first : ndarray, shape (k,)
+        Share of the points per unit of ln|s| at the start.
+    last : ndarray, shape (k,)
+        The same at the end.
+    mean : ndarray, shape (k,)
+        The same, averaged over time.
+    height : float
+        Mean density in bins that all points pass, positive.
     """
 
     log_s: Array
@@ -64,7 +93,13 @@ class Density(Result):
     height: float
 
     def labels(self) -> Labels:
-        """Return the three densities over ln|s|."""
+        """Return the three densities over ln|s|.
+
+        Returns
+        -------
+        Labels
+            The densities over the bins.
+        """
         along = ("ln|s|",)
         parts = {"first": self.first, "last": self.last, "mean": self.mean}
         return Labels({"ln|s|": (along, self.log_s)}, {name: (along, values) for name, values in parts.items()})
@@ -77,9 +112,20 @@ class Density(Result):
 
 
 def sides(cloud: Cloud) -> tuple[int, int, int] | None:
-    """Return how many points start with F2 > 0 and with F2 < 0, and how many of them change the sign later.
+    """Return the numbers of points on both sides of F2 = 0, and of those that change the side.
 
-    Points whose F2 is 0 to round-off are not counted.  None if no F2 is known: 𝒟 ≠ 0, or no odd k.
+    Points whose F2 is 0 to round-off are not counted.
+
+    Parameters
+    ----------
+    cloud : Cloud
+        The cloud.
+
+    Returns
+    -------
+    tuple of three ints, or None
+        Points that start with F2 > 0, with F2 < 0, and that change the sign later; None if no F2 is known, because 𝒟 ≠
+        0 or `eq834` does not hold.
     """
     body = cloud.body
     integral = of_body(SuslovBody(body.I11, body.I22, body.I13, body.I23)) if body.D == 0.0 else None
@@ -94,7 +140,21 @@ def sides(cloud: Cloud) -> tuple[int, int, int] | None:
 
 @dataclass(frozen=True)
 class Clouds:
-    """A cloud and its evolution, see `sides`; `other` is the cloud of the body on a principal axis."""
+    """A cloud and its evolution; the result of `clouds`.
+
+    Attributes
+    ----------
+    cloud : Cloud
+        The cloud.
+    history : CloudHistory
+        Its growth over time.
+    density : Density
+        Its density over ln|s|.
+    sides : (int, int, int), optional
+        Numbers of points by the sign of F2, see `sides`; None if no F2 is known.
+    other : Ensemble, optional
+        The cloud of the body on a principal axis; None if there is none.
+    """
 
     cloud: Cloud
     history: CloudHistory
@@ -104,7 +164,7 @@ class Clouds:
 
     @property
     def fastest(self) -> float:
-        """The largest |ω|."""
+        """The largest |ω| of all points, in rad/T."""
         fastest = float(np.sqrt((self.cloud.omega**2).sum(axis=2).max()))
         if self.other is None:
             return fastest
@@ -138,23 +198,25 @@ def history(cloud: Cloud) -> CloudHistory:
 
 
 def density(cloud: Cloud) -> Density:
-    """Return the density in bins of width `BIN` from the smallest |s|, but not below `SMALLEST`, to the largest.
+    """Return the density of a cloud over ln|s|.
+
+    The bins have the width `BIN` and reach from the smallest |s|, but not below `SMALLEST`, to the largest.
 
     Parameters
     ----------
     cloud : Cloud
-        The cloud, see `cloud`.
+        The cloud.
 
     Returns
     -------
     Density
-        Histograms over ln|s|, at first, at last and over the time.
+        Densities at the start, at the end and averaged over time.
 
     Examples
     --------
     >>> from hess_mechanics import BallBody, cloud, density
-    >>> found = density(cloud(BallBody(2.0, 1.0, 0.3, 0.5, 0.0), 2.0, 1.0, count=20))
-    >>> bool(abs(found.last.sum() * (found.log_s[1] - found.log_s[0]) - 1.0) < 1e-12)
+    >>> result = density(cloud(BallBody(2.0, 1.0, 0.3, 0.5, 0.0), 2.0, 1.0, count=20))
+    >>> bool(abs(result.last.sum() * (result.log_s[1] - result.log_s[0]) - 1.0) < 1e-12)
     True
     """
     low = max(SMALLEST, float(cloud.log_s.min()))
@@ -183,10 +245,38 @@ def clouds(
     field: float | None,
     accuracy: Accuracy,
 ) -> Clouds:
-    """Return clouds of `count` points of a `patch` at an angle, or of a `shell`, up to ±`duration`.
+    """Return a cloud of a `patch` at an angle, or of a `shell`, its evolution, and a second cloud with a field.
 
-    field : b3, in which half of them move with I13 = I23 = 0; None for no second cloud.
-    Raises `InvalidParameter`, `WorkLimit`.
+    Parameters
+    ----------
+    body : BallBody
+        The ball.
+    h : float
+        Energy, h > 0.
+    angle : float or None
+        Angle of the centre of the patch, in radians; None for a shell.
+    spread : float
+        Spread of the points, 0 to 1, see `patch` and `shell`.
+    count : int
+        Number of points of both clouds together.
+    duration : float
+        Time; negative: backward.
+    field : float or None
+        Component b3 of the second cloud, which has I13 = I23 = 0; None for no second cloud.
+    accuracy : str or Level
+        Accuracy level.
+
+    Returns
+    -------
+    Clouds
+        The clouds.
+
+    Raises
+    ------
+    InvalidParameter
+        If a number is out of range.
+    WorkLimit
+        If the motions need too many steps.
     """
     one = count if field is None else count // 2
     states = shell(body, h, spread, one) if angle is None else patch(body, h, angle, spread, one)

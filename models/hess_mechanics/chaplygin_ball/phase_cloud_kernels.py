@@ -1,5 +1,5 @@
 # mypy: allow-untyped-defs
-"""Kernel of `phase_cloud`: the motion of the ball without a field in x = (ω, ξ), y = (ω, η) and γ.
+"""Kernel of `phase_cloud`: the motion of the ball without a field in x = (ω, ξ), y = (ω, η) and γ.  Not for users.
 
 `phase_cloud` derives the equations; Î is inverted as in `chaplygin_ball.equations`.
 """

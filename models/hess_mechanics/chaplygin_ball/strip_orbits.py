@@ -22,10 +22,30 @@ StripOrbit = tuple[Array, int]
 
 
 def strip_orbits(body: BallBody, count: int, accuracy: Accuracy = DRAFT) -> tuple[StripOrbit, ...]:
-    """Return orbits of E = 1, b = 0 through states spread evenly over the strip, nearly from N^u to N^s.
+    """Return orbits across the strip of E = 1, b = 0, nearly from N^u to N^s.
 
     Without a field the energy only sets the unit of time: the ω of E = h are √h times as large.
-    Raises `InvalidParameter`, `WorkLimit`.
+
+    Parameters
+    ----------
+    body : BallBody
+        Ball with b = 0 and I13 or I23 nonzero.
+    count : int
+        Number of orbits; their states are spread evenly over the strip.
+    accuracy : str or Level, default DRAFT
+        Accuracy level.
+
+    Returns
+    -------
+    tuple of StripOrbit
+        The orbits.
+
+    Raises
+    ------
+    InvalidParameter
+        If the ball has a field, or I13 = I23 = 0.
+    WorkLimit
+        If the motions need too many steps.
     """
     states = Strip(body, 1.0).spread(count)
     _, eta = line_of_rest(body)
@@ -39,13 +59,26 @@ def strip_orbits(body: BallBody, count: int, accuracy: Accuracy = DRAFT) -> tupl
         before, after = (_as_far_as_the_line(states[i, :2], half[i], eta, tick) for half in (back, there))
         track = np.concatenate([before[:0:-1], after])
         length = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(track, axis=0), axis=1))])
-        kept = np.unique(np.floor(length / tick), return_index=True)[1]
-        orbits.append((frozen(track[kept]), int(np.searchsorted(kept, len(before) - 1))))
+        indices = np.unique(np.floor(length / tick), return_index=True)[1]
+        orbits.append((frozen(track[indices]), int(np.searchsorted(indices, len(before) - 1))))
     return tuple(orbits)
 
 
 def largest_distance(orbits: Sequence[StripOrbit], exact: Sequence[StripOrbit]) -> float:
-    """Return the largest distance of points of orbits from the curves of the same orbits at higher accuracy."""
+    """Return the largest distance of points of orbits from the curves of the same orbits at higher accuracy.
+
+    Parameters
+    ----------
+    orbits : sequence of StripOrbit
+        Orbits of `strip_orbits`.
+    exact : sequence of StripOrbit
+        The same orbits at a finer level.
+
+    Returns
+    -------
+    float
+        The distance, in rad/T.
+    """
     return float(max(away_from(one, other).max() for (one, _), (other, _) in zip(orbits, exact, strict=True)))
 
 

@@ -48,36 +48,82 @@ class Orbits(Protocol):
         """The section."""
 
     def follow(self, starts: Array, crossings: int) -> Sequence[Array]:
-        """Return the next crossings (n, d) of each orbit from `starts` (k, d); fewer where an orbit stops crossing."""
+        """Return the next crossings of several orbits.
+
+        Parameters
+        ----------
+        starts : ndarray, shape (k, d)
+            Initial states.
+        crossings : int
+            Number of crossings of each orbit.
+
+        Returns
+        -------
+        sequence of ndarray, shape (n, d)
+            States at the crossings of each orbit; fewer where an orbit stops crossing.
+        """
 
 
 @dataclass(frozen=True)
 class RecurrentSets:
     """Sets that orbits approach, in the order of the number of orbits.
 
-    table : number of the set of each cell (n, m) of the plane, also of those beside it; `LOST` elsewhere.
-    states : a state (d,) of each set.
+    Attributes
+    ----------
+    table : ndarray of int, shape (n, m)
+        Number of the set of each cell of the plane, also of those beside it; `LOST` elsewhere.
+    states : tuple of tuple of float
+        A state of each set.
     """
 
     table: NDArray[np.int16]
     states: tuple[tuple[float, ...], ...]
 
-    def kept(self, which: Sequence[bool]) -> RecurrentSets:
-        """Return some of the sets, renumbered."""
+    def subset(self, which: Sequence[bool]) -> RecurrentSets:
+        """Return some of the sets, renumbered.
+
+        Parameters
+        ----------
+        which : sequence of bool
+            True for each set to return.
+
+        Returns
+        -------
+        RecurrentSets
+            These sets.
+        """
         numbers = np.append(np.where(which, np.cumsum(which) - 1, LOST), LOST).astype(np.int16)
-        kept = tuple(state for state, wanted in zip(self.states, which, strict=True) if wanted)
-        return RecurrentSets(frozen(numbers[np.where(self.table < 0, -1, self.table)]), kept)
+        states = tuple(state for state, flag in zip(self.states, which, strict=True) if flag)
+        return RecurrentSets(frozen(numbers[np.where(self.table < 0, -1, self.table)]), states)
 
     def of(self, section: PoincareSection, states: Array) -> NDArray[np.int16]:
-        """Return the number of the set at each state (n, d), or `LOST`."""
+        """Return the number of the set at each state.
+
+        Parameters
+        ----------
+        section : PoincareSection
+            The section.
+        states : ndarray, shape (n, d)
+            States of the section.
+
+        Returns
+        -------
+        ndarray of int, shape (n,)
+            Numbers of the sets; `LOST` where there is none.
+        """
         return np.asarray(self.table[_cells(section, states)])
 
 
 @dataclass(frozen=True)
 class Arrivals:
-    """The set where the orbits from some places arrive, and the crossings that they need.
+    """The set where the orbits from some points arrive, and the crossings that they need.
 
-    number : number of the set, `LOST` or `NOWHERE`; crossings : the first crossing in the set, of the same shape.
+    Attributes
+    ----------
+    number : ndarray of int
+        Number of the set, `LOST` or `NOWHERE`.
+    crossings : ndarray of int
+        The first crossing in the set, of the same shape.
     """
 
     number: NDArray[np.int16]
@@ -112,19 +158,35 @@ def _joined(cells: Sequence[tuple[NDArray[np.int64], NDArray[np.int64]]]) -> NDA
 
 
 def recurrent_sets(orbits: Orbits) -> RecurrentSets:
-    """Return the sets that at least two of 256 orbits approach, at most 12.  Raises as `orbits.follow`."""
+    """Return the sets that at least two of 256 orbits approach, at most 12.
+
+    Parameters
+    ----------
+    orbits : Orbits
+        The orbits of the section.
+
+    Returns
+    -------
+    RecurrentSets
+        The sets.
+
+    Raises
+    ------
+    WorkLimit
+        If an orbit needs too many steps.
+    """
     section = orbits.section
     (x0, x1), (y0, y1) = section.window
     x, y = (one.ravel() for one in np.meshgrid(centres(x0, x1, _STARTS), centres(y0, y1, _STARTS)))
     states, there = section.states_at(x, y)
-    found = [orbit for orbit in orbits.follow(states[there], CROSSINGS) if len(orbit) == CROSSINGS]
+    complete = [orbit for orbit in orbits.follow(states[there], CROSSINGS) if len(orbit) == CROSSINGS]
     table = np.full(_CELLS[::-1], LOST, np.int16)
-    if not found:
+    if not complete:
         return RecurrentSets(frozen(table), ())
-    of_each = _joined([_cells(section, orbit[-CROSSINGS // 4 :]) for orbit in found])
+    of_each = _joined([_cells(section, orbit[-CROSSINGS // 4 :]) for orbit in complete])
     sizes = np.bincount(of_each)
     largest = [one for one in np.argsort(-sizes, kind="stable")[:_MOST] if sizes[one] >= _FEWEST]
-    ends = [found[int(np.argmax(of_each == one))][-1] for one in largest]
+    ends = [complete[int(np.argmax(of_each == one))][-1] for one in largest]
     long = [one[_TRANSIENT:] for one in orbits.follow(np.array(ends), _TRANSIENT + _LONG) if len(one) > _TRANSIENT]
     if not long:
         return RecurrentSets(frozen(table), ())
@@ -144,7 +206,27 @@ def recurrent_sets(orbits: Orbits) -> RecurrentSets:
 
 
 def arrivals(orbits: Orbits, sets: RecurrentSets, x: Array, y: Array) -> Arrivals:
-    """Return where the orbits from coordinates (n,) arrive within `CROSSINGS` crossings.  Raises as `orbits.follow`."""
+    """Return where orbits arrive within `CROSSINGS` crossings.
+
+    Parameters
+    ----------
+    orbits : Orbits
+        The orbits of the section.
+    sets : RecurrentSets
+        The recurrent sets.
+    x, y : ndarray, shape (n,)
+        Coordinates of the points where the orbits start.
+
+    Returns
+    -------
+    Arrivals
+        The arrivals, of shape (n,).
+
+    Raises
+    ------
+    WorkLimit
+        If an orbit needs too many steps.
+    """
     states, there = orbits.section.states_at(x, y)
     number = np.where(there, LOST, NOWHERE).astype(np.int16)
     crossings = np.full(number.shape, CROSSINGS, np.int16)
@@ -154,12 +236,12 @@ def arrivals(orbits: Orbits, sets: RecurrentSets, x: Array, y: Array) -> Arrival
         if not left.size:
             break
         go_on()
-        found = orbits.follow(states, piece)
-        whole = np.array([len(orbit) == piece for orbit in found])
+        following = orbits.follow(states, piece)
+        whole = np.array([len(orbit) == piece for orbit in following])
         left, before = left[whole], before[whole]
         if not left.size:
             break
-        together = np.concatenate([orbit for orbit, kept in zip(found, whole, strict=True) if kept])
+        together = np.concatenate([orbit for orbit, flag in zip(following, whole, strict=True) if flag])
         seen = np.hstack([before, sets.of(orbits.section, together).reshape(-1, piece)])
         rows = np.lib.stride_tricks.sliding_window_view(seen, _ROW, axis=1)
         arrived = (rows[..., 0] >= 0) & np.all(rows == rows[..., :1], axis=2)

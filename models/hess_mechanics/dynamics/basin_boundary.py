@@ -28,10 +28,23 @@ def _halved(cells: NDArray[Any]) -> NDArray[Any]:
 
 
 def divided(before: Arrivals | None, cells: tuple[int, int], everywhere: bool, most: int) -> Mask:
-    """Return the mask (n, m) of the cells (m, n) to compute: half as large as before, along the boundaries.
+    """Return the mask of the cells to compute: half as large as before, along the boundaries.
 
-    before : None for the first cells, which are all computed.  everywhere : divide all cells.  most : a boundary in
-    more cells is no curve, and they are left as they are.
+    Parameters
+    ----------
+    before : Arrivals or None
+        Arrivals from the cells before; None for the first cells, which are all computed.
+    cells : (int, int)
+        Number of the new cells across and up, (m, n).
+    everywhere : bool
+        Divide all cells.
+    most : int
+        A boundary in more cells is not a curve, and no cell is divided.
+
+    Returns
+    -------
+    ndarray of bool, shape (n, m)
+        True for the cells to compute.
     """
     if before is None or everywhere:
         return np.ones(cells[::-1], bool)
@@ -40,26 +53,76 @@ def divided(before: Arrivals | None, cells: tuple[int, int], everywhere: bool, m
 
 
 def arrivals_of_cells(orbits: Orbits, sets: RecurrentSets, window: Window, mask: Mask, part: slice) -> Arrivals:
-    """Return the arrivals from the centres of a part of the cells of a mask (n, m).  Raises as `arrivals`."""
+    """Return the arrivals of the orbits from the centres of some cells.
+
+    Parameters
+    ----------
+    orbits : Orbits
+        The orbits of the section.
+    sets : RecurrentSets
+        The recurrent sets.
+    window : ((float, float), (float, float))
+        Corners of the window that the cells fill.
+    mask : ndarray of bool, shape (n, m)
+        True for the cells to compute.
+    part : slice
+        Part of these cells, row after row.
+
+    Returns
+    -------
+    Arrivals
+        The arrivals.
+
+    Raises
+    ------
+    WorkLimit
+        If an orbit needs too many steps.
+    """
     (x0, y0), (x1, y1) = window
     rows, columns = (one[part] for one in np.nonzero(mask))
     n, m = mask.shape
     return arrivals(orbits, sets, centres(x0, x1, m)[columns], centres(y0, y1, n)[rows])
 
 
-def joined(before: Arrivals | None, mask: Mask, found: Sequence[tuple[slice, Arrivals]]) -> Arrivals:
-    """Return the arrivals from all cells (n, m): those of a mask, found in parts, and the others as before."""
+def joined(before: Arrivals | None, mask: Mask, parts: Sequence[tuple[slice, Arrivals]]) -> Arrivals:
+    """Return the arrivals from all cells: new ones where a mask is True, elsewhere those from before.
+
+    Parameters
+    ----------
+    before : Arrivals or None
+        Arrivals from cells of twice the size; None for the first cells.
+    mask : ndarray of bool, shape (n, m)
+        True for the cells that were computed.
+    parts : sequence of (slice, Arrivals)
+        New arrivals, in parts.
+
+    Returns
+    -------
+    Arrivals
+        Arrivals of shape (n, m).
+    """
     first = np.empty(mask.shape, np.int16)
     number, crossings = (first, first.copy()) if before is None else (_halved(before.number), _halved(before.crossings))
     rows, columns = np.nonzero(mask)
-    for part, one in found:
+    for part, one in parts:
         at = rows[part], columns[part]
         number[at], crossings[at] = one.number, one.crossings
     return Arrivals(frozen(number), frozen(crossings))
 
 
 def resolved(cells: NDArray[Any]) -> NDArray[Any]:
-    """Return the coarsest cells (n, m) that show the same boundaries: some are left undivided, see `divided`."""
+    """Return the coarsest cells that show the same boundaries; some are left undivided, see `divided`.
+
+    Parameters
+    ----------
+    cells : ndarray, shape (n, m)
+        Number of each cell.
+
+    Returns
+    -------
+    ndarray
+        Cells of the same or of a larger size.
+    """
     while np.ptp(cells) and not any(side % 2 for side in cells.shape):
         coarse = cells[::2, ::2]
         if not np.array_equal(_halved(coarse), cells):
@@ -69,10 +132,20 @@ def resolved(cells: NDArray[Any]) -> NDArray[Any]:
 
 
 def unsure(cells: NDArray[Any]) -> float:
-    """Estimate the fraction of the area of the cells (m, n) that a grid twice as fine would assign to another basin.
+    """Estimate the fraction of the area that a grid twice as fine would assign to another basin.
 
-    cells : number of the basin at the centre of each cell.  A straight boundary passes through about one cell for each
-    pair of neighbours that differ; about a quarter of that cell lies in another basin than its centre.
+    A straight boundary passes through about one cell for each pair of neighbours that differ; about a quarter of that
+    cell lies in another basin than its centre.
+
+    Parameters
+    ----------
+    cells : ndarray, shape (n, m)
+        Number of the basin at the centre of each cell.
+
+    Returns
+    -------
+    float
+        The fraction, 0 to 1.
     """
     across, up = np.abs(np.diff(cells, axis=1)) > 0, np.abs(np.diff(cells, axis=0)) > 0
     return 0.25 * float(across.sum() + up.sum()) / cells.size

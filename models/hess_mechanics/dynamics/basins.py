@@ -41,14 +41,44 @@ _MOST_STEPS = 1_000_000
 
 @dataclass(frozen=True)
 class MeanDivergence:
-    """Mean divergence (n,) along an orbit up to the times (n,)."""
+    """Mean divergence along an orbit.
+
+    Attributes
+    ----------
+    times : ndarray, shape (n,)
+        Times.
+    mean : ndarray, shape (n,)
+        Mean divergence up to each time, in 1/T.
+    """
 
     times: Array
     mean: Array
 
 
 def mean_divergence(body: Body, start: Sequence[float], duration: float) -> MeanDivergence:
-    """Return the mean divergence along the orbit from `start` (d,), at 4000 times in `duration`.  Raises as `solve`."""
+    """Return the mean divergence along an orbit at 4000 times.
+
+    Parameters
+    ----------
+    body : Body
+        The body.
+    start : sequence of float, shape (d,)
+        Initial state.
+    duration : float
+        Time, nonzero; negative: backward.
+
+    Returns
+    -------
+    MeanDivergence
+        The running means.
+
+    Raises
+    ------
+    InvalidParameter
+        As `solve`.
+    WorkLimit
+        As `solve`.
+    """
     times = np.linspace(0.0, duration, _SAMPLES + 1)
     rates = body.system.divergence(solve(body, start, times, DRAFT).states, body.parameters)
     steps = 0.5 * (rates[1:] + rates[:-1]) * np.diff(times)
@@ -57,7 +87,15 @@ def mean_divergence(body: Body, start: Sequence[float], duration: float) -> Mean
 
 @dataclass(frozen=True)
 class Contraction:
-    """Mean divergence along an orbit after its transient, and the standard error of that mean."""
+    """Mean divergence along an orbit after its transient.
+
+    Attributes
+    ----------
+    mean : float
+        Mean divergence, in 1/T.
+    error : float
+        Standard error of the mean, ≥ 0.
+    """
 
     mean: float
     error: float
@@ -69,37 +107,92 @@ class Contraction:
 
 
 def contraction(body: Body, start: Sequence[float], duration: float) -> Contraction:
-    """Return the contraction along the orbit from `start` (d,), over the last two thirds of the time `duration`.
+    """Return the contraction along an orbit, over the last two thirds of a duration.
 
-    The error is that of the means over 12 intervals of time, treated as independent.  Raises as `solve`.
+    The error is that of the means over 12 intervals of time, treated as independent.
+
+    Parameters
+    ----------
+    body : Body
+        The body.
+    start : sequence of float, shape (d,)
+        Initial state.
+    duration : float
+        Time, nonzero; negative: backward.
+
+    Returns
+    -------
+    Contraction
+        Mean divergence and its standard error.
+
+    Raises
+    ------
+    InvalidParameter
+        As `solve`.
+    WorkLimit
+        As `solve`.
     """
-    course = mean_divergence(body, start, duration)
-    sums = np.concatenate([[0.0], course.mean * course.times])
+    means = mean_divergence(body, start, duration)
+    sums = np.concatenate([[0.0], means.mean * means.times])
     at = np.linspace(duration / 3.0, duration, _BATCHES + 1)
-    stretches = np.diff(np.interp(at, np.concatenate([[0.0], course.times]), sums)) / np.diff(at)
+    stretches = np.diff(np.interp(at, np.concatenate([[0.0], means.times]), sums)) / np.diff(at)
     return Contraction(float(stretches.mean()), float(stretches.std(ddof=1) / math.sqrt(_BATCHES)))
 
 
 @dataclass(frozen=True)
 class SectionOrbits:
-    """The orbits of a section forward in time, at a level, as `attraction.Orbits`."""
+    """The orbits of a section forward in time, at one level, as `attraction.Orbits`.
+
+    Parameters
+    ----------
+    section : PoincareSection
+        The section.
+    level : str or Level
+        Accuracy level.
+    """
 
     section: PoincareSection
     level: Accuracy
 
     def follow(self, starts: Array, crossings: int) -> list[Array]:
-        """Return the next crossings (n, d) of each orbit from `starts` (k, d).  Raises `WorkLimit`."""
+        """Return the next crossings of several orbits.
+
+        Parameters
+        ----------
+        starts : ndarray, shape (k, d)
+            Initial states.
+        crossings : int
+            Number of crossings of each orbit.
+
+        Returns
+        -------
+        list of ndarray, shape (n, d)
+            States at the crossings of each orbit.
+
+        Raises
+        ------
+        WorkLimit
+            If an orbit needs too many steps.
+        """
         if not len(starts):
             return []
-        found = section_crossings(
+        result = section_crossings(
             self.section, starts, crossings, self.level, turns=_TURNS, threads=1, most_steps=_MOST_STEPS
         )
-        return complete(found).states
+        return complete(result).states
 
 
 @dataclass(frozen=True)
 class Attractors:
-    """The attractors of a section, and the contraction about each recurrent set, of attractors and others."""
+    """The attractors of a section, and the contraction about each recurrent set.
+
+    Attributes
+    ----------
+    sets : RecurrentSets
+        The attractors.
+    contractions : tuple of Contraction
+        Contraction about each recurrent set, whether it is an attractor or not.
+    """
 
     sets: RecurrentSets
     contractions: tuple[Contraction, ...]
@@ -121,10 +214,29 @@ class Attractors:
 
 
 def attractors(section: PoincareSection, duration: float, accuracy: Accuracy) -> Attractors:
-    """Return the attractors of a section; `duration` is the time over which a divergence is averaged.
+    """Return the attractors of a section.
 
-    Raises `InvalidParameter`, `WorkLimit`.
+    Parameters
+    ----------
+    section : PoincareSection
+        The section.
+    duration : float
+        Time over which each divergence is averaged, positive.
+    accuracy : str or Level
+        Accuracy level.
+
+    Returns
+    -------
+    Attractors
+        The attractors.
+
+    Raises
+    ------
+    InvalidParameter
+        If the duration is not finite.
+    WorkLimit
+        If an orbit needs too many steps.
     """
-    found = recurrent_sets(SectionOrbits(section, accuracy))
-    on_each = tuple(contraction(section, state, duration) for state in found.states)
-    return Attractors(found.kept([one.attracts for one in on_each]), on_each)
+    sets = recurrent_sets(SectionOrbits(section, accuracy))
+    on_each = tuple(contraction(section, state, duration) for state in sets.states)
+    return Attractors(sets.subset([one.attracts for one in on_each]), on_each)

@@ -45,37 +45,49 @@ def _weights(count: int) -> Array:
     return np.asarray(weight / weight.sum())
 
 
-def weighted_mean(values: Array) -> float:
+def _weighted_mean(values: Array) -> float:
     """Return the mean with weight exp(−1/(t(1 − t))); it converges super-polynomially on quasi-periodic sequences."""
     return float(_weights(values.size) @ values)
 
 
 def window_rates(sums: Array, times: Array) -> Array:
-    """Return weighted mean rates (4,) of a sum (n,) over all times (n,), and over their first, middle and last half.
+    """Return weighted mean rates of a sum over all times, and over their first, middle and last half.
 
     On a torus the remainder of the first one is much smaller than its differences from the others.
+
+    Parameters
+    ----------
+    sums : ndarray, shape (n,)
+        The sum at each time.
+    times : ndarray, shape (n,)
+        Times.
+
+    Returns
+    -------
+    ndarray, shape (4,)
+        The mean rates.
     """
     rates, quarter = np.diff(sums) / np.diff(times), (times.size - 1) // 4
     windows = slice(None), slice(2 * quarter), slice(quarter, 3 * quarter), slice(2 * quarter, None)
-    return np.array([weighted_mean(rates[one]) for one in windows])
+    return np.array([_weighted_mean(rates[one]) for one in windows])
 
 
 def irregularity(turns: Sequence[float], places: Array, precision: float) -> float:
-    """Return by how much averages over the halves of an orbit (n, d) differ, where 1 is the difference for white noise.
+    """Return the difference between averages over the halves of an orbit, in units of that of white noise.
 
-    On a quasi-periodic orbit with a smooth invariant curve weighted averages converge faster than any power of n, on
-    a chaotic one like 1/√n.  In m narrow bands that follow each other most of the motion is periodic and converges
-    too.  Therefore the noise has the variance that is left without the part of period m, for m = 1 and for the m after
-    which the orbit comes back closest.  The functions are the coordinates and their squares; for angles cos and sin.
+    On a quasi-periodic orbit with a smooth invariant curve weighted averages converge faster than any power of n, on a
+    chaotic one like 1/√n.  In m narrow bands that follow each other most of the motion is periodic and converges too.
+    Therefore the noise has the variance that is left without the part of period m, for m = 1 and for the m after which
+    the orbit comes back closest.  The functions are the coordinates and their squares; for angles cos and sin.
 
     Parameters
     ----------
     turns : sequence of float
         Period of each coordinate, ∞ if it is not an angle.
-    places : Array, shape (n, d)
+    places : ndarray, shape (n, d)
         Points of the orbit.
     precision : float
-        Error of the points, which is no irregularity.
+        Error of the points, which does not count as irregularity.
 
     Returns
     -------
@@ -108,7 +120,20 @@ def irregularity(turns: Sequence[float], places: Array, precision: float) -> flo
 
 
 def bounded_series(turns: Sequence[float], places: Array) -> Array:
-    """Return bounded functions along an orbit (n, m): cos and sin of angles, other coordinates over their range."""
+    """Return bounded functions along an orbit: cos and sin of angles, other coordinates over their range.
+
+    Parameters
+    ----------
+    turns : sequence of float
+        Period of each coordinate, ∞ if it is not an angle.
+    places : ndarray, shape (n, d)
+        Points of the orbit.
+
+    Returns
+    -------
+    ndarray, shape (n, m)
+        The functions, one or two for each coordinate.
+    """
     away = places - places.mean(axis=0)
     size = max(float(np.abs(away).max()), float(np.ptp(away, axis=0).max()), 1e-300)
     return np.column_stack(
@@ -125,11 +150,29 @@ def bounded_series(turns: Sequence[float], places: Array) -> Array:
 
 
 def rotation_number(points: Array, centre: tuple[float, float] | None = None) -> tuple[float, float]:
-    """Return the rotation number of an orbit (n, 2), in turns per point in (−½, ½], and its estimated error.
+    """Return the rotation number of an orbit and its estimated error.
 
-    centre : point about which turns are counted; None if the first coordinate is the angle.  The error is the spread of
-    the values for the orbit and its two halves.  It is large if the orbit has no invariant curve, and ½ if the turns
-    cannot be counted.  Raises `InvalidParameter` for fewer than five points.
+    The error is the spread of the values for the orbit and its two halves.  It is large if the orbit has no invariant
+    curve, and ½ if the turns cannot be counted.
+
+    Parameters
+    ----------
+    points : ndarray, shape (n, 2)
+        Points of the orbit, n ≥ 5.
+    centre : (float, float), optional
+        Point about which turns are counted.  By default the first coordinate is the angle, in radians.
+
+    Returns
+    -------
+    number : float
+        Rotation number in turns per point, in (−½, ½].
+    error : float
+        Its error, 0 to ½.
+
+    Raises
+    ------
+    InvalidParameter
+        For fewer than five points.
     """
     if len(points) < 5:
         raise InvalidParameter(
@@ -144,7 +187,7 @@ def rotation_number(points: Array, centre: tuple[float, float] | None = None) ->
     middle = float(np.angle(np.mean(np.exp(2j * np.pi * turns)))) / (2.0 * np.pi)
     turns = middle + np.asarray(_within_half(turns - middle))
     half = turns.size // 2
-    means = [weighted_mean(some) for some in (turns, turns[:half], turns[half:])]
+    means = [_weighted_mean(some) for some in (turns, turns[:half], turns[half:])]
     # Turns spread over the whole circle are ambiguous by ±1, so nothing is known.
     error = 0.5 if np.ptp(turns) > _ALL_ROUND else float(np.ptp(means))
     return float(_within_half(means[0])), error
@@ -159,15 +202,39 @@ def volume_sign(divergence: Array | float, error: Array | float) -> NDArray[np.i
     """Return −1 where phase volume shrinks, 1 where it grows, and 0 where neither is significant.
 
     A mean divergence is significant beyond three times its error and the round-off of a zero.
+
+    Parameters
+    ----------
+    divergence : ndarray or float
+        Mean divergences, in 1/T.
+    error : ndarray or float
+        Their errors, of the same shape.
+
+    Returns
+    -------
+    ndarray of int
+        The signs, of the same shape.
     """
     seen = np.abs(divergence) > ERRORS * np.asarray(error) + 1e-9
     return np.where(seen, np.sign(divergence), 0.0).astype(int)
 
 
 def batch_error(sums: Array, times: Array) -> tuple[Array, Array]:
-    """Return the mean rates (m,) of sums (n, m) over times (n,), and their errors, see `Spectrum`.
+    """Return the mean rates of sums over time, and their errors, see `Spectrum`.
 
-    The first sample is the start of the first of 12 equally long stretches, the last one the end of the last.
+    Parameters
+    ----------
+    sums : ndarray, shape (n, m)
+        Sums at each time.
+    times : ndarray, shape (n,)
+        Times: the start of the first of 12 equally long stretches, …, the end of the last one.
+
+    Returns
+    -------
+    mean : ndarray, shape (m,)
+        Mean rates.
+    error : ndarray, shape (m,)
+        Their errors.
     """
     length = float(times[-1] - times[0])
     mean = (sums[-1] - sums[0]) / length

@@ -15,14 +15,39 @@ Window = tuple[tuple[float, float], tuple[float, float]]
 
 
 def centres(low: float, high: float, count: int) -> Array:
-    """Return the centres of `count` equal cells between two ends, (count,)."""
+    """Return the centres of equal cells between two ends.
+
+    Parameters
+    ----------
+    low, high : float
+        The ends.
+    count : int
+        Number of cells.
+
+    Returns
+    -------
+    ndarray, shape (count,)
+        The centres, in increasing order.
+    """
     return low + (np.arange(count) + 0.5) * (high - low) / count
 
 
 def occupied_cells(points: Array, ranges: Sequence[tuple[float, float]], across: int = 32) -> int:
-    """Return the number of across × across equal cells that hold a point: few on a curve, many in a chaotic sea.
+    """Return the number of equal cells that hold a point: few on a curve, many in a chaotic sea.
 
-    points : coordinates (n, 2); ranges : the range of each coordinate, which the cells fill.
+    Parameters
+    ----------
+    points : ndarray, shape (n, 2)
+        Coordinates of the points.
+    ranges : sequence of (float, float)
+        Range of each coordinate, which the cells fill.
+    across : int, default 32
+        Number of cells along each range.
+
+    Returns
+    -------
+    int
+        The number of cells, at most across².
     """
     low, high = np.array(ranges).T
     at = np.clip((points - low) / (high - low) * across, 0, across - 1).astype(int)
@@ -34,13 +59,20 @@ _PLASTIC = np.array([[0.7548776662466927], [0.5698402909980532]])
 
 
 def evenly(count: int, origin: float = 0.0) -> Array:
-    """Return the R2 low-discrepancy sequence (2, count) in the unit square (Roberts, 2018).
+    """Return points of the R2 low-discrepancy sequence in the unit square (Roberts, 2018).
 
-    Any initial segment of it fills the square evenly.
+    Any initial segment of the sequence fills the square evenly.
 
     Parameters
     ----------
-    count : number of points.
-    origin : both coordinates of the point before the first.
+    count : int
+        Number of points.
+    origin : float, default 0.0
+        Both coordinates of the point before the first.
+
+    Returns
+    -------
+    ndarray, shape (2, count)
+        Coordinates of the points, 0 to 1.
     """
     return np.asarray((origin + _PLASTIC * np.arange(1, count + 1)) % 1.0)

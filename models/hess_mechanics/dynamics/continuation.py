@@ -202,7 +202,7 @@ class _Point:
 class _Track:
     """The constants of a branch; z holds the points (m, d) divided by √m, and λ divided by the width of its range.
 
-    at : the family of maps, which keeps the last ones.
+    at : the family of maps, with a cache of the last ones.
     """
 
     at: MapFamily
@@ -241,7 +241,7 @@ class _Track:
 
     def _step(self, point: _Point, across: Array, left: float) -> Array:
         matrix = np.vstack([point.bordered, across])
-        return np.linalg.solve(matrix, -np.append(point.shot.left.ravel() / self.root, left))
+        return np.linalg.solve(matrix, -np.append(point.shot.residuals.ravel() / self.root, left))
 
     def corrected(self, guess: Array, across: Array) -> _Point:
         """Return the point of the branch in the plane through `guess` across a direction.  Raises `NotConverged`."""
@@ -265,10 +265,10 @@ class _Track:
     def beside(self, guess: Array, across: Array, t: Array) -> tuple[_Point, Array]:
         """Return the `corrected` point and its tangent, which must be close to t.  Raises `NotConverged`."""
         point = self.corrected(guess, across)
-        turned = point.tangent(t)
-        if math.acos(min(1.0, float(turned @ t))) > _TURN:
+        tangent = point.tangent(t)
+        if math.acos(min(1.0, float(tangent @ t))) > _TURN:
             raise NotConverged("The branch turns too sharply.")
-        return point, turned
+        return point, tangent
 
     def error(self, point: _Point, across: Array) -> float:
         """Return the error of the points and of the scaled λ, by a more accurate map."""
@@ -279,10 +279,10 @@ class _Track:
 def _signs(point: _Point, t: Array) -> dict[str, float]:
     """Return the functions that change sign at a bifurcation, by its kind."""
     values, trace, determinant = multipliers_of(point.shot.derivatives)
-    found = {"fold": float(t[-1]), "branch point": float(np.linalg.det(np.vstack([point.bordered, t])))}
+    signs = {"fold": float(t[-1]), "branch point": float(np.linalg.det(np.vstack([point.bordered, t])))}
     if values.size == 1:
-        return {**found, "flip": 1.0 + trace}
-    return {**found, "flip": 1.0 + trace + determinant, "Neimark–Sacker": determinant - 1.0}
+        return {**signs, "flip": 1.0 + trace}
+    return {**signs, "flip": 1.0 + trace + determinant, "Neimark–Sacker": determinant - 1.0}
 
 
 def _happens(kind: str, before: _Point, after: _Point, values: tuple[float, float]) -> bool:
@@ -368,14 +368,41 @@ def extension(
     points: int = 200,
     longest: float = _LONGEST,
 ) -> Branch:
-    """Return the continuation of a branch that has a `heading`, between the same ends of the range.
+    """Return the continuation of a branch between the same ends of its range.
 
-    Its first point is the last one of `branch`.  Raises as `branch_from`.
+    Parameters
+    ----------
+    family : MapFamily
+        Function from λ to the map.
+    branch : Branch
+        Branch that has a `heading`.
+    end : float
+        Value of λ at which the branch ends.
+    edge : float
+        Other end of the range of λ.
+    points : int, default 200
+        Largest number of further points.
+    longest : float, default _LONGEST
+        Longest step along the branch, in units of the coordinates and of the width of the range.
+
+    Returns
+    -------
+    Branch
+        The continuation; its first point is the last one of `branch`.
+
+    Raises
+    ------
+    InvalidParameter
+        If the branch cannot be continued.
+    NotConverged
+        If Newton's method does not return to the branch.
+    WorkLimit
+        If a map needs too many steps.
     """
     if branch.heading is None:
         raise InvalidParameter(f"This branch cannot be continued: {branch.end_reason}")
-    shape, kept = branch.places.shape[1:], lru_cache(_MAPS)(family)
-    track = _Track(kept, branch.parameter, branch.names, branch.level, (edge, end), shape)
+    shape, maps = branch.places.shape[1:], lru_cache(_MAPS)(family)
+    track = _Track(maps, branch.parameter, branch.names, branch.level, (edge, end), shape)
     along, step = branch.heading
     point = track.corrected(track.joined(branch.places[-1], float(branch.values[-1])), along)
     return _followed(track, point, point.tangent(along), points, step, longest)
@@ -385,40 +412,40 @@ def _followed(
     track: _Track, point: _Point, t: Array, points: int, step: float, longest: float, until: str = ""
 ) -> Branch:
     """Return the branch from a point along t, with a first and a longest step; it ends after a bifurcation `until`."""
-    found = [point]
+    line = [point]
     errors = [track.error(point, t)]
     bifurcations: list[Bifurcation] = []
     low, high = sorted(one / track.width for one in track.ends)
     along = np.zeros(t.size)
     along[-1] = 1.0
     ended = ""
-    while not ended and len(found) < points:
-        last = found[-1]
+    while not ended and len(line) < points:
+        last = line[-1]
         room = _to_edge(last.z[-1], t[-1], low, high)
         ahead = min(step, room)
         try:
             # The last point lies at the end of the range itself.
-            following, turned = track.beside(last.z + ahead * t, along if room <= step else t, t)
+            following, tangent = track.beside(last.z + ahead * t, along if room <= step else t, t)
         except NotConverged as error:
             step = 0.5 * min(step, ahead)
             if step < _SHORTEST:
                 at = track.split(last.z)[1]
                 ended = f"At {track.parameter} = {at:.9g} it cannot be followed further: {error}"
             continue
-        before, after = _signs(last, t), _signs(following, turned)
+        before, after = _signs(last, t), _signs(following, tangent)
         for kind in before:
             if _happens(kind, last, following, (before[kind], after[kind])):
-                bifurcations.append(_located(track, kind, last, t, ahead, len(found) - 1))
-        found.append(following)
-        errors.append(track.error(following, turned))
-        t = turned
+                bifurcations.append(_located(track, kind, last, t, ahead, len(line) - 1))
+        line.append(following)
+        errors.append(track.error(following, tangent))
+        t = tangent
         step = min(longest, step * (1.6 if following.iterations <= 4 else 1.0 if following.iterations <= 6 else 0.6))
         if _to_edge(following.z[-1], t[-1], low, high) <= 1e-12:
             ended = f"At {track.parameter} = {track.split(following.z)[1]:.9g}, the end of the range."
         if any(one.kind == until for one in bifurcations):
             ended = f"Beyond the {until}."
-    places, values = zip(*(track.split(one.z) for one in found), strict=True)
-    multipliers = np.array([multipliers_of(one.shot.derivatives)[0] for one in found])
+    places, values = zip(*(track.split(one.z) for one in line), strict=True)
+    multipliers = np.array([multipliers_of(one.shot.derivatives)[0] for one in line])
     kinds = tuple(kind_of(one, max(1e-9, 10.0 * error)) for one, error in zip(multipliers, errors, strict=True))
     return Branch(
         track.parameter,
@@ -442,12 +469,12 @@ def _to_edge(z: float, rate: float, low: float, high: float) -> float:
     return max(0.0, (high - z) / rate if rate > 0.0 else (low - z) / rate)
 
 
-def _told_apart(found: Sequence[Bifurcation]) -> list[Bifurcation]:
+def _told_apart(bifurcations: Sequence[Bifurcation]) -> list[Bifurcation]:
     """Return the bifurcations without the spurious fold at a pitchfork, where the newborn branch turns."""
-    crossings = [one for one in found if one.kind in ("branch point", "pitchfork")]
+    crossings = [one for one in bifurcations if one.kind in ("branch point", "pitchfork")]
     return [
         one
-        for one in found
+        for one in bifurcations
         if one.kind != "fold" or not any(abs(one.value - other.value) <= one.error + other.error for other in crossings)
     ]
 
@@ -462,9 +489,9 @@ def _located(track: _Track, kind: str, last: _Point, t: Array, ahead: float, aft
         # Newton's method starts on the chord through the two nearest known points.
         along = (known[other[0]] - known[near]) / (other[0] - near) if other else t
         # A point with a different tangent belongs to a branch that crosses here.
-        point, turned = track.beside(known[near] + (s - near) * along, t, t)
+        point, tangent = track.beside(known[near] + (s - near) * along, t, t)
         known[s] = point.z
-        return point, _signs(point, turned)[kind]
+        return point, _signs(point, tangent)[kind]
 
     low, high = 0.0, ahead
     point, f_low = last, _signs(last, t)[kind]
@@ -524,10 +551,10 @@ def _closed_in(
     with suppress(*_SINGULAR):
         (before, f_before), (after, f_after) = at(low), at(high)
         for _ in range(_HALVINGS):
-            found = _first_of(at, [low + share * (high - low) for share in _SHARES])
-            if found is None:
+            middle = _first_of(at, [low + share * (high - low) for share in _SHARES])
+            if middle is None:
                 break
-            s, between, f = found
+            s, between, f = middle
             if (f > 0.0) == (f_after > 0.0):
                 high, after, f_after = s, between, f
             else:

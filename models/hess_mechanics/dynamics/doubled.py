@@ -1,4 +1,4 @@
-"""An orbit in double-double arithmetic, the reference against which errors of the levels are measured."""
+"""Double-double integration of an orbit, the reference against which errors of the levels are measured."""
 
 from __future__ import annotations
 
@@ -24,7 +24,14 @@ _AT_ONCE = 20
 class Doubled:
     """An orbit with 31 digits, of which an unstable motion loses some.
 
-    times : (n,); pairs : (n, d), the states, each number as high + i low; scale : (d,), units in which states are O(1).
+    Attributes
+    ----------
+    times : ndarray, shape (n,)
+        Times.
+    pairs : ndarray of complex, shape (n, d)
+        The states, each number as high + i low.
+    scale : ndarray, shape (d,)
+        Units in which the states are O(1).
     """
 
     times: Array
@@ -33,21 +40,54 @@ class Doubled:
 
     @property
     def states(self) -> Array:
-        """The states (n, d), rounded to doubles."""
+        """The states, rounded to doubles, shape (n, d)."""
         return frozen(self.pairs.real.copy())
 
     def away(self, states: Array) -> Array:
-        """Return |states − truth| (n, d) of computed states (n, d), without rounding the truth first."""
+        """Return the errors of computed states, without rounding the truth first.
+
+        Parameters
+        ----------
+        states : ndarray, shape (n, d)
+            Computed states at the same times.
+
+        Returns
+        -------
+        ndarray, shape (n, d)
+            |states − truth| of each component.
+        """
         return np.abs((states - self.pairs.real) - self.pairs.imag)
 
 
 def doubled(body: Body, start: Sequence[float] | Array, times: Sequence[float] | Array) -> Doubled:
-    """Return the orbit from `start` (d,) at times (n,), monotonic from 0, in double-double arithmetic.
+    """Return an orbit in double-double arithmetic, with 31 digits.
 
     The integrator is a Taylor series of order 36 in pairs of doubles (`numerics.doubled_kernels`), about 40 µs per
     step.  State and parameters are rescaled only by powers of two, which is exact.
-    Raises `InvalidParameter`, `WorkLimit`.
 
+    Parameters
+    ----------
+    body : Body
+        The body.
+    start : array_like, shape (d,)
+        Initial state at time 0.
+    times : array_like, shape (n,)
+        Times, monotonic from 0 forward or backward.
+
+    Returns
+    -------
+    Doubled
+        The orbit.
+
+    Raises
+    ------
+    InvalidParameter
+        If a number is not finite, or the times are not monotonic.
+    WorkLimit
+        If the motion needs too many steps.
+
+    Examples
+    --------
     >>> from hess_mechanics import level, solve, systems
     >>> from hess_mechanics.dynamics.doubled import doubled
     >>> suslov = systems()["suslov"]

@@ -1,6 +1,6 @@
 """Saddles on the boundary of two basins, whose stable manifolds bound them.
 
-Between two places in different basins the segment is halved until its ends part only after many crossings.  Meanwhile
+Between two points in different basins the segment is halved until its ends part only after many crossings.  Meanwhile
 their orbits follow the boundary and approach a set that attracts within it: on a smooth boundary a saddle.  Newton's
 method starts from there.
 """
@@ -25,10 +25,26 @@ _MOST = 12
 
 
 def saddle_between(map_: Map, one: Array, other: Array, number_of: Callable[[Array], int]) -> PeriodicOrbit:
-    """Return a saddle on the boundary between two places (2,) in different basins.
+    """Return a saddle on the boundary between two points in different basins.
 
-    number_of : returns the basin of a place.  Raises `NotConverged` if there is no saddle, or if the boundary is not
-    smooth.
+    Parameters
+    ----------
+    map_ : Map
+        The return map.
+    one, other : ndarray, shape (2,)
+        Points in different basins.
+    number_of : callable
+        Function from a point to the number of its basin.
+
+    Returns
+    -------
+    PeriodicOrbit
+        The saddle.
+
+    Raises
+    ------
+    NotConverged
+        If no saddle is found, or the boundary is not smooth.
     """
     a, b = np.asarray(one, float), one + apart(map_.turns, other, one)
     own = number_of(a)
@@ -42,9 +58,9 @@ def saddle_between(map_: Map, one: Array, other: Array, number_of: Callable[[Arr
     last = int(np.argmax(away > 1e-3)) if np.any(away > 1e-3) else both
     for first in range(max(0, last - _MOST - 1), -1, -_MOST):
         try:
-            found = find_periodic(map_, orbits[0][first], None, _MOST)
+            orbit = find_periodic(map_, orbits[0][first], None, _MOST)
         except ModelError:
             continue
-        if found.kind.startswith("saddle"):
-            return found
+        if orbit.kind.startswith("saddle"):
+            return orbit
     raise NotConverged(f"No saddle up to period {_MOST} is found on the boundary here.")

@@ -39,18 +39,46 @@ def integrated(
     max_steps: int,
     threads: int,
 ) -> tuple[Array, Indices, Array]:
-    """Return the states (n, m, d) of many orbits at the times (m,), the steps (n,) and the times (n,) reached.
+    """Return the states of many orbits at given times, in scaled units.
 
-    Units are scaled.  An orbit that could not be followed has the negative steps of `taylor_kernels.orbit_integrator`,
-    and its last state in the row of the next time.
+    An orbit that could not be followed has the negative steps of `taylor_kernels.orbit_integrator`, and its last state
+    in the row of the next time.
+
+    Parameters
+    ----------
+    kernel : callable
+        Kernel of an ensemble, see `System.ensemble`.
+    states : ndarray, shape (n, d)
+        Initial states.
+    parameters : ndarray, shape (q,)
+        Parameters of the system.
+    times : ndarray, shape (m,)
+        Times, monotonic from 0.
+    level : Level
+        Order and tolerance.
+    longest : float
+        Longest step.
+    max_steps : int
+        Largest number of steps of one orbit.
+    threads : int
+        Number of threads.
+
+    Returns
+    -------
+    states : ndarray, shape (n, m, d)
+        States of the orbits.
+    steps : ndarray of int, shape (n,)
+        Steps of each orbit, or a negative code.
+    ends : ndarray, shape (n,)
+        Time that each orbit reached.
     """
     count = len(states)
     out, steps, ends = np.full((count, times.size, states.shape[1]), np.nan), np.zeros(count, np.int64), np.zeros(count)
 
     def part(i: int) -> None:
         own = slice(i * _SHARE, (i + 1) * _SHARE)
-        found = out[own], steps[own], ends[own]
-        kernel(states[own], parameters, times, level.order, level.tolerance, longest, max_steps, *found)
+        results = out[own], steps[own], ends[own]
+        kernel(states[own], parameters, times, level.order, level.tolerance, longest, max_steps, *results)
 
     share(part, -(-count // _SHARE), threads)
     return out, steps, ends
@@ -84,7 +112,7 @@ def ensemble(
     threads : int, optional
         Number of threads.  By default one per core, at most eight.
     max_step : float, optional
-        Longest step, see `solve`.
+        Longest step, positive, in the unit of time, see `solve`.
     max_steps : int, default 2 000 000
         Largest number of steps of one orbit in one run.
 
@@ -136,16 +164,16 @@ def ensemble(
     # As in `measured`, for the orbits that still miss the promise.
     while todo.size:
         tighter = current.tighter()
-        found, more, _ = run(problems[tighter.aside], todo, tighter)
+        finer, more, _ = run(problems[tighter.aside], todo, tighter)
         total += int(np.maximum(more, 0).sum())
-        difference = np.abs(before - found)
+        difference = np.abs(before - finer)
         difference[more < 0] = np.inf
         off = difference.max(axis=(1, 2))
         safety = safety_of(off, scaled_errors[todo])
         scaled_errors[todo] = safety * off + 2e-16
         errors[todo] = safety * (difference * problem.scale).max(axis=(1, 2)) + 2e-16 * max(1.0, problem.nu)
         if not tighter.aside:
-            out[todo] = found
+            out[todo] = finer
         if current.is_floor:
             todo = todo[scaled_errors[todo] > UNSURE]
             third, more, _ = run(problems[current.aside], todo, current.variant())
@@ -156,7 +184,7 @@ def ensemble(
             errors[todo] = np.maximum(errors[todo], SAFETY * (difference * problem.scale).max(axis=(1, 2)))
             break
         missed = scaled_errors[todo] > level.promise
-        todo, before, current = todo[missed], found[missed], tighter
+        todo, before, current = todo[missed], finer[missed], tighter
 
     statuses = [level.status(float(error)) for error in scaled_errors]
     ends, last, reasons = np.full(count, t[-1]), out[:, -1].copy(), [""] * count
@@ -196,9 +224,25 @@ class _Several(Protocol):
 M = TypeVar("M", bound=_Several)
 
 
-def complete(found: M) -> M:
-    """Return the motions.  Raises `WorkLimit` with the reason of the first one that is incomplete."""
-    reason = next(filter(None, found.reasons), None)
+def complete(motions: M) -> M:
+    """Return motions, all of which must be complete.
+
+    Parameters
+    ----------
+    motions : M
+        Motions with `reasons`, such as an `Ensemble`.
+
+    Returns
+    -------
+    M
+        The same motions.
+
+    Raises
+    ------
+    WorkLimit
+        If one is incomplete, with its reason.
+    """
+    reason = next(filter(None, motions.reasons), None)
     if reason is not None:
         raise WorkLimit(reason)
-    return found
+    return motions

@@ -59,7 +59,7 @@ class Manifold(Result):
     side : int
         1 along the direction of the saddle, −1 against it.
     multiplier : float
-        Multiplier of F, on the manifold greater than 1.
+        Multiplier of F on the manifold, > 1.
     points : ndarray, shape (n, 2)
         Polyline along the branch; angles continue without jumps.
     parameters : ndarray, shape (n,)
@@ -69,7 +69,7 @@ class Manifold(Result):
     sagitta : float
         Largest distance between the curve and the polyline.
     error_estimate : float
-        Estimated error of the points across the curve.
+        Estimated error of the points across the curve, ≥ 0, in units of the coordinates.
     end_reason : str
         Reason why the branch ends.
     level : str
@@ -224,7 +224,7 @@ def manifold(
     saddle : PeriodicOrbit
         A saddle of this map.
     length : float
-        Length along the curve at which the branch ends, in units of the coordinates.
+        Length along the curve at which the branch ends, positive, in units of the coordinates.
     stable : bool, default False
         Return the stable manifold instead of the unstable one.
     side : {1, -1}, default 1
@@ -232,9 +232,9 @@ def manifold(
     place : int, default 0
         Index of the point of the saddle orbit from which the branch starts.
     sagitta : float, default 1e-3
-        Largest distance between the curve and the returned polyline.
+        Largest distance between the curve and the returned polyline, positive, in units of the coordinates.
     longest : float, default 0.1
-        Longest chord of the polyline.
+        Longest chord of the polyline, positive, in units of the coordinates.
     most : int, default 4000
         Largest number of points.
     returns : int, default 2 000 000
@@ -381,10 +381,21 @@ def _error(curve: _Curve, points: Array, parameters: Array) -> float:
 
 @dataclass(frozen=True)
 class Intersection:
-    """Crossing of two manifolds: the point (2,), τ on both, the angle between them, and the error of the point.
+    """Crossing of the manifolds of two saddles: a homoclinic or heteroclinic point.
 
-    certain : True if the manifolds change sides between one chord before and one chord after the crossing, by more than
-    their errors.  It is False where they run together.
+    Attributes
+    ----------
+    place : ndarray, shape (2,)
+        The point.
+    parameters : (float, float)
+        Parameter τ on each manifold.
+    angle : float
+        Angle between the manifolds, in radians, 0 to π/2.
+    error : float
+        Estimated error of the point, ≥ 0.
+    certain : bool
+        True if the manifolds change sides between one chord before and one chord after the crossing, by more than their
+        errors; False where they run together.
     """
 
     place: Array
@@ -395,22 +406,34 @@ class Intersection:
 
 
 def crossings_of(one: Manifold, other: Manifold, most: int = 100) -> list[Intersection]:
-    """Return at most `most` homoclinic or heteroclinic points, in the order of the first manifold.
+    """Return homoclinic or heteroclinic points, in the order of the first manifold.
 
-    Intersecting segments of the two polylines are the initial guesses for Newton's method on W_1(τ_1) = W_2(τ_2).
-    The saddles themselves are excluded; points closer together than their errors count once.
+    Intersecting segments of the two polylines are the initial guesses for Newton's method on W_1(τ_1) = W_2(τ_2).  The
+    saddles themselves are excluded; points closer together than their errors count once.
+
+    Parameters
+    ----------
+    one, other : Manifold
+        The manifolds, of the same map.
+    most : int, default 100
+        Largest number of points.
+
+    Returns
+    -------
+    list of Intersection
+        The points.
     """
-    found: list[Intersection] = []
+    crossings: list[Intersection] = []
     for i, j in _meeting(one, other):
         crossing = _refined(one, other, (i, j))
         if crossing is not None and all(
             np.abs(apart(one.turns, crossing.place, known.place)).max() > 1e-9 + crossing.error + known.error
-            for known in found
+            for known in crossings
         ):
-            found.append(crossing)
-            if len(found) == most:
+            crossings.append(crossing)
+            if len(crossings) == most:
                 break
-    return found
+    return crossings
 
 
 def _meeting(one: Manifold, other: Manifold) -> list[tuple[int, int]]:
@@ -486,9 +509,26 @@ def _changes_sides(one: Manifold, other: Manifold, tau: Array, chord: float, alo
 
 
 def heights_at(curve: Manifold, axis: int, value: float) -> Array:
-    """Return the other coordinate (n,) at all points where the coordinate `axis` has this value, along the manifold.
+    """Return the other coordinate at all points of a manifold where one coordinate has a given value.
 
-    Raises `NotConverged` if there is no such point.
+    Parameters
+    ----------
+    curve : Manifold
+        The manifold.
+    axis : int
+        Index of the coordinate that has the value, 0 or 1.
+    value : float
+        The value.
+
+    Returns
+    -------
+    ndarray, shape (n,)
+        Values of the other coordinate, in the order of the manifold.
+
+    Raises
+    ------
+    NotConverged
+        If there is no such point.
     """
     along = curve.points[:, axis] - value
     change = np.flatnonzero((along[1:-1] <= 0.0) != (along[2:] <= 0.0)) + 1
@@ -513,10 +553,30 @@ def _height_on(curve: Manifold, axis: int, value: float, i: int) -> float:
 
 
 def split(unstable: Manifold, stable: Manifold, axis: int, value: float) -> tuple[float, float]:
-    """Return the distance between two manifolds where the coordinate `axis` has this value, and its error.
+    """Return the distance between two manifolds where one coordinate has a given value.
 
     If they pass there more than once, the two closest passages are compared.
-    Raises `NotConverged` if one of them never has this value.
+
+    Parameters
+    ----------
+    unstable, stable : Manifold
+        The manifolds, of the same map.
+    axis : int
+        Index of the coordinate that has the value, 0 or 1.
+    value : float
+        The value.
+
+    Returns
+    -------
+    distance : float
+        Other coordinate of the unstable manifold minus that of the stable one.
+    error : float
+        Its estimated error, ≥ 0.
+
+    Raises
+    ------
+    NotConverged
+        If one of them never has this value.
     """
     gaps = heights_at(unstable, axis, value)[:, None] - heights_at(stable, axis, value)
     closest = gaps.ravel()[int(np.argmin(np.abs(gaps)))]

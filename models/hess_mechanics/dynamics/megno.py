@@ -47,16 +47,16 @@ _SHARE = 4
 
 @dataclass(frozen=True)
 class Megno(Result):
-    """MEGNO of several motions.
+    """MEGNO of several motions; the result of `megno`.
 
     Attributes
     ----------
     t : float
-        Time span.
+        Time span, positive.
     values : ndarray, shape (n,)
         Ȳ of each motion.
     divergence, divergence_error : ndarray, shape (n,)
-        Weighted mean of div ẏ over the last four fifths of the time, and its standard error.
+        Weighted mean of div ẏ over the last four fifths of the time, and its standard error, both in 1/T.
     windows : ndarray, shape (n, 4)
         The same mean, and those over the first, middle and last half of that time.
     no_chaos : tuple of str
@@ -117,9 +117,26 @@ class Megno(Result):
 
 
 def longest_span(body: Body, start: Sequence[float] | Array) -> float:
-    """Return the longest time span of MEGNO for motions next to `start`.
+    """Return the longest time span of MEGNO for motions next to a state.
 
     A third is left as a reserve, because ν differs between neighbouring states.
+
+    Parameters
+    ----------
+    body : Body
+        The body.
+    start : array_like, shape (d,)
+        The state.
+
+    Returns
+    -------
+    float
+        The time span, in units of the problem.
+
+    Raises
+    ------
+    InvalidParameter
+        If a number is not finite.
     """
     return _LONGEST / (1.5 * Problem.of(body, [start]).nu)
 
@@ -186,7 +203,7 @@ def megno(
     t = duration * problem.nu * np.arange(1, samples + 1) / samples
     first = samples // 5
     direction = one_direction(size)
-    found, steps, no_chaos_because = np.empty((6, count)), np.zeros(count, int), [""] * count
+    numbers, steps, no_chaos_because = np.empty((6, count)), np.zeros(count, int), [""] * count
     ends, reasons = np.full(count, abs(duration)), [""] * count
 
     def one(i: int) -> None:
@@ -194,7 +211,7 @@ def megno(
             follow(i)
         except (WorkLimit, InvalidParameter) as error:
             # Another motion is not lost with this one.
-            found[:, i], reasons[i] = math.nan, str(error)
+            numbers[:, i], reasons[i] = math.nan, str(error)
             ends[i] = abs(error.time) if isinstance(error, MotionEnds) else math.nan
 
     def follow(i: int) -> None:
@@ -202,7 +219,7 @@ def megno(
         along = tangent(problem, start, direction, t, level, LONGEST)
         steps[i] = along.steps
         length = np.concatenate([[0.0], along.lengths[:, 0]])
-        # ∫ s dL = tL − ∫ L ds, with sums for integrals, in units of the distance of samples.
+        # ∫ s dL = tL − ∫ L ds, with sums for integrals, in units of the sample spacing.
         number = np.arange(1, samples + 1)
         below = np.cumsum(0.5 * (length[1:] + length[:-1]))
         y = 2.0 * (length[1:] - below / number)
@@ -212,18 +229,18 @@ def megno(
         # The error of the steps, the scatter of stretches, and the remainder on tori, which no scatter shows.
         floor = (level.tolerance + 1e-15) * steps[i] / abs(duration)
         scatter = batch_error(volume[:, None], times)[1][0]
-        found[:, i] = y.mean(), *windows, max(scatter, float(np.abs(windows[1:] - windows[0]).max())) + floor
-        require_finite_rates(found[:, i])
+        numbers[:, i] = y.mean(), *windows, max(scatter, float(np.abs(windows[1:] - windows[0]).max())) + floor
+        require_finite_rates(numbers[:, i])
         grows = count <= _FEW and bool(y.mean() > CHAOTIC)
         no_chaos_because[i] = no_chaos(problem, start, along.states, float(t[-1]), level, grows)
 
     share(one, count, threads, _SHARE)
     return Megno(
         abs(duration),
-        frozen(found[0].copy()),
-        frozen(found[1].copy()),
-        frozen(found[5].copy()),
-        frozen(found[1:5].T.copy()),
+        frozen(numbers[0].copy()),
+        frozen(numbers[1].copy()),
+        frozen(numbers[5].copy()),
+        frozen(numbers[1:5].T.copy()),
         tuple(no_chaos_because),
         frozen(ends),
         tuple(reasons),

@@ -46,7 +46,7 @@ class MegnoMap(Result):
     ends : ndarray, shape (n, m)
         Time up to which each motion was followed; NaN where that is not known.
     t : float
-        Time span.
+        Time span, positive, in units T.
     level : str
         Name of the accuracy level.
     """
@@ -68,24 +68,45 @@ class MegnoMap(Result):
         Labels
             Both arrays over the cells.
         """
-        found = {"MEGNO": self.values, "kind": self.kind, "end": self.ends}
+        arrays = {"MEGNO": self.values, "kind": self.kind, "end": self.ends}
         facts = {"t": self.t, "level": self.level}
-        return labels_of_cells(self.names, self.x, self.y, found, facts, MEGNO="1", end="T")
+        return labels_of_cells(self.names, self.x, self.y, arrays, facts, MEGNO="1", end="T")
 
 
 def labels_of_cells(
     names: tuple[str, str],
     x: Array,
     y: Array,
-    found: Mapping[str, Array],
+    arrays: Mapping[str, Array],
     facts: Mapping[str, Any],
     **units: str,
 ) -> Labels:
-    """Return arrays (n, m) by name, labelled with both coordinates x (m,) and y (n,) of a section."""
+    """Return arrays over the cells of a window, labelled with both coordinates.
+
+    Parameters
+    ----------
+    names : (str, str)
+        Names of the coordinates, across and up.
+    x : ndarray, shape (m,)
+        Centres of the cells across.
+    y : ndarray, shape (n,)
+        Centres of the cells up.
+    arrays : mapping of str to ndarray, shape (n, m)
+        The arrays, by name.
+    facts : mapping of str to object
+        Facts about the computation, by name.
+    **units : str
+        Units of the arrays, by name.
+
+    Returns
+    -------
+    Labels
+        The labelled arrays.
+    """
     across, up = names
     return Labels(
         {up: ((up,), y), across: ((across,), x)},
-        {name: ((up, across), of) for name, of in found.items()},
+        {name: ((up, across), of) for name, of in arrays.items()},
         {**place_units(names), **units},
         facts,
     )
@@ -94,7 +115,7 @@ def labels_of_cells(
 def row_of_cells(
     section: PoincareSection, window: Window, cells: tuple[int, int], row: int, duration: float, accuracy: Accuracy
 ) -> Array:
-    """Return Ȳ, kind and end, shape (3, m), of the motions from the centres of one row of cells.
+    """Return MEGNO of the motions from the centres of one row of cells.
 
     Parameters
     ----------
@@ -111,6 +132,11 @@ def row_of_cells(
     accuracy : str or Level
         Accuracy level.
 
+    Returns
+    -------
+    ndarray, shape (3, m)
+        Ȳ, kind and end of each motion, see `MegnoMap`.
+
     Raises
     ------
     InvalidParameter
@@ -124,9 +150,9 @@ def row_of_cells(
     out = np.full((3, m), np.nan)
     out[1] = NOWHERE
     if there.any():
-        found = megno(section, states[there], duration, accuracy, threads=1)
-        kinds = np.where(np.array(found.reasons, bool), ENDED, found.chaotic + 2 * found.dissipative)
-        out[:, there] = found.values, kinds, found.ends
+        row_values = megno(section, states[there], duration, accuracy, threads=1)
+        kinds = np.where(np.array(row_values.reasons, bool), ENDED, row_values.chaotic + 2 * row_values.dissipative)
+        out[:, there] = row_values.values, kinds, row_values.ends
     return frozen(out)
 
 
@@ -161,8 +187,8 @@ def megno_map(
     Examples
     --------
     >>> from hess_mechanics import QuarticBody, megno_map, return_map
-    >>> found = megno_map(return_map(QuarticBody(2.0, 1.0, 1.0, 0.8), accuracy="standard"), cells=(6, 4), duration=50.0)
-    >>> found.values.shape, found.names
+    >>> chart = megno_map(return_map(QuarticBody(2.0, 1.0, 1.0, 0.8), accuracy="standard"), cells=(6, 4), duration=50.0)
+    >>> chart.values.shape, chart.names
     ((4, 6), ('q', 'p'))
     """
     section, level = map_.section, map_.accuracy
@@ -189,7 +215,18 @@ def megno_map(
 
 
 def require_plane(section: PoincareSection) -> None:
-    """Raise `InvalidParameter` if a section has only one coordinate."""
+    """Raise an error if a section has only one coordinate.
+
+    Parameters
+    ----------
+    section : PoincareSection
+        The section.
+
+    Raises
+    ------
+    InvalidParameter
+        If it has only one coordinate.
+    """
     if len(section.names) != 2:
         raise InvalidParameter(
             f"The section of this body has the single coordinate {section.names[0]}: this needs a section with two."
@@ -197,7 +234,25 @@ def require_plane(section: PoincareSection) -> None:
 
 
 def corners(section: PoincareSection, window: Window | None) -> Window:
-    """Return the corners of a window, by default those of the whole section.  Raises `InvalidParameter`."""
+    """Return the corners of a window of a section.
+
+    Parameters
+    ----------
+    section : PoincareSection
+        The section.
+    window : ((float, float), (float, float)) or None
+        The corners; None for the whole section.
+
+    Returns
+    -------
+    Window
+        The corners, the lower left one first.
+
+    Raises
+    ------
+    InvalidParameter
+        If they are not finite, out of order or outside of the section.
+    """
     require_plane(section)
     names, sides = section.names, section.window
     given = tuple(zip(*sides, strict=True)) if window is None else window
@@ -217,9 +272,26 @@ def corners(section: PoincareSection, window: Window | None) -> Window:
 
 
 def time_of(section: PoincareSection, turns: float) -> float:
-    """Return the time of `turns` typical turns: multiples of 1/ν times the slowness of the section.
+    """Return the time of some typical turns, in multiples of 1/ν times the slowness of the section.
 
-    ν is the median over points all over the section.  Raises `OutsideRegion` if no motion crosses it.
+    ν is the median over points all over the section.
+
+    Parameters
+    ----------
+    section : PoincareSection
+        The section.
+    turns : float
+        Number of turns.
+
+    Returns
+    -------
+    float
+        The time, in units of the problem.
+
+    Raises
+    ------
+    OutsideRegion
+        If no motion crosses the section.
     """
     (x0, x1), (y0, y1) = section.window
     x, y = np.meshgrid(centres(x0, x1, _TRIED), centres(y0, y1, _TRIED))

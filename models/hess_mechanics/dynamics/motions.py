@@ -48,16 +48,50 @@ _KNOWN: Mapping[str, Parameter] = {
 """Parameters and variables of the systems of the paper, by name."""
 _REDUCED = {one.name: one for one in known.REDUCED_OMEGA}
 _FREE = (-1e6, 1e6)
-"""Bounds of a number of a system of one's own."""
+"""Bounds of a number of a user's system."""
 
 
 def usual(of: Parameter, default: float, doc: str = "") -> Parameter:
-    """Return a parameter with another default; doc : replaces its description."""
+    """Return a parameter with another default.
+
+    Parameters
+    ----------
+    of : Parameter
+        The parameter.
+    default : float
+        The new default.
+    doc : str, default ""
+        New description; the old one if it is empty.
+
+    Returns
+    -------
+    Parameter
+        The changed parameter.
+    """
     return replace(of, default=default, doc=doc or of.doc)
 
 
 def whole(name: str, symbol: str, default: float, low: float, high: float, doc: str) -> Parameter:
-    """Return an integer parameter of a computation."""
+    """Return an integer parameter of a computation.
+
+    Parameters
+    ----------
+    name : str
+        Name in links, options and Python.
+    symbol : str
+        Symbol in formulas and pictures.
+    default : float
+        Default value.
+    low, high : float
+        Smallest and largest value.
+    doc : str
+        Meaning, in a few words.
+
+    Returns
+    -------
+    Parameter
+        The parameter.
+    """
     return Parameter(name, symbol, doc, default, (low, high), 1.0, (low, high), doc, "Computation", whole=True)
 
 
@@ -67,15 +101,24 @@ class Motions:
 
     Attributes
     ----------
-    name : name in the catalogue.
-    title : its name in words.
-    system : the equations of motion.
-    parameters : of the body, and of the energy and plane of a section; their defaults are the example.
-    place : where the motion starts: the state, or the coordinates of a point of the section.
-    start : returns body and state from the values of both.  Raises `ModelError`.
-    section : returns the section from the values of the parameters; None for motions that start anywhere.
-    source : label of the equations in the paper.
-    period : number of returns of the saddle near the place, for examples.
+    name : str
+        Name in the catalogue.
+    title : str
+        Name in words.
+    system : System
+        The equations of motion.
+    parameters : tuple of Parameter
+        Parameters of the body, and of the energy and plane of a section; their defaults are the example.
+    place : tuple of Parameter
+        Where the motion starts: the state, or the coordinates of a point of the section.
+    start : callable
+        Function from the values of both to body and state; it raises a `ModelError` if there is no motion.
+    section : callable or None, optional
+        Function from the values of the parameters to the section; None for motions that start anywhere.
+    source : str, default ""
+        Label of the equations in the paper.
+    period : int, default 1
+        Number of returns of the saddle near the place, for examples.
     """
 
     name: str
@@ -90,17 +133,30 @@ class Motions:
 
 
 def _parameter(system: System, name: str, default: float) -> Parameter:
-    """Return the parameter of this name, without a description for a system of one's own."""
+    """Return the parameter of this name, without a description for a user's system."""
     own = _KNOWN if system.labels else {}
-    found = (_REDUCED if system.name == "hess" else {}).get(name) or own.get(name)
-    if found is not None:
-        return usual(found, default)
+    parameter = (_REDUCED if system.name == "hess" else {}).get(name) or own.get(name)
+    if parameter is not None:
+        return usual(parameter, default)
     reach = max(1.0, 2.0 * abs(default))
     return Parameter(name, name, name, default, (-reach, reach), reach / 100.0, _FREE)
 
 
 def body_parameters(system: System, *values: float) -> tuple[Parameter, ...]:
-    """Return the parameters of a system with these defaults, or with those of its example."""
+    """Return the parameters of a system with given defaults.
+
+    Parameters
+    ----------
+    system : System
+        The system.
+    *values : float
+        Defaults; without any those of the example.
+
+    Returns
+    -------
+    tuple of Parameter
+        One parameter for each parameter of the system.
+    """
     return tuple(
         _parameter(system, name, value)
         for name, value in zip(system.parameters, values or system.example[1], strict=True)
@@ -108,7 +164,18 @@ def body_parameters(system: System, *values: float) -> tuple[Parameter, ...]:
 
 
 def anywhere(system: System) -> Motions:
-    """Return the motions of a system that start at any state, by default at that of its example."""
+    """Return the motions of a system that start at any state, by default at that of its example.
+
+    Parameters
+    ----------
+    system : System
+        The system.
+
+    Returns
+    -------
+    Motions
+        The motions.
+    """
     names = system.arguments
     place = tuple(_parameter(system, name, value) for name, value in zip(names, system.example[0], strict=True))
 
@@ -132,7 +199,32 @@ def on_section(
     source: str = "",
     period: int = 1,
 ) -> Motions:
-    """Return the motions from the points of a section; the arguments are those of `Motions`."""
+    """Return the motions that start at the points of a section; the arguments are those of `Motions`.
+
+    Parameters
+    ----------
+    name : str
+        Name in the catalogue.
+    title : str
+        Name in words.
+    parameters : tuple of Parameter
+        Parameters of the body, of the energy and of the plane.
+    place : tuple of Parameter
+        Coordinates of the point.
+    section : callable
+        Function from the values of the parameters to the section.
+    system : System
+        The equations of motion.
+    source : str, default ""
+        Label of the equations in the paper.
+    period : int, default 1
+        Number of returns of the saddle near the default point.
+
+    Returns
+    -------
+    Motions
+        The motions.
+    """
 
     def start(values: Values) -> tuple[Body, Start]:
         of = section(values)
@@ -142,7 +234,18 @@ def on_section(
 
 
 def section_of(system: System) -> Motions | None:
-    """Return the motions from the default section of a system, at the integrals of its example; None without one."""
+    """Return the motions from the default section of a system, at the integrals of its example.
+
+    Parameters
+    ----------
+    system : System
+        The system.
+
+    Returns
+    -------
+    Motions or None
+        The motions; None if the system has no such section.
+    """
     from hess_mechanics.dynamics.variable_section import VariableSection, variable_section
 
     if len(system.variables) < 2:

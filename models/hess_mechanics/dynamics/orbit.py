@@ -53,7 +53,25 @@ _SHORTEST = 1e-290
 
 
 def checked_times(times: float | Sequence[float] | Array) -> Array:
-    """Return a validated copy of the times (n,).  Raises `InvalidParameter`, `WorkLimit`."""
+    """Return a validated copy of times.
+
+    Parameters
+    ----------
+    times : float or array_like, shape (n,)
+        Times, monotonic from 0.
+
+    Returns
+    -------
+    ndarray, shape (n,)
+        The times.
+
+    Raises
+    ------
+    InvalidParameter
+        If a time is not finite, or they are not monotonic from 0.
+    WorkLimit
+        If there are more than `MAX_SAMPLES`.
+    """
     t = np.array(times, dtype=float, ndmin=1)
     if t.ndim != 1 or t.size == 0 or not np.all(np.isfinite(t)):
         raise InvalidParameter("The times must be one or more finite numbers.")
@@ -66,7 +84,25 @@ def checked_times(times: float | Sequence[float] | Array) -> Array:
 
 
 def checked_span(duration: float, what: str) -> float:
-    """Return the time span of the quantity `what`, validated.  Raises `InvalidParameter`."""
+    """Return a validated duration.
+
+    Parameters
+    ----------
+    duration : float
+        Time, nonzero; negative: backward.
+    what : str
+        Name of the quantity that needs it, for the message.
+
+    Returns
+    -------
+    float
+        The duration.
+
+    Raises
+    ------
+    InvalidParameter
+        If it is 0, too short or not finite.
+    """
     if not _SHORTEST <= abs(duration) < math.inf:
         raise InvalidParameter(
             f"The time span of {what} must be a finite nonzero number, of {_SHORTEST:g} or "
@@ -76,9 +112,23 @@ def checked_span(duration: float, what: str) -> float:
 
 
 def require_steps(steps: int, too_long: str, where: Callable[[], WorkLimit | None] = lambda: None) -> None:
-    """Raise `WorkLimit` with the message `too_long` if a kernel ran out of steps, `MotionEnds` if it stopped.
+    """Raise an error if a kernel did not reach its last time.
 
-    where : returns the error of a motion that stopped, with its place; None if only a neighbour did.
+    Parameters
+    ----------
+    steps : int
+        Steps of the kernel, or one of its negative codes.
+    too_long : str
+        Message for a kernel that ran out of steps.
+    where : callable, optional
+        Function that returns the error of a motion that stopped, with its place; None if only a neighbour did.
+
+    Raises
+    ------
+    WorkLimit
+        If the kernel ran out of steps.
+    MotionEnds
+        If the motion stopped.
     """
     if steps == STEP_LIMIT_REACHED:
         raise WorkLimit(too_long)
@@ -90,15 +140,46 @@ def require_steps(steps: int, too_long: str, where: Callable[[], WorkLimit | Non
 
 
 def end_of(problem: Problem, state: Array, end: float) -> WorkLimit | None:
-    """Return the error of the motion from `state` (d,) if it stops before the scaled time `end`, else None."""
+    """Return the error of a motion that stops before a given time.
+
+    Parameters
+    ----------
+    problem : Problem
+        The equations of motion and their units.
+    state : ndarray, shape (d,)
+        State at time 0, in scaled units.
+    end : float
+        Time, in scaled units.
+
+    Returns
+    -------
+    WorkLimit or None
+        The error; None if the motion reaches that time.
+    """
     steps, reached, out = followed(problem, state, np.array([end]))
     return unfinished(problem, steps, reached, out[0], MAX_STEPS) if steps < 0 else None
 
 
 def followed(problem: Problem, state: Array, times: Array) -> tuple[int, float, Array]:
-    """Return the steps, the time reached and the states (n, d) of one run at `precise`, from `state` (d,), scaled.
+    """Return one run of a motion at the level `precise`, in scaled units.
 
-    Beyond the time reached the states are 0.
+    Parameters
+    ----------
+    problem : Problem
+        The equations of motion and their units.
+    state : ndarray, shape (d,)
+        State at time 0.
+    times : ndarray, shape (n,)
+        Times, monotonic from 0.
+
+    Returns
+    -------
+    steps : int
+        Number of steps, or a negative code if the motion stopped.
+    end : float
+        Time reached.
+    states : ndarray, shape (n, d)
+        The states; 0 beyond the time reached.
     """
     system, out = problem.system, np.zeros((times.size, state.size))
     longest = system.longest_step(PRECISE, float(times[-1]))
@@ -163,12 +244,46 @@ def unfinished(problem: Problem, code: int, t: float, state: Array, max_steps: i
 
 
 def as_max_steps(max_steps: int) -> int:
-    """Return a limit of the number of steps.  Raises `InvalidParameter`."""
+    """Return a validated limit on the number of steps.
+
+    Parameters
+    ----------
+    max_steps : int
+        The limit, at least 1.
+
+    Returns
+    -------
+    int
+        The limit.
+
+    Raises
+    ------
+    InvalidParameter
+        If it is not a positive integer.
+    """
     return as_integer("max_steps", max_steps, 1, _MOST_STEPS)
 
 
 def as_max_step(max_step: float | None, problem: Problem) -> float:
-    """Return the longest step in scaled time; ∞ if none is given.  Raises `InvalidParameter`."""
+    """Return the longest step in scaled time.
+
+    Parameters
+    ----------
+    max_step : float or None
+        Longest step in the user's unit, positive; None for no limit.
+    problem : Problem
+        The equations of motion and their units.
+
+    Returns
+    -------
+    float
+        The longest step; ∞ if there is no limit.
+
+    Raises
+    ------
+    InvalidParameter
+        If it is not positive.
+    """
     if max_step is None:
         return math.inf
     if not max_step > 0.0:
@@ -177,14 +292,36 @@ def as_max_step(max_step: float | None, problem: Problem) -> float:
 
 
 def require_finite_states(states: Array) -> None:
-    """Raise `InvalidParameter` if a state is not finite."""
+    """Raise an error if a state is not finite.
+
+    Parameters
+    ----------
+    states : ndarray
+        The states.
+
+    Raises
+    ------
+    InvalidParameter
+        If a number is not finite.
+    """
     if not np.all(np.isfinite(states)):
         raise InvalidParameter("The motion exceeded the range of double precision: choose less extreme parameters.")
 
 
-def require_finite_neighbours(*found: Array) -> None:
-    """Raise `WorkLimit` if the variational equations have overflowed."""
-    if not all(np.all(np.isfinite(one)) for one in found):
+def require_finite_neighbours(*results: Array) -> None:
+    """Raise an error if the variational equations have overflowed.
+
+    Parameters
+    ----------
+    *results : ndarray
+        Results of these equations.
+
+    Raises
+    ------
+    WorkLimit
+        If a number is not finite.
+    """
+    if not all(np.all(np.isfinite(one)) for one in results):
         raise WorkLimit(
             "Nearby orbits separate beyond the range of double precision: choose a shorter time span, or less "
             "extreme parameters."
@@ -192,7 +329,18 @@ def require_finite_neighbours(*found: Array) -> None:
 
 
 def require_finite_rates(*rates: Array | float) -> None:
-    """Raise `InvalidParameter` if a rate has overflowed."""
+    """Raise an error if a rate has overflowed.
+
+    Parameters
+    ----------
+    *rates : ndarray or float
+        The rates.
+
+    Raises
+    ------
+    InvalidParameter
+        If a rate is not finite.
+    """
     if not all(np.all(np.isfinite(one)) for one in rates):
         raise InvalidParameter(
             "Rates over this time span exceed the range of double precision: choose a longer one, or "
@@ -201,7 +349,24 @@ def require_finite_rates(*rates: Array | float) -> None:
 
 
 def drift_of(system: System, start: Array, states: Array, parameters: Array) -> dict[str, float]:
-    """Return the largest drift of each integral along an orbit, see `drifts_along`."""
+    """Return the largest drift of each integral along an orbit, see `drifts_along`.
+
+    Parameters
+    ----------
+    system : System
+        The equations of motion.
+    start : ndarray, shape (d,) or (n, d)
+        Initial state of one orbit or of many.
+    states : ndarray, shape (m, d) or (n, m, d)
+        States along the orbits.
+    parameters : ndarray, shape (q,)
+        Parameters of the system.
+
+    Returns
+    -------
+    dict of str to float
+        The drifts, by the names of the integrals.
+    """
     drifts = drifts_along(system, start, states, parameters)
     return {name: float(np.max(drift, initial=0.0)) for name, drift in drifts.items()}
 
@@ -253,7 +418,7 @@ def solve(
     start : array_like, shape (d,)
         Initial state at time 0: the variables of the body's system, in their order.
     times : float or array_like, shape (n,)
-        Times of the result, monotonic from 0 forward or backward; or a single number, the end of the time span.
+        Times of the result, in units T, monotonic from 0 forward or backward; or a single number, the last time.
     accuracy : str or Level, default "precise"
         Accuracy level: "draft", "standard", "precise", "reference", or a level of your own.
     samples : int, default 500
@@ -294,8 +459,8 @@ def solve(
     Examples
     --------
     >>> from hess_mechanics import SuslovBody, solve, systems
-    >>> found = solve(SuslovBody(2.0, 1.0, 0.3, 0.5, 0.3, -0.5, 1.0), (0.8, -0.4, 0.6, 0.0, 0.8), 10.0)
-    >>> found.states.shape, str(found.status), found.variables
+    >>> result = solve(SuslovBody(2.0, 1.0, 0.3, 0.5, 0.3, -0.5, 1.0), (0.8, -0.4, 0.6, 0.0, 0.8), 10.0)
+    >>> result.states.shape, str(result.status), result.variables
     ((500, 5), 'ok', ('ω1', 'ω2', 'γ1', 'γ2', 'γ3'))
     >>> solve(*systems()["suslov"].example_motion, [0.0, 1.0, 2.0], "draft").states.shape
     (3, 5)
@@ -332,10 +497,10 @@ def solve(
             problems[1] = nearby.rounded(out)
         return out, steps
 
-    found = measured(level, run, lambda one, other: float(np.abs(one - other).max()))
-    states = found.result * problem.scale
+    result = measured(level, run, lambda one, other: float(np.abs(one - other).max()))
+    states = result.result * problem.scale
     drift = drift_of(body.system, np.asarray(start, float), states, np.asarray(body.parameters, float))
-    absolute = found.safety * float((np.abs(found.result - found.other) * problem.scale).max()) + 2e-16 * max(
+    absolute = result.safety * float((np.abs(result.result - result.other) * problem.scale).max()) + 2e-16 * max(
         1.0, problem.nu
     )
     return Orbit(
@@ -343,10 +508,10 @@ def solve(
         level.name,
         frozen(times),
         frozen(states),
-        found.status,
+        result.status,
         absolute,
         drift,
-        found.cost,
+        result.cost,
         variables=body.system.variables,
         angles=body.system.angles,
     )

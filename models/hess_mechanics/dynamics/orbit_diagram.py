@@ -1,9 +1,10 @@
 """Orbit diagrams of a section over a parameter, and cascades of period doublings.
 
-An orbit is followed from value to value, each time from its last point at the value before, so that it stays with its
-attractor as long as there is one; the way back may differ.  Alternatively it starts again at the same point.  The map
-backward in time shows repellers.  Periods in a diagram are read from the orbit; period doublings are computed: there an
-orbit found by Newton's method has the multiplier −1.
+An orbit diagram shows where an orbit settles.  A bifurcation diagram in the strict sense also shows unstable orbits:
+`continuation.branch_from` computes its branches.  An orbit is followed from value to value, each time from its last
+point at the value before, so that it stays with its attractor as long as there is one; the way back may differ.
+Alternatively it starts again at the same point.  The map backward in time shows repellers.  Periods in a diagram are
+read from the orbit; period doublings are computed: there an orbit found by Newton's method has the multiplier −1.
 """
 
 from __future__ import annotations
@@ -70,7 +71,20 @@ class Followed(Map, Protocol):
         """True if the map preserves a volume and has no attractors."""
 
     def orbit(self, place: Array, count: int) -> Array:
-        """Return the next `count` points (n, d) of the orbit; fewer if the motion stays away."""
+        """Return the next points of an orbit.
+
+        Parameters
+        ----------
+        place : ndarray, shape (d,)
+            Point where the orbit starts.
+        count : int
+            Number of points.
+
+        Returns
+        -------
+        ndarray, shape (n, d)
+            The points; n < `count` if the motion does not come back.
+        """
 
 
 @dataclass(frozen=True)
@@ -128,11 +142,30 @@ class Diagram(Result):
 def period_of(
     turns: Sequence[float], places: Array, promise: float = 0.0, most: int = MAX_PERIOD, same: float = SAME
 ) -> tuple[int, bool]:
-    """Return the least period of the points (n, d) of an orbit, 0 if none is found, and True if the orbit has settled.
+    """Return the least period that the points of an orbit show, and whether the orbit has settled.
 
-    A period is found if the orbit shows it at least three times.  An orbit that closes better in its second half is
-    still settling.  `promise` is the error of the points, `most` the largest period tried; points closer than `same`
-    count as equal: this is what the orbit shows, and only Newton's method tells whether it is periodic.
+    A period counts if the orbit shows it at least three times.  An orbit that closes better in its second half is still
+    settling.  Only Newton's method tells whether the orbit is periodic.
+
+    Parameters
+    ----------
+    turns : sequence of float
+        Period of each coordinate, ∞ if it is not an angle.
+    places : ndarray, shape (n, d)
+        Points of the orbit.
+    promise : float, default 0.0
+        Error of the points.
+    most : int, default MAX_PERIOD
+        Largest period tried.
+    same : float, default SAME
+        Distance within which two points count as equal.
+
+    Returns
+    -------
+    period : int
+        The period; 0 if there is none.
+    settled : bool
+        True if the orbit has settled.
     """
     most = min(most, len(places) // 3)
     if most < 1:
@@ -158,7 +191,7 @@ def diagram_over(
     values: Sequence[float] | Array,
     start: Sequence[float] | Array,
     transient: int = 200,
-    kept: int = 64,
+    crossings: int = 64,
     follow: bool = True,
     again: Sequence[float] | Array | None = None,
 ) -> Diagram:
@@ -175,10 +208,10 @@ def diagram_over(
     start : array_like, shape (d,)
         Point where the orbit starts.
     transient : int, default 200
-        Largest number of crossings discarded at each value.  The points are kept as soon as the orbit has come a
+        Largest number of crossings discarded at each value.  The transient ends as soon as the orbit has come a
         thousand times closer to a periodic one than it was.
-    kept : int, default 64
-        Crossings kept at each value.
+    crossings : int, default 64
+        Crossings shown at each value.
     follow : bool, default True
         Start each value from the last point of the one before; from `again` if that fails.
     again : array_like, shape (d,), optional
@@ -199,10 +232,10 @@ def diagram_over(
     along = np.array(values, float, ndmin=1)
     if not (along.ndim == 1 and np.all(np.isfinite(along)) and 1 <= along.size <= MAX_VALUES):
         raise InvalidParameter(f"An orbit diagram needs 1 to {MAX_VALUES} finite values of its parameter.")
-    if not (kept >= 1 and transient >= 0 and transient + kept <= MAX_CROSSINGS):
+    if not (crossings >= 1 and transient >= 0 and transient + crossings <= MAX_CROSSINGS):
         raise WorkLimit(f"At most {MAX_CROSSINGS} crossings per value are allowed: choose fewer.")
     first = np.array(start, float)
-    anew = first if again is None else np.array(again, float)
+    restart = first if again is None else np.array(again, float)
     place = first
     places: list[Array] = []
     periods, conservative = np.zeros(along.size, np.int64), np.zeros(along.size, bool)
@@ -211,30 +244,30 @@ def diagram_over(
     level = ""
     for i, value in enumerate(along.tolist()):
         go_on()
-        found = np.empty((0, first.size))
+        points = np.empty((0, first.size))
         try:
             map_ = family(value)
             names, level = map_.names, map_.level
             conservative[i] = map_.preserves_volume
-            for origin in (place, anew) if follow else (anew,):
+            for origin in (place, restart) if follow else (restart,):
                 try:
-                    orbit = _after_transient(map_, origin, transient, kept)
+                    orbit = _after_transient(map_, origin, transient, crossings)
                 except OutsideRegion:
                     continue
-                if len(orbit) == kept:
-                    found = orbit
+                if len(orbit) == crossings:
+                    points = orbit
                     break
         except WorkLimit:
             raise
         except ModelError:
             # At this value there is no such body, or no motion: the diagram has a gap.
             pass
-        places.append(frozen(found.copy()))
-        if len(found):
-            periods[i], _ = period_of(map_.turns, found, map_.promise)
-            ends[i] = place = found[-1]
+        places.append(frozen(points.copy()))
+        if len(points):
+            periods[i], _ = period_of(map_.turns, points, map_.promise)
+            ends[i] = place = points[-1]
         else:
-            place = anew
+            place = restart
     return Diagram(
         parameter,
         names,
@@ -247,15 +280,15 @@ def diagram_over(
     )
 
 
-def _after_transient(map_: Followed, origin: Array, transient: int, kept: int) -> Array:
-    """Return `kept` points of an orbit after its transient; fewer if the motion stays away."""
+def _after_transient(map_: Followed, origin: Array, transient: int, crossings: int) -> Array:
+    """Return `crossings` points of an orbit after its transient; fewer if the motion stays away."""
     orbit = np.asarray(origin, float)[None]
     while len(orbit) <= transient and not _has_approached(map_, orbit):
         piece = map_.orbit(orbit[-1], min(_WATCHED, transient + 1 - len(orbit)))
         if not len(piece):
             return piece
         orbit = np.concatenate([orbit, piece])
-    return map_.orbit(orbit[-1], kept)
+    return map_.orbit(orbit[-1], crossings)
 
 
 def _has_approached(map_: Followed, orbit: Array) -> bool:
@@ -269,11 +302,20 @@ def _has_approached(map_: Followed, orbit: Array) -> bool:
 
 
 def first_doubling(parts: Sequence[Diagram]) -> tuple[float, Array, float] | None:
-    """Return the first doubling of the smallest period in a diagram, or None if no period doubles between neighbours.
+    """Return the first doubling of the smallest period in a diagram.
 
     Next to a doubling orbits settle slowly, so that a few values between may have no period.
-    parts : the parts of the diagram, in order.  They are searched forward, and backward if nothing is found.
-    The result is the value before the doubling, the points (m, d) there, and the last value in that direction.
+
+    Parameters
+    ----------
+    parts : sequence of Diagram
+        Parts of the diagram, in order.  They are searched forward, and backward if nothing is found.
+
+    Returns
+    -------
+    (float, ndarray, float), or None
+        Value before the doubling, the points (m, d) there, and the last value in that direction; None if no period
+        doubles between neighbours.
     """
     known = [
         one for part in parts for one in zip(part.values.tolist(), part.periods.tolist(), part.places, strict=True)
@@ -376,21 +418,48 @@ class Cascade(Result):
 def cascade(
     family: Callable[[float], Map], parameter: str, orbit: PeriodicOrbit, start: float, end: float, doublings: int = 6
 ) -> Cascade:
-    """Return the period doublings of an orbit of the map at λ = `start`, towards λ = `end`.
+    """Return the period doublings of a periodic orbit over a parameter λ.
 
     The orbit is continued up to its flip; beyond it, Newton's method finds the orbit of twice the period in the
-    direction in which it is born; and so on.  Raises as `branch_from` for the first branch.
+    direction in which it is born; and so on.
+
+    Parameters
+    ----------
+    family : callable
+        Function from λ to the map.
+    parameter : str
+        Name of λ.
+    orbit : PeriodicOrbit
+        A periodic orbit at λ = `start`.
+    start, end : float
+        First and last value of λ.
+    doublings : int, default 6
+        Largest number of doublings.
+
+    Returns
+    -------
+    Cascade
+        The doublings with their errors.
+
+    Raises
+    ------
+    InvalidParameter
+        If the range is empty or not finite.
+    NotConverged
+        If the first branch cannot be started.
+    WorkLimit
+        If a map needs too many steps.
     """
-    found: list[Bifurcation] = []
+    flips: list[Bifurcation] = []
     direction = math.copysign(1.0, end - start)
     at, far = start, end
     ended = f"After {doublings} doublings."
-    while len(found) < doublings:
+    while len(flips) < doublings:
         go_on()
         try:
             branch = branch_from(family, orbit, parameter, at, far, _POINTS, until="flip")
         except NotConverged as error:
-            if not found:
+            if not flips:
                 raise
             ended = str(error)
             break
@@ -398,27 +467,27 @@ def cascade(
         if flip is None:
             ended = f"The orbit of period {orbit.period} keeps its period: {branch.end_reason}"
             break
-        found.append(flip)
-        if len(found) == doublings:
+        flips.append(flip)
+        if len(flips) == doublings:
             break
         if 2 * orbit.period > MAX_PERIOD:
             ended = f"Orbits are looked for up to period {MAX_PERIOD}."
             break
-        step = abs(flip.value - (found[-2].value if len(found) > 1 else start)) / _GROWTH
+        step = abs(flip.value - (flips[-2].value if len(flips) > 1 else start)) / _GROWTH
         born = _doubled(family, flip, direction * step)
         if born is None:
             ended = f"Beyond {parameter} = {flip.value:.9g} no orbit of period {2 * orbit.period} is found."
             break
         at, orbit = born
         # The first step says little about the distance to the next doubling.
-        far = end if len(found) == 1 else flip.value + direction * 4.0 * step
+        far = end if len(flips) == 1 else flip.value + direction * 4.0 * step
     return Cascade(
         parameter,
         orbit.names,
-        frozen(np.array([one.value for one in found])),
-        frozen(np.array([one.error for one in found])),
-        frozen(np.array([len(one.places) for one in found], np.int64)),
-        tuple(one.places for one in found),
+        frozen(np.array([one.value for one in flips])),
+        frozen(np.array([one.error for one in flips])),
+        frozen(np.array([len(one.places) for one in flips], np.int64)),
+        tuple(one.places for one in flips),
         ended,
         orbit.level,
     )

@@ -73,32 +73,118 @@ class Map(Protocol):
         """True if the map cannot be computed more accurately."""
 
     def image(self, place: Array) -> Array:
-        """Return P(x) at a point (d,) or at several points (m, d), in the same shape."""
+        """Return P(x) at one point or several.
+
+        Parameters
+        ----------
+        place : ndarray, shape (d,) or (m, d)
+            The points.
+
+        Returns
+        -------
+        ndarray, shape (d,) or (m, d)
+            Their images.
+        """
 
     def after(self, place: Array, count: int) -> Array:
-        """Return P^count(x) at a point (d,) or at several points (m, d), in the same shape."""
+        """Return the images after several iterations.
+
+        Parameters
+        ----------
+        place : ndarray, shape (d,) or (m, d)
+            The points.
+        count : int
+            Number of iterations.
+
+        Returns
+        -------
+        ndarray, shape (d,) or (m, d)
+            The images P^count(x).
+        """
 
     def with_derivative(self, place: Array) -> tuple[Array, Array]:
-        """Return P(x), and DP(x), shape (d, d) or (m, d, d)."""
+        """Return P(x) and its derivative at one point or several.
+
+        Parameters
+        ----------
+        place : ndarray, shape (d,) or (m, d)
+            The points.
+
+        Returns
+        -------
+        image : ndarray, shape (d,) or (m, d)
+            The images P(x).
+        derivative : ndarray, shape (d, d) or (m, d, d)
+            The derivatives DP(x).
+        """
 
     def inverse(self) -> Map:
-        """Return P⁻¹."""
+        """Return the inverse map P⁻¹.
+
+        Returns
+        -------
+        Map
+            The inverse.
+        """
 
     def symmetries_of(self, places: Array, near: float) -> Sequence[str]:
-        """Return the names of the symmetries that take an orbit (m, d) to itself, to within a distance."""
+        """Return the symmetries that take an orbit to itself.
+
+        Parameters
+        ----------
+        places : ndarray, shape (m, d)
+            Points of the orbit.
+        near : float
+            Distance within which two points count as equal.
+
+        Returns
+        -------
+        sequence of str
+            Names of the symmetries.
+        """
 
     def tighter(self) -> Map:
-        """Return the same map, computed more accurately and with other roundings."""
+        """Return the same map, computed more accurately and with other roundings.
+
+        Returns
+        -------
+        Map
+            The more accurate map.
+        """
 
 
 def place_units(names: Sequence[str]) -> dict[str, str]:
-    """Return the units of the coordinates of a section, by name; canonical coordinates have none."""
+    """Return the units of the coordinates of a section; canonical coordinates have none.
+
+    Parameters
+    ----------
+    names : sequence of str
+        Names of the coordinates.
+
+    Returns
+    -------
+    dict of str to str
+        Units by name.
+    """
     units = {"l": "rad", "L/G": "1", "ψ": "rad", "δ": "rad", "φ": "rad"}
     return {name: units[name] for name in names if name in units}
 
 
 def apart(turns: Sequence[float], a: Array, b: Array) -> Array:
-    """Return a − b (..., d), with differences of angles reduced to half a turn."""
+    """Return the difference a − b, with differences of angles reduced to half a turn.
+
+    Parameters
+    ----------
+    turns : sequence of float
+        Period of each coordinate, ∞ if it is not an angle.
+    a, b : ndarray, shape (..., d)
+        Points; their shapes are broadcast.
+
+    Returns
+    -------
+    ndarray, shape (..., d)
+        The differences.
+    """
     difference: Array = np.asarray(a, float) - np.asarray(b, float)
     for i, turn in enumerate(turns):
         if math.isfinite(turn):
@@ -108,15 +194,25 @@ def apart(turns: Sequence[float], a: Array, b: Array) -> Array:
 
 @dataclass(frozen=True)
 class Shot:
-    """Points (m, d), residuals P(x_i) − x_(i+1) (m, d) and derivatives DP(x_i) (m, d, d) of multiple shooting."""
+    """Equations of multiple shooting for a periodic orbit.
+
+    Attributes
+    ----------
+    places : ndarray, shape (m, d)
+        Points x_i.
+    residuals : ndarray, shape (m, d)
+        Residuals P(x_i) − x_(i+1).
+    derivatives : ndarray, shape (m, d, d)
+        Derivatives DP(x_i).
+    """
 
     places: Array
-    left: Array
+    residuals: Array
     derivatives: Array
 
     @property
     def jacobian(self) -> Array:
-        """Jacobian J (m d, m d) of the residuals."""
+        """Jacobian J of the residuals, shape (m d, m d)."""
         m, d = self.places.shape
         J = np.zeros((m, d, m, d))
         for i in range(m):
@@ -125,32 +221,72 @@ class Shot:
         return np.asarray(J.reshape(m * d, m * d))
 
     def step(self, family: float = _FAMILY) -> Array:
-        """Return Newton's step −J⁻¹ times the residuals, (m, d); if J is singular, the shortest step.
+        """Return Newton's step; if the Jacobian is singular, the shortest step.
 
-        Singular values below `family`, relative to the largest one or 1, count as 0.
+        Parameters
+        ----------
+        family : float, default _FAMILY
+            Singular values below this, relative to the largest one or 1, count as 0.
+
+        Returns
+        -------
+        ndarray, shape (m, d)
+            The step −J⁻¹ times the residuals.
         """
         u, values, v = np.linalg.svd(self.jacobian)
-        kept = values > family * max(1.0, float(values[0]))
-        solution = -(v[kept].T / values[kept]) @ (u.T[kept] @ self.left.ravel())
+        nonzero = values > family * max(1.0, float(values[0]))
+        solution = -(v[nonzero].T / values[nonzero]) @ (u.T[nonzero] @ self.residuals.ravel())
         return np.asarray(solution.reshape(self.places.shape))
 
     @property
     def size(self) -> float:
         """Largest residual."""
-        return float(np.abs(self.left).max())
+        return float(np.abs(self.residuals).max())
 
 
 def shoot(map_: Map, places: Array) -> Shot:
-    """Return the map and its derivatives at all points (m, d).  Raises as the map."""
+    """Return the equations of multiple shooting at given points.
+
+    Parameters
+    ----------
+    map_ : Map
+        The map.
+    places : ndarray, shape (m, d)
+        The points.
+
+    Returns
+    -------
+    Shot
+        Residuals and derivatives.
+
+    Raises
+    ------
+    ModelError
+        If the map has no image at a point.
+    """
     images, derivatives = map_.with_derivative(places)
     return Shot(places, apart(map_.turns, images, np.roll(places, -1, axis=0)), derivatives)
 
 
 def multipliers_of(derivatives: Array) -> tuple[Complex, float, float]:
-    """Return the eigenvalues (d,) of the product M of the derivatives (m, d, d), its trace and its determinant.
+    """Return the multipliers of a periodic orbit, and trace and determinant of their matrix.
 
-    The largest eigenvalue comes first.  The smaller one comes from the product of the determinants, because M itself
-    loses it if the larger one is large.
+    The matrix M is the product of the derivatives.  Its smaller eigenvalue comes from the product of the determinants,
+    because M itself loses it if the other one is large.
+
+    Parameters
+    ----------
+    derivatives : ndarray, shape (m, d, d)
+        Derivatives along the orbit, d = 1 or 2.
+
+    Returns
+    -------
+    multipliers : ndarray of complex, shape (d,)
+        Eigenvalues of M, the largest first.
+    trace : float
+        Trace of M.
+    determinant : float
+        Determinant of M.
     """
     M = np.eye(derivatives.shape[1])
     for one in derivatives:
@@ -187,7 +323,20 @@ def _multiplier_error(derivatives: Array, better: Array) -> float:
 
 
 def kind_of(multipliers: Complex, error: float) -> str:
-    """Return the type of an orbit with these multipliers; borders closer than the error count as reached."""
+    """Return the type of an orbit from its multipliers.
+
+    Parameters
+    ----------
+    multipliers : ndarray of complex, shape (d,)
+        The multipliers, the largest first.
+    error : float
+        Their error; borders between types that are closer count as reached.
+
+    Returns
+    -------
+    str
+        The type, see `PeriodicOrbit`.
+    """
     sizes = np.abs(multipliers)
     if np.any(np.abs(multipliers - 1.0) <= error):
         return "parabolic"
@@ -221,9 +370,9 @@ class PeriodicOrbit(Result):
         focus", "unstable focus", "elliptic", "parabolic" (multiplier 1: a fold or a family) or "parabolic with
         reflection" (−1).
     error_estimate : float
-        Estimated error of the points.
+        Estimated error of the points, ≥ 0, in units of the coordinates.
     multiplier_error : float
-        Estimated error of the multipliers.
+        Estimated error of the multipliers, ≥ 0.
     condition : float
         Condition number of Newton's equations.
     iterations : int
@@ -235,9 +384,9 @@ class PeriodicOrbit(Result):
     symmetric : tuple of str
         Symmetries of the map that take the orbit to itself.
     time : float
-        Time of one period; NaN if the map does not know it.
+        Time of one period, in units T; NaN if the map does not know it.
     time_error : float
-        Estimated error of this time.
+        Estimated error of this time, ≥ 0, in units T.
     """
 
     names: tuple[str, ...]
@@ -371,12 +520,12 @@ def find_periodic(
     others: set[int] = set()
     for guess in _guesses(map_, places[0], period, most, near):
         try:
-            found = _measured(map_, *_converged(map_, guess))
+            orbit = _measured(map_, *_converged(map_, guess))
         except NotConverged:
             continue
-        if period in (None, found.period):
-            return found
-        others.add(found.period)
+        if period in (None, orbit.period):
+            return orbit
+        others.add(orbit.period)
     if period is None:
         raise NotConverged(
             f"Newton's method finds no periodic orbit up to period {most} from here: start closer to one, "
@@ -413,7 +562,27 @@ def _closeness(map_: Map, a: Array, b: Array) -> Array:
 
 
 def images_of(map_: Map, place: Array, count: int) -> Array:
-    """Return the point and its images, as far as it returns.  Raises `NotConverged` if it never does."""
+    """Return a point and its images, as far as they exist.
+
+    Parameters
+    ----------
+    map_ : Map
+        The map.
+    place : ndarray, shape (d,)
+        The point.
+    count : int
+        Number of iterations.
+
+    Returns
+    -------
+    ndarray, shape (n, d)
+        The point and its images, n ≤ count + 1.
+
+    Raises
+    ------
+    NotConverged
+        If the point itself has no image.
+    """
     orbit = [place]
     try:
         for _ in range(count):
@@ -439,7 +608,10 @@ def _least_period(map_: Map, places: Array, error: float) -> int:
 
 
 def _measured(map_: Map, shot: Shot, iterations: int) -> PeriodicOrbit:
-    """Return the orbit with its error, measured with a more accurate map, which takes over on a broken promise."""
+    """Return the orbit with its error, measured with a more accurate map.
+
+    If the error exceeds the promise, the more accurate map takes over.
+    """
     current = map_
     shot = shoot(current, shot.places[: _least_period(current, shot.places, map_.promise)])
     while True:
@@ -449,12 +621,13 @@ def _measured(map_: Map, shot: Shot, iterations: int) -> PeriodicOrbit:
         family = max(_FAMILY, current.promise)
         step = there.step(family)
         values = np.linalg.svd(there.jacobian, compute_uv=False)
-        kept = values[values > family * max(1.0, float(values[0]))]
-        condition = float(kept[0] / kept[-1]) if kept.size else 1.0
+        nonzero = values[values > family * max(1.0, float(values[0]))]
+        condition = float(nonzero[0] / nonzero[-1]) if nonzero.size else 1.0
         size = max(1.0, float(np.abs(shot.places).max()))
         # Relative to the smallest singular value, not the condition: a unit residual becomes 1/σ.
-        error = SAFETY * float(np.abs(step).max()) + 4.0 * _ROUNDING * size / float(kept[-1] if kept.size else 1.0)
-        if kept.size < values.size:
+        least = float(nonzero[-1]) if nonzero.size else 1.0
+        error = SAFETY * float(np.abs(step).max()) + 4.0 * _ROUNDING * size / least
+        if nonzero.size < values.size:
             # In a family no point is distinguished; only the residual is known.
             error = max(error, SAFETY * there.size)
         if error <= map_.promise or current.is_floor:

@@ -59,9 +59,9 @@ class Plane:
     Parameters
     ----------
     normal : tuple of float, shape (d,)
-        Normal vector; its length does not matter.
-    offset : float, default 0
-        Value of normal·y on the plane.
+        Normal vector, nonzero; its length does not matter.
+    offset : float, default 0.0
+        Value of normal·y on the plane, any finite number.
     sense : {1, -1, 0}, default 1
         Crossings that count: from below (1), from above (−1), or both (0).
 
@@ -155,8 +155,8 @@ class AnglePlane:
     >>> from hess_mechanics import System, section
     >>> from hess_mechanics.dynamics.plane_section import AnglePlane
     >>> turning = System("turning", lambda y, p: (1,), "phase")
-    >>> found = section(turning.at(), (0.0,), AnglePlane(0, math.pi), 20.0, "precise")
-    >>> [round(t / math.pi, 9) for t in found.times]
+    >>> result = section(turning.at(), (0.0,), AnglePlane(0, math.pi), 20.0, "precise")
+    >>> [round(t / math.pi, 9) for t in result.times]
     [1.0, 3.0, 5.0]
     """
 
@@ -216,14 +216,47 @@ class Surface(Protocol):
     """A surface in state space."""
 
     def gradient(self, state: Array) -> Array:
-        """Return the gradient (d,) of the function that vanishes on the surface, at a state (d,) of the surface."""
+        """Return the gradient of the function that vanishes on the surface.
+
+        Parameters
+        ----------
+        state : ndarray, shape (d,)
+            State on the surface.
+
+        Returns
+        -------
+        ndarray, shape (d,)
+            The gradient.
+        """
 
     @property
     def sense(self) -> int:
         """Crossings that count: 1 from below, −1 from above, 0 both."""
 
     def crossing_kernel(self, system: System, problem: Problem) -> tuple[Callable[..., tuple[int, int]], Array, float]:
-        """Return the crossing kernel, the normal and the offset in units in which the states are O(1)."""
+        """Return the crossing kernel with the surface in the units of a problem.
+
+        Parameters
+        ----------
+        system : System
+            The equations of motion.
+        problem : Problem
+            The initial states and their units.
+
+        Returns
+        -------
+        kernel : callable
+            Kernel that finds the crossings.
+        constants : ndarray
+            Constants of the surface, such as a normal, in scaled units.
+        offset : float
+            Value of the function on the surface, in scaled units.
+
+        Raises
+        ------
+        InvalidParameter
+            If the surface does not fit the system.
+        """
 
 
 @dataclass(frozen=True)
@@ -275,7 +308,7 @@ class _Search:
         room, total = min(self.crossings, _ROOM), 0
         while True:
             times, states = np.full(room, np.nan), np.zeros((room, self.problem.scale.size))
-            found, steps = cross(
+            number, steps = cross(
                 start,
                 problem.parameters,
                 normal,
@@ -290,22 +323,22 @@ class _Search:
                 states,
             )
             ended: WorkLimit | None = None
-            if found < 0:
-                ended = unfinished(self.problem, found, times[-1], states[-1], self.max_steps)
-                found = room - 1
-            elif np.abs(states[:found]).max(initial=0.0) >= ESCAPED:
+            if number < 0:
+                ended = unfinished(self.problem, number, times[-1], states[-1], self.max_steps)
+                number = room - 1
+            elif np.abs(states[:number]).max(initial=0.0) >= ESCAPED:
                 # Round-off has taken the motion past a pole.
                 ended = end_of(problem, start, duration)
             if ended is not None:
                 if not isinstance(ended, MotionEnds):
                     raise ended
-                found = int(np.count_nonzero(np.abs(times[:found]) < abs(ended.time) * self.problem.nu - _BEFORE))
+                number = int(np.count_nonzero(np.abs(times[:number]) < abs(ended.time) * self.problem.nu - _BEFORE))
             total += steps
-            if ended or found < room or room == self.crossings:
+            if ended or number < room or room == self.crossings:
                 break
             room = min(self.crossings, 10 * room)
-        require_finite_states(states[:found])
-        return (times[:found].copy(), states[:found].copy()), total, ended
+        require_finite_states(states[:number])
+        return (times[:number].copy(), states[:number].copy()), total, ended
 
     def measured(self) -> SectionCrossings:
         """Return the crossings of the first orbit, with an error from a more accurate run with a nearby start."""
@@ -321,24 +354,24 @@ class _Search:
                 problems[1] = nearby.rounded(np.vstack((self.problem.states, crossings[1])))
             return crossings, steps
 
-        found = measured(self.level, run, self._apart)
-        (times, scaled), (other_times, others) = found.result, found.other
+        result = measured(self.level, run, self._apart)
+        (times, scaled), (other_times, others) = result.result, result.other
         both = min(len(scaled), len(others))
         nu, scale = self.problem.nu, self.problem.scale
         states = scaled * scale
-        difference = found.safety * np.abs(scaled[:both] - others[:both])
+        difference = result.safety * np.abs(scaled[:both] - others[:both])
         system, p = self.body.system, np.asarray(self.body.parameters, float)
         return SectionCrossings(
             system.name,
             self.level.name,
             frozen(times / nu),
             frozen(states),
-            found.status,
+            result.status,
             float((difference * scale).max(initial=0.0)) + 2e-16 * max(1.0, nu),
             drift_of(system, self.starts[0], states, p),
-            found.cost,
+            result.cost,
             system.variables,
-            time_error(found.safety, times, other_times) / nu,
+            time_error(result.safety, times, other_times) / nu,
             angles=system.angles,
         )
 
@@ -355,7 +388,22 @@ class _Search:
 
 
 def time_error(safety: float, times: Array, others: Array) -> float:
-    """Return the error of the times (n,) of crossings, from those of another run and from their own rounding."""
+    """Return the error of the times of crossings, from those of another run and from their own rounding.
+
+    Parameters
+    ----------
+    safety : float
+        Factor from the difference of two runs to the error.
+    times : ndarray, shape (n,)
+        Times of one run.
+    others : ndarray, shape (m,)
+        Times of the other run.
+
+    Returns
+    -------
+    float
+        The error, ≥ 0.
+    """
     both = min(times.size, others.size)
     off = float(np.abs(times[:both] - others[:both]).max(initial=0.0))
     return safety * off + 4e-16 * float(np.abs(times).max(initial=0.0))
@@ -382,13 +430,13 @@ def section(
     plane : Plane or Surface
         The surface.
     duration : float
-        End of the time span; may be negative.
+        Time up to which crossings are found, in units of the problem; negative: backward.
     accuracy : str or Level
         Accuracy level.
     crossings : int, default 100 000
-        Largest number of crossings.
+        Largest number of crossings, 1 to 100 000.
     max_step : float, optional
-        Longest step, see `solve`.
+        Longest step, positive, in units T, see `solve`.
     max_steps : int, default 5 000 000
         Largest number of steps of all runs together.
 
@@ -415,8 +463,8 @@ def section(
     --------
     >>> from hess_mechanics import Plane, level, section, systems
     >>> suslov = systems()["suslov"]
-    >>> found = section(*suslov.example_motion, Plane((0.0, 0.0, 0.0, 0.0, 1.0)), 50.0, level("precise"), 5)
-    >>> bool(abs(found.states[:, 4]).max() < 1e-9)
+    >>> result = section(*suslov.example_motion, Plane((0.0, 0.0, 0.0, 0.0, 1.0)), 50.0, level("precise"), 5)
+    >>> bool(abs(result.states[:, 4]).max() < 1e-9)
     True
     """
     start = np.array(start, float)[None]
@@ -473,7 +521,26 @@ class SectionPoints(Result):
 def labels_of_orbits(
     names: Sequence[str], orbits: Sequence[Array], dim: str, units: Mapping[str, str], facts: Mapping[str, Any]
 ) -> Labels:
-    """Return the named columns of all points (n, k) of some orbits, labelled with the number of the orbit."""
+    """Return the points of some orbits, labelled with the number of the orbit.
+
+    Parameters
+    ----------
+    names : sequence of str
+        Names of the k coordinates.
+    orbits : sequence of ndarray, shape (n, k)
+        Points of each orbit.
+    dim : str
+        Name of the dimension of the points.
+    units : mapping of str to str
+        Units of the coordinates, by name.
+    facts : mapping of str to object
+        Facts about the computation, by name.
+
+    Returns
+    -------
+    Labels
+        The labelled coordinates over all points.
+    """
     number = np.repeat(np.arange(len(orbits)), [len(one) for one in orbits])
     points = np.concatenate([np.empty((0, len(names))), *orbits])
     return Labels({"orbit": ((dim,), number)}, components(names, points, dim), units, facts)
@@ -503,11 +570,11 @@ def section_points(
     plane : Plane or Surface
         The surface.
     duration : float
-        End of the time span; may be negative.
+        Time up to which crossings are found, in units of the problem; negative: backward.
     accuracy : str or Level
         Accuracy level.
     crossings : int
-        Largest number of crossings per orbit.
+        Largest number of crossings per orbit, 1 to 100 000.
     threads : int, optional
         Number of threads.  By default one per core, at most eight.
     most_steps : int, default 5 000 000
@@ -541,7 +608,7 @@ def section_points(
     parts = max(1, min(_PARTS, crossings // 10))
     one_part = replace(search, crossings=-(-crossings // parts))
     problem = search.problem.nearby() if level.aside else search.problem
-    found: dict[int, tuple[Array, int]] = {}
+    results: dict[int, tuple[Array, int]] = {}
     reasons = [""] * count
 
     def follow(orbit: int) -> tuple[Array, int]:
@@ -569,7 +636,7 @@ def section_points(
         # A single orbit beyond the limit stops the whole section.
         if not refused:
             try:
-                found[orbit] = follow(orbit)
+                results[orbit] = follow(orbit)
             except WorkLimit as error:
                 refused.append(error)
 
@@ -577,13 +644,13 @@ def section_points(
     if refused:
         raise refused[0]
     p = np.asarray(body.parameters, float)
-    drifts = [drift_of(body.system, search.starts[i], found[i][0], p) for i in range(count) if len(found[i][0])]
+    drifts = [drift_of(body.system, search.starts[i], results[i][0], p) for i in range(count) if len(results[i][0])]
     drift = {name: max(one[name] for one in drifts) for name in (drifts[0] if drifts else ())}
     wall_ms = (time.perf_counter() - begun) * 1e3
     return SectionPoints(
-        [frozen(found[i][0]) for i in range(count)],
+        [frozen(results[i][0]) for i in range(count)],
         drift,
-        Cost(sum(steps for _, steps in found.values()), wall_ms),
+        Cost(sum(steps for _, steps in results.values()), wall_ms),
         body.system.variables,
         tuple(reasons),
         body.system.angles,

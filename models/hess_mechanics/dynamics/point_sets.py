@@ -27,38 +27,68 @@ _BATCHES = 4
 
 
 def nearest(turns: Sequence[float], a: Array, b: Array) -> Array:
-    """Return the distances (n,) from points `a` (n, d) to the nearest points of `b` (m, d), with periodic angles."""
+    """Return the distances from points to the nearest points of another set.
+
+    Parameters
+    ----------
+    turns : sequence of float
+        Period of each coordinate, ∞ if it is not an angle.
+    a : ndarray, shape (n, d)
+        The points.
+    b : ndarray, shape (m, d)
+        The other set.
+
+    Returns
+    -------
+    ndarray, shape (n,)
+        Distances.
+    """
     from scipy.spatial import cKDTree  # imported here because it takes 0.2 s
 
     box = np.array([turn if math.isfinite(turn) else 0.0 for turn in turns])
 
     def wrapped(places: Array) -> Array:
-        found = np.mod(places, turns, where=np.isfinite(turns), out=np.array(places, float))
-        return np.where(found >= turns, 0.0, found)
+        result = np.mod(places, turns, where=np.isfinite(turns), out=np.array(places, float))
+        return np.where(result >= turns, 0.0, result)
 
     return np.asarray(cKDTree(wrapped(b), boxsize=box).query(wrapped(a))[0])
 
 
 def distance(turns: Sequence[float], a: Array, b: Array) -> float:
-    """Return the distance between sets of points (n, d) and (m, d), see the module."""
+    """Return the distance between two sets of points, see the module.
+
+    Parameters
+    ----------
+    turns : sequence of float
+        Period of each coordinate, ∞ if it is not an angle.
+    a : ndarray, shape (n, d)
+        One set.
+    b : ndarray, shape (m, d)
+        The other set.
+
+    Returns
+    -------
+    float
+        The distance.
+    """
     return float(max(np.quantile(nearest(turns, a, b), _QUANTILE), np.quantile(nearest(turns, b, a), _QUANTILE)))
 
 
 @dataclass(frozen=True)
 class SetDistance:
-    """Distance between two sets of points.
+    """Distance between two sets of points; the result of `set_distance`.
 
     Attributes
     ----------
     distance : float
-        The distance.
+        The distance, ≥ 0.
     error : float
         Largest difference between the distance of quarters of the sets and the distance.
     grain : float
         Distance between the two halves of one set, the larger of the two; smaller distances are not resolved.
     overlap : float
         Fraction of the points of one set that are as close to the other set as the halves of one set are to each other,
-        the smaller of the two.
+        the smaller of the two, 0 to 1.
     settled : bool
         True if the halves of each set are closer to each other than a fifth of its size.  Otherwise the orbit was too
         short or had not settled.
@@ -77,9 +107,26 @@ class SetDistance:
 
 
 def set_distance(turns: Sequence[float], a: Array, b: Array) -> SetDistance:
-    """Return the distance between two sets of points (n, d) and (m, d), each in the order of an orbit.
+    """Return the distance between two sets of points with its error.
 
-    Raises `InvalidParameter` if a set has fewer than 8 points.
+    Parameters
+    ----------
+    turns : sequence of float
+        Period of each coordinate, ∞ if it is not an angle.
+    a : ndarray, shape (n, d)
+        One set, in the order of an orbit.
+    b : ndarray, shape (m, d)
+        The other set, in the order of an orbit.
+
+    Returns
+    -------
+    SetDistance
+        The distance.
+
+    Raises
+    ------
+    InvalidParameter
+        If a set has fewer than 8 points.
     """
     if min(len(a), len(b)) < _LEAST:
         raise InvalidParameter(

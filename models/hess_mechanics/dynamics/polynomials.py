@@ -32,9 +32,20 @@ class _Number:
 
 
 class Along(_Number):
-    """A Taylor model: a function of s in [0, δ] as a polynomial and a bound on its error there.
+    """A Taylor model: a function of s in [0, δ] as a polynomial and an upper bound on its error there.
 
     Polynomials have at most 2 `terms` coefficients; higher terms are added to the bound.
+
+    Parameters
+    ----------
+    polynomial : arb_poly
+        The polynomial.
+    delta : arb
+        Length δ of the interval.
+    terms : int
+        Number of terms of a series.
+    rest : arb, optional
+        Upper bound on the error.  By default the polynomial is exact.
     """
 
     __slots__ = ("_most", "delta", "polynomial", "rest", "terms")
@@ -45,7 +56,22 @@ class Along(_Number):
 
     @classmethod
     def number(cls, value: Any, delta: ArbBall, terms: int) -> Along:
-        """Return a constant."""
+        """Return a constant as a Taylor model.
+
+        Parameters
+        ----------
+        value : object
+            The constant, a number or a ball.
+        delta : arb
+            Length δ of the interval.
+        terms : int
+            Number of terms of a series.
+
+        Returns
+        -------
+        Along
+            The constant.
+        """
         from flint import arb_poly
 
         return cls(arb_poly([value]), delta, terms)
@@ -62,15 +88,26 @@ class Along(_Number):
 
     @property
     def most(self) -> ArbBall:
-        """A bound on |polynomial| on [0, δ]."""
+        """Upper bound on |polynomial| on [0, δ]."""
         if self._most is None:
             self._most = _size(self.polynomial.coeffs(), self.delta)
         return self._most
 
     def distance(self, other: ArbBall) -> ArbBall:
-        """Return a bound on the distance from a polynomial on [0, δ]."""
-        found = _size((self.polynomial - other).coeffs(), self.delta)
-        return found if self.rest is None else found + self.rest
+        """Return an upper bound on the distance from a polynomial on [0, δ].
+
+        Parameters
+        ----------
+        other : arb_poly
+            The polynomial.
+
+        Returns
+        -------
+        arb
+            The bound.
+        """
+        bound = _size((self.polynomial - other).coeffs(), self.delta)
+        return bound if self.rest is None else bound + self.rest
 
     def __neg__(self) -> Along:
         return Along(-self.polynomial, self.delta, self.terms, self.rest)
@@ -99,14 +136,25 @@ class Along(_Number):
         return self._with(self.polynomial * other.polynomial, rest)
 
     def __pow__(self, exponent: int) -> Along:
-        found = Along.number(1, self.delta, self.terms)
+        product = Along.number(1, self.delta, self.terms)
         factor = self if exponent >= 0 else self.inverse()
         for _ in range(abs(exponent)):
-            found = found * factor
-        return found
+            product = product * factor
+        return product
 
     def inverse(self) -> Along:
-        """Return 1/b from its truncated series q: 1/b = q/(1 − η), η = 1 − qb.  Raises `ZeroDivisionError`."""
+        """Return 1/b from its truncated series q: 1/b = q/(1 − η), η = 1 − qb.
+
+        Returns
+        -------
+        Along
+            The inverse.
+
+        Raises
+        ------
+        ZeroDivisionError
+            If b may vanish on the interval.
+        """
         from flint import arb, arb_poly, arb_series, ctx
 
         before, ctx.cap = ctx.cap, self.terms
@@ -117,11 +165,11 @@ class Along(_Number):
             raise ZeroDivisionError("a divisor that may vanish where a step begins") from None
         finally:
             ctx.cap = before
-        found = Along(q, self.delta, self.terms)
-        off = (found * self).distance(arb_poly([1]))
+        truncation = Along(q, self.delta, self.terms)
+        off = (truncation * self).distance(arb_poly([1]))
         if not off < 1:
             raise ZeroDivisionError("a divisor that may vanish along a step")
-        return Along(q, self.delta, self.terms, (found.most * off / (1 - off)).abs_upper() + arb(0))
+        return Along(q, self.delta, self.terms, (truncation.most * off / (1 - off)).abs_upper() + arb(0))
 
     def __truediv__(self, other: Any) -> Along:
         return self * (other.inverse() if isinstance(other, Along) else 1 / (other + 0 * self.delta))
@@ -138,7 +186,15 @@ def _size(coefficients: list[ArbBall], delta: ArbBall) -> ArbBall:
 
 
 class Slope(_Number):
-    """A dual number: a value and its partial derivatives."""
+    """A dual number: a value and its partial derivatives.
+
+    Parameters
+    ----------
+    value : arb
+        The value.
+    slopes : list of arb
+        Its partial derivatives.
+    """
 
     __slots__ = ("slopes", "value")
 
@@ -147,7 +203,22 @@ class Slope(_Number):
 
     @classmethod
     def of(cls, value: ArbBall, i: int, count: int) -> Slope:
-        """Return the i-th of `count` variables."""
+        """Return one of several variables as a dual number.
+
+        Parameters
+        ----------
+        value : arb
+            Value of the variable.
+        i : int
+            Index of the variable.
+        count : int
+            Number of variables.
+
+        Returns
+        -------
+        Slope
+            The dual number.
+        """
         return cls(value, [value * 0 + (1 if i == j else 0) for j in range(count)])
 
     def __neg__(self) -> Slope:

@@ -62,7 +62,7 @@ slowly modulated quasi-periodic motions stays close to 1 for long."""
 _SMOOTH = 3e-3
 """Largest `irregularity` of a quasi-periodic motion; at least 0.01 in narrow bands of chaos."""
 _PRECISION = 1e3
-"""Differences of averages that are no irregularity, in errors of the map: an orbit drifts by some of them."""
+"""Differences of averages that do not count as irregularity, in errors of the map: an orbit drifts by some of them."""
 _LINEAR = 0.1
 """Largest distance of MEGNO from 2 of motions whose neighbours part linearly, as those of tori do."""
 _FEWEST, _MANY = 800, 6000
@@ -130,15 +130,16 @@ class Regime(Result):
     places : Array, shape (n, d)
         Its crossings after the transient.
     t : float
-        Time of MEGNO; for a motion that did not return, the time limit.
+        Time of MEGNO, positive, in units T; for a motion that did not return, the time limit.
     period : int
         Number of returns after which it repeats; 0 if no period was found.
     megno : float
-        Ȳ after the time t, the median over the ensemble.
+        Ȳ after the time t, the median over the ensemble; near 2 for regular motions, > 3 for chaotic ones.
     k : float
         K of the 0–1 test, the largest of every crossing, every second, fourth and so on; NaN if there are too few.
     divergence, divergence_error : float
-        Mean of div ẏ along the motion and its error, by an ensemble of orbits; three errors are a 99.7 % interval.
+        Mean of div ẏ along the motion and its error, in 1/T, by an ensemble of orbits; three errors are a 99.7 %
+        interval.
     measure : str
         Reason why the mean divergence is exactly 0 although the divergence is not; empty if none is known.
     """
@@ -195,7 +196,7 @@ class Regime(Result):
 class _Evidence:
     """The findings of one round; early and late are Ȳ at half the time and at all of it.
 
-    regular : a theorem excludes chaos; winds : one says that a motion without a period is quasi-periodic.
+    regular : a theorem excludes chaos; winds : by a theorem, a motion without a period is quasi-periodic.
     """
 
     crossings: int
@@ -242,7 +243,7 @@ class _Evidence:
 
 
 def regime(
-    map_: ReturnMap, start: Sequence[float] | Array, transient: int = 300, kept: int = 200, duration: float = 200.0
+    map_: ReturnMap, start: Sequence[float] | Array, transient: int = 300, crossings: int = 200, duration: float = 200.0
 ) -> Regime:
     """Classify the motion from a point of a section.
 
@@ -254,10 +255,10 @@ def regime(
         Point where the motion starts.
     transient : int, default 300
         Crossings discarded, 0 to 20 000.
-    kept : int, default 200
-        Crossings kept, 1 to 20 000.  Up to 64 times as many are used if they do not decide, at most 20 000.
+    crossings : int, default 200
+        Crossings used, 1 to 20 000.  Up to 64 times as many are used if they do not decide, at most 20 000.
     duration : float, default 200
-        Time of MEGNO, at least 30 returns.  Up to 64 times as long if it does not decide.
+        Time of MEGNO, positive, in units T; at least 30 returns.  Up to 64 times as long if it does not decide.
 
     Returns
     -------
@@ -280,13 +281,13 @@ def regime(
     >>> regime(P, (0.3,), duration=100.0).kind.words  # it tends to the stable limit cycle
     'fixed point'
     """
-    transient, kept = (
+    transient, crossings = (
         as_integer("transient", transient, 0, _MOST_CROSSINGS),
-        as_integer("kept", kept, 1, _MOST_CROSSINGS),
+        as_integer("crossings", crossings, 1, _MOST_CROSSINGS),
     )
     start = as_place(map_.names, start)
-    places = map_.orbit(np.array(start), transient + kept)
-    if len(places) < transient + kept:
+    places = map_.orbit(np.array(start), transient + crossings)
+    if len(places) < transient + crossings:
         return _not_seen(map_, places, start)
     places = places[transient:]
     # A time of 0, or none, is refused by the indicator itself.
@@ -374,8 +375,8 @@ def _closes(map_: ReturnMap, places: Array, m: int) -> bool:
         return False
     periods = len(places) // m
     away = np.abs(apart(map_.turns, places[-periods * m :].reshape(periods, m, -1), orbit.places)).max(axis=(1, 2))
-    closing = float(np.abs(apart(map_.turns, places[m:], places[:-m])).max())
-    if away[-1] <= precision or (closing <= precision and away[-1] <= SAME):
+    gap = float(np.abs(apart(map_.turns, places[m:], places[:-m])).max())
+    if away[-1] <= precision or (gap <= precision and away[-1] <= SAME):
         return True
     # An attracting orbit is the limit if the distance falls as its multiplier says.
     rate = float(np.abs(orbit.multipliers).max()) + orbit.multiplier_error
@@ -389,7 +390,7 @@ def _at_rest(map_: ReturnMap, place: Array, precision: float) -> bool:
 
 def _ensemble(map_: ReturnMap, places: Array) -> Array:
     """Return the end points (m, d) of orbits that started next to different points (n, d) of an orbit."""
-    found, count = [], min(len(places), _INDEPENDENT)
+    ends, count = [], min(len(places), _INDEPENDENT)
     for i in range(_MEMBERS):
         start = places[i * len(places) // _MEMBERS]
         try:
@@ -397,8 +398,8 @@ def _ensemble(map_: ReturnMap, places: Array) -> Array:
         except OutsideRegion:
             following = map_.orbit(start, count)
         if len(following):
-            found.append(following[-1])
-    return np.array(found)
+            ends.append(following[-1])
+    return np.array(ends)
 
 
 def _indicated(map_: ReturnMap, places: Array, duration: float) -> Megno:
@@ -440,10 +441,10 @@ def _has_a_curve(map_: ReturnMap, place: Array, duration: float) -> bool:
 
     An attracting invariant curve has such an exponent; an attracting periodic orbit, however long, does not.
     """
-    found = lyapunov_spectrum(
+    spectrum = lyapunov_spectrum(
         map_.section, map_.state_at(place), -duration if map_.backward else duration, map_.accuracy
     )
-    return found.zeros >= found.integrals + 2
+    return spectrum.zeros >= spectrum.integrals + 2
 
 
 @dataclass(frozen=True)
@@ -525,7 +526,11 @@ class Dynamics(Result):
 
 
 def dynamics_of(
-    map_: ReturnMap, start: Sequence[float] | Array, transient: int = 500, kept: int = 2000, duration: float = 1000.0
+    map_: ReturnMap,
+    start: Sequence[float] | Array,
+    transient: int = 500,
+    crossings: int = 2000,
+    duration: float = 1000.0,
 ) -> Dynamics:
     """Classify the dynamics around the orbits from a point: conservative, dissipative or mixed.
 
@@ -537,10 +542,10 @@ def dynamics_of(
         Point where the orbits start, 1e-8 from each other.
     transient : int, default 500
         Crossings discarded of each orbit, 0 to 20 000.
-    kept : int, default 2000
-        Crossings kept of each orbit, 8 to 20 000.
+    crossings : int, default 2000
+        Crossings used of each orbit, 8 to 20 000.
     duration : float, default 1000
-        Time over which the divergence of each orbit is averaged.
+        Time over which the divergence of each orbit is averaged, positive, in units T.
 
     Returns
     -------
@@ -562,23 +567,53 @@ def dynamics_of(
     --------
     >>> from hess_mechanics import QuarticBody, dynamics_of, return_map
     >>> P = return_map(QuarticBody(2.0, 1.0, 1.0, 0.8), accuracy="standard")
-    >>> dynamics_of(P, (0.3, 0.2), transient=60, kept=64, duration=100.0).verdict  # I₁₃ = I₂₃ = 0: the volume is kept
+    >>> dynamics_of(P, (0.3, 0.2), transient=60, crossings=64, duration=100.0).verdict  # I₁₃ = I₂₃ = 0 preserves volume
     'conservative'
     """
-    kept = as_integer("kept", kept, 8, _MOST_CROSSINGS)
-    return comparison(map_, regime(map_, start, transient, min(kept, 400), duration), start, transient, kept)
+    crossings = as_integer("crossings", crossings, 8, _MOST_CROSSINGS)
+    return comparison(map_, regime(map_, start, transient, min(crossings, 400), duration), start, transient, crossings)
 
 
-def comparison(map_: ReturnMap, motion: Regime, start: Sequence[float] | Array, transient: int, kept: int) -> Dynamics:
-    """Return the same for a motion whose kind is already known."""
+def comparison(
+    map_: ReturnMap, motion: Regime, start: Sequence[float] | Array, transient: int, crossings: int
+) -> Dynamics:
+    """Classify the dynamics around orbits whose kind of motion is already known.
+
+    Parameters
+    ----------
+    map_ : ReturnMap
+        Return map of the section.
+    motion : Regime
+        Kind of the motion forward in time.
+    start : array_like, shape (d,)
+        Point where the orbits start, 1e-8 from each other.
+    transient : int
+        Crossings discarded of each orbit.
+    crossings : int
+        Crossings used of each orbit.
+
+    Returns
+    -------
+    Dynamics
+        The verdict, with the two sets and their distance.
+
+    Raises
+    ------
+    NoReturn
+        If the motion does not return often enough.
+    OutsideRegion
+        If no motion crosses the section at the point.
+    WorkLimit
+        If an orbit needs too many steps.
+    """
     origin = np.array(start, float)
     pairs: list[tuple[Array, Array]] = []
     for i in range(_MEMBERS):
         go_on()
         pair: list[Array] = []
         for one in (map_, map_.inverse()):
-            orbit = one.orbit(origin + _SHIFT * i, transient + kept)
-            if len(orbit) < transient + kept:
+            orbit = one.orbit(origin + _SHIFT * i, transient + crossings)
+            if len(orbit) < transient + crossings:
                 way = "backward" if one.backward else "forward"
                 raise NoReturn(
                     f"Followed {way} in time, the motion returned only {len(orbit)} times: choose another point."

@@ -106,7 +106,7 @@ class PoincareSection(Protocol):
 
     @property
     def integrable(self) -> str:
-        """Name of the integrable case to which the body exactly belongs; empty if none is known."""
+        """Name of the integrable case to which the body belongs exactly; empty if none is known."""
         return ""
 
     @property
@@ -115,14 +115,48 @@ class PoincareSection(Protocol):
         return ""
 
     def at_constant(self, name: str, value: float) -> PoincareSection:
-        """Return the section at another value of a constant.  Raises a `ModelError` if there is none."""
+        """Return the section at another value of a constant.
+
+        Parameters
+        ----------
+        name : str
+            Name of the constant, one of `constants`.
+        value : float
+            Its new value.
+
+        Returns
+        -------
+        PoincareSection
+            The other section.
+
+        Raises
+        ------
+        ModelError
+            If there is no section at this value.
+        """
 
     @property
     def states_at(self) -> Callable[..., tuple[Array, Mask]]:
-        """Function of coordinates (n,) that returns states (n, d) and a mask (n,) of the points that motions cross."""
+        """Function of coordinates, arrays (n,), that returns states (n, d) and a mask (n,) of possible points."""
 
     def state_at(self, *place: float) -> tuple[float, ...]:
-        """Return the state (d,) at the coordinates of a point.  Raises `OutsideRegion` if no motion crosses there."""
+        """Return the state at a point of the section.
+
+        Parameters
+        ----------
+        *place : float
+            Coordinates of the point.
+
+        Returns
+        -------
+        tuple of float
+            State with d components.
+
+        Raises
+        ------
+        OutsideRegion
+            If no motion crosses the section there.
+        """
         states, there = self.states_at(*np.array(place, float)[:, None])
         if not there[0]:
             where = ", ".join(f"{name} = {x:.6g}" for name, x in zip(self.names, place, strict=True))
@@ -130,9 +164,19 @@ class PoincareSection(Protocol):
         return tuple(states[0].tolist())
 
     def spread(self, count: int, window: Window | None = None) -> tuple[tuple[float, ...], ...]:
-        """Return `count` states, spread evenly over the part of a window that motions cross; fewer if it is tiny.
+        """Return states that are spread evenly over the part of a window that motions cross.
 
-        window : by default the whole section.
+        Parameters
+        ----------
+        count : int
+            Number of states.
+        window : ((float, float), (float, float)), optional
+            Two opposite corners of the window.  By default the whole section.
+
+        Returns
+        -------
+        tuple of tuple of float
+            The states; fewer if that part is tiny.
         """
         low, high = np.array(self.window).T[..., None] if window is None else np.array(window)[..., None]
         for tried in _TRIED:
@@ -143,10 +187,32 @@ class PoincareSection(Protocol):
         return tuple(map(tuple, states[there][:count].tolist()))
 
     def places_of(self, states: Array) -> Array:
-        """Return the coordinates (n, k) of states (n, d)."""
+        """Return the points of the section at which given states lie.
+
+        Parameters
+        ----------
+        states : ndarray, shape (n, d)
+            States of the section.
+
+        Returns
+        -------
+        ndarray, shape (n, k)
+            Coordinates of the points.
+        """
 
     def is_on(self, states: Array) -> Mask:
-        """Return a mask (n,) of the states (n, d) on this sheet; all of them if there is a single sheet."""
+        """Return True for states on this sheet of the section; for all of them if there is a single sheet.
+
+        Parameters
+        ----------
+        states : ndarray, shape (n, d)
+            States of the section.
+
+        Returns
+        -------
+        ndarray of bool, shape (n,)
+            True for states on this sheet.
+        """
         return np.ones(len(states), bool)
 
 
@@ -160,10 +226,38 @@ def section_crossings(
     turns: float = _TURNS,
     **limits: int,
 ) -> SectionPoints:
-    """Return the crossings of several orbits, see `section_points`, that follow each other within a time limit.
+    """Return the crossings of several orbits that follow each other within a time limit, see `section_points`.
 
-    longest : the time limit per crossing, by default so many `turns` of 1/ν times the slowness of the section; few
-    orbits take longer.  limits : `threads` and `most_steps`.
+    Parameters
+    ----------
+    section : PoincareSection
+        The section.
+    starts : array_like, shape (n, d)
+        Initial states.
+    crossings : int
+        Number of crossings of each orbit.
+    accuracy : str or Level
+        Accuracy level.
+    backward : bool, default False
+        Follow the orbits backward in time.
+    longest : float, optional
+        Time limit per crossing, positive.  By default `turns`; few orbits take longer.
+    turns : float, default _TURNS
+        Time limit per crossing in units of 1/ν times the slowness of the section.
+    **limits : int
+        Arguments `threads` and `most_steps` of `section_points`.
+
+    Returns
+    -------
+    SectionPoints
+        The crossings.
+
+    Raises
+    ------
+    InvalidParameter
+        As `section_points`.
+    WorkLimit
+        As `section_points`.
     """
     end = crossings * (turns * section.slowness / Problem.of(section, starts).nu if longest is None else longest)
     return section_points(section, starts, section.surface, -end if backward else end, accuracy, crossings, **limits)
@@ -213,7 +307,7 @@ class ReturnMap:
 
     @property
     def is_floor(self) -> bool:
-        """True at the last accuracy level."""
+        """True at the finest accuracy level."""
         return self.accuracy.is_floor
 
     def tighter(self) -> ReturnMap:
@@ -244,7 +338,7 @@ class ReturnMap:
         name : str
             Name of the constant, one of `section.constants`.
         value : float
-            New value.
+            New value, in the unit of the constant.
 
         Returns
         -------
@@ -396,15 +490,15 @@ class ReturnMap:
         start = problem.states[0]
         while left > 0:
             go_on()
-            wanted = min(left, _PIECE)
-            found, times, states = search(start, wanted + 1, self._limit(problem, _WAIT))
+            target = min(left, _PIECE)
+            number, times, states = search(start, target + 1, self._limit(problem, _WAIT))
             require_steps(
-                found,
-                f"{wanted} returns need more than {MAX_STEPS} steps here: choose another place, or a cheaper level.",
-                partial(unfinished, problem, found, times[-1], states[-1], MAX_STEPS),
+                number,
+                f"{target} returns need more than {MAX_STEPS} steps here: choose another place, or a cheaper level.",
+                partial(unfinished, problem, number, times[-1], states[-1], MAX_STEPS),
             )
-            first = int(found > 0 and abs(times[0]) < _AT_ONCE)
-            states = states[first : min(found, first + wanted)] * problem.scale
+            first = int(number > 0 and abs(times[0]) < _AT_ONCE)
+            states = states[first : min(number, first + target)] * problem.scale
             require_finite_states(states)
             on = np.flatnonzero(section.is_on(states))
             if not on.size:
@@ -507,9 +601,9 @@ class ReturnMap:
             np.array([section.surface.gradient(state) for state in states]),
         )
         moved = onto @ frame.swapaxes(1, 2) @ (self._tangents(several) / scale).swapaxes(1, 2)
-        found = np.asarray(section.places_of(states))
-        derivatives = self._in_plane(states, found, moved.swapaxes(1, 2))
-        return found.reshape(places.shape), derivatives.reshape(*places.shape, places.shape[-1])
+        images = np.asarray(section.places_of(states))
+        derivatives = self._in_plane(states, images, moved.swapaxes(1, 2))
+        return images.reshape(places.shape), derivatives.reshape(*places.shape, places.shape[-1])
 
     def _places(self, place: Array) -> Array:
         """Return coordinates as an array (k,) or (m, k).  Raises `InvalidParameter`."""
@@ -536,7 +630,7 @@ class ReturnMap:
         m, d = problem.states.shape
         rates = system.rates(problem.states, problem.parameters)[:, :, None]
         frames = np.linalg.qr(np.concatenate([rates, np.broadcast_to(np.eye(d), (m, d, d))], axis=2))[0][:, :, 1:]
-        found = np.empty((m, d, d - 1))
+        derivatives = np.empty((m, d, d - 1))
         state, growth, volume = np.empty((1, d)), np.empty((1, d - 1)), np.empty(1)
         for i in range(m):
             steps = system.vary_others(
@@ -549,18 +643,18 @@ class ReturnMap:
                 MAX_STEPS,
                 math.inf,
                 state,
-                found[i : i + 1],
+                derivatives[i : i + 1],
                 growth,
                 volume,
             )
             require_steps(steps, _TOO_LONG, partial(end_of, problem, problem.states[i], times[i]))
-        require_finite_states(found)
-        return found, frames
+        require_finite_states(derivatives)
+        return derivatives, frames
 
     def _search(self, starts: Array) -> tuple[Problem, _Search]:
         """Return the scaled problem, and the search for the crossings of one of its orbits.
 
-        search(start, wanted, longest) returns the number of crossings found within a time limit, with their times and
+        search(start, target, longest) returns the number of crossings found within a time limit, with their times and
         states in the problem's units.
         """
         section, accuracy = self.section, self.accuracy
@@ -570,9 +664,9 @@ class ReturnMap:
         cross, normal, offset = surface.crossing_kernel(section.system, problem)
         direction = section.slowness * (-1.0 if self.backward else 1.0)
 
-        def search(start: Array, wanted: int, longest: float) -> tuple[int, Array, Array]:
-            times, states = np.empty(wanted), np.empty((wanted, problem.scale.size))
-            found, _ = cross(
+        def search(start: Array, target: int, longest: float) -> tuple[int, Array, Array]:
+            times, states = np.empty(target), np.empty((target, problem.scale.size))
+            number, _ = cross(
                 start,
                 problem.parameters,
                 normal,
@@ -586,7 +680,7 @@ class ReturnMap:
                 times,
                 states,
             )
-            return found, times, states
+            return number, times, states
 
         return problem, search
 
@@ -597,16 +691,16 @@ class ReturnMap:
         times, states = np.empty(len(starts)), np.empty_like(problem.states)
         for i, start in enumerate(problem.states):
             go_on()
-            wanted = count
+            target = count
             while True:
-                found, all_times, all_states = search(start, wanted, longest * count)
+                number, all_times, all_states = search(start, target, longest * count)
                 # Round-off may put the start a little before a curved surface, which it then crosses at once.
-                if not (found and wanted == count and abs(all_times[0]) < _AT_ONCE):
+                if not (number and target == count and abs(all_times[0]) < _AT_ONCE):
                     break
-                wanted += 1
-            end = partial(unfinished, problem, found, all_times[-1], all_states[-1], MAX_STEPS)
-            require_steps(found, _TOO_LONG, end)
-            if found < wanted:
+                target += 1
+            end = partial(unfinished, problem, number, all_times[-1], all_states[-1], MAX_STEPS)
+            require_steps(number, _TOO_LONG, end)
+            if number < target:
                 limit = longest * count * self.section.slowness / problem.nu
                 raise NoReturn(
                     f"From here the motion did not return to the section {_times(count)} within t = "
@@ -621,7 +715,7 @@ class ReturnMap:
     def _tangents(self, places: Array) -> Array:
         """Return ∂Y/∂x (m, k, d) at points (m, k).  Raises `OutsideRegion` at the very edge of the section."""
         m, k = places.shape
-        found = np.empty((m, k, len(self.section.system.variables)))
+        tangents = np.empty((m, k, len(self.section.system.variables)))
         left, step = np.arange(m), _STEP
         while left.size:
             sizes = np.array([step, 0.25 * step])
@@ -634,11 +728,11 @@ class ReturnMap:
             size = np.abs(both).max(axis=(1, 2, 3), initial=1.0)
             agree = np.abs(both[:, 0] - both[:, 1]).max(axis=(1, 2), initial=0.0) <= _AGREE / step * size
             whole[whole] = done = agree | (step < 1e-5)
-            found[left[whole]] = both[done, 0]
+            tangents[left[whole]] = both[done, 0]
             left, step = left[~whole], 0.25 * step
             if left.size and step < 1e-6:
                 raise OutsideRegion("This point is too close to the edge of the section: choose another one.")
-        return found
+        return tangents
 
     def _in_plane(self, states: Array, places: Array, away: Array) -> Array:
         """Return ∂x/∂Y at states (m, d) along directions (m, k, d); column j belongs to direction j."""
@@ -725,7 +819,7 @@ class ReturnMap:
         tuple of str
             Names of the `mirrors` that map the orbit to itself.
         """
-        found = []
+        names = []
         for mirror in self.mirrors:
             images = [self.mirror_image(mirror, place) for place in places]
             if all(
@@ -733,8 +827,8 @@ class ReturnMap:
                 and np.abs(apart(self.turns, places, image)).max(axis=1).min() < max(near, 1e3 * self.promise)
                 for image in images
             ):
-                found.append(mirror.name)
-        return tuple(found)
+                names.append(mirror.name)
+        return tuple(names)
 
 
 def _times(count: int) -> str:

@@ -35,11 +35,34 @@ _SAMPLES_PER_STEP = 16
 
 
 def sample_times(body: Body, state: Array, duration: float, weights: Array, sagitta: float, most: int) -> Array:
-    """Return at most `most` sample times of the orbit from `start`, from 0 to `duration` (nonzero) inclusive.
+    """Return times of an orbit whose polygon looks like the curve.
 
-    weights (d,) : pixels per unit of each variable; sagitta : largest distance between curve and chord, in pixels.
     If the orbit cannot be computed, the times are evenly spaced, and computing the orbit at them raises the error.
-    Raises `InvalidParameter`.
+
+    Parameters
+    ----------
+    body : Body
+        The body.
+    state : ndarray, shape (d,)
+        Initial state.
+    duration : float
+        Time, nonzero; negative: backward.
+    weights : ndarray, shape (d,)
+        Pixels per unit of each variable.
+    sagitta : float
+        Largest distance between curve and chord, in pixels.
+    most : int
+        Largest number of times.
+
+    Returns
+    -------
+    ndarray, shape (n,)
+        Times from 0 to `duration`, both included.
+
+    Raises
+    ------
+    InvalidParameter
+        If a number is not finite.
     """
     problem = Problem.of(body, np.array(state, float, ndmin=2))
     count = int(min(_MOST_COARSE, max(64.0, abs(duration) * problem.nu / _COARSE))) + 1
@@ -73,10 +96,38 @@ def sampled_orbit(
     most: int = MOST_SAMPLES,
     max_step: float | None = None,
 ) -> Orbit:
-    """Return the orbit from `start` over `duration` at the times that `sample_times` chooses.
+    """Return an orbit at the times that `sample_times` chooses.
 
-    A motion that ends before is followed up to its end and has a reason.  weights (d,) : pixels per unit of each
-    variable; max_step : see `solve`, which raises the same errors.
+    A motion that ends earlier is followed up to its end and has a reason.
+
+    Parameters
+    ----------
+    body : Body
+        The body.
+    start : sequence of float, shape (d,)
+        Initial state.
+    duration : float
+        Time, nonzero; negative: backward.
+    weights : sequence of float, shape (d,)
+        Pixels per unit of each variable.
+    accuracy : str or Level
+        Accuracy level.
+    most : int, default MOST_SAMPLES
+        Largest number of times.
+    max_step : float, optional
+        Longest step, see `solve`.
+
+    Returns
+    -------
+    Orbit
+        The orbit.
+
+    Raises
+    ------
+    InvalidParameter
+        As `solve`.
+    WorkLimit
+        As `solve`.
     """
 
     def sampled(duration: float) -> Orbit:

@@ -1,4 +1,4 @@
-"""How often orbits visit the cells of a section, or of an orbit diagram: pictures of millions of crossings."""
+"""Visits of orbits to the cells of a section or of an orbit diagram: pictures of millions of crossings."""
 
 from __future__ import annotations
 
@@ -26,9 +26,16 @@ _TOGETHER = 8
 class Visits:
     """Crossings of some orbits, counted in the cells of a window.
 
-    counts : crossings (n, m) in each cell, rows of equal y; ends : the last crossing (k, d) of each orbit, as a state
-    (`visits`) or as a place, NaN if there is none (`visits_over`).
-    points : number of counted crossings, which are those within the window; drift : the largest drift of each integral.
+    Attributes
+    ----------
+    counts : ndarray of int, shape (n, m)
+        Crossings in each cell, rows of equal y.
+    ends : ndarray, shape (k, d)
+        Last crossing of each orbit: a state (`visits`) or a point, NaN if there is none (`visits_over`).
+    points : int
+        Number of counted crossings, which are those within the window.
+    drift : mapping of str to float
+        Largest drift of each integral, by name.
     """
 
     counts: NDArray[np.uint32]
@@ -37,7 +44,18 @@ class Visits:
     drift: Mapping[str, float]
 
     def after(self, before: Visits) -> Visits:
-        """Return these visits added to those of the same orbits before."""
+        """Return these visits added to earlier ones of the same orbits.
+
+        Parameters
+        ----------
+        before : Visits
+            The earlier visits.
+
+        Returns
+        -------
+        Visits
+            The sum.
+        """
         drift = _larger(before.drift, self.drift)
         return replace(
             self, counts=frozen(self.counts + before.counts), points=self.points + before.points, drift=drift
@@ -53,10 +71,38 @@ def visits(
     forward: bool,
     accuracy: Accuracy,
 ) -> Visits:
-    """Return the visits of the first `crossings` crossings of each orbit from `starts` (k, d), on one core.
+    """Return the visits of several orbits to the cells of a window, on one core.
 
-    cells : (m, n) cells across and up the window.  Crossings elsewhere, or on another sheet, are not counted.  Raises
-    as `section_points`, and `WorkLimit` if a motion ends.
+    Crossings elsewhere, or on another sheet, are not counted.
+
+    Parameters
+    ----------
+    section : PoincareSection
+        The section.
+    window : ((float, float), (float, float))
+        Corners of the window.
+    cells : (int, int)
+        Number of cells across and up, (m, n).
+    starts : array_like, shape (k, d)
+        Initial states.
+    crossings : int
+        Number of crossings of each orbit.
+    forward : bool
+        Follow the orbits forward in time, otherwise backward.
+    accuracy : str or Level
+        Accuracy level.
+
+    Returns
+    -------
+    Visits
+        The visits.
+
+    Raises
+    ------
+    InvalidParameter
+        As `section_points`.
+    WorkLimit
+        As `section_points`, and if a motion ends.
     """
     # Counting in NumPy takes a hundredth of the time of the orbits: no kernel or library would be noticed.
     low, high = np.array(window)
@@ -65,15 +111,15 @@ def visits(
     starts = np.asarray(starts, float)
     for first in range(0, len(starts), _TOGETHER):
         some = starts[first : first + _TOGETHER]
-        found = complete(section_crossings(section, some, crossings, accuracy, not forward, threads=1))
-        for states in found.states:
+        orbits = complete(section_crossings(section, some, crossings, accuracy, not forward, threads=1))
+        for states in orbits.states:
             places = section.places_of(states[section.is_on(states)])
             within = places[np.all((places >= low) & (places < high), axis=1)]
             at = ((within - low) * (cells / (high - low))).astype(int)
             np.add.at(counts, at[:, 1] * cells[0] + at[:, 0], 1)
             points += len(within)
             ends.extend(states[-1:])
-        drift = _larger(drift, found.drift)
+        drift = _larger(drift, orbits.drift)
     return Visits(
         frozen(counts.reshape(cells[::-1])), frozen(np.array(ends).reshape(-1, starts.shape[1])), points, drift
     )
@@ -93,9 +139,40 @@ def visits_over(
 ) -> Visits:
     """Return the visits of one orbit at each value of a parameter, in a column of cells for each, on one core.
 
-    side, reach, rows : the coordinate that is counted, its range, and the number of cells there.
-    starts : places (n, k) of the orbits, NaN for none; skipped : crossings left out before `crossings` are counted.
-    Columns without motion are empty.  Raises `WorkLimit`.
+    Columns without motion are empty.
+
+    Parameters
+    ----------
+    family : callable
+        Function from the value to the section.
+    values : sequence of float
+        Values of the parameter.
+    side : int
+        Index of the coordinate that is counted.
+    reach : (float, float)
+        Range of this coordinate.
+    rows : int
+        Number of cells over this range.
+    starts : array_like, shape (n, k)
+        Point where each orbit starts, NaN for none.
+    skipped : int
+        Number of crossings left out first.
+    crossings : int
+        Number of crossings counted.
+    forward : bool
+        Follow the orbits forward in time, otherwise backward.
+    accuracy : str or Level
+        Accuracy level.
+
+    Returns
+    -------
+    Visits
+        The visits.
+
+    Raises
+    ------
+    WorkLimit
+        If an orbit needs too many steps, or a motion ends.
     """
     low, high = reach
     counts = np.zeros((rows, len(values)), np.uint32)
@@ -108,20 +185,20 @@ def visits_over(
             state, there = section.states_at(*np.array(start)[:, None])
             if not there[0]:
                 continue
-            found = complete(section_crossings(section, state, skipped + crossings, accuracy, not forward, threads=1))
+            orbits = complete(section_crossings(section, state, skipped + crossings, accuracy, not forward, threads=1))
         except WorkLimit:
             raise
         except ModelError:
             # At this value there is no such body, or no motion.
             continue
-        states = found.states[0]
+        states = orbits.states[0]
         places = section.places_of(states[section.is_on(states)])
         ends[j] = places[-1] if len(places) else np.nan
         y = places[skipped:, side]
         within = y[(y >= low) & (y < high)]
         np.add.at(counts[:, j], ((within - low) * (rows / (high - low))).astype(int), 1)
         points += len(within)
-        drift = _larger(drift, found.drift)
+        drift = _larger(drift, orbits.drift)
     return Visits(frozen(counts), frozen(ends), points, drift)
 
 

@@ -26,10 +26,23 @@ orbit to those of the first that indicates exponential separation; and an error 
 def errors_in_pixels(
     orbit: Array, exact: Array, pixels: Sequence[float], periods: Sequence[float] = (math.inf,) * 2
 ) -> Array:
-    """Return distances (m,), in pixels, between the points of an orbit (n, 2) and those of a more accurate run.
+    """Return the distances between the points of an orbit and those of a more accurate run, in pixels.
 
-    m is the length of the shorter run.  pixels : pixels per unit of each coordinate; periods : period of each
-    coordinate, ∞ if it is not an angle.
+    Parameters
+    ----------
+    orbit : ndarray, shape (n, 2)
+        Points of the orbit.
+    exact : ndarray, shape (k, 2)
+        Points of the more accurate run.
+    pixels : sequence of float
+        Pixels per unit of each coordinate.
+    periods : sequence of float, optional
+        Period of each coordinate, ∞ if it is not an angle.
+
+    Returns
+    -------
+    ndarray, shape (m,)
+        Distances, where m is the length of the shorter run.
     """
     both = min(len(orbit), len(exact))
     away = apart(periods, orbit[:both], exact[:both])
@@ -37,13 +50,37 @@ def errors_in_pixels(
 
 
 def torn_away(away: Array) -> bool:
-    """Return True if the errors (n,) along an orbit, in pixels, show that chaos makes it a different orbit."""
+    """Return True if chaos has made a computed orbit a different one.
+
+    Parameters
+    ----------
+    away : ndarray, shape (n,)
+        Errors along the orbit, in pixels.
+
+    Returns
+    -------
+    bool
+        True if the errors show this.
+    """
     early, late = (float(part.max(initial=0.0)) for part in np.array_split(away, 2))
     return max(early, late) >= _LOST or late > max(_CHAOTIC * early, _NOTHING)
 
 
 def away_from(points: Array, curve: Array) -> Array:
-    """Return the distances (m,) of points (m, 2) from a polyline (n, 2), or from a single point (1, 2)."""
+    """Return the distances of points from a polyline.
+
+    Parameters
+    ----------
+    points : ndarray, shape (m, 2)
+        The points.
+    curve : ndarray, shape (n, 2)
+        Vertices of the polyline; a single one is a point.
+
+    Returns
+    -------
+    ndarray, shape (m,)
+        Distances.
+    """
     if len(curve) == 1:
         return np.asarray(np.linalg.norm(points - curve, axis=1), float)
     start, along = curve[:-1], np.diff(curve, axis=0)
@@ -55,7 +92,24 @@ def away_from(points: Array, curve: Array) -> Array:
 def right_crossings(
     orbits: Sequence[Array], exact: Sequence[Array], pixels: Sequence[float], periods: Sequence[float] = (math.inf,) * 2
 ) -> tuple[int, ...]:
-    """Count, for each orbit (n, 2), the first points that lie within half a pixel of those of a more accurate run."""
+    """Count for each orbit the first points that lie within half a pixel of those of a more accurate run.
+
+    Parameters
+    ----------
+    orbits : sequence of ndarray, shape (n, 2)
+        Points of each orbit.
+    exact : sequence of ndarray, shape (k, 2)
+        Points of the more accurate runs.
+    pixels : sequence of float
+        Pixels per unit of each coordinate.
+    periods : sequence of float, optional
+        Period of each coordinate, ∞ if it is not an angle.
+
+    Returns
+    -------
+    tuple of int
+        The number of points of each orbit.
+    """
     counts = []
     for one, other in zip(orbits, exact, strict=True):
         wrong = np.flatnonzero(errors_in_pixels(one, other, pixels, periods) > HALF_A_PIXEL)
@@ -64,5 +118,16 @@ def right_crossings(
 
 
 def typical(counts: Sequence[int]) -> int | None:
-    """Return the lower median of the counts; None if there are none, of which nothing is known."""
+    """Return the lower median of counts.
+
+    Parameters
+    ----------
+    counts : sequence of int
+        The counts.
+
+    Returns
+    -------
+    int or None
+        The median; None if there are no counts.
+    """
     return sorted(counts)[(len(counts) - 1) // 2] if counts else None

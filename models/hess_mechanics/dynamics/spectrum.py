@@ -51,17 +51,17 @@ in units in which states are O(1).  Crossings of the plane across the motion at 
 
 @dataclass(frozen=True)
 class Exponent(Result):
-    """Running estimates of the largest Lyapunov exponent.
+    """Running estimates of the largest Lyapunov exponent; the result of `lyapunov_exponent`.
 
     Attributes
     ----------
     times : ndarray, shape (n,)
         Times.
     rates : ndarray, shape (n,)
-        Mean growth rate up to each time; the last one is the estimate.
+        Mean growth rate up to each time, in 1/T; the last one is the estimate.
     spread : float
-        Range of the rates over the second half of the time.
-    no_chaos : str
+        Range of the rates over the second half of the time, ≥ 0, in 1/T.
+    no_chaos : str, default ""
         Why the motion is not chaotic, whatever the estimate is, see `Megno`; empty if there is no such reason.
     """
 
@@ -98,7 +98,7 @@ class Exponent(Result):
 
 @dataclass(frozen=True)
 class Spectrum(Result):
-    """All Lyapunov exponents of one orbit.
+    """All Lyapunov exponents of one orbit; the result of `lyapunov_spectrum`.
 
     Attributes
     ----------
@@ -109,14 +109,14 @@ class Spectrum(Result):
     times : ndarray, shape (n,)
         Times.
     rates : ndarray, shape (n, d)
-        Mean growth rates up to each time, which show the convergence.
+        Mean growth rates up to each time, in 1/T, which show the convergence.
     values : ndarray, shape (d,)
-        The exponents per unit of time, the largest first: means over the last four fifths of the time.
+        The exponents, in 1/T, the largest first: means over the last four fifths of the time.
     errors : ndarray, shape (d,)
-        Standard error from 12 stretches of time, combined with the part of the growth that is a power of t and
+        Standard error, in 1/T, from 12 stretches of time, combined with the part of the growth that is a power of t and
         therefore no exponent.
     divergence, divergence_error : float
-        Mean of tr J over the same time, and its error.
+        Mean of tr J over the same time, and its error ≥ 0, both in 1/T.
     integrals : int
         Number of first integrals of the system.
     status : Status
@@ -165,8 +165,8 @@ class Spectrum(Result):
         zero = [sign == "0" for sign in self.signs]
         values, errors = np.where(zero, 0.0, self.values), np.where(zero, 0.0, self.errors)
         order = np.argsort(-values, kind="stable")
-        kept = np.delete(order, np.flatnonzero(np.array(zero)[order])[: self.integrals])
-        return kaplan_yorke(values[kept], errors[kept], self.divergence, self.divergence_error)
+        rest = np.delete(order, np.flatnonzero(np.array(zero)[order])[: self.integrals])
+        return kaplan_yorke(values[rest], errors[rest], self.divergence, self.divergence_error)
 
     def labels(self) -> Labels:
         """Return the running means over time, and the exponents with their errors.
@@ -201,20 +201,26 @@ class Spectrum(Result):
 
 
 def kaplan_yorke(values: Array, errors: Array, total: float, total_error: float = 0.0) -> tuple[float, float]:
-    """Return the dimension k + Σ_(i≤k) λ_i/|λ_(k+1)| of exponents and its error.
+    """Return the Kaplan–Yorke dimension k + Σ_(i≤k) λ_i/|λ_(k+1)| of exponents and its error.
+
+    The k is the largest number whose first k exponents have a sum ≥ 0.  Where that is all of them, to three errors of
+    their sum, the dimension is m, and its error is how far below m it may be.
 
     Parameters
     ----------
-    values, errors : Array, shape (m,)
+    values, errors : ndarray, shape (m,)
         The exponents, the largest first, and their errors.
-    total, total_error : float
+    total : float
         Their sum, the mean divergence, which is known better than from them.
+    total_error : float, default 0.0
+        Error of the sum, ≥ 0.
 
     Returns
     -------
-    tuple of float
-        k is the largest number whose first k exponents have a sum ≥ 0; where that is all of them, to three errors of
-        their sum, the dimension is m, and its error is how far below m it may be.
+    dimension : float
+        The dimension, 0 to m.
+    error : float
+        Its error, ≥ 0.
 
     Examples
     --------
@@ -242,10 +248,29 @@ def kaplan_yorke(values: Array, errors: Array, total: float, total_error: float 
 
 
 def no_chaos(problem: Problem, start: Array, states: Array, duration: float, level: Level, grows: bool) -> str:
-    """Return why a motion is not chaotic, however its neighbours part; an empty string if there is no reason.
+    """Return the reason why a motion is not chaotic, however its neighbours part.
 
-    start (d,), states (n, d) at even times and the span are in units of the problem.  Only if neighbours part, `grows`,
-    is the motion searched for a return to its start.
+    Only if neighbours part is the motion searched for a return to its start.
+
+    Parameters
+    ----------
+    problem : Problem
+        The equations of motion and their units.
+    start : ndarray, shape (d,)
+        State at time 0, in scaled units.
+    states : ndarray, shape (n, d)
+        States at even times, in scaled units.
+    duration : float
+        Time of the last state, in scaled units.
+    level : Level
+        Accuracy level.
+    grows : bool
+        True if neighbours part.
+
+    Returns
+    -------
+    str
+        The reason in words; empty if there is none.
     """
     system, p = problem.system, problem.parameters
     if start.size - len(system.integrals(start.tolist(), p.tolist())) <= 2:
@@ -281,7 +306,7 @@ def lyapunov_exponent(body: Body, start: Sequence[float], duration: float, accur
     start : array_like, shape (d,)
         Initial state.
     duration : float
-        Time span, in units of the problem; negative for backward in time.
+        Time, nonzero, in units of the problem; negative: backward.
     accuracy : str or Level, default "standard"
         Accuracy level.  A named level means its `Plan` for exponents.
 
@@ -321,11 +346,11 @@ def lyapunov_exponent(body: Body, start: Sequence[float], duration: float, accur
     count = max(1, math.ceil(samples))
     times = span * np.arange(1, count + 1) / count
     state = problem.states[0]
-    found = tangent(problem, state, one_direction(state.size), problem.times(times), level, LONGEST)
-    rates = found.lengths[:, 0] / np.abs(times)
+    motion = tangent(problem, state, one_direction(state.size), problem.times(times), level, LONGEST)
+    rates = motion.lengths[:, 0] / np.abs(times)
     require_finite_rates(rates)
     later = rates[count // 2 :]
-    reason = no_chaos(problem, state, found.states, span * problem.nu, level, True)
+    reason = no_chaos(problem, state, motion.states, span * problem.nu, level, True)
     return Exponent(frozen(np.abs(times)), frozen(rates), float(later.max() - later.min()), reason)
 
 
@@ -343,7 +368,7 @@ def lyapunov_spectrum(
     start : array_like, shape (d,)
         Initial state.
     duration : float
-        Time span, in units of the problem; negative for backward in time.
+        Time, nonzero, in units of the problem; negative: backward.
     accuracy : str or Level, default "standard"
         Accuracy level.
 
@@ -387,21 +412,21 @@ def lyapunov_spectrum(
     where = partial(end_of, problem, y, end)
     while i < count:
         go_on()
-        found = tangent(problem, y, frame, part, level, LIMIT, ahead, steps, where)
-        steps += found.steps
+        motion = tangent(problem, y, frame, part, level, LIMIT, ahead, steps, where)
+        steps += motion.steps
         if ahead:
-            speeds = speed * np.linalg.norm(found.vectors[:, :, 0], axis=1)
+            speeds = speed * np.linalg.norm(motion.vectors[:, :, 0], axis=1)
             speed = float(speeds[-1])
             if not speeds.min() > _SLOW:
                 # From here on f is integrated like all other vectors.
                 ahead = False
                 continue
-        columns, lengths = np.linalg.qr(found.vectors)
+        columns, lengths = np.linalg.qr(motion.vectors)
         diagonal = np.abs(np.diagonal(lengths, axis1=1, axis2=2))
         now = slice(i + 1, i + _SAMPLES + 1)
-        growth[now] = growth[i] + found.log_growth + np.log(np.maximum(diagonal, 1e-300))
-        volume[now] = volume[i] + found.volume
-        y, frame = found.states[-1].copy(), columns[-1]
+        growth[now] = growth[i] + motion.log_growth + np.log(np.maximum(diagonal, 1e-300))
+        volume[now] = volume[i] + motion.volume
+        y, frame = motion.states[-1].copy(), columns[-1]
         i += _SAMPLES
     times = abs(duration) * np.arange(count + 1) / count
     first = _SETTLES * _SAMPLES

@@ -21,14 +21,35 @@ _TRIED = 6
 
 @dataclass(frozen=True)
 class Mirror:
-    """A symmetry, by the `signs` (d,) of the variables; `reverses` is True for a reversor."""
+    """A symmetry or a reversor that changes signs of variables.
+
+    Attributes
+    ----------
+    name : str
+        Name, such as "ω1, ω2, t → −".
+    signs : ndarray, shape (d,)
+        Factor of each variable, 1 or −1.
+    reverses : bool
+        True for a reversor.
+    """
 
     name: str
     signs: Array
     reverses: bool
 
     def image(self, state: Array) -> Array:
-        """Return the mirror image of a state (d,)."""
+        """Return the mirror image of a state.
+
+        Parameters
+        ----------
+        state : ndarray, shape (d,)
+            The state.
+
+        Returns
+        -------
+        ndarray, shape (d,)
+            Its image.
+        """
         return self.signs * state
 
 
@@ -36,6 +57,18 @@ def sign_symmetries(system: System, parameters: Sequence[float]) -> tuple[Mirror
     """Return all sign changes that map the motions of a system to motions, forward or backward in time.
 
     They are tested on a few states in general position, which is conclusive for a field of such low degree.
+
+    Parameters
+    ----------
+    system : System
+        The equations of motion.
+    parameters : sequence of float, shape (q,)
+        Values of the parameters.
+
+    Returns
+    -------
+    tuple of Mirror
+        Symmetries and reversors.
 
     Examples
     --------
@@ -51,7 +84,7 @@ def sign_symmetries(system: System, parameters: Sequence[float]) -> tuple[Mirror
     with np.errstate(all="ignore"):
         rates = system.rates(states, parameters)
     size = float(np.abs(rates).max()) or 1.0
-    found = []
+    mirrors = []
     for choice in itertools.product((1.0, -1.0), repeat=d):
         signs = np.array(choice)
         if np.all(signs > 0.0):
@@ -61,5 +94,5 @@ def sign_symmetries(system: System, parameters: Sequence[float]) -> tuple[Mirror
         for reverses, image in ((False, here), (True, -here)):
             if float(np.abs(there - image).max()) < 1e-13 * size:
                 changed = [name for name, sign in zip(system.variables, choice, strict=True) if sign < 0.0]
-                found.append(Mirror(f"{', '.join([*changed, *(['t'] if reverses else [])])} → −", signs, reverses))
-    return tuple(found)
+                mirrors.append(Mirror(f"{', '.join([*changed, *(['t'] if reverses else [])])} → −", signs, reverses))
+    return tuple(mirrors)

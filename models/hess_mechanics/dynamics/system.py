@@ -107,21 +107,21 @@ def _plain(p: Array) -> float:
 def _names(system: str, what: str, given: str | Iterable[str]) -> tuple[str, ...]:
     """Return names given as a text or a sequence.  Raises `InvalidParameter`."""
     parts = given.replace(",", " ").split() if isinstance(given, str) else given
-    found = tuple(parts) if np.iterable(parts) else (parts,)
-    if not all(isinstance(name, str) and name for name in found) or (what == "variables" and not found):
+    names = tuple(parts) if np.iterable(parts) else (parts,)
+    if not all(isinstance(name, str) and name for name in names) or (what == "variables" and not names):
         raise InvalidParameter(f'{system}: `{what}` must be names, such as "x y" or ("x", "y").')
-    return found
+    return names
 
 
 def _numbers(what: str, names: tuple[str, ...], values: Any) -> tuple[float, ...]:
     """Return one finite number for each name.  Raises `InvalidParameter`."""
     try:
-        found = tuple(float(x) for x in (values if np.iterable(values) else (values,)))
+        numbers = tuple(float(x) for x in (values if np.iterable(values) else (values,)))
     except (TypeError, ValueError, OverflowError):
-        found = (math.nan,)
-    if len(found) != len(names) or not all(map(math.isfinite, found)):
+        numbers = (math.nan,)
+    if len(numbers) != len(names) or not all(map(math.isfinite, numbers)):
         raise InvalidParameter(f"{what} must be finite numbers, {len(names)} of them: {', '.join(names) or 'none'}.")
-    return found
+    return numbers
 
 
 @dataclass(frozen=True, init=False, repr=False)
@@ -151,8 +151,8 @@ class System:
     integrals : callable, optional
         First integrals by name, integrals(y, p), in plain arithmetic on sequences.
     frequency : callable, optional
-        A bound ν of every |ω|, frequency(y, p), for y of shape (d,) or (d, n).  Orbits are integrated in units of time
-        1/ν.  Without it and `rescale`, the user's own units are kept: choose them so that states are O(1).
+        An upper bound ν on every |ω|, frequency(y, p), for y of shape (d,) or (d, n).  Orbits are integrated in units
+        of time 1/ν.  Without it and `rescale`, the user's own units are used: choose them so that states are O(1).
     rescale : callable, optional
         States and parameters in units of time 1/ν, rescale(y, p, nu), for y of shape (d,) or (d, n).  It divides the
         leading variables by ν and `unit`, leaves the others, and scales p so that the motion stays the same.
@@ -161,7 +161,8 @@ class System:
     unit : callable, optional
         Scale unit(p) of the leading variables besides ν.  By default 1.
     tolerance : callable, optional
-        Tolerance for an orbit from y whose series needs a smaller one, tolerance(y, p, order, asked).  It is compiled.
+        Tolerance for an orbit from y whose series needs a smaller one than the level's `default`, tolerance(y, p,
+        order, default).  It is compiled.
     angles : str or sequence of str, default none
         Names of variables that are angles in radians: the field is the same after a full turn, and sections count them
         up to full turns.
@@ -250,9 +251,9 @@ class System:
 
     def _checked_example(self, example: Any, values: Sequence[float]) -> tuple[tuple[float, ...], tuple[float, ...]]:
         """Return the example, completed by defaults.  Raises `InvalidParameter`."""
-        found = tuple((i + 1) / 10 for i in range(len(self.variables))) if example is None else example
-        is_pair = isinstance(found, Sequence) and len(found) == 2 and np.iterable(found[0])
-        state, p = found if is_pair else (found, values)
+        pair = tuple((i + 1) / 10 for i in range(len(self.variables))) if example is None else example
+        is_pair = isinstance(pair, Sequence) and len(pair) == 2 and np.iterable(pair[0])
+        state, p = pair if is_pair else (pair, values)
         return (
             _numbers(f"{self.title}: the state of the example", self.variables, state),
             _numbers(f"{self.title}: the parameters", self.parameters, p),
@@ -267,12 +268,12 @@ class System:
                 raise InvalidParameter(f"{self.title}: `{what}` must be a function of y and p.")
         check(self.field, len(self.variables), len(self.parameters))
         try:
-            found = dict(self.integrals(*self.example))
+            integrals = dict(self.integrals(*self.example))
         except (TypeError, ValueError, LookupError, ArithmeticError) as error:
             raise InvalidParameter(
                 f'{self.title}: `integrals` must return first integrals by name, such as {{"E": …}}: {error}.'
             ) from error
-        if not all(isinstance(key, str) and np.ndim(value) == 0 for key, value in found.items()):
+        if not all(isinstance(key, str) and np.ndim(value) == 0 for key, value in integrals.items()):
             raise InvalidParameter(f"{self.title}: `integrals` must return one number for each name, for one state.")
 
     def _check_scaling(self) -> None:
@@ -313,18 +314,18 @@ class System:
         state, parameters = (np.array(values, float) for values in self.example)
         for name in self.angles:
             if name not in self.variables[self.angular_velocities :]:
-                raise InvalidParameter(f"{self.title}: the angle {name} must be a variable that is no velocity.")
-            turned = state + 2.0 * math.pi * (np.array(self.variables) == name)
-            one, other = self._rates(state, parameters), self._rates(turned, parameters)
+                raise InvalidParameter(f"{self.title}: the angle {name} must be a variable that is not a velocity.")
+            after = state + 2.0 * math.pi * (np.array(self.variables) == name)
+            one, other = self._rates(state, parameters), self._rates(after, parameters)
             if not np.allclose(one, other, rtol=_ROUNDING, atol=_ROUNDING):
-                raise InvalidParameter(f"{self.title}: {name} is no angle: after a full turn the field is another one.")
+                raise InvalidParameter(f"{self.title}: {name} is not an angle: a full turn changes the field.")
 
     def _compare(self, y: Array, p: Array, scaled: Array, problem: Problem) -> None:
         expected = np.concatenate([y, self._rates(y, p)])
         rates = self._rates(scaled, problem.parameters)
-        found = np.concatenate([problem.scale * scaled, problem.scale * problem.nu * rates])
+        actual = np.concatenate([problem.scale * scaled, problem.scale * problem.nu * rates])
         names = [*self.variables, *(f"d{name}/dt" for name in self.variables)]
-        for name, one, other in zip(names, expected, found, strict=True):
+        for name, one, other in zip(names, expected, actual, strict=True):
             # Where a rate is NaN, nothing is compared.
             if abs(one - other) > _ROUNDING * float(np.max(np.abs(expected))):
                 leading = ", ".join(self.variables[: self.angular_velocities]) or "none"
@@ -339,10 +340,10 @@ class System:
         """Return the field (d,) in floats; NaN where it is not finite, or everywhere if it raises an error."""
         try:
             with np.errstate(all="ignore"):
-                found = np.array(self.field(y.tolist(), p.tolist()), float)
+                rates = np.array(self.field(y.tolist(), p.tolist()), float)
         except (TypeError, ValueError, ArithmeticError, LookupError):
             return np.full(y.shape, math.nan)
-        return np.where(np.isfinite(found), found, math.nan)
+        return np.where(np.isfinite(rates), rates, math.nan)
 
     def rates(self, states: Array, parameters: Sequence[float] | Array) -> Array:
         """Return the field at states.
@@ -359,15 +360,21 @@ class System:
         ndarray, shape (n, d)
             The rates.
         """
-        found = np.empty(states.shape)
+        rates = np.empty(states.shape)
         for i, rate in enumerate(self.field(list(states.T), np.asarray(parameters).tolist())):
             # A rate may be a plain number.
-            found[:, i] = rate
-        return found
+            rates[:, i] = rate
+        return rates
 
     @cached_property
     def recursion(self) -> Recursion:
-        """Taylor recursion of the field.  Raises `NotTraceable`."""
+        """Taylor recursion of the field.
+
+        Raises
+        ------
+        NotTraceable
+            If the field cannot be traced.
+        """
         return trace(self.field, len(self.variables), len(self.parameters))
 
     def longest_step(self, level: Level, duration: float, max_step: float = math.inf) -> float:
@@ -378,14 +385,14 @@ class System:
         level : Level
             Level of the run, see `Level.longest_step`.
         duration : float
-            Duration of the motion, in scaled time.
+            Duration of the motion, in units of 1/ν.
         max_step : float, default ∞
-            A smaller limit, in scaled time.
+            A smaller limit, positive, in units of 1/ν.
 
         Returns
         -------
         float
-            The longest step, in scaled time.
+            The longest step, in units of 1/ν.
         """
         part = LONGEST if self.recursion.functions else 1.0
         return level.longest_step(min(max_step, part * abs(duration)))
@@ -396,7 +403,7 @@ class System:
         return expressions(self.field, len(self.variables), len(self.parameters))
 
     def rates_with_rounding(self, y: Array, parameters: Array) -> tuple[Array, Array]:
-        """Return the rates at a state with bounds on their round-off.
+        """Return the rates at a state with upper bounds on their round-off.
 
         Parameters
         ----------
@@ -407,10 +414,10 @@ class System:
 
         Returns
         -------
-        ndarray, shape (d,)
+        rates : ndarray, shape (d,)
             The rates.
-        ndarray, shape (d,)
-            Bounds on their round-off.
+        bounds : ndarray, shape (d,)
+            Upper bounds on their round-off.
 
         Raises
         ------
@@ -418,8 +425,8 @@ class System:
             If an operation of the field has no finite result at the state.
         """
         names = self.variables, self.parameters
-        found = values_with_rounding(self.expressions, names, y.tolist(), parameters.tolist())
-        values, errors = np.array(found[: y.size]).T
+        pairs = values_with_rounding(self.expressions, names, y.tolist(), parameters.tolist())
+        values, errors = np.array(pairs[: y.size]).T
         return values, errors
 
     def rounding(self, states: Array, parameters: Array) -> Array | None:
@@ -442,13 +449,13 @@ class System:
         """
         if self.rescale is not _as_it_is:
             return None
-        found = [np.zeros(len(self.variables))]
+        sizes = [np.zeros(len(self.variables))]
         for y in states[:: max(1, len(states) // _SAMPLES)]:
             with suppress(Undefined):  # at a removable zero of a divisor
                 values, errors = self.rates_with_rounding(y, parameters)
                 size = max(np.abs(y).max(), np.abs(values).max())
-                found.append(np.where(errors > _CANCELS * size, errors, 0.0))
-        mean = np.asarray(np.sum(found, axis=0) / max(1, len(found) - 1))
+                sizes.append(np.where(errors > _CANCELS * size, errors, 0.0))
+        mean = np.asarray(np.sum(sizes, axis=0) / max(1, len(sizes) - 1))
         return mean if mean.any() else None
 
     @cached_property
@@ -474,7 +481,10 @@ class System:
 
     @cached_property
     def with_rounding(self) -> System:
-        """The system with a constant error of each rate, by further parameters: how much its rounding matters."""
+        """The same system with a constant error of each rate, given by further parameters.
+
+        Its orbits show how much the round-off of the rates matters.
+        """
         d, q = len(self.variables), len(self.parameters)
         return System(
             f"{self.name} with rounding",
@@ -540,7 +550,13 @@ class System:
 
     @cached_property
     def variation(self) -> Variation:
-        """The field with its Jacobian.  Raises `NotTraceable`."""
+        """The field with its Jacobian.
+
+        Raises
+        ------
+        NotTraceable
+            If the field cannot be traced.
+        """
         return variation(self.field, len(self.variables), len(self.parameters))
 
     @cached_property
@@ -592,12 +608,12 @@ class System:
                 f"{derived}\n\ndef {name}({arguments}):\n    return run({passed})\n"
             )
             module = getattr(self.field, "__module__", __name__)
-            found = derived_kernel(name, source, module, **names)
+            compiled = derived_kernel(name, source, module, **names)
             # The kernels of this package are compiled when it starts for the first time.
             if module.startswith("hess_mechanics."):
-                return found
+                return compiled
             count = len(self.recursion.pairs) if written is None else written
-            return announced(found, f"the kernel {task} of {self.name}", _COMPILE[0] + _COMPILE[1] * count)
+            return announced(compiled, f"the kernel {task} of {self.name}", _COMPILE[0] + _COMPILE[1] * count)
 
     def at(self, parameters: Sequence[float] | Array | None = None, **values: float) -> ParametrizedSystem:
         """Return the system with values of its parameters.
@@ -607,7 +623,7 @@ class System:
         parameters : sequence of float, shape (q,), optional
             Values of the parameters.  By default those of the example.
         **values : float
-            Values of single parameters by name, which replace these.
+            Values of single parameters by name, any finite numbers, which replace these.
 
         Returns
         -------
@@ -641,7 +657,7 @@ class System:
 
 
 class Body(Protocol):
-    """Interface of anything that moves: equations of motion and values of their parameters.
+    """Interface of a moving body: equations of motion and values of their parameters.
 
     Examples
     --------
@@ -688,7 +704,18 @@ def _modules() -> tuple[ModuleType, ...]:
 
 
 def declared(name: str) -> list[object]:
-    """Return what the modules of the package define under a name, such as SYSTEM."""
+    """Return all objects that the modules of the package define under a name.
+
+    Parameters
+    ----------
+    name : str
+        The name, such as "SYSTEM".
+
+    Returns
+    -------
+    list of object
+        One object for each module that has this name.
+    """
     return [getattr(module, name) for module in _modules() if hasattr(module, name)]
 
 
@@ -713,13 +740,13 @@ def systems() -> dict[str, System]:
     >>> "suslov" in systems()
     True
     """
-    found = {one.name: one for one in declared("SYSTEM") if isinstance(one, System)}
+    known = {one.name: one for one in declared("SYSTEM") if isinstance(one, System)}
     for brought in entry_points(group="hess_mechanics.systems"):
         system = brought.load()
-        if not isinstance(system, System) or system.name in found:
-            raise InvalidParameter(f"{brought.value} must be a System with a name of its own, not {system!r}.")
-        found[system.name] = system
-    return found
+        if not isinstance(system, System) or system.name in known:
+            raise InvalidParameter(f"{brought.value} must be a System whose name no other system has, not {system!r}.")
+        known[system.name] = system
+    return known
 
 
 @dataclass(frozen=True)
@@ -748,7 +775,25 @@ class Problem:
 
     @classmethod
     def of(cls, body: Body, states: Sequence[Sequence[float] | Array] | Array) -> Problem:
-        """Validate a body and states (n, d), and scale them.  Raises `InvalidParameter`."""
+        """Validate a body and states, and scale them.
+
+        Parameters
+        ----------
+        body : Body
+            The body.
+        states : array_like, shape (n, d)
+            Initial states, in the user's units.
+
+        Returns
+        -------
+        Problem
+            The scaled problem.
+
+        Raises
+        ------
+        InvalidParameter
+            If the body has no equations of motion, a number is not finite, or the scaled numbers overflow.
+        """
         if not (isinstance(getattr(body, "system", None), System) and hasattr(body, "parameters")):
             raise InvalidParameter(
                 f"{body!r:.80} is not a body with equations of motion: give a SuslovBody, a PlaneBody, a QuarticBody, "
@@ -778,17 +823,45 @@ class Problem:
         return cls(system, np.ascontiguousarray(scaled.T), p, nu, scale)
 
     def nearby(self) -> Problem:
-        """Return the same problem with starts that differ by roundings, see `measured.nearby`."""
+        """Return the same problem with starts that differ by roundings, see `measured.nearby`.
+
+        Returns
+        -------
+        Problem
+            The other problem.
+        """
         return replace(self, states=nearby(self.states))
 
     def rounded(self, motion: Array) -> Problem:
-        """Return the problem with rates that are wrong by their round-off, if they cancel at states (n, d)."""
+        """Return the problem with rates that are wrong by their round-off, if they cancel along a motion.
+
+        Parameters
+        ----------
+        motion : ndarray, shape (n, d)
+            States of the motion, in scaled units.
+
+        Returns
+        -------
+        Problem
+            The other problem; the same one if no rate cancels.
+        """
         rounding = self.system.rounding(motion, self.parameters)
         if rounding is None:
             return self
         return replace(self, system=self.system.with_rounding, parameters=np.concatenate((self.parameters, rounding)))
 
     def times(self, t: Array) -> Array:
-        """Return the times (m,) in units of 1/ν; on overflow ∞, which no step limit reaches."""
+        """Return times in units of 1/ν.
+
+        Parameters
+        ----------
+        t : ndarray, shape (m,)
+            Times, in the user's unit.
+
+        Returns
+        -------
+        ndarray, shape (m,)
+            Scaled times; on overflow ∞, which no step limit reaches.
+        """
         with np.errstate(over="ignore"):
             return t * self.nu

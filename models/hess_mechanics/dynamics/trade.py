@@ -26,8 +26,16 @@ _TWICE = {Kind.ROTATION: "share", Kind.LINE: "share", Kind.CURVE: "cells"}
 class LevelCost:
     """Cost of a computation at one level.
 
-    level : name; ms : milliseconds; error : distance from the truth, NaN if the result has nothing to compare;
-    complete : True if the level computes all points at full resolution.
+    Attributes
+    ----------
+    level : str
+        Name of the level.
+    ms : float
+        Wall time, in milliseconds.
+    error : float
+        Distance from the truth; NaN if the result has nothing to compare.
+    complete : bool
+        True if the level computes all points at full resolution.
     """
 
     level: str
@@ -42,9 +50,20 @@ class LevelCost:
 
 
 def beyond(kind: Kind) -> Plan:
-    """Return the plan of the truth: finer tolerance than `reference`; twice its returns or points along a curve.
+    """Return the plan of the truth of a kind of computation.
 
-    For basins and indicators the level is `aside`: their points lie beside the centres of the cells.
+    Its tolerance is finer than that of `reference`, and it has twice as many returns or points along a curve.  For
+    basins and indicators the level is `aside`: their points lie beside the centres of the cells.
+
+    Parameters
+    ----------
+    kind : Kind
+        Kind of the computation.
+
+    Returns
+    -------
+    Plan
+        The plan.
     """
     finest = PLANS[kind][REFERENCE.name]
     more = {name: 2.0 * getattr(finest, name) for name in (_TWICE[kind],)} if kind in _TWICE else {}
@@ -54,11 +73,32 @@ def beyond(kind: Kind) -> Plan:
 def measure(
     kind: Kind, run: Callable[[Plan], R], error: Callable[[R, R], float], repeats: int = 1, alike: Alike = ""
 ) -> Iterator[LevelCost]:
-    """Yield the cost of a computation at each level, cheapest first; a level runs when its cost is taken.
+    """Yield the cost of a computation at each level, the cheapest first.
 
-    error(result, truth) : distance of a result from that of the plan `beyond`; repeats : number of runs, of which the
-    fastest counts; alike : as in `Alike`, for results at other points than those of another level.  Raises what `run`
-    raises.
+    A level runs when its cost is requested.
+
+    Parameters
+    ----------
+    kind : Kind
+        Kind of the computation.
+    run : callable
+        Function from a plan to the result.
+    error : callable
+        Function error(result, truth) that returns the distance of a result from that of the plan `beyond`.
+    repeats : int, default 1
+        Number of runs, of which the fastest counts.
+    alike : str, default ""
+        One of `Alike`, for results at other points than those of another level.
+
+    Yields
+    ------
+    LevelCost
+        The cost of a level.
+
+    Raises
+    ------
+    ModelError
+        As `run`.
     """
 
     @cache
@@ -85,10 +125,21 @@ def measure(
 
 
 def enough(samples: Iterable[LevelCost], largest: float) -> str:
-    """Return the first complete level whose error is at most `largest`, or the last level.
+    """Return the first complete level whose error is small enough, or the last level.
 
-    If `largest` is the largest invisible error, more accuracy would make no visible difference.  Without any
-    measurement it is `standard`.
+    If `largest` is the largest invisible error, more accuracy would make no visible difference.
+
+    Parameters
+    ----------
+    samples : iterable of LevelCost
+        Costs of the levels, the cheapest first.
+    largest : float
+        Largest error.
+
+    Returns
+    -------
+    str
+        Name of the level; "standard" without any measured error.
     """
     last = STANDARD.name
     for one in samples:

@@ -1,8 +1,8 @@
-"""Tubes: intervals that are proved to contain the true states of an orbit, computed in Arb's ball arithmetic.
+"""Tubes: rigorous (validated) integration, with intervals that are proved to contain the true states of an orbit.
 
-At time t the state lies within |D⁻¹(y − c)| ≤ ρ of a centre c, where D holds the sizes of the components.  Let p(s) be
-any polynomials with p(0) = c, here the Taylor series of the centre; their digits need not be right.  For the true
-solution y of ẏ = f(y), the distance e = D⁻¹(y − p) obeys
+The intervals are computed in Arb's ball arithmetic.  At time t the state lies within |D⁻¹(y − c)| ≤ ρ of a centre c,
+where D holds the sizes of the components.  Let p(s) be any polynomials with p(0) = c, here the Taylor series of the
+centre; their digits need not be right.  For the true solution y of ẏ = f(y), the distance e = D⁻¹(y − p) obeys
 
     |e|˙ ≤ μ|e| + Δ,   Δ ≥ |D⁻¹(ṗ − f(p))|,   μ ≥ the largest eigenvalue of the symmetric part of D⁻¹ f′ D,
 
@@ -70,7 +70,7 @@ _GUARD_BITS, _LOW_BITS = 32, 64
 
 @dataclass(frozen=True)
 class Tube(Result):
-    """Intervals that contain the true states of an orbit.
+    """Intervals that contain the true states of an orbit; the result of `tube`.
 
     Attributes
     ----------
@@ -81,7 +81,7 @@ class Tube(Result):
     states : tuple of tuple of Enclosure
         For each time, an interval for each component.
     width : float
-        Largest width of an interval, relative to the size of the component.
+        Largest width of an interval, ≥ 0, relative to the size of the component.
     complete : bool
         True if all requested times were reached.
     steps : int
@@ -89,12 +89,12 @@ class Tube(Result):
     bits : int
         Working precision in bits.
     seconds : float
-        Elapsed time.
-    variables : tuple of str
+        Elapsed wall time, in seconds.
+    variables : tuple of str, default ()
         Names of the variables.
-    work_limited : bool
+    work_limited : bool, default False
         True if more work would have reached more times.
-    digits : int
+    digits : int, default 18
         Requested number of digits, with which `labels` writes the intervals.
     """
 
@@ -143,8 +143,8 @@ class ProvedOrbit(Result):
         The orbit.
     tube : Tube
         The intervals that contain the true states of the same motion, at the same times.
-    right_to : float, default 1e-6
-        Largest error of a component of a state that counts as right.
+    right_to : float, default 1e-06
+        Largest error of a component of a state that counts as right, positive.
 
     Raises
     ------
@@ -164,7 +164,7 @@ class ProvedOrbit(Result):
 
     @cached_property
     def _errors(self) -> list[list[tuple[Fraction, Fraction]]]:
-        """Bounds, from below and from above, of the error of each component at each time of the tube."""
+        """Lower and upper bounds on the error of each component at each time of the tube."""
 
         def error(value: float, one: Enclosure) -> tuple[Fraction, Fraction]:
             above, below = one.high - Fraction(value), Fraction(value) - one.low
@@ -175,15 +175,15 @@ class ProvedOrbit(Result):
 
     @cached_property
     def bounds(self) -> Array:
-        """Upper bounds (m, d) of the error of each component at the times of the tube."""
-        found = [[math.nextafter(float(most), math.inf) for _, most in sample] for sample in self._errors]
-        return frozen(np.array(found, float).reshape(len(found), self.orbit.states.shape[1]))
+        """Upper bounds on the error of each component at the times of the tube, shape (m, d)."""
+        rows = [[math.nextafter(float(most), math.inf) for _, most in sample] for sample in self._errors]
+        return frozen(np.array(rows, float).reshape(len(rows), self.orbit.states.shape[1]))
 
     @property
     def least(self) -> float:
         """Lower bound on the largest error of any component at these times; NaN if there is none."""
-        found = max((least for sample in self._errors for least, _ in sample), default=math.nan)
-        return math.nextafter(float(found), 0.0)
+        bound = max((least for sample in self._errors for least, _ in sample), default=math.nan)
+        return math.nextafter(float(bound), 0.0)
 
     @property
     def largest(self) -> float:
@@ -218,6 +218,8 @@ def tube(
 ) -> Tube:
     """Return intervals that are proved to contain the orbit from a state.
 
+    This is rigorous (validated) integration.
+
     Parameters
     ----------
     body : Body
@@ -229,7 +231,8 @@ def tube(
     digits : int, default 18
         Accuracy of the intervals, in decimal digits, 1 to 100.
     most_work : float, optional
-        Limit on the work, by default about 4 s.  If it does not suffice, the tube ends earlier.
+        Limit on the work, positive, in units of 1/`WORK_PER_SECOND` s; by default about 4 s.  If it does not suffice,
+        the tube ends earlier.
 
     Returns
     -------
@@ -248,29 +251,29 @@ def tube(
     Examples
     --------
     >>> from hess_mechanics import systems, tube
-    >>> found = tube(systems()["hess"].at((0.75, 1.0)), (0.3, 0.9, 0.6, 0.0, 0.8), [1.0])
-    >>> found.complete, found.width < 1e-18
+    >>> result = tube(systems()["hess"].at((0.75, 1.0)), (0.3, 0.9, 0.6, 0.0, 0.8), [1.0])
+    >>> result.complete, result.width < 1e-18
     (True, True)
     """
     as_integer("digits", digits, 1, 100)
     begun = time.perf_counter()
-    asked = checked_times(times)
+    targets = checked_times(times)
     problem, system = Problem.of(body, [start]), body.system
-    length = abs(float(asked[-1]))
+    length = abs(float(targets[-1]))
     best: Tube | None = None
     bits, left = max(_FIRST_BITS, _whole(3.33 * digits + _GUARD_BITS)), most_work
     while True:
         with working(bits):
             walk = _Walk(system, [float(x) for x in start], [float(x) for x in body.parameters], problem.scale, bits)
-            found, width = walk.through(asked, 10.0 ** (-digits), left)
+            states, width = walk.through(targets, 10.0 ** (-digits), left)
         left -= walk.work
-        if best is None or len(found) > len(best.states):
+        if best is None or len(states) > len(best.states):
             best = Tube(
                 system.name,
-                asked[: len(found)],
-                tuple(found),
+                targets[: len(states)],
+                tuple(states),
                 width,
-                len(found) == asked.size,
+                len(states) == targets.size,
                 walk.steps,
                 bits,
                 0.0,
@@ -334,7 +337,7 @@ def _functions(recursion: Recursion) -> dict[str, Callable[..., Any]]:
 
 @dataclass(frozen=True)
 class _Step:
-    """Polynomials along a step of the given length, and a bound on |e| over the whole step."""
+    """Polynomials along a step of the given length, and an upper bound on |e| over the whole step."""
 
     series: list[ArbBall]
     length: float
@@ -372,19 +375,19 @@ class _Walk:
         """Return the states at the times as long as they are narrower than `tolerance`, and the largest width."""
         from flint import arb
 
-        found: list[tuple[Enclosure, ...]] = []
+        states: list[tuple[Enclosure, ...]] = []
         widest = 0.0
-        wanted = [Fraction(float(t)) for t in times]
-        sign = -1 if wanted[-1] < 0 else 1
-        while len(found) < len(wanted):
+        targets = [Fraction(float(t)) for t in times]
+        sign = -1 if targets[-1] < 0 else 1
+        while len(states) < len(targets):
             go_on()
-            left = math.nextafter(float(abs(wanted[-1] - self.t)), math.inf)
+            left = math.nextafter(float(abs(targets[-1] - self.t)), math.inf)
             step = self._step(sign, left, most_work)
             if step is None:
                 break
             end = self.t + sign * Fraction(step.length)
-            while len(found) < len(wanted) and sign * (wanted[len(found)] - end) <= 0:
-                gone = abs(wanted[len(found)] - self.t)
+            while len(states) < len(targets) and sign * (targets[len(states)] - end) <= 0:
+                gone = abs(targets[len(states)] - self.t)
                 radius = step.radius if gone else self.radius
                 y = [
                     one(arb(rational(gone))) + arb(0, (radius * size).abs_upper())
@@ -392,20 +395,20 @@ class _Walk:
                 ]
                 width = max(2.0 * float(x.rad()) / size for x, size in zip(y, self.scale, strict=False))
                 if width > tolerance:
-                    return found, widest
+                    return states, widest
                 widest = max(widest, width)
-                found.append(tuple(enclosure(x) for x in y))
+                states.append(tuple(enclosure(x) for x in y))
                 self.work += self.terms
-                if self.work > most_work and len(found) < len(wanted):
+                if self.work > most_work and len(states) < len(targets):
                     self.work_limited = True
-                    return found, widest
+                    return states, widest
             self._go_to(step, end)
             if 2.0 * float(self.radius) > tolerance:
                 break
             if self.work > most_work:
                 self.work_limited = True
                 break
-        return found, widest
+        return states, widest
 
     def _go_to(self, step: _Step, end: Fraction) -> None:
         from flint import arb
@@ -454,7 +457,7 @@ class _Walk:
         return shortest
 
     def _radius(self, along: list[ArbBall], length: float, sign: int) -> ArbBall | None:
-        """Return a bound on |e| over a step; None if the step is too long."""
+        """Return an upper bound on |e| over a step; None if the step is too long."""
         from flint import arb, ctx
 
         delta = arb(length)
@@ -480,7 +483,7 @@ class _Walk:
         return most if most < R else None
 
     def _rate(self, box: list[ArbBall], sign: int) -> ArbBall | None:
-        """Return a bound on the eigenvalues of the symmetric part of ±D⁻¹ f′ D over a box; None if there is none.
+        """Return an upper bound on the eigenvalues of the symmetric part of ±D⁻¹ f′ D over a box, or None.
 
         Raises `ZeroDivisionError` if a divisor may vanish.
         """
@@ -499,10 +502,10 @@ class _Walk:
         turn = arb_mat(Q.tolist())
         near = turn.inv() * S * turn
         most = [near[i, i] + sum((abs(near[i, j]) for j in range(n) if j != i), 0 * box[0]) for i in range(n)]
-        found = most[0].upper()
+        bound = most[0].upper()
         for one in most[1:]:
-            found = found.max(one.upper())
-        return found
+            bound = bound.max(one.upper())
+        return bound
 
 
 def _norm(sizes: Sequence[ArbBall]) -> ArbBall:
@@ -568,11 +571,11 @@ def proved_orbit(
     accuracy : str or Level, default "standard"
         Accuracy level of the orbit.
     right_to : float, default 1e-6
-        Largest error of a component that counts as right.
+        Largest error of a component that counts as right, positive.
     digits : int, default 18
-        Number of digits of the intervals, see `tube`.
+        Number of digits of the intervals, 1 to 100, see `tube`.
     most_work : float, optional
-        Work limit, see `tube`.
+        Limit on the work, positive, see `tube`.
 
     Returns
     -------
@@ -592,9 +595,9 @@ def proved_orbit(
     >>> proved_orbit(*systems()["hess"].example_motion, [0.5]).largest < 1e-6
     True
     """
-    found = tube(body, start, times, digits, most_work)
-    if not found.times.size:
+    intervals = tube(body, start, times, digits, most_work)
+    if not intervals.times.size:
         raise WorkLimit(
             "No time is enclosed: reduce the digits or the time, or allow more work; or choose less extreme parameters."
         )
-    return ProvedOrbit(solve(body, start, found.times, accuracy), found, right_to)
+    return ProvedOrbit(solve(body, start, intervals.times, accuracy), intervals, right_to)

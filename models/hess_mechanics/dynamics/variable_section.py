@@ -106,13 +106,42 @@ class VariableSection(PoincareSection):
         return {**dict(zip(self.system.parameters, self.parameters, strict=True)), **dict(self.integrals)}
 
     def at_constant(self, name: str, value: float) -> VariableSection:
-        """Return the section with another value of one constant."""
+        """Return the section with another value of one constant.
+
+        Parameters
+        ----------
+        name : str
+            Name of the constant, one of `constants`.
+        value : float
+            Its new value.
+
+        Returns
+        -------
+        VariableSection
+            The other section.
+
+        Raises
+        ------
+        InvalidParameter
+            If the value is not finite.
+        """
         if name in self.system.parameters:
             return replace(self, body=self.system.at(self.parameters, **{name: value}))
         return replace(self, integrals=tuple((own, value if own == name else x) for own, x in self.integrals))
 
     def places_of(self, states: Array) -> Array:
-        """Return the coordinates (n, k) of states (n, d), angles within half a turn of the middle of their range."""
+        """Return the points of the section at which given states lie.
+
+        Parameters
+        ----------
+        states : ndarray, shape (n, d)
+            States of the section.
+
+        Returns
+        -------
+        ndarray, shape (n, k)
+            Coordinates, angles within half a turn of the middle of their range.
+        """
         places = states[:, [self._index(name) for name in self.names]]
         turns, middle = np.array(self.turns), np.mean(self.ranges, axis=1)
         return np.asarray(places - np.where(np.isinf(turns), 0.0, _TURN) * np.round((places - middle) / turns))
@@ -121,7 +150,20 @@ class VariableSection(PoincareSection):
         return self.system.variables.index(name)
 
     def states_at(self, *places: Array) -> tuple[Array, Mask]:
-        """Return states (n, d) at coordinates (n,), and a mask (n,) of those that motions cross."""
+        """Return the states at points of the section.
+
+        Parameters
+        ----------
+        *places : ndarray
+            Coordinates of the points, each of shape (n,).
+
+        Returns
+        -------
+        states : ndarray, shape (n, d)
+            The states.
+        possible : ndarray of bool, shape (n,)
+            True for points that motions cross.
+        """
         y = np.zeros((len(self.system.variables), np.size(places[0])))
         y[self._index(self.variable)] = self.value
         for name, place in zip(self.names, places, strict=True):
@@ -129,7 +171,7 @@ class VariableSection(PoincareSection):
         unknown, here = [self._index(name) for name in self.solved], self._index(self.variable)
         example = np.array(self.system.example[0])
         size = max(1.0, float(np.abs(example).max()))
-        found = y.copy()
+        states = y.copy()
         there = np.zeros(y.shape[1], bool)
         with np.errstate(all="ignore"):
             for start in (np.full(example.size, _FAR * size), np.full(example.size, -_FAR * size), example):
@@ -141,9 +183,9 @@ class VariableSection(PoincareSection):
                 rate = np.broadcast_to(self.system.field(list(tried), self.parameters)[here], solved.shape)
                 solved &= self.sense * rate > 0.0
                 new = solved & ~there
-                found[:, new] = tried[:, new]
+                states[:, new] = tried[:, new]
                 there |= solved
-        return found.T.copy(), there
+        return states.T.copy(), there
 
     def _solve(self, y: Array, unknown: list[int]) -> Mask:
         """Move the unknown variables of y (d, n) to the values of the integrals; return a mask of those that are."""
@@ -151,7 +193,7 @@ class VariableSection(PoincareSection):
             return np.ones(y.shape[1], bool)
         last = np.full((len(unknown), y.shape[1]), np.inf)
         for _ in range(_ITERATIONS):
-            # All differences at once: one call of the integrals is dear, whatever its length.
+            # All differences at once: a call of the integrals is expensive, whatever its length.
             step = _STEP * np.maximum(1.0, np.abs(y[unknown]))
             moved = np.repeat(y[:, None], 2 * len(unknown) + 1, axis=1)
             for j, i in enumerate(unknown):

@@ -1,7 +1,8 @@
 """Tangent dynamics: an orbit with tangent vectors, of which exponents, indicators and multipliers are read off.
 
-V̇ = J(y(t)) V, where J is the Jacobian of the field.  J comes from differentiating the traced field and is integrated in
-the same Taylor steps as the orbit (`numerics.variation_kernels`), so V exists for every system.
+V̇ = J(y(t)) V, where J is the Jacobian of the field; the solution with V(0) = 1 is the fundamental matrix.  J comes from
+differentiating the traced field and is integrated in the same Taylor steps as the orbit (`numerics.variation_kernels`),
+so V exists for every system.
 
 The column along the motion needs no integration: V f(y(0)) = f(y(t)).  Unless the motion is slow at its start, only the
 d − 1 columns across f are integrated: for five variables four, which fill one vector register instead of two.
@@ -37,8 +38,18 @@ LONGEST = 1e6
 class Tangent:
     """An orbit with k tangent vectors δ, δ̇ = J δ, at n times, in units of the problem.
 
-    steps : number of steps; states (n, d); vectors (n, d, k); removed (n, k) : logarithms of the lengths that were
-    removed from the vectors; volume (n,) : ∫ tr J dt.
+    Attributes
+    ----------
+    steps : int
+        Number of steps.
+    states : ndarray, shape (n, d)
+        States of the orbit.
+    vectors : ndarray, shape (n, d, k)
+        The tangent vectors; those of the start 1 give the fundamental matrix.
+    log_growth : ndarray, shape (n, k)
+        Logarithms of the lengths that were removed from the vectors.
+    volume : ndarray, shape (n,)
+        ∫ tr J dt up to each time.
     """
 
     steps: int
@@ -49,20 +60,50 @@ class Tangent:
 
     @property
     def lengths(self) -> Array:
-        """Logarithms (n, k) of the lengths of the vectors."""
+        """Logarithms of the lengths of the vectors, shape (n, k)."""
         return np.asarray(self.log_growth + np.log(np.linalg.norm(self.vectors, axis=1)))
 
 
 def one_direction(size: int) -> Array:
-    """Return a unit vector (d, 1) in a direction that no symmetry singles out."""
+    """Return a unit vector in a direction that no symmetry singles out.
+
+    Parameters
+    ----------
+    size : int
+        Number d of components.
+
+    Returns
+    -------
+    ndarray, shape (d, 1)
+        The vector.
+    """
     direction = np.cos(1.0 + np.arange(size) ** 2)
     return np.asarray(direction / np.linalg.norm(direction))[:, None]
 
 
 def frame_ahead(problem: Problem, frame: Array, slow: float) -> tuple[Array, float]:
-    """Return d orthonormal columns, the first one along f(y) at the start, the others from `frame`; and |f|.
+    """Return orthonormal columns, the first one along f(y) at the start of a motion, and |f|.
 
-    If |f| is at most `slow`, all columns come from the frame.  Raises `InvalidParameter` if |f| overflows.
+    Parameters
+    ----------
+    problem : Problem
+        The equations of motion and their units.
+    frame : ndarray, shape (d, d)
+        Columns that give the others; all of them if |f| is at most `slow`.
+    slow : float
+        Smallest |f| of a moving orbit.
+
+    Returns
+    -------
+    columns : ndarray, shape (d, d)
+        The orthonormal columns.
+    speed : float
+        Speed |f|, in scaled units.
+
+    Raises
+    ------
+    InvalidParameter
+        If |f| overflows.
     """
     try:
         rate = [float(x) for x in problem.system.field(problem.states[0].tolist(), problem.parameters.tolist())]
@@ -122,9 +163,9 @@ def tangent(
     known = int(ahead and d > 1)
     vary = system.vary_others if known else system.vary_one if k == 1 else system.vary
     states, volume = np.empty((times.size, d)), np.empty(times.size)
-    found, removed = np.empty((times.size, d, k - known)), np.empty((times.size, k - known))
+    frames, removed = np.empty((times.size, d, k - known)), np.empty((times.size, k - known))
     own, options = np.ascontiguousarray(vectors[:, known:]), (level.order, level.tolerance, MAX_STEPS - spent, limit)
-    steps = vary(start, own, p, times, *options, states, found, removed, volume)
+    steps = vary(start, own, p, times, *options, states, frames, removed, volume)
     require_steps(
         steps,
         f"This motion needs more than {MAX_STEPS} steps: choose a shorter time span or a cheaper accuracy.",
@@ -135,17 +176,35 @@ def tangent(
         # An overflow is found below.
         with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
             along = system.rates(states, p) / (vectors[:, 0] @ system.field(start.tolist(), p.tolist()))
-        found = np.concatenate([along[:, :, None], found], axis=2)
+        frames = np.concatenate([along[:, :, None], frames], axis=2)
         removed = np.concatenate([np.zeros((times.size, 1)), removed], axis=1)
-    require_finite_neighbours(found, removed, volume)
-    return Tangent(steps, states, found, removed, volume)
+    require_finite_neighbours(frames, removed, volume)
+    return Tangent(steps, states, frames, removed, volume)
 
 
 def onto_surface(matrix: Array, rate: Array, gradient: Array) -> Array:
-    """Return the derivative (…, d, k) of the first return to a surface, from that of the flow, `matrix` (…, d, k).
+    """Return the derivative of the first return to a surface, from that of the flow.
 
-    A neighbour arrives earlier or later: (1 − f nᵀ/(n·f)) V, where f is the `rate` ẏ (…, d) and n the `gradient` (…, d)
-    of the surface at the crossing.  Raises `InvalidParameter` if an orbit is tangent to the surface.
+    A neighbour arrives earlier or later: (1 − f nᵀ/(n·f)) V.
+
+    Parameters
+    ----------
+    matrix : ndarray, shape (..., d, k)
+        Derivative V of the flow.
+    rate : ndarray, shape (..., d)
+        Rate f = ẏ at the crossing.
+    gradient : ndarray, shape (..., d)
+        Gradient n of the surface at the crossing.
+
+    Returns
+    -------
+    ndarray, shape (..., d, k)
+        Derivative of the return.
+
+    Raises
+    ------
+    InvalidParameter
+        If an orbit is tangent to the surface.
     """
     across = (gradient * rate).sum(axis=-1)
     size = np.linalg.norm(gradient, axis=-1) * np.linalg.norm(rate, axis=-1)

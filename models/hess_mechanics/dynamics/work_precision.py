@@ -48,10 +48,18 @@ _MOST_STEPS_FOR_OTHERS = 1500
 
 @dataclass(frozen=True)
 class ErrorGrowth:
-    """Errors along one motion, each by level.
+    """Errors along one motion, by the names of the levels.
 
-    times : (n,); errors : (n,), largest error of any variable in units in which the state is O(1);
-    pixels : (n,), error in the pictures; drifts : relative change (n,) of each integral.
+    Attributes
+    ----------
+    times : ndarray, shape (n,)
+        Times.
+    errors : mapping of str to ndarray, shape (n,)
+        Largest error of any variable, in units in which the state is O(1).
+    pixels : mapping of str to ndarray, shape (n,)
+        Error in the pictures, in pixels.
+    drifts : mapping of str to Mapping[str, ndarray]
+        Relative change, shape (n,), of each integral, by level and by its name.
     """
 
     times: Array
@@ -62,7 +70,19 @@ class ErrorGrowth:
 
 @dataclass(frozen=True)
 class WorkPoint:
-    """One method at one setting: milliseconds, and the largest error in units in which the state is O(1)."""
+    """Cost and error of one method at one setting.
+
+    Attributes
+    ----------
+    method : str
+        Name of the method.
+    setting : str
+        Name of the level, or tolerance.
+    ms : float
+        Wall time, in milliseconds.
+    error : float
+        Largest error of any variable, in units in which the state is O(1).
+    """
 
     method: str
     setting: str
@@ -72,9 +92,32 @@ class WorkPoint:
 
 @lru_cache(maxsize=8)
 def truth(name: str, start: tuple[float, ...], parameters: tuple[float, ...], duration: float, samples: int) -> Doubled:
-    """Return the motion with 31 digits at `samples` evenly spaced times up to `duration`; the last few are cached.
+    """Return a motion with 31 digits at evenly spaced times; the last few motions are cached.
 
-    name : name of the system.  Raises `InvalidParameter`, `WorkLimit`.
+    Parameters
+    ----------
+    name : str
+        Name of the system.
+    start : tuple of float, shape (d,)
+        Initial state.
+    parameters : tuple of float, shape (q,)
+        Values of the parameters.
+    duration : float
+        Last time; negative: backward.
+    samples : int
+        Number of times, both ends included.
+
+    Returns
+    -------
+    Doubled
+        The motion.
+
+    Raises
+    ------
+    InvalidParameter
+        If a number is not finite.
+    WorkLimit
+        If the motion needs too many steps.
     """
     return doubled(systems()[name].at(parameters), start, np.linspace(0.0, duration, samples))
 
@@ -87,10 +130,34 @@ def growth(
     weights: tuple[float, ...],
     samples: int,
 ) -> ErrorGrowth:
-    """Return the errors of all levels at `samples` evenly spaced times up to `duration`.
+    """Return the errors of all levels along a motion, at evenly spaced times.
 
-    name : name of the system; weights (d,) : pixels per unit of each variable.
-    Raises `InvalidParameter`, `WorkLimit`.
+    Parameters
+    ----------
+    name : str
+        Name of the system.
+    start : tuple of float, shape (d,)
+        Initial state.
+    parameters : tuple of float, shape (q,)
+        Values of the parameters.
+    duration : float
+        Last time; negative: backward.
+    weights : tuple of float, shape (d,)
+        Pixels per unit of each variable.
+    samples : int
+        Number of times, both ends included.
+
+    Returns
+    -------
+    ErrorGrowth
+        The errors.
+
+    Raises
+    ------
+    InvalidParameter
+        If a number is not finite.
+    WorkLimit
+        If the motion needs too many steps.
     """
     system, exact = systems()[name], truth(name, start, parameters, duration, samples)
     body = system.at(parameters)
@@ -126,7 +193,33 @@ def _best_of(run: Callable[[], T], repeats: int) -> tuple[float, T]:
 def measure_levels(
     name: str, start: tuple[float, ...], parameters: tuple[float, ...], duration: float, samples: int
 ) -> tuple[WorkPoint, ...]:
-    """Measure cost and error of each level; the cost includes the error estimate.  Raises the errors of `growth`."""
+    """Measure cost and error of each level on a motion; the cost includes the error estimate.
+
+    Parameters
+    ----------
+    name : str
+        Name of the system.
+    start : tuple of float, shape (d,)
+        Initial state.
+    parameters : tuple of float, shape (q,)
+        Values of the parameters.
+    duration : float
+        Last time; negative: backward.
+    samples : int
+        Number of times, both ends included.
+
+    Returns
+    -------
+    tuple of WorkPoint
+        One point for each level.
+
+    Raises
+    ------
+    InvalidParameter
+        If a number is not finite.
+    WorkLimit
+        If the motion needs too many steps.
+    """
     body, exact = systems()[name].at(parameters), truth(name, start, parameters, duration, samples)
     points = []
     for level in LEVELS.values():
@@ -136,14 +229,57 @@ def measure_levels(
 
 
 def longest_span(name: str, start: Sequence[float], parameters: Sequence[float]) -> float:
-    """Return the longest time span that all levels integrate in about a second.  Raises `InvalidParameter`."""
+    """Return the longest time span that all levels integrate in about a second.
+
+    Parameters
+    ----------
+    name : str
+        Name of the system.
+    start : sequence of float, shape (d,)
+        Initial state.
+    parameters : sequence of float, shape (q,)
+        Values of the parameters.
+
+    Returns
+    -------
+    float
+        The time span, in units of the problem.
+
+    Raises
+    ------
+    InvalidParameter
+        If a number is not finite.
+    """
     return _LONGEST / Problem.of(systems()[name].at(parameters), [start]).nu
 
 
 def others_take_long(name: str, start: Sequence[float], parameters: Sequence[float], duration: float) -> bool:
-    """Return True if SciPy's methods would take long for this motion.  Raises the errors of `growth`.
+    """Return True if SciPy's methods would take long for a motion.
 
     The decision counts steps and reads no clock, so that equal states always show the same.
+
+    Parameters
+    ----------
+    name : str
+        Name of the system.
+    start : sequence of float, shape (d,)
+        Initial state.
+    parameters : sequence of float, shape (q,)
+        Values of the parameters.
+    duration : float
+        Last time; negative: backward.
+
+    Returns
+    -------
+    bool
+        True if they would.
+
+    Raises
+    ------
+    InvalidParameter
+        If a number is not finite.
+    WorkLimit
+        If the motion needs too many steps.
     """
     body = systems()[name].at(parameters)
     return (
@@ -155,7 +291,33 @@ def others_take_long(name: str, start: Sequence[float], parameters: Sequence[flo
 def measure_others(
     name: str, start: tuple[float, ...], parameters: tuple[float, ...], duration: float, samples: int
 ) -> tuple[WorkPoint, ...]:
-    """`measure_levels` for SciPy's methods on the plain field, at three tolerances each, without error estimates."""
+    """Measure cost and error of SciPy's methods on the plain field, at three tolerances each, without error estimates.
+
+    Parameters
+    ----------
+    name : str
+        Name of the system.
+    start : tuple of float, shape (d,)
+        Initial state.
+    parameters : tuple of float, shape (q,)
+        Values of the parameters.
+    duration : float
+        Last time; negative: backward.
+    samples : int
+        Number of times, both ends included.
+
+    Returns
+    -------
+    tuple of WorkPoint
+        One point for each method and tolerance.
+
+    Raises
+    ------
+    InvalidParameter
+        If a number is not finite.
+    WorkLimit
+        If the motion needs too many steps.
+    """
     from scipy.integrate import solve_ivp  # imported here because it takes 0.3 s
 
     system, exact = systems()[name], truth(name, start, parameters, duration, samples)
@@ -178,6 +340,19 @@ def measure_others(
 
 
 def quickest_other(points: Sequence[WorkPoint], error: float) -> WorkPoint | None:
-    """Return the fastest of SciPy's methods with at most this error, or None."""
+    """Return the fastest of SciPy's methods that is accurate enough.
+
+    Parameters
+    ----------
+    points : sequence of WorkPoint
+        Points of `measure_others`.
+    error : float
+        Largest error, in units in which the state is O(1).
+
+    Returns
+    -------
+    WorkPoint or None
+        The point; None if no method is accurate enough.
+    """
     good = [point for point in points if point.method in SLOW_METHODS and point.error <= error]
     return min(good, key=lambda point: point.ms, default=None)

@@ -71,9 +71,24 @@ def zero_one_test(series: Array) -> float:
 
 
 def zero_one_of_bands(series: Array) -> float:
-    """Return the largest K of every crossing, every second, every fourth and so on; as `zero_one_test`.
+    """Return the largest K of the 0–1 test of every number of a series, every second, every fourth and so on.
 
     An orbit that visits narrow bands in turn is almost periodic, and K of all crossings is close to 0.
+
+    Parameters
+    ----------
+    series : ndarray, shape (n,)
+        One number for each crossing, n ≥ 100.
+
+    Returns
+    -------
+    float
+        K in [−1, 1].
+
+    Raises
+    ------
+    InvalidParameter
+        For fewer than 100 numbers.
     """
     halvings = max(1, (len(series) // _IN_A_BAND).bit_length())
     return max(zero_one_test(series[:: 2**i]) for i in range(halvings))

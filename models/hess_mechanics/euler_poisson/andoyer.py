@@ -58,8 +58,8 @@ class AndoyerPlane:
     Parameters
     ----------
     f : float
-        Area integral (M, γ).
-    sense : int, optional
+        Area integral (M, γ), any finite number, in units I/T.
+    sense : {1, -1, 0}, default 1
         1 for upward crossings, −1 for downward crossings, 0 for both.
 
     References
@@ -71,8 +71,8 @@ class AndoyerPlane:
     >>> from hess_mechanics import AndoyerPlane, HeavyBody, section
     >>> body = HeavyBody.hess((1.0, 1.5, 2.0), 3.0)
     >>> start = (1.0, 0.5, 0.3, 0.6, 0.0, 0.8)
-    >>> found = section(body, start, AndoyerPlane(f=0.84), 20.0, "standard")
-    >>> len(found.times)
+    >>> result = section(body, start, AndoyerPlane(f=0.84), 20.0, "standard")
+    >>> len(result.times)
     5
     """
 
@@ -96,7 +96,7 @@ class AndoyerPlane:
         return np.array([*(2.0 * g3 * M[:2]), 2.0 * g3 * M[2] - self.f, 0.0, 0.0, M @ M])
 
     def crossing_kernel(self, system: System, problem: Problem) -> tuple[Callable[..., tuple[int, int]], Array, float]:
-        """Return the kernel of the surface with its constants in the units of a problem, see `section.Surface`.
+        """Return the kernel of the surface with its constants in the units of a problem, see `plane_section.Surface`.
 
         Parameters
         ----------
@@ -132,32 +132,97 @@ SHEETS = 3
 
 
 def coordinates(states: Array) -> Array:
-    """Return (l, L/G) (n, 2) of states (n, 6)."""
+    """Return the Andoyer–Deprit coordinates (l, L/G) of states.
+
+    Parameters
+    ----------
+    states : ndarray, shape (n, 6)
+        States (M1, M2, M3, γ1, γ2, γ3).
+
+    Returns
+    -------
+    ndarray, shape (n, 2)
+        Angle l in radians, and L/G from −1 to 1.
+    """
     G = np.sqrt(np.sum(states[:, :3] ** 2, axis=1))
     return np.column_stack([np.arctan2(states[:, 0], states[:, 1]), states[:, 2] / np.maximum(G, 1e-300)])
 
 
 def relation(body: HeavyBody, states: Array) -> Array:
-    """Return r1 M1 + r3 M3 (n,) of states (n, 6); in the Hess case its sign is invariant (`g2p6f1`)."""
+    """Return r1 M1 + r3 M3 of states; in the Hess case its sign is invariant (`g2p6f1`).
+
+    Parameters
+    ----------
+    body : HeavyBody
+        The body.
+    states : ndarray, shape (n, 6)
+        States (M1, M2, M3, γ1, γ2, γ3).
+
+    Returns
+    -------
+    ndarray, shape (n,)
+        Values of r1 M1 + r3 M3.
+    """
     return body.r[0] * states[:, 0] + body.r[2] * states[:, 2]
 
 
 def hess_curve(body: HeavyBody, l: Array) -> Array:
-    """Return L/G (n,) at l (n,) on the Hess manifold: r1 s sin l + r3 x = 0."""
+    """Return L/G on the Hess manifold, where r1 s sin l + r3 L/G = 0 with s = √(1 − (L/G)²).
+
+    Parameters
+    ----------
+    body : HeavyBody
+        The body.
+    l : ndarray, shape (n,)
+        Angles l, in radians.
+
+    Returns
+    -------
+    ndarray, shape (n,)
+        Values of L/G, −1 to 1.
+    """
     r1, _, r3 = body.r
     across = r1 * np.sin(l)
     return np.asarray(-across / np.maximum(np.hypot(r3, across), 1e-300), float)
 
 
 def hess_circle(body: HeavyBody) -> Array:
-    """Return (l, L/G), (241, 2), of all M normal to r, also for r along an axis, where l hardly changes."""
+    """Return the coordinates of all M normal to r, also for r along an axis, where l hardly changes.
+
+    Parameters
+    ----------
+    body : HeavyBody
+        The body.
+
+    Returns
+    -------
+    ndarray, shape (241, 2)
+        Points (l, L/G); l in radians.
+    """
     turn = np.linspace(-math.pi, math.pi, 241)
     return coordinates(np.column_stack([body.r[2] * np.sin(turn), np.cos(turn), -body.r[0] * np.sin(turn)]))
 
 
 @dataclass(frozen=True)
 class AndoyerSection(PoincareSection):
-    """One sheet of the section g = π/2 of a body at H = h, F1 = f.  Raises `InvalidParameter`."""
+    """One sheet of the section g = π/2 of a body at H = h, F1 = f.
+
+    Parameters
+    ----------
+    body : HeavyBody
+        The body.
+    h : float
+        Energy H, any finite number.
+    f : float
+        Area integral F1, any finite number.
+    sheet : int, default 0
+        Number of the sheet, 0 to 2, in the order of decreasing G.
+
+    Raises
+    ------
+    InvalidParameter
+        If a number is not finite, or the sheet is out of range.
+    """
 
     body: HeavyBody
     h: float
@@ -200,7 +265,27 @@ class AndoyerSection(PoincareSection):
         return self.body.integrable_at(self.f)
 
     def at_constant(self, name: str, value: float) -> AndoyerSection:
-        """Return the section with another value of one constant."""
+        """Return the section with another value of one constant.
+
+        Parameters
+        ----------
+        name : str
+            Name of the constant, one of `constants`.
+        value : float
+            Its new value.
+
+        Returns
+        -------
+        AndoyerSection
+            The other section.
+
+        Raises
+        ------
+        InvalidParameter
+            If the value is not finite.
+        NotPositiveDefinite
+            If an inverse moment is not positive.
+        """
         return _section({**self.constants, "sheet": self.sheet, name: value})
 
     def _factors(self, l: Array, x: Array) -> tuple[Array, Array, Array]:
@@ -213,7 +298,25 @@ class AndoyerSection(PoincareSection):
         return K, s * (m1 * sin + m2 * cos) + m3 * x, m1 * cos - m2 * sin
 
     def roots(self, l: Array, x: Array) -> Array:
-        """Return all G ≥ |f| with this energy at (l, L/G) (n,), decreasing; shape (n, SHEETS), filled up with NaN."""
+        """Return all momenta G ≥ |f| with the energy of the section at given points.
+
+        Parameters
+        ----------
+        l : ndarray, shape (n,)
+            Angles l, in radians.
+        x : ndarray, shape (n,)
+            Values of L/G, −1 to 1.
+
+        Returns
+        -------
+        ndarray, shape (n, 3)
+            Values of G in decreasing order, filled up with NaN.
+
+        Raises
+        ------
+        InvalidParameter
+            If a value is not finite or L/G is out of range.
+        """
         l, x = np.array(l, float, ndmin=1), np.array(x, float, ndmin=1)
         if not (np.all(np.isfinite(l)) and np.all(np.abs(x) <= 1.0)):
             raise InvalidParameter("On the section l is an angle and x = L/G lies between −1 and 1.")
@@ -226,7 +329,27 @@ class AndoyerSection(PoincareSection):
         return out
 
     def states_at(self, l: Array, x: Array) -> tuple[Array, Mask]:
-        """Return the states (n, 6) at (l, L/G) (n,), and the mask (n,) of the places where motions cross this sheet."""
+        """Return the states at points of the section.
+
+        Parameters
+        ----------
+        l : ndarray, shape (n,)
+            Angles l, in radians.
+        x : ndarray, shape (n,)
+            Values of L/G, −1 to 1.
+
+        Returns
+        -------
+        states : ndarray, shape (n, 6)
+            States (M1, M2, M3, γ1, γ2, γ3).
+        possible : ndarray of bool, shape (n,)
+            True for points where motions cross this sheet.
+
+        Raises
+        ------
+        InvalidParameter
+            If a value is not finite or L/G is out of range.
+        """
         G = self.roots(l, x)[:, self.sheet]
         safe = np.where(G > 0.0, G, 1.0)
         s, c = np.sqrt(np.maximum(0.0, 1.0 - x * x)), self.f / safe
@@ -240,38 +363,95 @@ class AndoyerSection(PoincareSection):
         return y.T, (G > 0.0) & (growth > 0.0)
 
     def places_of(self, states: Array) -> Array:
-        """Return (l, L/G) (n, 2) of states (n, 6), on any sheet."""
+        """Return the points of the section at which given states lie, on any sheet.
+
+        Parameters
+        ----------
+        states : ndarray, shape (n, 6)
+            States of the section.
+
+        Returns
+        -------
+        ndarray, shape (n, 2)
+            Angle l in radians, and L/G.
+        """
         return coordinates(states)
 
     def sheet_of(self, states: Array) -> Sheets:
-        """Return the sheet (n,) of each of the states (n, 6): the number of larger roots G at their (l, L/G)."""
+        """Return the sheet of each state: the number of larger roots G at its (l, L/G).
+
+        Parameters
+        ----------
+        states : ndarray, shape (n, 6)
+            States of the section.
+
+        Returns
+        -------
+        ndarray of int, shape (n,)
+            Sheets, 0 to 2.
+        """
         f, (l, x) = self.f, coordinates(states).T
         G = np.sqrt(np.sum(states[:, :3] ** 2, axis=1))
         K, P, Q = self._factors(l, x)
         ratio = f / np.maximum(G, 1e-300)
         across = np.sqrt(np.maximum(0.0, 1.0 - ratio * ratio))
-        found = np.where((K * G * G + ratio * P) * across < ratio * ratio * Q, 1, 0)
+        sheets = np.where((K * G * G + ratio * P) * across < ratio * ratio * Q, 1, 0)
         # On the third sheet ∂h/∂G > 0 as on the first, with ∂h/∂G < 0 for some larger α = arccos |f|/G.  This
         # requires K f² tan α/cos²α < √(P² + Q²).
         steep = K * G**3 * across < abs(f) * np.hypot(P, Q)
-        unsure = np.flatnonzero((found == 0) & (f * P < 0.0) & (Q < 0.0) & steep) if f else np.empty(0, int)
+        unsure = np.flatnonzero((sheets == 0) & (f * P < 0.0) & (Q < 0.0) & steep) if f else np.empty(0, int)
         if unsure.size:
             larger = self.roots(l[unsure], x[unsure]) > G[unsure, None] * (1.0 + 1e-9)
-            found[unsure] = np.where(larger.sum(axis=1) == 2, 2, 0)
-        return found
+            sheets[unsure] = np.where(larger.sum(axis=1) == 2, 2, 0)
+        return sheets
 
     def is_on(self, states: Array) -> Mask:
-        """Return the mask (n,) of the states (n, 6) of the section that are on this sheet."""
+        """Return True for states on this sheet.
+
+        Parameters
+        ----------
+        states : ndarray, shape (n, 6)
+            States of the section.
+
+        Returns
+        -------
+        ndarray of bool, shape (n,)
+            True for the states on this sheet.
+        """
         return np.asarray(self.sheet_of(states) == self.sheet)
 
     def possible(self, l: Array, x: Array) -> Mask:
-        """Return the mask (n,) of the (l, L/G) where some G ≥ |f| has an energy of at most h, as exact as a plot."""
+        """Return True where some G ≥ |f| has an energy of at most h, as exactly as a plot needs.
+
+        Parameters
+        ----------
+        l : ndarray, shape (n,)
+            Angles l, in radians.
+        x : ndarray, shape (n,)
+            Values of L/G, −1 to 1.
+
+        Returns
+        -------
+        ndarray of bool, shape (n,)
+            True for possible points.
+        """
         least = np.empty(l.size)
         least_excess(float(self.h), float(self.f), self.body.strength, *self._factors(l, x), _ROUGH, least)
         return np.asarray(least <= 0.0)
 
     def impossible(self, window: Window) -> Array:
-        """Return cells (m, n) over the window: 1 where this sheet has no motion of this energy."""
+        """Return the forbidden region of a window, as cells.
+
+        Parameters
+        ----------
+        window : ((float, float), (float, float))
+            Corners (l, L/G) of the window.
+
+        Returns
+        -------
+        ndarray, shape (64, 96)
+            1 where this sheet has no motion of this energy, otherwise 0.
+        """
         (l0, x0), (l1, x1) = window
         m, n = _CELLS
         grid = np.meshgrid(centres(l0, l1, m), centres(x0, x1, n))

@@ -1,5 +1,8 @@
 # mypy: allow-untyped-defs
-"""Kernels of `andoyer`: crossings of the surface g = π/2, G²γ3 − f M3 = 0 with (γ, v) > 0, and its roots G."""
+"""Kernels of `andoyer`: crossings of the surface g = π/2, G²γ3 − f M3 = 0 with (γ, v) > 0, and its roots G.
+
+Not for users.
+"""
 
 from __future__ import annotations
 
@@ -98,13 +101,13 @@ def roots_into(h, f, strength, K, P, Q, count, out):
             cos = math.cos(steepest * (1.0 - k / (count // 2 - 1)))
             G[count + k] = min(top, max(abs(f), abs(f) / cos)) if cos > 0.0 else top
         G.sort()
-        found = 0
+        number = 0
         # If round-off produces too many roots, those of the smallest G are dropped.
         above = _energy(top, f, K[i], P[i], Q[i]) - h >= -1e-12 * (abs(h) + strength)
         for k in range(G.size - 2, -1, -1):
             before = above
             above = _energy(G[k], f, K[i], P[i], Q[i]) > h
-            if above == before or found == out.shape[1]:
+            if above == before or number == out.shape[1]:
                 continue
             low, high = G[k], G[k + 1]
             for _ in range(60):
@@ -113,5 +116,5 @@ def roots_into(h, f, strength, K, P, Q, count, out):
                     high = middle
                 else:
                     low = middle
-            out[i, found] = 0.5 * (high + low)
-            found += 1
+            out[i, number] = 0.5 * (high + low)
+            number += 1

@@ -37,11 +37,11 @@ class HeavyBody:
     Parameters
     ----------
     a : tuple of three floats
-        Inverse moments of inertia a1, a2, a3 > 0.
+        Inverse moments of inertia a1, a2, a3 > 0, in units 1/I; their ratios are at most 1e20.
     r : tuple of three floats
-        Direction or position r1, r2, r3 of the centre of mass.
+        Direction or position r1, r2, r3 of the centre of mass, any finite numbers.
     mu : float
-        Weight μ; the potential is −μ(r, γ).
+        Weight μ, any finite number; the potential is −μ(r, γ), in units I/T².
 
     Raises
     ------
@@ -152,7 +152,7 @@ class HeavyBody:
         Parameters
         ----------
         f : float
-            Area integral (M, γ).
+            Area integral (M, γ), any finite number, in units I/T.
 
         Returns
         -------
@@ -198,7 +198,20 @@ class HeavyBody:
 
 
 def field(y: Sequence[Any], p: Sequence[Any]) -> tuple[Any, ...]:
-    """Return the right-hand side of the equations of motion (`hh01`)."""
+    """Return the right-hand side of the equations of motion (`hh01`).
+
+    Parameters
+    ----------
+    y : sequence, shape (6,)
+        State (M1, M2, M3, γ1, γ2, γ3): numbers, arrays or symbols.
+    p : sequence, shape (7,)
+        Parameters (a1, a2, a3, r1, r2, r3, μ).
+
+    Returns
+    -------
+    tuple of length 6
+        Rates of the state.
+    """
     M1, M2, M3, g1, g2, g3 = y
     a1, a2, a3, r1, r2, r3, mu = p
     return (
@@ -212,7 +225,20 @@ def field(y: Sequence[Any], p: Sequence[Any]) -> tuple[Any, ...]:
 
 
 def integrals(y: Sequence[Any], p: Sequence[Any]) -> Mapping[str, Any]:
-    """Return the energy H, the area integral F1 = (M, γ), and F2 = γ² (`hh001`)."""
+    """Return the energy H, the area integral F1 = (M, γ), and F2 = γ² (`hh001`).
+
+    Parameters
+    ----------
+    y : sequence, shape (6,)
+        State (M1, M2, M3, γ1, γ2, γ3): numbers, arrays or symbols.
+    p : sequence, shape (7,)
+        Parameters (a1, a2, a3, r1, r2, r3, μ).
+
+    Returns
+    -------
+    mapping of str to object
+        Values of the integrals, by name.
+    """
     M1, M2, M3, g1, g2, g3 = y
     a1, a2, a3, r1, r2, r3, mu = p
     return {
@@ -223,9 +249,26 @@ def integrals(y: Sequence[Any], p: Sequence[Any]) -> Mapping[str, Any]:
 
 
 def frequency(y: Array, p: Array) -> Array | float:
-    """Return ν = √(2 max(a) (T + 2|μ||r||γ|)), a bound on |ω| along the motion, of states (6,) or (6, n).
+    """Return ν = √(2 max(a) (T + 2|μ||r||γ|)), an upper bound on |ω| along the motion.
 
-    Raises `NotPositiveDefinite`, `InvalidParameter`.
+    Parameters
+    ----------
+    y : ndarray, shape (6,) or (6, n)
+        One or several states.
+    p : ndarray, shape (7,)
+        Parameters (a1, a2, a3, r1, r2, r3, μ).
+
+    Returns
+    -------
+    float or ndarray, shape (n,)
+        The bound of each state, in rad/T.
+
+    Raises
+    ------
+    NotPositiveDefinite
+        If a1, a2 or a3 is not positive.
+    InvalidParameter
+        If the ratio of two of these is beyond 1e20.
     """
     a = np.asarray(p[:3])
     _require_positive("a", a.tolist())
@@ -239,6 +282,22 @@ def rescale(y: Array, p: Array, nu: float) -> tuple[Array, Array]:
     """Return state and parameters with time in units of 1/ν and moments of inertia in units of the largest.
 
     a → a/min(a), M → M min(a)/ν, μ → μ min(a)/ν².
+
+    Parameters
+    ----------
+    y : ndarray, shape (6,) or (6, n)
+        One or several states.
+    p : ndarray, shape (7,)
+        Parameters (a1, a2, a3, r1, r2, r3, μ).
+    nu : float
+        Frequency ν, positive.
+
+    Returns
+    -------
+    y : ndarray
+        The rescaled states, of the shape of `y`.
+    p : ndarray, shape (7,)
+        The rescaled parameters.
     """
     y, p = y.copy(), p.copy()
     smallest = float(p[:3].min())
@@ -248,7 +307,7 @@ def rescale(y: Array, p: Array, nu: float) -> tuple[Array, Array]:
     return y, p
 
 
-def momentum_unit(p: Array) -> float:
+def _momentum_unit(p: Array) -> float:
     """Return 1/min(a), the unit of momentum of `rescale` at ν = 1."""
     return 1.0 / float(p[:3].min())
 
@@ -265,6 +324,6 @@ SYSTEM = System(
     integrals=integrals,
     frequency=frequency,
     rescale=rescale,
-    unit=momentum_unit,
+    unit=_momentum_unit,
     example=((0.8, -0.4, 0.5, 0.36, 0.48, 0.8), (1.0, 1.25, 1.6, 0.3, -0.5, 1.0, 0.5)),
 )

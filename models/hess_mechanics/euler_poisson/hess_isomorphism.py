@@ -8,7 +8,8 @@ off it, M3' = 0 (`m15.10`), and with m = μ|r|
 
 transform the equations on the manifold (`gess05`) to the reduced Suslov–Hess equations (`eq01`) without rescaling time;
 the map of the axes is a reflection.  (The paper prints other factors of n and b.)  For the Suslov body with
-I11 = 1/a1' energy and area integral are the same numbers: E = H, F2 = −F1.
+I11 = 1/a1' energy and area integral are the same numbers: E = H, F2 = −F1.  `Bridge` is this isomorphism for one pair
+of bodies.
 """
 
 from __future__ import annotations
@@ -44,7 +45,23 @@ def share_of(body: HeavyBody) -> float:
     """Return the share with which `Bridge.of_suslov` restores the moments of a heavy body in the Hess case.
 
     Above 1 the body is not rigid and cannot be restored; if r1 r3 < 0 the moments I1 and I3 are exchanged.
-    Raises `InvalidParameter` outside the Hess case, `NoField` (r = 0).
+
+    Parameters
+    ----------
+    body : HeavyBody
+        Body in the Hess case.
+
+    Returns
+    -------
+    float
+        The share, positive.
+
+    Raises
+    ------
+    InvalidParameter
+        If the body is not in the Hess case.
+    NoField
+        If r = 0.
     """
     squared = Bridge.of_heavy(body).hess.a ** 2
     return (1.0 - min(body.a) / body.a[1]) / (0.5 * (1.0 - squared if squared < 1.0 else 1.0))
@@ -52,7 +69,7 @@ def share_of(body: HeavyBody) -> float:
 
 @dataclass(frozen=True)
 class Bridge:
-    """Heavy body in the Hess case and the Suslov body with the same motions.
+    """Isomorphism between the motions of a heavy body in the Hess case and those of a Suslov body.
 
     Use `of_heavy` or `of_suslov` to construct it.  Time is the same for both bodies.
 
@@ -219,9 +236,9 @@ class Bridge:
         Parameters
         ----------
         H : float
-            Energy of the heavy body.
+            Energy of the heavy body, in units I/T².
         F1 : float
-            Area integral (M, γ).
+            Area integral (M, γ), in units I/T.
 
         Returns
         -------
@@ -251,9 +268,9 @@ class Bridge:
         Returns
         -------
         H : float
-            Energy of the heavy body, equal to E of the Suslov body.
+            Energy of the heavy body, in units I/T², equal to E of the Suslov body.
         F1 : float
-            Area integral (M, γ), equal to −F2 of the Suslov body.
+            Area integral (M, γ), in units I/T, equal to −F2 of the Suslov body.
 
         Raises
         ------
@@ -265,10 +282,41 @@ class Bridge:
 
 
 def largest_area_integral(weight: float, I2: float, h: float) -> float:
-    """Return the largest |(M, γ)| on the Hess manifold at the energy h of a body with μ|r| = weight."""
+    """Return the largest |(M, γ)| on the Hess manifold at one energy.
+
+    Parameters
+    ----------
+    weight : float
+        The product μ|r|, nonzero.
+    I2 : float
+        Middle moment of inertia, positive.
+    h : float
+        Energy H, above −|weight|.
+
+    Returns
+    -------
+    float
+        The largest area integral.
+
+    Raises
+    ------
+    OutsideRegion
+        If the energy is too low.
+    """
     return f_max(h / abs(weight)) * math.sqrt(abs(weight) * I2)
 
 
 def largest_distance(h: float) -> float:
-    """Return an upper bound on `Bridge.distance` between two motions of the energy h, in units b = 1."""
+    """Return an upper bound on `Bridge.distance` between two motions of one energy.
+
+    Parameters
+    ----------
+    h : float
+        Energy, h > −1, in units b = 1.
+
+    Returns
+    -------
+    float
+        The bound, in units b = 1.
+    """
     return 4.0 * math.sqrt(2.0 * (h + 1.0)) + 4.0

@@ -39,7 +39,29 @@ __all__ = [
 
 
 def exact_motion(a: float, start: tuple[float, ...], duration: float, count: int) -> Orbit:
-    """Return the motion of `eq01` from a state (5,), units b = 1, at equidistant times: it stays on the manifold."""
+    """Return the motion of the reduced equations (`eq01`), which stays on the Hess manifold, at equidistant times.
+
+    Parameters
+    ----------
+    a : float
+        Inertia parameter a.
+    start : tuple of five floats
+        Initial state (w1, w2, n1, n2, n3), in units b = 1.
+    duration : float
+        Time, in units b = 1.
+    count : int
+        Number of times, both ends included.
+
+    Returns
+    -------
+    Orbit
+        The motion, in units b = 1.
+
+    Raises
+    ------
+    WorkLimit
+        If the motion needs too many steps.
+    """
     return solve(REDUCED.at((a, 1.0)), start, np.linspace(0.0, duration, count), REFERENCE)
 
 
@@ -47,7 +69,20 @@ def exact_motion(a: float, start: tuple[float, ...], duration: float, count: int
 class FreeRun:
     """Orbit of the Euler–Poisson equations, computed once at one level, with its leak off the Hess manifold.
 
-    times : (n,); states : (n, 6); off : (n,), (r, M)/(|r| max |M|); steps : number of steps; drift : as in `Orbit`.
+    Attributes
+    ----------
+    level : str
+        Name of the accuracy level.
+    times : ndarray, shape (n,)
+        Times.
+    states : ndarray, shape (n, 6)
+        States (M1, M2, M3, γ1, γ2, γ3).
+    off : ndarray, shape (n,)
+        The leak (r, M)/(|r| max |M|), 0 on the manifold.
+    steps : int
+        Number of steps.
+    drift : mapping of str to float
+        Drift of each integral, as in `Orbit`.
     """
 
     level: str
@@ -59,7 +94,7 @@ class FreeRun:
 
     @cached_property
     def andoyer(self) -> Array:
-        """The coordinates (l, L/G) along the orbit, (n, 2)."""
+        """The coordinates (l, L/G) along the orbit, shape (n, 2); l in radians."""
         return frozen(coordinates(self.states))
 
 
@@ -71,12 +106,37 @@ _HELD_SAMPLES = 32
 def run_free(
     body: HeavyBody, start: tuple[float, ...], duration: float, count: int, accuracy: Accuracy, held: bool = False
 ) -> FreeRun:
-    """Return the Euler–Poisson orbit from a state on the Hess manifold, at `count` even times from 0 to `duration`.
+    """Return an Euler–Poisson orbit from a state on the Hess manifold, computed once, at equidistant times.
 
-    It is computed once: `solve` would repeat it with smaller tolerances until the leak is that of round-off.
-    held : if true, M is projected onto the manifold so often that the leak cannot grow.  This integrates the
-    restriction to the manifold (`gess05`) in the variables and with the kernel of Euler–Poisson.
-    Raises `InvalidParameter`, `WorkLimit`.
+    `solve` would repeat it with smaller tolerances until the leak is that of round-off.
+
+    Parameters
+    ----------
+    body : HeavyBody
+        Body in the Hess case.
+    start : tuple of six floats
+        Initial state (M1, M2, M3, γ1, γ2, γ3) on the manifold.
+    duration : float
+        Time, positive.
+    count : int
+        Number of times, both ends included.
+    accuracy : str or Level
+        Accuracy level.
+    held : bool, default False
+        Project M onto the manifold so often that the leak cannot grow.  This integrates the restriction to the manifold
+        (`gess05`) in the variables and with the kernel of Euler–Poisson.
+
+    Returns
+    -------
+    FreeRun
+        The orbit and its leak.
+
+    Raises
+    ------
+    InvalidParameter
+        If a number is out of range.
+    WorkLimit
+        If the motion needs too many steps, or too many projections.
     """
     level = as_level(accuracy)
     times = frozen(np.linspace(0.0, duration, count))
@@ -98,17 +158,17 @@ def run_free(
         if held:
             state[:3] -= (state[:3] @ axis) * axis
         piece = np.append(scaled[first[i] : first[i + 1]], edges[i + 1]) - edges[i]
-        found = np.empty((piece.size, 6))
+        rows = np.empty((piece.size, 6))
         longest = SYSTEM.longest_step(level, piece[-1])
         steps, _ = SYSTEM.orbit(
-            state, problem.parameters, piece, level.order, level.tolerance, longest, MAX_STEPS, found
+            state, problem.parameters, piece, level.order, level.tolerance, longest, MAX_STEPS, rows
         )
         if steps < 0:
             raise WorkLimit(f"This motion needs more than {MAX_STEPS} steps: choose a shorter time span.")
-        require_finite_states(found)
+        require_finite_states(rows)
         total += steps
-        out[first[i] : first[i + 1]] = found[:-1]
-        state = found[-1].copy()
+        out[first[i] : first[i + 1]] = rows[:-1]
+        state = rows[-1].copy()
     out[first[-1] :] = state
     states = out * problem.scale
     drift = drift_of(SYSTEM, states[0], states, np.array(body.parameters))
@@ -118,10 +178,18 @@ def run_free(
 
 @dataclass(frozen=True)
 class SuslovDistance:
-    """Distance of the Euler–Poisson motion, held on the manifold and left free, from the motion of the Suslov problem.
+    """Distance of the Euler–Poisson motion from the motion of the Suslov problem.
 
-    times, held, free : (n,), units b = 1, both at the level `reference`; error : estimate of the Suslov motion, in its
-    own units.
+    Attributes
+    ----------
+    times : ndarray, shape (n,)
+        Times.
+    held : ndarray, shape (n,)
+        Distance of the motion that is held on the manifold, in units b = 1.
+    free : ndarray, shape (n,)
+        Distance of the motion that is left free, in units b = 1.
+    error : float
+        Error estimate of the Suslov motion, in its own units.
     """
 
     times: Array
@@ -131,9 +199,30 @@ class SuslovDistance:
 
 
 def difference(bridge: Bridge, start: tuple[float, ...], duration: float, count: int) -> SuslovDistance:
-    """Return the distance along the motion from a state (5,) of `eq01` with b = 1, over a `duration` of the bodies.
+    """Return the distance between the motions of a heavy body and of its Suslov body from the same state.
 
-    Raises `InvalidParameter`, `WorkLimit`.
+    Parameters
+    ----------
+    bridge : Bridge
+        The pair of bodies.
+    start : tuple of five floats
+        Initial state (w1, w2, n1, n2, n3), in units b = 1.
+    duration : float
+        Time, in the units of the bodies.
+    count : int
+        Number of times, both ends included.
+
+    Returns
+    -------
+    SuslovDistance
+        The distance, with and without projection onto the Hess manifold.
+
+    Raises
+    ------
+    InvalidParameter
+        If a number is out of range.
+    WorkLimit
+        If a motion needs too many steps.
     """
     hess = bridge.hess
     reduced = hess.from_units_of_b(np.array(start))
@@ -154,7 +243,17 @@ _STRAIGHT = (3e-14, 1e-3)
 
 @dataclass(frozen=True)
 class LeakGrowth:
-    """Growth of ln |(r, M)| per period of n3, measured over `periods` periods from the period `first` on."""
+    """Growth of the leak off the Hess manifold, measured over some periods of n3.
+
+    Attributes
+    ----------
+    per_period : float
+        Growth of ln |(r, M)| per period.
+    first : int
+        Number of the first period measured.
+    periods : int
+        Number of periods measured, at least 2.
+    """
 
     per_period: float
     first: int
@@ -165,8 +264,16 @@ class LeakGrowth:
 class Leak:
     """A free run and the exact motion from the same state.
 
-    run : in the time of the bodies; exact : motion of the reduced system at the same times, units b = 1;
-    samples : number per period of n3.
+    Attributes
+    ----------
+    bridge : Bridge
+        The pair of bodies.
+    run : FreeRun
+        The free run, in the time of the bodies.
+    exact : Orbit
+        Motion of the reduced system at the same times, in units b = 1.
+    samples : int
+        Number of samples per period of n3.
     """
 
     bridge: Bridge
@@ -176,7 +283,7 @@ class Leak:
 
     @cached_property
     def apart(self) -> Array:
-        """The distance (n,) from the exact motion, in units b = 1."""
+        """The distance from the exact motion, shape (n,), in units b = 1."""
         return self.bridge.distance(self.run.states, self.exact.states)
 
     @cached_property
@@ -207,9 +314,19 @@ class Leak:
         return (int(np.sign(off[0])), bool(np.all(off * off[0] > 0.0))) if off.size else (0, True)
 
     def straight_line(self, per_period: float, ends: tuple[float, float]) -> list[Array]:
-        """Return (t, lg |(r, M)|), (2, 2), of a given growth through the middle of the exponential part, or [].
+        """Return a line of given growth through the middle of the exponential part of the leak.
 
-        per_period : growth of ln |(r, M)|; ends : values of lg at both ends.
+        Parameters
+        ----------
+        per_period : float
+            Growth of ln |(r, M)| per period of n3.
+        ends : (float, float)
+            Values of lg |(r, M)| at both ends.
+
+        Returns
+        -------
+        list of ndarray, shape (2, 2)
+            Points (t, lg |(r, M)|) of the line; empty if there is no exponential part.
         """
         if self.growth is None or per_period == 0.0:
             return []
@@ -221,5 +338,16 @@ class Leak:
 
 
 def exact_growth(theta: CircleMap) -> float:
-    """Return the growth of ln |(r, M)| in one period of n3 on the stable cycle; 0 without cycles."""
+    """Return the growth of ln |(r, M)| in one period of n3 on the stable limit cycle.
+
+    Parameters
+    ----------
+    theta : CircleMap
+        Circle map of the torus.
+
+    Returns
+    -------
+    float
+        The growth, ≥ 0; 0 without cycles.
+    """
     return abs(theta.fixed_points[0].log_multiplier) if theta.fixed_points else 0.0

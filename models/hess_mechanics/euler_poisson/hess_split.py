@@ -39,7 +39,19 @@ _ELSEWHERE = 0.3
 
 @dataclass(frozen=True)
 class HessTorus:
-    """Torus of the Hess manifold: the moments of inertia, μ|r|, H = h, F1 = f."""
+    """Torus of the Hess manifold.
+
+    Parameters
+    ----------
+    moments : tuple of three floats
+        Moments of inertia I1, I2, I3, positive, with I2 between the others.
+    strength : float
+        The product μ|r|, nonzero.
+    h : float
+        Energy H.
+    f : float
+        Area integral F1.
+    """
 
     moments: tuple[float, float, float]
     strength: float
@@ -47,7 +59,25 @@ class HessTorus:
     f: float
 
     def map_at(self, away: float, accuracy: Accuracy) -> ReturnMap:
-        """Return the return map of g = π/2 with r rotated by the angle `away`."""
+        """Return the return map of g = π/2 with r rotated off the Hess condition.
+
+        Parameters
+        ----------
+        away : float
+            Angle of the rotation, in radians.
+        accuracy : str or Level
+            Accuracy level.
+
+        Returns
+        -------
+        ReturnMap
+            The return map.
+
+        Raises
+        ------
+        InvalidParameter
+            If the moments do not allow the Hess condition.
+        """
         level = as_level(accuracy)
         return ReturnMap(AndoyerSection(HeavyBody.hess(self.moments, self.strength, away), self.h, self.f), level)
 
@@ -56,8 +86,14 @@ class HessTorus:
 class Saddles:
     """The two limit cycles of a torus in the section of the Hess case.
 
-    repels, attracts : places (m, 2) of the cycle that repels along the manifold, and of the one that attracts along it;
-    l : the middle between them, the shorter way round.
+    Attributes
+    ----------
+    repels : ndarray, shape (m, 2)
+        Points (l, L/G) of the cycle that repels along the manifold.
+    attracts : ndarray, shape (m, 2)
+        Points (l, L/G) of the cycle that attracts along it.
+    l : float
+        Angle half-way between them, the shorter way round, in radians.
     """
 
     repels: Array
@@ -67,7 +103,19 @@ class Saddles:
 
 @dataclass(frozen=True)
 class Split:
-    """Distance of the two manifolds at l, L/G of the unstable one minus that of the stable one, and its error."""
+    """Distance of the two manifolds at one angle l; the result of `split_at`.
+
+    Attributes
+    ----------
+    away : float
+        Angle by which r is rotated off the Hess condition, in radians.
+    l : float
+        Angle l of the comparison, in radians.
+    value : float
+        L/G of the unstable manifold minus that of the stable one.
+    error : float
+        Estimated error of the value, ≥ 0.
+    """
 
     away: float
     l: float
@@ -76,9 +124,26 @@ class Split:
 
 
 def saddles(torus: HessTorus, accuracy: Accuracy) -> Saddles:
-    """Return the two limit cycles of the torus in the section.
+    """Return the two limit cycles of a torus in the section of the Hess case.
 
-    Raises `OutsideRegion` if the torus has no limit cycles, and as `find_periodic`.
+    Parameters
+    ----------
+    torus : HessTorus
+        The torus.
+    accuracy : str or Level
+        Accuracy level.
+
+    Returns
+    -------
+    Saddles
+        The two cycles.
+
+    Raises
+    ------
+    OutsideRegion
+        If the torus has no limit cycles, or one does not cross the section.
+    NotConverged
+        If Newton's method does not find a cycle in the section.
     """
     body = HeavyBody.hess(torus.moments, torus.strength)
     bridge = Bridge.of_heavy(body)
@@ -97,7 +162,7 @@ def saddles(torus: HessTorus, accuracy: Accuracy) -> Saddles:
             "and f where |trace| of the circle map is larger than 2."
         )
     turning, map_ = turning_points(h, f), torus.map_at(0.0, accuracy)
-    found = []
+    cycles = []
     for point in sorted(theta.fixed_points, key=lambda one: one.stable):
         state = bridge.from_reduced(bridge.hess.from_units_of_b(turning.state_at_lower_turn(point.phi)[None]))[0]
         crossing = section_crossings(AndoyerSection(body, torus.h, torus.f), state[None], 1, REFERENCE, threads=1)
@@ -105,14 +170,36 @@ def saddles(torus: HessTorus, accuracy: Accuracy) -> Saddles:
             raise OutsideRegion(
                 "A limit cycle of the Hess manifold does not cross the section g = π/2 here: choose other h and f."
             )
-        found.append(find_periodic(map_, map_.section.places_of(crossing.states[0])[0], near=True).places)
-    repels, attracts = found
+        cycles.append(find_periodic(map_, map_.section.places_of(crossing.states[0])[0], near=True).places)
+    repels, attracts = cycles
     half = 0.5 * math.remainder(float(attracts[0, 0] - repels[0, 0]), 2.0 * math.pi)
     return Saddles(repels, attracts, float(repels[0, 0]) + half)
 
 
 def split_at(torus: HessTorus, away: float, accuracy: Accuracy) -> Split:
-    """Return the split of the separatrices with r rotated by the angle `away`.  Raises as `saddles` and `grown`."""
+    """Return the split of the separatrices with r rotated off the Hess condition.
+
+    Parameters
+    ----------
+    torus : HessTorus
+        The torus.
+    away : float
+        Angle of the rotation, in radians.
+    accuracy : str or Level
+        Accuracy level.
+
+    Returns
+    -------
+    Split
+        The split and its error.
+
+    Raises
+    ------
+    OutsideRegion
+        If the torus has no limit cycles.
+    NotConverged
+        If a saddle is not found, or a separatrix ends too early.
+    """
     known, map_ = saddles(torus, accuracy), torus.map_at(away, accuracy)
     unstable = _towards(map_, known.repels, known.l, stable=False)
     stable = _towards(map_, known.attracts, known.l, stable=True)
@@ -126,7 +213,7 @@ def split_at(torus: HessTorus, away: float, accuracy: Accuracy) -> Split:
 
 
 def _towards(map_: ReturnMap, places: Array, l: float, stable: bool) -> Manifold:
-    """Return the branch along the Hess manifold, from the saddle next to these places to l and beyond."""
+    """Return the branch along the Hess manifold, from the saddle next to these points to l and beyond."""
     orbit = find_periodic(map_, places if len(places) > 1 else places[0], None if len(places) > 1 else 1, near=True)
     if (
         not orbit.kind.startswith("saddle")
@@ -144,17 +231,30 @@ def _towards(map_: ReturnMap, places: Array, l: float, stable: bool) -> Manifold
     along = np.linspace(from_, from_ + way, 200)
     curve = np.column_stack([along, hess_curve(sheet.body, along)])
     length = float(np.hypot(*np.diff(curve, axis=0).T).sum())
-    # `grown` takes the direction whose larger component is positive.
+    # `manifold` takes the direction whose larger component is positive.
     d = curve[1] - curve[0]
     side = 1 if d[int(np.argmax(np.abs(d)))] > 0.0 else -1
-    found = manifold(map_, orbit, length + _ROOM, stable=stable, side=side, sagitta=_SAGITTA, longest=_CHORD)
+    branch = manifold(map_, orbit, length + _ROOM, stable=stable, side=side, sagitta=_SAGITTA, longest=_CHORD)
     # The angles continue without jumps; shift them to the turn of l.
     shift = (l - from_) - way
-    return replace(found, points=frozen(found.points + np.array([shift, 0.0])))
+    return replace(branch, points=frozen(branch.points + np.array([shift, 0.0])))
 
 
 def slope_of(close: Sequence[Split]) -> tuple[float, float]:
-    """Return d split/dε at ε = 0 and its error, from the splits at e, −e, 2e, −2e by fourth-order differences."""
+    """Return the derivative of the split by the angle ε at ε = 0, by fourth-order differences.
+
+    Parameters
+    ----------
+    close : sequence of Split
+        Splits at e, −e, 2e, −2e.
+
+    Returns
+    -------
+    slope : float
+        The derivative, per radian.
+    error : float
+        Its estimated error, ≥ 0.
+    """
     e = close[0].away
     first, second = ((one.value - other.value) / (one.away - other.away) for one, other in (close[:2], close[2:]))
     return (4.0 * first - second) / 3.0, abs(second - first) + sum(one.error for one in close) / abs(e)

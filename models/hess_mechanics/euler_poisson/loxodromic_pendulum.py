@@ -55,7 +55,7 @@ class LoxodromicPendulum:
     body : HeavyBody
         Body in the Hess case with μ > 0, |r| = 1.
     h : float
-        The energy H = h μ, h > −1; h = 1 is the separatrix.
+        Energy in units of μ, H = h μ, h > −1; h = 1 is the separatrix.
     l : float
         Angle between M and the middle axis when the centre of mass passes its lowest point, in radians, 0 < l < π.
 
@@ -111,12 +111,15 @@ class LoxodromicPendulum:
 
     @property
     def angle(self) -> float:
-        """The angle θ between the track and the plane of the circular section, sin θ = 1/√(1+a²) (`klas-gess-3`)."""
+        """The angle θ between the track and the plane of the circular section, in radians (`klas-gess-3`).
+
+        sin θ = 1/√(1 + a²).
+        """
         return math.atan2(1.0, abs(self.a))
 
     @property
     def amplitude(self) -> float:
-        """The largest α of an oscillation; ∞ for h ≥ 1."""
+        """The largest α of an oscillation, in radians; ∞ for h ≥ 1."""
         return math.acos(-self.h) if self.h < 1.0 else math.inf
 
     @property
@@ -186,17 +189,17 @@ class LoxodromicPendulum:
         return (-reach - middle) / self.a, (reach - middle) / self.a
 
     def length(self, duration: float) -> float:
-        """Return a time span in units b = 1, at most `SETTLED` on the separatrix.
+        """Return a duration in units b = 1, at most `SETTLED` on the separatrix.
 
         Parameters
         ----------
         duration : float
-            Time span in the units of the body.
+            Time in the units of the body.
 
         Returns
         -------
         float
-            Time span in units b = 1.
+            Time in units b = 1.
         """
         length = duration * self.frequency_unit
         return min(length, SETTLED) if self.h == 1.0 else length
@@ -273,8 +276,8 @@ def loxodromic_motion(pendulum: LoxodromicPendulum, duration: float, accuracy: A
         The pendulum.
     duration : float
         Time span in the units of the body.
-    accuracy : Level or str
-        Accuracy level or its name, see `accuracy`.
+    accuracy : str or Level
+        Accuracy level or its name, see `level`.
 
     Returns
     -------

@@ -29,11 +29,20 @@ LineEnds = tuple[tuple[float, float], tuple[float, float]]
 
 @dataclass(frozen=True)
 class RotationProfile(Result):
-    """Rotation numbers `rho` (n,) of orbits that start at `along` (n,) on a line, each in parts without a gap.
+    """Rotation numbers of orbits that start on a line; the result of `rotation_along_line`.
 
     They lie in (−½, ½] or, if all of them are within half a turn of one another modulo 1, in an unbroken range.
-    librations : (n,), starts of closed curves that do not wind round, and so have no rotation number.
-    sea : (n, 2), parts of the line whose orbits do not lie on closed curves, each from one place to another.
+
+    Attributes
+    ----------
+    along : tuple of ndarray
+        Places on the line where orbits start, each in parts without a gap.
+    rho : tuple of ndarray
+        Rotation numbers in turns per return, in the same parts.
+    librations : ndarray, shape (n,)
+        Starts of closed curves that do not wind round, and so have no rotation number.
+    sea : ndarray, shape (n, 2)
+        Parts of the line whose orbits do not lie on closed curves, each from one place to another.
     """
 
     along: tuple[Array, ...]
@@ -42,7 +51,13 @@ class RotationProfile(Result):
     sea: Array
 
     def labels(self) -> Labels:
-        """Return ρ over the place on the line, with NaN in each gap."""
+        """Return ρ over the position on the line, with NaN in each gap.
+
+        Returns
+        -------
+        Labels
+            The rotation numbers over the places.
+        """
         gap = np.full(1, np.nan)
         along, rho = ([piece for part in parts for piece in (part, gap)][:-1] for parts in (self.along, self.rho))
         empty = [np.empty(0)]
@@ -54,12 +69,12 @@ class RotationProfile(Result):
 
     @property
     def places(self) -> Array:
-        """All places on the line (n,)."""
+        """All positions on the line, shape (n,)."""
         return np.concatenate([np.empty(0), *self.along])
 
     @property
     def numbers(self) -> Array:
-        """All rotation numbers (n,)."""
+        """All rotation numbers, shape (n,), in turns per return."""
         return np.concatenate([np.empty(0), *self.rho])
 
     @property
@@ -72,9 +87,19 @@ class RotationProfile(Result):
         return None
 
     def distance(self, exact: RotationProfile) -> float:
-        """Return the median of the differences over the places where both profiles know ρ.
+        """Return the median difference from another profile, where both know ρ.
 
-        Elsewhere the line crosses chaotic seas.  NaN if one of them knows none.
+        Elsewhere the line crosses chaotic seas.
+
+        Parameters
+        ----------
+        exact : RotationProfile
+            The other profile.
+
+        Returns
+        -------
+        float
+            The difference in turns per return; NaN if one of them knows no ρ.
         """
         if not (self.numbers.size and exact.numbers.size):
             return math.nan
@@ -83,9 +108,26 @@ class RotationProfile(Result):
 
 
 def on_line(section: AndoyerSection, ends: LineEnds, count: int) -> tuple[tuple[float, tuple[float, ...]], ...]:
-    """Return shares of the way along the line between the ends (l, L/G), at most `count`, and the states there.
+    """Return the states of a section at equidistant points of a line.
 
-    Raises `InvalidParameter`.
+    Parameters
+    ----------
+    section : AndoyerSection
+        The section.
+    ends : LineEnds
+        The two ends (l, L/G) of the line; l in radians.
+    count : int
+        Number of points.
+
+    Returns
+    -------
+    tuple of (float, tuple of float)
+        Share of the way along the line, 0 to 1, and the state, of each point with motion.
+
+    Raises
+    ------
+    InvalidParameter
+        If L/G is out of range.
     """
     shares = (np.arange(count) + 0.5) / count
     l, x = ((1.0 - shares) * a + shares * b for a, b in zip(*ends, strict=True))
@@ -103,18 +145,35 @@ def rotation_along(
     count: int,
     resolved: float = RESOLVED,
 ) -> RotationProfile:
-    """Return the profile of orbits (n, 2) that start at these shares of the line, out of `count` equidistant ones.
+    """Return the profile of orbits that start on a line.
 
-    about_first : if true, turns are counted about the first end, and the place is l; otherwise they are turns of the
-    angle l, and the place is L/G.  resolved : largest difference of both halves of an orbit on a closed curve.
+    Parameters
+    ----------
+    ends : LineEnds
+        The two ends (l, L/G) of the line; l in radians.
+    shares : sequence of float
+        Share of the way along the line of each start, out of `count` equidistant ones.
+    orbits : sequence of ndarray, shape (n, 2)
+        Crossings (l, L/G) of each orbit.
+    about_first : bool
+        Count turns about the first end, over l; otherwise turns of the angle l, over L/G.
+    count : int
+        Number of equidistant starts.
+    resolved : float, default RESOLVED
+        Largest difference of the rotation numbers of both halves of an orbit on a closed curve.
+
+    Returns
+    -------
+    RotationProfile
+        The profile.
     """
     centre, axis = (ends[0], 0) if about_first else (None, 1)
-    found = [
+    numbers = [
         (share, *rotation_number(points, centre))
         for share, points in zip(shares, orbits, strict=True)
         if len(points) >= _FEWEST
     ]
-    going = [(share, turns) for share, turns, spread in found if spread <= resolved < abs(turns)]
+    going = [(share, turns) for share, turns, spread in numbers if spread <= resolved < abs(turns)]
 
     def place(share: Array) -> Array:
         return np.asarray((1.0 - share) * ends[0][axis] + share * ends[1][axis])
@@ -123,13 +182,13 @@ def rotation_along(
     rho = _side_by_side(rho)
     # Split the curve at gaps, and at the jump from ½ to −½.
     cuts = np.flatnonzero((np.diff(along) > 1.5 / count) | (np.abs(np.diff(rho)) > 0.5)) + 1
-    at_sea = np.array([share for share, _, spread in found if spread > resolved])
+    at_sea = np.array([share for share, _, spread in numbers if spread > resolved])
     coasts = np.flatnonzero(np.diff(at_sea) > 1.5 / count) + 1
     seas = [(part[0] - 0.5 / count, part[-1] + 0.5 / count) for part in np.split(at_sea, coasts) if part.size]
     return RotationProfile(
         tuple(np.split(place(along), cuts)),
         tuple(np.split(rho, cuts)),
-        place(np.array([share for share, turns, spread in found if spread <= resolved and abs(turns) <= resolved])),
+        place(np.array([share for share, turns, spread in numbers if spread <= resolved and abs(turns) <= resolved])),
         place(np.array(seas).reshape(-1, 2)),
     )
 
@@ -138,7 +197,7 @@ def _side_by_side(rho: Array) -> Array:
     """Return the numbers (n,) shifted by integers to lie within half a turn, or unchanged if that is impossible."""
     order = np.sort(rho)
     for first in order:
-        turned = first + (rho - first) % 1.0
-        if np.ptp(turned) <= 0.5:
-            return np.asarray(turned - np.ceil(0.5 * (turned.min() + turned.max()) - 0.5))
+        shifted = first + (rho - first) % 1.0
+        if np.ptp(shifted) <= 0.5:
+            return np.asarray(shifted - np.ceil(0.5 * (shifted.min() + shifted.max()) - 0.5))
     return rho

@@ -60,12 +60,12 @@ class Level:
     name : str
         Name of the level.
     promise : float
-        Largest global error of a result, in units in which the state is O(1).  For `reference` it is nominal: this
-        level goes down to the floor of double precision, which depends on the motion.
+        Largest global error of a result, positive, in units in which the state is O(1).  For `reference` it is nominal:
+        this level goes down to the floor of double precision, which depends on the motion.
     tolerance : float
-        Local error of a Taylor step in the first run.
+        Local error of a Taylor step in the first run, positive, in the same units.
     order : int
-        Order of the Taylor series.
+        Order of the Taylor series, at least 2.
     aside : bool, default False
         Start a few units in the last place beside the given state, see `measured.nearby`.
     """
@@ -106,7 +106,7 @@ class Level:
         Parameters
         ----------
         limit : float
-            The limit, for example the duration of the motion.
+            The limit, for example the duration of the motion, in any unit of time.
 
         Returns
         -------
@@ -189,7 +189,18 @@ def level(name: str) -> Level:
 
 
 def cheapest(error: float) -> Level:
-    """Return the first level that promises this error or less; the last one if none does."""
+    """Return the first level that promises a given error or less.
+
+    Parameters
+    ----------
+    error : float
+        Largest error, in units in which the state is O(1).
+
+    Returns
+    -------
+    Level
+        The level; the last one if none promises this.
+    """
     return next((each for each in LEVELS.values() if each.promise <= error), REFERENCE)
 
 
@@ -221,8 +232,8 @@ class Meaning:
     ----------
     promise : str
         Quantity that `Plan.promise` limits; empty if more cells, not more digits, make the result better.
-    share, cells : str
-        What `Plan.share` and `Plan.cells` count; empty if each level computes all.
+    share, cells : str, default ""
+        Quantities that `Plan.share` and `Plan.cells` scale; empty if each level computes all.
     """
 
     promise: str
@@ -260,12 +271,12 @@ class Plan:
     level : Level
         Order and tolerance of the Taylor steps, under the name of the level.
     promise : float
-        Promise, see `MEANINGS`.
+        Promised largest error, positive, see `MEANINGS`.
     share : float, default 1
-        Fraction of the requested crossings, turns, time or points that is computed.
+        Fraction of the requested crossings, turns, time or points that is computed, positive.
     cells : float, default 1
-        Number of cells along each side of a grid relative to `standard`; likewise phases of a map, orbits or tori on a
-        line.
+        Number of cells along each side of a grid relative to `standard`, positive; likewise phases of a map, orbits or
+        tori on a line.
     """
 
     level: Level
@@ -274,15 +285,50 @@ class Plan:
     cells: float = 1.0
 
     def part(self, count: float, least: int = 1) -> int:
-        """Return the number of crossings or points to compute out of `count`, at least min(`count`, `least`)."""
+        """Return the number of crossings or points to compute.
+
+        Parameters
+        ----------
+        count : float
+            Requested number.
+        least : int, default 1
+            Smallest number, unless fewer are requested.
+
+        Returns
+        -------
+        int
+            The number.
+        """
         return max(min(int(count), least), round(self.share * count))
 
     def side(self, count: int) -> int:
-        """Return the number of cells along a side that has `count` cells at `standard`."""
+        """Return the number of cells along a side.
+
+        Parameters
+        ----------
+        count : int
+            Number of cells at `standard`.
+
+        Returns
+        -------
+        int
+            The number, at least 1.
+        """
         return max(1, round(self.cells * count))
 
     def grid(self, sides: tuple[int, int]) -> tuple[int, int]:
-        """Return the numbers (m, n) of cells of a grid that has `sides` cells at `standard`."""
+        """Return the numbers of cells of a grid.
+
+        Parameters
+        ----------
+        sides : (int, int)
+            Numbers (m, n) of cells at `standard`.
+
+        Returns
+        -------
+        (int, int)
+            The numbers (m, n).
+        """
         return self.side(sides[0]), self.side(sides[1])
 
 
@@ -336,9 +382,24 @@ PLANS: Mapping[Kind, Mapping[str, Plan]] = {
 
 
 def plan(kind: Kind, accuracy: Accuracy) -> Plan:
-    """Return the meaning of a level for a kind of computation; a level that is not one of the four is used as it is.
+    """Return the meaning of a level for a kind of computation.
 
-    Raises `InvalidParameter`.
+    Parameters
+    ----------
+    kind : Kind
+        Kind of computation.
+    accuracy : str or Level
+        Level or its name; a level that is not one of the four is used as it is.
+
+    Returns
+    -------
+    Plan
+        The plan.
+
+    Raises
+    ------
+    InvalidParameter
+        If there is no level of this name.
     """
     if isinstance(accuracy, Level) and LEVELS.get(accuracy.name) != accuracy:
         return Plan(accuracy, accuracy.promise)

@@ -1,5 +1,5 @@
 # mypy: allow-untyped-defs
-"""The angle of a vector, written so that LLVM computes several of them at once.
+"""The angle of a vector, written so that LLVM computes several of them at once.  Not for users.
 
 The function of the C library takes one vector at a time, and most of the time of a circle map.
 """

@@ -38,27 +38,95 @@ _WORDS: dict[type, str] = {bool: "True or False", str: "a text", NoneType: "None
 
 
 def as_a(kind: type[T], body: object) -> T:
-    """Return the argument if it is an instance of `kind`."""
+    """Return an argument if it is an instance of a class.
+
+    Parameters
+    ----------
+    kind : type
+        The class.
+    body : object
+        The argument.
+
+    Returns
+    -------
+    object
+        The argument.
+
+    Raises
+    ------
+    InvalidParameter
+        If it is not.
+    """
     if not isinstance(body, kind):
         raise InvalidParameter(f"{_short(body)} is not a {kind.__name__}: give a hess_mechanics.{kind.__name__}(…).")
     return body
 
 
 def as_level(accuracy: Accuracy) -> Level:
-    """Return an accuracy level, given as it is or by its name."""
+    """Return an accuracy level, given as it is or by its name.
+
+    Parameters
+    ----------
+    accuracy : str or Level
+        The level.
+
+    Returns
+    -------
+    Level
+        The level.
+
+    Raises
+    ------
+    InvalidParameter
+        If there is no level of this name.
+    """
     return accuracy if isinstance(accuracy, Level) else level(accuracy)
 
 
 def as_level_name(accuracy: Accuracy) -> str:
-    """Return the name of one of the four levels, given by name or as the level itself."""
-    found = as_level(accuracy)
-    if LEVELS.get(found.name) != found:
+    """Return the name of one of the four levels, given by name or as the level itself.
+
+    Parameters
+    ----------
+    accuracy : str or Level
+        The level.
+
+    Returns
+    -------
+    str
+        Its name.
+
+    Raises
+    ------
+    InvalidParameter
+        If it is not one of the four.
+    """
+    result = as_level(accuracy)
+    if LEVELS.get(result.name) != result:
         raise InvalidParameter(f"Only a named level is possible here: choose one of {', '.join(LEVELS)}.")
-    return found.name
+    return result.name
 
 
 def as_number(name: str, value: Any) -> float:
-    """Return a finite number as a float."""
+    """Return a finite number as a float.
+
+    Parameters
+    ----------
+    name : str
+        Name of the argument, for the message.
+    value : object
+        The argument.
+
+    Returns
+    -------
+    float
+        The number.
+
+    Raises
+    ------
+    InvalidParameter
+        If it is not a finite number.
+    """
     if isinstance(value, bool) or not isinstance(value, Real):
         raise InvalidParameter(f"{name} = {_short(value)} is not a number; write it like 1.5 or -2e-3.")
     try:
@@ -71,24 +139,80 @@ def as_number(name: str, value: Any) -> float:
 
 
 def as_integer(name: str, value: Any, low: int, high: int) -> int:
-    """Return an integer between `low` and `high`."""
+    """Return an integer in a range.
+
+    Parameters
+    ----------
+    name : str
+        Name of the argument, for the message.
+    value : object
+        The argument.
+    low, high : int
+        Smallest and largest value.
+
+    Returns
+    -------
+    int
+        The integer.
+
+    Raises
+    ------
+    InvalidParameter
+        If it is not an integer in this range.
+    """
     if isinstance(value, bool) or not isinstance(value, Integral) or not low <= int(value) <= high:
         raise InvalidParameter(f"{name} = {_short(value)} is not a whole number from {low} to {high}.")
     return int(value)
 
 
 def as_parts(name: str, value: Any, count: int | None = None) -> tuple[Any, ...]:
-    """Return the parts of a sequence, `count` of them if this is given."""
+    """Return the parts of a sequence.
+
+    Parameters
+    ----------
+    name : str
+        Name of the argument, for the message.
+    value : object
+        The argument.
+    count : int, optional
+        Number of parts.  By default any.
+
+    Returns
+    -------
+    tuple
+        The parts.
+
+    Raises
+    ------
+    InvalidParameter
+        If it is not a sequence with this number of parts.
+    """
     if isinstance(value, (str, Mapping)) or not np.iterable(value):
         raise InvalidParameter(f"{name} = {_short(value)} is not a sequence{'' if count is None else f' of {count}'}.")
-    found = tuple(value)
-    if count not in (None, len(found)):
+    parts = tuple(value)
+    if count not in (None, len(parts)):
         raise InvalidParameter(f"{name} = {_short(value)} must have {count} parts.")
-    return found
+    return parts
 
 
 def as_cells(cells: Any) -> tuple[int, int]:
-    """Return the numbers of cells of a window, across and up."""
+    """Return the numbers of cells of a window.
+
+    Parameters
+    ----------
+    cells : object
+        The argument.
+
+    Returns
+    -------
+    (int, int)
+        Numbers of cells across and up.
+
+    Raises
+    ------
+    InvalidParameter
+        If these are not two positive integers, or there are more than 100 000 cells.
+    """
     m, n = (as_integer("cells", side, 1, _MOST_CELLS) for side in as_parts("cells", cells, 2))
     if m * n > _MOST_CELLS:
         raise InvalidParameter(f"{m * n} cells are too many: at most {_MOST_CELLS} are allowed.")
@@ -96,7 +220,25 @@ def as_cells(cells: Any) -> tuple[int, int]:
 
 
 def as_pairs(name: str, places: Any) -> list[tuple[float, float]]:
-    """Return points of a plane as pairs of floats."""
+    """Return points of a plane as pairs of floats.
+
+    Parameters
+    ----------
+    name : str
+        Name of the argument, for the message.
+    places : object
+        The argument.
+
+    Returns
+    -------
+    list of tuple[float, float]
+        The points.
+
+    Raises
+    ------
+    InvalidParameter
+        If it is not a sequence of pairs of finite numbers.
+    """
     try:
         return [(as_number(name, x), as_number(name, y)) for x, y in places]
     except InvalidParameter:
@@ -108,7 +250,25 @@ def as_pairs(name: str, places: Any) -> list[tuple[float, float]]:
 
 
 def as_place(names: tuple[str, ...], place: Any) -> tuple[float, ...]:
-    """Return a point with one float for each of the named coordinates."""
+    """Return a point with one float for each of some coordinates.
+
+    Parameters
+    ----------
+    names : tuple of str
+        Names of the coordinates, for the message.
+    place : object
+        The argument.
+
+    Returns
+    -------
+    tuple of float
+        The coordinates.
+
+    Raises
+    ------
+    InvalidParameter
+        If it does not have one finite number for each coordinate.
+    """
     try:
         return tuple(as_number(name, x) for name, x in zip(names, place, strict=True))
     except InvalidParameter:
@@ -127,6 +287,16 @@ def typed(function: Callable[P, T]) -> Callable[P, T]:
 
     Numbers become floats or integers, sequences of numbers become arrays, and a single number counts as one of these.
     Their shape, and objects that are described by a protocol, such as bodies, are left to the function.
+
+    Parameters
+    ----------
+    function : callable
+        The function, with annotations.
+
+    Returns
+    -------
+    callable
+        The function that checks; it raises `InvalidParameter`.
     """
     signature = inspect.signature(function)
     kinds: dict[str, Any] = {}
@@ -207,23 +377,23 @@ def _one_of(name: str, kinds: Sequence[Any], value: Any) -> Any:
     errors = []
     for kind in kinds:
         try:
-            found = _fitted(name, kind, value)
+            result = _fitted(name, kind, value)
             # A fraction or a large integer keeps its digits.
-            return value if kind is float else found
+            return value if kind is float else result
         except InvalidParameter as error:
             errors.append(error)
     if len(classes) == len(kinds):
         known = ", ".join(kind.__name__ for kind in classes if kind is not NoneType)
-        raise InvalidParameter(f"{name} = {_short(value)} is none of these: {known}.")
+        raise InvalidParameter(f"{name} = {_short(value)} is not one of these: {known}.")
     raise errors[0]
 
 
 def _as_array(name: str, value: Any) -> Any:
     try:
-        found = np.asarray(value)
-        if found.dtype.kind not in "fiuO":
+        array = np.asarray(value)
+        if array.dtype.kind not in "fiuO":
             raise ValueError
-        return found.astype(float)
+        return array.astype(float)
     except (TypeError, ValueError, OverflowError):
         raise InvalidParameter(
             f"{name} = {_short(value)} is not an array of numbers; write it like [1.5, 2.0]."

@@ -47,7 +47,18 @@ _LOCK = threading.RLock()
 
 
 def flint() -> Any:
-    """Return the library python-flint.  Raises `MissingLibrary`, which says what to install."""
+    """Return the library python-flint.
+
+    Returns
+    -------
+    module
+        The library.
+
+    Raises
+    ------
+    MissingLibrary
+        If it is not installed; the message says what to install.
+    """
     try:
         return importlib.import_module("flint")
     except ImportError as error:
@@ -55,7 +66,13 @@ def flint() -> Any:
 
 
 def has_flint() -> bool:
-    """Return True if python-flint is installed."""
+    """Return True if python-flint is installed.
+
+    Returns
+    -------
+    bool
+        True if it can be imported.
+    """
     return importlib.util.find_spec("flint") is not None
 
 
@@ -73,7 +90,25 @@ BALL_FUNCTIONS = {name: _of_balls("__pow__" if name == "pow" else name) for name
 
 @contextmanager
 def working(bits: int) -> Iterator[Any]:
-    """Set the precision to `bits` and yield the library; one thread at a time, since its precision is global."""
+    """Set the precision of ball arithmetic for the body of a `with` statement.
+
+    One thread at a time: the precision is global.
+
+    Parameters
+    ----------
+    bits : int
+        Precision, in bits.
+
+    Yields
+    ------
+    module
+        The library python-flint.
+
+    Raises
+    ------
+    MissingLibrary
+        If it is not installed.
+    """
     library = flint()
     with _LOCK, library.ctx.workprec(bits):
         before = library.ctx.cap
@@ -86,8 +121,26 @@ def working(bits: int) -> Iterator[Any]:
 def exact(name: str, value: ExactNumber | Decimal) -> Fraction:
     """Return a text (1.5, -2e-3, 3/4) or a number as a rational; a double is taken as its shortest decimal.
 
-    Raises `InvalidParameter`.
+    Parameters
+    ----------
+    name : str
+        Name of the number, for the message.
+    value : str, float, Fraction or Decimal
+        The number, with at most 100 digits and exponents within ±400.
 
+    Returns
+    -------
+    Fraction
+        The rational.
+
+    Raises
+    ------
+    InvalidParameter
+        If it is not such a number.
+
+    Examples
+    --------
+    >>> from hess_mechanics.numerics.balls import exact
     >>> exact("a", "0.1"), exact("a", 0.1), exact("a", "1/3")
     (Fraction(1, 10), Fraction(1, 10), Fraction(1, 3))
     """
@@ -112,24 +165,43 @@ def _decimal(text: str) -> Fraction:
     """
     if len(text) > 3 * _MOST_DIGITS or not text.isascii() or "_" in text:
         raise ValueError
-    found = Decimal(text)
+    number = Decimal(text)
     if (
-        not found.is_finite()
-        or len(found.as_tuple().digits) > _MOST_DIGITS
-        or (found and abs(found.adjusted()) > _MOST_EXPONENT)
+        not number.is_finite()
+        or len(number.as_tuple().digits) > _MOST_DIGITS
+        or (number and abs(number.adjusted()) > _MOST_EXPONENT)
     ):
         raise ValueError
-    return Fraction(found)
+    return Fraction(number)
 
 
 def rational(value: Fraction | int) -> Any:
-    """Return a rational as python-flint's `fmpq`."""
+    """Return a rational as python-flint's `fmpq`.
+
+    Parameters
+    ----------
+    value : Fraction or int
+        The rational.
+
+    Returns
+    -------
+    fmpq
+        The same number.
+    """
     return flint().fmpq(value.numerator, value.denominator)
 
 
 @dataclass(frozen=True)
 class Enclosure:
-    """An interval with rational ends in which a real number lies."""
+    """An interval with rational ends in which a real number lies.
+
+    Parameters
+    ----------
+    low : Fraction
+        Lower end.
+    high : Fraction
+        Upper end, ≥ low.
+    """
 
     low: Fraction
     high: Fraction
@@ -148,8 +220,22 @@ class Enclosure:
         return self.low <= number <= self.high
 
     def decimals(self, digits: int | None = None) -> tuple[str, str]:
-        """Return two decimals that enclose the interval, with `digits` digits, or enough to be hardly wider than it.
+        """Return two decimals that enclose the interval.
 
+        Parameters
+        ----------
+        digits : int, optional
+            Number of digits.  By default enough for decimals that are hardly wider than the interval.
+
+        Returns
+        -------
+        (str, str)
+            The lower and the upper decimal.
+
+        Examples
+        --------
+        >>> from fractions import Fraction
+        >>> from hess_mechanics.numerics.balls import Enclosure
         >>> Enclosure(Fraction(1, 3), Fraction(1, 3)).decimals(4)
         ('0.3333', '0.3334')
         """
@@ -161,7 +247,13 @@ class Enclosure:
         return _rounded(self.low, digits, ROUND_FLOOR), _rounded(self.high, digits, ROUND_CEILING)
 
     def outside_doubles(self) -> tuple[str, str]:
-        """Return two decimals of at most 17 digits that enclose the interval, also after conversion to doubles."""
+        """Return two decimals that enclose the interval, also after conversion to doubles.
+
+        Returns
+        -------
+        (str, str)
+            The lower and the upper decimal, of at most 17 digits.
+        """
         low, high = self.decimals(16)
         if not math.isfinite(float(low)) or not math.isfinite(float(high)):
             return low, high
@@ -175,12 +267,28 @@ class Enclosure:
 
 def _rounded(number: Fraction, digits: int, rounding: str) -> str:
     with localcontext(prec=digits, rounding=rounding, Emax=10**9, Emin=-(10**9)):
-        found = (Decimal(number.numerator) / Decimal(number.denominator)).normalize()
-    return f"{found:f}" if -6 < found.adjusted() < digits + 6 else str(found)
+        decimal = (Decimal(number.numerator) / Decimal(number.denominator)).normalize()
+    return f"{decimal:f}" if -6 < decimal.adjusted() < digits + 6 else str(decimal)
 
 
 def enclosure(ball: ArbBall) -> Enclosure:
-    """Return the exact interval of a ball.  Raises `ArithmeticError` if it is not finite."""
+    """Return the exact interval of a ball.
+
+    Parameters
+    ----------
+    ball : arb
+        The ball.
+
+    Returns
+    -------
+    Enclosure
+        The interval.
+
+    Raises
+    ------
+    ArithmeticError
+        If the ball is not finite.
+    """
     if not ball.is_finite():
         raise ArithmeticError("an unbounded ball")
     low, high = (end.man_exp() for end in (ball.lower(), ball.upper()))
@@ -193,21 +301,49 @@ def _dyadic(mantissa: Any, exponent: Any) -> Fraction:
 
 
 def to_digits(digits: int, compute: Callable[[Any], ArbBall]) -> Enclosure:
-    """Return the enclosure that `compute` yields, with the precision raised until it has `digits` digits.
+    """Return the enclosure of a number, with the precision raised until it has enough digits.
 
-    Raises `WorkLimit`.
+    Parameters
+    ----------
+    digits : int
+        Number of digits.
+    compute : callable
+        Function from the library python-flint to the ball.
+
+    Returns
+    -------
+    Enclosure
+        The interval.
+
+    Raises
+    ------
+    WorkLimit
+        If the number needs more than 16 384 bits.
     """
     bits = 128
     while bits <= _MOST_BITS:
         with working(bits) as library:
-            found = compute(library)
-            if found.is_finite() and enclosure(found).precision < 10.0 ** (-digits):
-                return enclosure(found)
+            ball = compute(library)
+            if ball.is_finite() and enclosure(ball).precision < 10.0 ** (-digits):
+                return enclosure(ball)
         bits *= 2
     raise WorkLimit("These numbers need more precision than a closed form may take: choose less extreme ones.")
 
 
 def series_coefficients(series: Any, terms: int) -> list[ArbBall]:
-    """Return the first coefficients of a power series, with the zeros that python-flint leaves out."""
-    found = series.coeffs()
-    return [*found, *([0 * series[0]] * (terms - len(found)))]
+    """Return the first coefficients of a power series, with the zeros that python-flint leaves out.
+
+    Parameters
+    ----------
+    series : arb_series
+        The series.
+    terms : int
+        Number of coefficients.
+
+    Returns
+    -------
+    list of arb
+        The coefficients.
+    """
+    coefficients = series.coeffs()
+    return [*coefficients, *([0 * series[0]] * (terms - len(coefficients)))]

@@ -1,8 +1,8 @@
 # mypy: allow-untyped-defs
 """Ensembles of orbits of one system: several orbits at a time with their own step sizes, on any number of threads.
 
-The recursion is that of `taylor_kernels`, with lanes in place of each number, which become vector instructions.
-A lane takes the next orbit as soon as its orbit is complete, so that no lane waits for another.
+Not for users.  The recursion is that of `taylor_kernels`, with lanes in place of each number, which become vector
+instructions.  A lane takes the next orbit as soon as its orbit is complete, so that no lane waits for another.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ LANES = 8 if get_host_cpu_features().get("avx512f") else 4
 """Orbits at a time: the sums of eight need the 32 vector registers of AVX-512."""
 
 
-def expansion_of_lanes(recursion: Recursion) -> Callable[..., Any]:
+def _expansion_of_lanes(recursion: Recursion) -> Callable[..., Any]:
     """Return expand(c, q, parameters, order), which computes the Taylor coefficients c[k, variable, lane].
 
     q[product, lane] is scratch space.  Only for recursions without auxiliary series and functions.
@@ -47,7 +47,7 @@ def expand(c, q, parameters, order):
         {"; ".join(results)}
 """,
         **parts(recursion),
-        convolve=convolution_of_lanes(recursion),
+        convolve=_convolution_of_lanes(recursion),
     )["expand"]
 
 
@@ -55,7 +55,7 @@ def _for_lanes(statement: Callable[[int], str]) -> str:
     return "; ".join(map(statement, range(LANES)))
 
 
-def convolution_of_lanes(recursion: Recursion) -> Callable[..., Any]:
+def _convolution_of_lanes(recursion: Recursion) -> Callable[..., Any]:
     """Return a function (c, q, k) that sets q[j, lane] = Σ_m c[m, left, lane] c[k−m, right, lane] for each product j.
 
     Every coefficient is read once for all products; a square needs only half of the sum.
@@ -104,7 +104,7 @@ def ensemble_integrator(recursion: Recursion) -> Callable[..., Any]:
     Only for fields without functions.
     """
     n, m = recursion.variables, len(recursion.pairs)
-    expand, check = expansion_of_lanes(recursion), checked(recursion)
+    expand, check = _expansion_of_lanes(recursion), checked(recursion)
     largest, smallest, values, add = compiled(f"""
 def largest(c, k, out):
     {_for_lanes(lambda lane: f"a{lane} = 0.0")}

@@ -1,8 +1,9 @@
 # mypy: allow-untyped-defs
 """Taylor series in double-double arithmetic, from the same traced fields: the reference for measured errors.
 
-A number with 31 digits is a pair of doubles, stored as a complex number, so that arrays, tuples and assignments need no
-change.  The functions of `pairs_kernels` replace every operation and function in the source of a `Recursion`.
+Not for users.  A number with 31 digits is a pair of doubles, stored as a complex number, so that arrays, tuples and
+assignments need no change.  The functions of `pairs_kernels` replace every operation and function in the source of a
+`Recursion`.
 """
 
 from __future__ import annotations

@@ -1,11 +1,11 @@
 # mypy: allow-untyped-defs
 """Crossings of a surface by an orbit: roots of the Taylor polynomial of each step, each found exactly once.
 
-During a step the height e(s) over a plane is a polynomial.  Let |e″| ≤ D on a piece of width w.  The piece lies within
-D w²/8 of its chord, and its slope within D w/2 of the slope of the chord.  A piece that starts and ends on the same
-side, farther from the plane than D w²/8, has no root.  A piece that changes sides more steeply than D w/2 has exactly
-one.  Any other piece is bisected.  The side of the plane is carried from step to step, so that a crossing between two
-steps is found exactly once.
+Not for users.  During a step the height e(s) over a plane is a polynomial.  Let |e″| ≤ D on a piece of width w.  The
+piece lies within D w²/8 of its chord, and its slope within D w/2 of the slope of the chord.  A piece that starts and
+ends on the same side, farther from the plane than D w²/8, has no root.  A piece that changes sides more steeply than
+D w/2 has exactly one.  Any other piece is bisected.  The side of the plane is carried from step to step, so that a
+crossing between two steps is found exactly once.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ _DEPTH = 45
 
 
 @inner
-def value_and_slope(e, s):
+def _value_and_slope(e, s):
     """Return e(s) and e′(s) of the polynomial with coefficients e[0 …]."""
     value = 0.0
     slope = 0.0
@@ -50,8 +50,8 @@ def value_and_slope(e, s):
 
 
 @inner
-def largest_bend(e, h):
-    """Return the bound D = Σ k(k−1)|e_k| h^(k−2) of |e″| on [0, h]."""
+def _largest_bend(e, h):
+    """Return the upper bound D = Σ k(k−1)|e_k| h^(k−2) on |e″| over [0, h]."""
     even = 0.0
     odd = 0.0
     # Finite, so that 0 times it is 0.
@@ -67,7 +67,7 @@ def largest_bend(e, h):
 
 
 @inner
-def root_between(e, low, high, s, below, bend):
+def _root_between(e, low, high, s, below, bend):
     """Return the only root of e in [low, high], by Newton's method from s, safeguarded by bisection.
 
     below : True if e is negative at `low`.
@@ -75,7 +75,7 @@ def root_between(e, low, high, s, below, bend):
     first, end = low, high
     width = high - low
     for _ in range(100):
-        value, slope = value_and_slope(e, s)
+        value, slope = _value_and_slope(e, s)
         if (value < 0.0) == below:
             low = s
         else:
@@ -99,7 +99,7 @@ def roots_on_step(e, h, below, end, below_at_end, sense, roots, pieces):
     below, below_at_end : True if the orbit is below the plane at the two ends; end : e(h).
     pieces : scratch (`_DEPTH` + 2, 2) for the right ends of the remaining pieces, and e there.
     """
-    whole = largest_bend(e, h)
+    whole = _largest_bend(e, h)
     if below == below_at_end and min(abs(e[0]), abs(end)) > 0.125 * whole * h * h:
         return 0
     # With coefficients beyond double range no piece could be decided, and all 2^_DEPTH pieces would be visited.
@@ -110,7 +110,7 @@ def roots_on_step(e, h, below, end, below_at_end, sense, roots, pieces):
     for k in range(e.size - 1, -1, -1):
         noise = noise * h + abs(e[k])
     noise *= 4e-16
-    found = 0
+    number = 0
     left = 0.0
     at_left = e[0]
     waiting = 1
@@ -125,7 +125,7 @@ def roots_on_step(e, h, below, end, below_at_end, sense, roots, pieces):
         width = right - left
         rise = at_right - at_left
         # The bound holds on [0, right] only, so that curvature near the end does not force bisections at the start.
-        bend = whole if right == h else largest_bend(e, right)
+        bend = whole if right == h else _largest_bend(e, right)
         same_side = below == below_right
         if same_side:
             clear = min(abs(at_left), abs(at_right)) > 0.125 * bend * width * width
@@ -134,16 +134,16 @@ def roots_on_step(e, h, below, end, below_at_end, sense, roots, pieces):
         if clear or 0.125 * bend * width * width <= noise or waiting > _DEPTH:
             if not same_side and (sense == 0 or (sense > 0) == below):
                 guess = left - at_left * width / rise if rise != 0.0 else left
-                roots[found] = root_between(e, left, right, guess, below, bend)
-                found += 1
+                roots[number] = _root_between(e, left, right, guess, below, bend)
+                number += 1
             left, at_left, below = right, at_right, below_right
             waiting -= 1
         else:
             middle = left + 0.5 * width
             pieces[waiting, 0] = middle
-            pieces[waiting, 1] = value_and_slope(e, middle)[0]
+            pieces[waiting, 1] = _value_and_slope(e, middle)[0]
             waiting += 1
-    return found
+    return number
 
 
 @part
@@ -254,7 +254,7 @@ def crossing_finder(recursion: Recursion, surface: SurfaceKernels | None = None)
         seen = np.zeros((order, watched))
         e = np.zeros(order + 1)
         scratch = np.zeros(order + 1)
-        found = np.zeros(n)
+        point = np.zeros(n)
         roots = np.zeros(order + 1)
         pieces = np.zeros((_DEPTH + 2, 2))
         y = state.copy()
@@ -315,16 +315,16 @@ def crossing_finder(recursion: Recursion, surface: SurfaceKernels | None = None)
                 if curved:
                     # One Newton step removes the truncation error of the series of e.
                     for i in range(n):
-                        found[i] = c[0, i] + increments[i]
-                    slope = value_and_slope(e, roots[root])[1]
+                        point[i] = c[0, i] + increments[i]
+                    slope = _value_and_slope(e, roots[root])[1]
                     if slope != 0.0:
-                        s -= direction * (height(found, normal) - offset) / slope
+                        s -= direction * (height(point, normal) - offset) / slope
                         evaluate(c, s, increments)
                 for i in range(n):
-                    found[i] = c[0, i] + increments[i]
-                if counted(found, normal):
+                    point[i] = c[0, i] + increments[i]
+                if counted(point, normal):
                     times[crossings] = t + (t_low + s)
-                    states[crossings] = found
+                    states[crossings] = point
                     crossings += 1
                     if crossings == times.size:
                         return crossings, steps

@@ -1,4 +1,7 @@
-"""Expressions that a traced field records: operations on variables and parameters, with their derivatives."""
+"""Expressions that a traced field records: operations on variables and parameters, with their derivatives.
+
+Not for users.
+"""
 
 from __future__ import annotations
 
@@ -125,10 +128,10 @@ class Tape:
         if operation == "/" and b is zero:
             raise NotTraceable("This field cannot be traced: it divides by 0.")
         if a.operation == b.operation == "number":
-            found = _ARITHMETIC[operation](a.value, b.value)
+            value = _ARITHMETIC[operation](a.value, b.value)
             # 1/3 stays a quotient: its double would be wrong in arithmetic with more digits.
-            if found == _ARITHMETIC[operation](Fraction(a.value), Fraction(b.value)):
-                return self.number(found)
+            if value == _ARITHMETIC[operation](Fraction(a.value), Fraction(b.value)):
+                return self.number(value)
         if b is zero and operation in "+-":
             return a
         if a is zero and operation in "+-":
@@ -138,7 +141,7 @@ class Tape:
         if b is one and operation in "*/":
             return a
         if operation == "/" and b.operation == "pow":
-            # The inverse is shared by all quotients, and costs no product.
+            # The inverse is shared by all quotients, and needs no series product.
             return self.apply("*", a, self.power(b.arguments[0], self.negative(b.arguments[1])))
         if operation == "*" and a is b and a.operation == "sqrt":
             return a.arguments[0]
@@ -156,7 +159,7 @@ class Tape:
         """Return a to the power of a number or another expression."""
         n = exponent.value if exponent.operation == "number" else None
         if a.operation in ("sqrt", "pow") and isinstance(n, int):
-            # A power of a power: r³ with r = √x costs no product.
+            # A power of a power: r³ with r = √x needs no series product.
             inner = a.arguments[1] if a.operation == "pow" else self.number(0.5)
             return self.power(a.arguments[0], self.apply("*", inner, exponent))
         if n == 0.5:
@@ -184,7 +187,7 @@ class Tape:
     def functions(self, results: Sequence[Node], variables: int) -> dict[Node, Node]:
         """Return the functions of the state in a field that returns these results, with their rates."""
         self._rates = results[:variables]
-        found: dict[Node, Node] = {}
+        rates: dict[Node, Node] = {}
         waiting = list(results)
         seen: set[Node] = set()
         while waiting:
@@ -193,11 +196,11 @@ class Tape:
                 continue
             seen.add(node)
             if node.moves and node.operation in _RATES:
-                found[node] = self.derivative(node)
-                waiting.append(found[node])
+                rates[node] = self.derivative(node)
+                waiting.append(rates[node])
             else:
                 waiting += node.arguments
-        return found
+        return rates
 
     def derivative(self, x: Node, y: Node | None = None) -> Node:
         """Return ∂x/∂y for a variable y, or by default the rate of x along the motion."""

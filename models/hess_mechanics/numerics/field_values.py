@@ -29,7 +29,7 @@ class Undefined(ArithmeticError):
 def values_with_rounding(
     nodes: Sequence[Node], names: tuple[Sequence[str], Sequence[str]], y: Sequence[float], p: Sequence[float]
 ) -> list[tuple[float, float]]:
-    """Return the values of expressions, each with a bound on its round-off, by running error analysis.
+    """Return the values of expressions, each with an upper bound on its round-off, by running error analysis.
 
     Parameters
     ----------
@@ -53,17 +53,32 @@ def values_with_rounding(
     known: dict[Node, tuple[float, float]] = {}
     for node in below(nodes):
         try:
-            found = _evaluated(node, [known[argument] for argument in node.arguments], y, p)
+            pair = _evaluated(node, [known[argument] for argument in node.arguments], y, p)
         except (ValueError, ArithmeticError):
-            found = math.nan, math.nan
-        if not abs(found[0]) < _LARGEST:
+            pair = math.nan, math.nan
+        if not abs(pair[0]) < _LARGEST:
             raise Undefined(_reason(node, [known[argument][0] for argument in node.arguments], names))
-        known[node] = found
+        known[node] = pair
     return [known[node] for node in nodes]
 
 
 def values_at(node: Node, y: Sequence[Array], p: Sequence[float]) -> Array:
-    """Return the values (n,) of an expression at variables (n,), NaN or ∞ where they are undefined."""
+    """Return the values of an expression.
+
+    Parameters
+    ----------
+    node : Node
+        The expression.
+    y : sequence of ndarray, shape (n,)
+        Values of each variable.
+    p : sequence of float
+        Values of the parameters.
+
+    Returns
+    -------
+    ndarray, shape (n,)
+        The values; NaN or ∞ where they are undefined.
+    """
     known: dict[Node, Array | float] = {}
     with np.errstate(all="ignore"):
         for one in below([node]):
@@ -125,9 +140,9 @@ def _reason(node: Node, arguments: list[float], names: tuple[Sequence[str], Sequ
 
 def _text(node: Node, names: tuple[Sequence[str], Sequence[str]]) -> str:
     """Return an expression as its author could have written it, shortened."""
-    found = _written(node, names, _DEEPEST_TEXT)
-    found = _bare(found)
-    return found if len(found) <= _LONGEST_TEXT else f"{found[:_LONGEST_TEXT]}…"
+    text = _written(node, names, _DEEPEST_TEXT)
+    text = _bare(text)
+    return text if len(text) <= _LONGEST_TEXT else f"{text[:_LONGEST_TEXT]}…"
 
 
 def _bare(text: str) -> str:

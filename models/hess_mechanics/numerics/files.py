@@ -1,4 +1,4 @@
-"""Files that are whole or not there."""
+"""Atomic writing of files: a file is complete or absent."""
 
 from __future__ import annotations
 
@@ -14,9 +14,19 @@ __all__ = ["write_whole"]
 def write_whole(path: str | Path, content: bytes, modified: float | None = None) -> None:
     """Write a file at once: an earlier one stays as it is until the new one is complete.
 
-    `modified` is the file's time of modification, in seconds since 1970, by default the present.
+    Parameters
+    ----------
+    path : str or Path
+        Path of the file; a link still points to its file afterwards.
+    content : bytes
+        The new content.
+    modified : float, optional
+        Time of modification, in seconds since 1970.  By default the present.
 
-    Raises `OSError`, for example if the disk is full, and leaves no part of the new file.
+    Raises
+    ------
+    OSError
+        If the file cannot be written, for example because the disk is full; no part of it is left.
     """
     # A link keeps pointing to its file.
     target = Path(os.path.realpath(path))

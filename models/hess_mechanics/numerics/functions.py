@@ -17,13 +17,27 @@ __all__ = [
 ]  # fmt: skip
 
 
+_DOC = """Return {name} of numbers, arrays or symbols.
+
+Parameters
+----------
+*arguments : number, ndarray or symbol
+    Arguments of the function, in radians if they are angles.
+
+Returns
+-------
+number, ndarray or symbol
+    The value.
+"""
+
+
 def _function(name: str) -> Callable[..., Any]:
     def call(*arguments: Any) -> Any:
         libraries = (sys.modules.get(type(x).__module__.partition(".")[0]) for x in arguments)
         return getattr(next((one for one in libraries if hasattr(one, name)), np), name)(*arguments)
 
     call.__name__ = call.__qualname__ = name
-    call.__doc__ = f"Return {name} of numbers, arrays or symbols."
+    call.__doc__ = _DOC.format(name=name)
     return call
 
 

@@ -1,4 +1,4 @@
-"""Compilation of kernels: one decorator, and a cache that is never stale.
+"""Compilation of kernels: one decorator, and a cache that is never stale.  Not for users.
 
 Numba validates its cache by the file of the compiled function alone.  These kernels are assembled from several files,
 so the cache folder of a kernel is named by a hash of its subpackage, of the subpackages it imports, and of `numerics`
@@ -65,16 +65,16 @@ _FOR_ALL = {"numerics", "dynamics"}
 
 def _is_own(folder: Path) -> bool:
     """Return True if the folder belongs to this user, and close it to all others."""
-    found = folder.lstat()
-    if not stat.S_ISDIR(found.st_mode):
+    status = folder.lstat()
+    if not stat.S_ISDIR(status.st_mode):
         return False
     if hasattr(os, "getuid"):
-        if found.st_uid != os.getuid():
+        if status.st_uid != os.getuid():
             return False
         # Others may have written files there before.
-        if found.st_mode & 0o022:
+        if status.st_mode & 0o022:
             return False
-        if found.st_mode & 0o055:
+        if status.st_mode & 0o055:
             folder.chmod(0o700)
     return True
 
@@ -156,35 +156,35 @@ def _sources() -> dict[str, tuple[str, list[str]]]:
         known = {}
     if not isinstance(known, dict):
         known = {}
-    found: dict[str, Any] = {}
+    entries: dict[str, Any] = {}
     for path in sorted(_PACKAGE.rglob("*.py")):
         name, status = path.relative_to(_PACKAGE).as_posix(), path.stat()
         mark = [status.st_mtime_ns, status.st_size]
         match known.get(name):
             case [before, str(), list()] as entry if before == mark:
-                found[name] = entry
+                entries[name] = entry
             case _:
-                found[name] = [mark, *_read(path)]
-    if memory is not None and found != known:
+                entries[name] = [mark, *_read(path)]
+    if memory is not None and entries != known:
         # The file only saves work.
         with suppress(OSError):
-            write_whole(memory, json.dumps(found).encode())
-    return {name: (digest, imported) for name, (_, digest, imported) in found.items()}
+            write_whole(memory, json.dumps(entries).encode())
+    return {name: (digest, imported) for name, (_, digest, imported) in entries.items()}
 
 
 @cache
 def source_hash(part: str | None = None) -> str:
     """Return the hash of the sources of the kernels in a part of the package; None for the whole package."""
     sources = _sources()
-    wanted, waiting = set(), [part, *_FOR_ALL] if part is not None else [name.split("/")[0] for name in sources]
+    parts, waiting = set(), [part, *_FOR_ALL] if part is not None else [name.split("/")[0] for name in sources]
     while waiting:
         one = waiting.pop()
-        if one not in wanted:
-            wanted.add(one)
+        if one not in parts:
+            parts.add(one)
             waiting += [other for name, (_, imported) in sources.items() if _part_of(name) == one for other in imported]
     digest = hashlib.sha256(numba.__version__.encode())
     for name, (own, _) in sources.items():
-        if part is None or _part_of(name) in wanted:
+        if part is None or _part_of(name) in parts:
             digest.update(f"{name} {own}\n".encode())
     return digest.hexdigest()[:16]
 
@@ -278,7 +278,7 @@ class _LongCompilations(event.Listener):  # type: ignore[misc]  # numba has no t
     def on_end(self, event: Any) -> None:
         if _announcement(event):
             self.of.runs = False
-        # Not `event.is_failed`, which in some versions of Numba says the contrary.
+        # Not `event.is_failed`, which means the opposite in some versions of Numba.
         if event.kind == "numba:compile" and tuple(event.data["args"]) not in event.data["dispatcher"].overloads:
             let_go(event.data["dispatcher"])
 
@@ -300,22 +300,22 @@ def derived_kernel(name: str, source: str, module: str, **names: Any) -> Callabl
     is written to the cache folder, under a name that contains its hash.
     """
     folder = _folder_for(module)
-    file, kept = f"{name}.py", False
+    file, is_stored = f"{name}.py", False
     if folder is not None:
         path = folder / f"{name}-{hashlib.sha256(source.encode()).hexdigest()[:16]}.py"
         file = str(path)
-        kept = _holds(path, source)
-        if not kept:
+        is_stored = _holds(path, source)
+        if not is_stored:
             with suppress(OSError):
                 folder.mkdir(mode=0o700, exist_ok=True)
                 # To Numba, a file of another time is another source.  This one is named by its hash, and two processes
                 # that begin together both write it.
                 write_whole(path, source.encode(), modified=0.0)
-            kept = _holds(path, source)
+            is_stored = _holds(path, source)
     namespace: dict[str, Any] = {"__name__": module, **names}
     exec(compile(source, file, "exec"), namespace)
     # Without the file there is nothing to cache.
-    return kernel(namespace[name]) if kept else _compiled(namespace[name], _OPTIONS)
+    return kernel(namespace[name]) if is_stored else _compiled(namespace[name], _OPTIONS)
 
 
 def _holds(path: Path, text: str) -> bool:

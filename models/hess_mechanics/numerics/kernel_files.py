@@ -1,8 +1,8 @@
 """Kernel cache on disk that never fails: a file that cannot be read or written only costs a compilation.
 
-Numba assumes that its files are complete and that the disk has room.  A power failure truncates files, a full disk
-takes none, and if two processes write at once, the index of one may name a file of the other.  It also lets two
-processes that start together compile each kernel twice.
+Not for users.  Numba assumes that its files are complete and that the disk has room.  A power failure truncates files,
+a full disk takes none, and if two processes write at once, the index of one may name a file of the other.  It also lets
+two processes that start together compile each kernel twice.
 """
 
 from __future__ import annotations
@@ -40,23 +40,23 @@ class KernelFiles(FunctionCache):  # type: ignore[misc]  # numba has no types
         return self._locks[process]
 
     def load_overload(self, sig: Any, target_context: Any) -> Any:
-        """Return the kernel for these argument types, if need be that which another process is compiling.
+        """Return the kernel for these argument types; wait for another process that is compiling it.
 
         Returns None if there is none that can be read; then this process is the one that compiles it.
         """
-        found = self._read(sig, target_context)
-        if found is None:
+        overload = self._read(sig, target_context)
+        if overload is None:
             # Without a lock, each process compiles it.
             with suppress(OSError, NotImplementedError, Timeout):
                 self._lock.acquire()
-            found = self._read(sig, target_context)
-            if found is not None:
+            overload = self._read(sig, target_context)
+            if overload is not None:
                 self._lock.release()
-        return found
+        return overload
 
     def _read(self, sig: Any, target_context: Any) -> Any:
         try:
-            found = super().load_overload(sig, target_context)
+            overload = super().load_overload(sig, target_context)
         # Unpickling a truncated file may raise any error.
         except Exception:
             # Otherwise the index would stay broken, and nothing could be added to it.
@@ -64,9 +64,9 @@ class KernelFiles(FunctionCache):  # type: ignore[misc]  # numba has no types
                 self.flush()
             return None
         # A kernel compiled for other types would access arbitrary memory.
-        if found is not None and tuple(found.signature.args) != tuple(sigutils.normalize_signature(sig)[0]):
+        if overload is not None and tuple(overload.signature.args) != tuple(sigutils.normalize_signature(sig)[0]):
             return None
-        return found
+        return overload
 
     def save_overload(self, sig: Any, data: Any) -> None:
         """Store a kernel, if there is room."""

@@ -25,7 +25,22 @@ Named = Mapping[str, tuple[tuple[str, ...], NDArray[Any]]]
 
 
 def components(names: Iterable[str], values: NDArray[Any], *dims: str) -> Named:
-    """Return the components along the last axis of an array, by name, for `Labels`."""
+    """Return the components along the last axis of an array, by name, for `Labels`.
+
+    Parameters
+    ----------
+    names : iterable of str
+        Names of the components.
+    values : ndarray, shape (..., d)
+        The array.
+    *dims : str
+        Names of the other dimensions.
+
+    Returns
+    -------
+    mapping of str to (tuple of str, ndarray)
+        Each component with the names of its dimensions.
+    """
     return {name: (dims, values[..., i]) for i, name in enumerate(names)}
 
 
@@ -76,7 +91,13 @@ class Result(ABC):
 
     @abstractmethod
     def labels(self) -> Labels:
-        """Return the names, units and coordinates of the numbers."""
+        """Return the names, units and coordinates of the numbers.
+
+        Returns
+        -------
+        Labels
+            The labels.
+        """
 
     def to_xarray(self) -> Any:
         """Return the result as an `xarray.Dataset`, with units in the `attrs` of its arrays.

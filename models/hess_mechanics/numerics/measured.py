@@ -94,10 +94,22 @@ class Measured(Generic[R]):
 
 
 def safety_of(off: Array, before: Array) -> Array:
-    """Return the factors (n,) that turn differences of two runs into error estimates.
+    """Return the factors that turn differences of two runs into error estimates.
 
-    The difference `off` (n,) says nothing if the other start happens to cancel the truncation error.  So an estimate is
-    at least a hundredth of the estimate `before` (n,), at a hundred times the tolerance; that is 0 if there was none.
+    A difference says nothing if the other start happens to cancel the truncation error.  So an estimate is at least a
+    hundredth of the estimate at a hundred times the tolerance.
+
+    Parameters
+    ----------
+    off : ndarray, shape (n,)
+        Differences of the two runs.
+    before : ndarray, shape (n,)
+        Estimates at a hundred times the tolerance; 0 if there were none.
+
+    Returns
+    -------
+    ndarray, shape (n,)
+        The factors, at least `SAFETY`.
     """
     return np.maximum(SAFETY, before / (100.0 * np.maximum(off, 1e-300)))
 

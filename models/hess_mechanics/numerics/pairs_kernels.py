@@ -1,8 +1,8 @@
 # mypy: allow-untyped-defs
-"""Arithmetic with 31 digits: a number is the sum of two doubles, high + low, stored as the complex high + i low.
+"""Double-double arithmetic, with 31 digits: a number is the sum of two doubles, stored as the complex high + i low.
 
-|low| is at most half a unit in the last place of high.  The arithmetic is that of Dekker (1971) and Knuth (The Art of
-Computer Programming 2, 4.2.2).
+Not for users.  |low| is at most half a unit in the last place of high.  The arithmetic is that of Dekker (1971) and
+Knuth (The Art of Computer Programming 2, 4.2.2).
 
 exp, sin and cos are series after a reduction of the argument.  The inverse functions are a Newton step from the double,
 which squares its relative error of 1e-16.
@@ -103,7 +103,7 @@ def log(a):
 
 
 @as_written
-def sine_cosine(a):
+def _sine_cosine(a):
     """Return sin a and cos a, by series on |r| ≤ π/4."""
     k = math.floor(a.real / _HALF_PI.real + 0.5)
     turns = complex(k, 0.0)
@@ -127,19 +127,19 @@ def sine_cosine(a):
 @as_written
 def sin(a):
     """Return sin a."""
-    return sine_cosine(a)[0]
+    return _sine_cosine(a)[0]
 
 
 @as_written
 def cos(a):
     """Return cos a."""
-    return sine_cosine(a)[1]
+    return _sine_cosine(a)[1]
 
 
 @as_written
 def tan(a):
     """Return tan a."""
-    s, c = sine_cosine(a)
+    s, c = _sine_cosine(a)
     return divide(s, c)
 
 
@@ -167,7 +167,7 @@ def tanh(a):
 def atan2(y, x):
     """Return the angle of (x, y): the double, and the angle that is left after a rotation back by it."""
     first = complex(math.atan2(y.real, x.real), 0.0)
-    s, c = sine_cosine(first)
+    s, c = _sine_cosine(first)
     along, across = add(multiply(x, c), multiply(y, s)), subtract(multiply(y, c), multiply(x, s))
     return add(first, divide(across, along)) if along.real > 0.0 else first
 

@@ -18,9 +18,20 @@ _pool = ThreadPoolExecutor(max_workers=THREADS, thread_name_prefix="kernel")
 
 
 def share(work: Callable[[int], None], count: int, threads: int = THREADS, at_once: int = 1) -> None:
-    """Run work(0), …, work(count − 1) on the thread pool, or in order if `threads` is 1, and raise the first error.
+    """Run work(0), …, work(count − 1) on the thread pool, and raise the first error.
 
-    A thread takes `at_once` items at a time.  Before each item the request may be cancelled: see `patience`.
+    Before each item the request may be cancelled, see `patience`.
+
+    Parameters
+    ----------
+    work : callable
+        Function of the number of the item.
+    count : int
+        Number of items.
+    threads : int, default THREADS
+        Number of threads; 1 for no pool, in order.
+    at_once : int, default 1
+        Number of items that a thread takes at a time.
     """
 
     def some(first: int, after: int) -> None:

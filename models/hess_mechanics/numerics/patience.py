@@ -15,8 +15,17 @@ _asked: ContextVar[tuple[Callable[[], None], Callable[[float], None]] | None] = 
 def work_limit(check: Callable[[], None], spend: Callable[[float], None]) -> Iterator[None]:
     """Run the body of the `with` statement under a limit.
 
-    Computations inside call check() between their parts, which may raise, and report the CPU time of other threads to
-    spend(seconds).
+    Parameters
+    ----------
+    check : callable
+        Function that computations call between their parts; it may raise.
+    spend : callable
+        Function that receives the CPU seconds of other threads.
+
+    Yields
+    ------
+    None
+        Nothing.
     """
     token = _asked.set((check, spend))
     try:
@@ -27,13 +36,19 @@ def work_limit(check: Callable[[], None], spend: Callable[[float], None]) -> Ite
 
 def go_on() -> None:
     """Raise the error of the request's check, if the request has been cancelled or has used up its budget."""
-    asked = _asked.get()
-    if asked is not None:
-        asked[0]()
+    limit = _asked.get()
+    if limit is not None:
+        limit[0]()
 
 
 def charge(seconds: float) -> None:
-    """Charge CPU seconds of a helper thread to the request."""
-    asked = _asked.get()
-    if asked is not None:
-        asked[1](seconds)
+    """Charge CPU seconds of a helper thread to the request.
+
+    Parameters
+    ----------
+    seconds : float
+        CPU time, in seconds.
+    """
+    limit = _asked.get()
+    if limit is not None:
+        limit[1](seconds)

@@ -1,4 +1,4 @@
-"""Recursions of Taylor coefficients, derived from recorded expressions and written as Python source.
+"""Recursions of Taylor coefficients, derived from recorded expressions and written as Python source.  Not for users.
 
 Taylor coefficients of sums are sums, those of a product are Cauchy products q_k = Σ_m a_m b_(k−m).  Hence the recorded
 field is brought into the form
@@ -193,7 +193,7 @@ class Series:
         rules = [[self._rules[i] for i in stage] for stage in stages]
         everything = below([*forms, *(rule for stage in rules for rule in stage)])
         products = [node for node in everything if node.operation == "product"]
-        kept = [
+        factors = [
             node
             for node in dict.fromkeys(node.arguments[0] for node in everything if node.operation == "scaled")
             if node.started
@@ -210,7 +210,7 @@ class Series:
                 # The product in the rule of a quotient depends on the divisor only.
                 late[node] = 1 + (min if node in self._divided else max)(late[factor] for factor in node.arguments)
         names |= {node: f"q[{j}]" for j, node in enumerate(products)} | {self._one: "one"}
-        names |= {node: f"p[{parameters + j}]" for j, node in enumerate(kept)}
+        names |= {node: f"p[{parameters + j}]" for j, node in enumerate(factors)}
         functions = []
         for i, (stage, rule) in enumerate(zip(stages, rules, strict=True)):
             functions.append(_function(f"stage{i}(y, q, p, one)", rule, names, late))
@@ -219,8 +219,8 @@ class Series:
         functions.append(_function("rates(y, q, p, one)", forms, names, late))
         read = tuple(frozenset(map(int, re.findall(r"q\[(\d+)\]", function))) for function in functions)
         at_start = {node: f"y[{i}]" for node, i in self._functions.items()}
-        if kept:
-            functions.append(_function("constants(y, p)", kept, at_start, {}))
+        if factors:
+            functions.append(_function("constants(y, p)", factors, at_start, {}))
         if self._functions:
             functions.append(_function("started(y, p)", [*self._functions], {}, {}))
         functions.append(_function("extended(y, p)", rates[: self._variables], at_start, {}))
@@ -231,7 +231,7 @@ class Series:
             tuple(map(len, stages)),
             pairs,
             read,
-            len(kept),
+            len(factors),
             "\n\n".join(functions),
             len(rates) - self._variables - len(watched),
             watched,
@@ -239,30 +239,30 @@ class Series:
         )
 
     def _used(self, forms: Sequence[Node]) -> list[int]:
-        found: dict[int, None] = {}
+        indices: dict[int, None] = {}
         waiting = list(forms)
         while waiting:
             for node in below([waiting.pop()]):
                 i = node.value - self._variables if node.operation == "series" else -1
-                if i >= 0 and i not in found:
-                    found[i] = None
+                if i >= 0 and i not in indices:
+                    indices[i] = None
                     waiting.append(self._rules[i])
-        return list(found)
+        return list(indices)
 
 
 def below(roots: Iterable[Node]) -> list[Node]:
     """Return all nodes of these expressions, each once and after its arguments."""
-    found: dict[Node, None] = {}
+    nodes: dict[Node, None] = {}
 
     def visit(node: Node) -> None:
-        if node not in found:
+        if node not in nodes:
             for argument in node.arguments:
                 visit(argument)
-            found[node] = None
+            nodes[node] = None
 
     for root in roots:
         visit(root)
-    return list(found)
+    return list(nodes)
 
 
 def _terms(form: Node) -> list[tuple[int, Node]]:

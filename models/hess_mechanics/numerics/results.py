@@ -36,7 +36,18 @@ _Item = TypeVar("_Item", bound=np.generic)
 
 
 def frozen(array: NDArray[_Item]) -> NDArray[_Item]:
-    """Return the same array, made read-only, because results are cached and shared between sessions."""
+    """Return the same array, made read-only, because results are cached and shared between sessions.
+
+    Parameters
+    ----------
+    array : ndarray
+        The array; it becomes read-only itself.
+
+    Returns
+    -------
+    ndarray
+        The same array.
+    """
     array.setflags(write=False)
     return array
 
@@ -48,9 +59,9 @@ class Cost:
     Attributes
     ----------
     steps : int
-        Taylor steps of all runs together.
+        Taylor steps of all runs together, ≥ 0.
     wall_ms : float
-        Wall-clock time in milliseconds.
+        Wall-clock time in milliseconds, ≥ 0.
     """
 
     steps: int
@@ -58,12 +69,34 @@ class Cost:
 
 
 def unit_of(variable: str) -> str:
-    """Return the unit of a variable of a system, with T the unit of time and I that of moments of inertia."""
+    """Return the unit of a variable of a system.
+
+    Parameters
+    ----------
+    variable : str
+        Name of the variable, such as "ω1".
+
+    Returns
+    -------
+    str
+        The unit, with T the unit of time and I that of moments of inertia; "1" if it has none.
+    """
     return {"ω": "rad/T", "w": "rad/T", "M": "I/T"}.get(variable[0], "1")
 
 
 def facts_of(result: Any) -> dict[str, Any]:
-    """Return the facts common to all results: level, status, error estimate, drifts if there are any, and steps."""
+    """Return the facts common to all results.
+
+    Parameters
+    ----------
+    result : object
+        A result.
+
+    Returns
+    -------
+    dict
+        Level, status, error estimate, drifts if there are any, and steps, by name.
+    """
     return {
         "level": result.level,
         "status": str(result.status),
@@ -75,12 +108,36 @@ def facts_of(result: Any) -> dict[str, Any]:
 
 
 def angle_convention(counts: bool) -> str:
-    """Return what a table says of an angle: whether it counts on over full turns."""
+    """Return the remark of a table on an angle.
+
+    Parameters
+    ----------
+    counts : bool
+        True if the angle counts on over full turns.
+
+    Returns
+    -------
+    str
+        The remark.
+    """
     return "counts on over full turns" if counts else "within one turn"
 
 
 def angle_facts(angles: Iterable[str], counts: bool = True) -> dict[str, str]:
-    """Return the facts of a table about its angles: whether they count on over full turns."""
+    """Return the facts of a table about its angles.
+
+    Parameters
+    ----------
+    angles : iterable of str
+        Names of the angles.
+    counts : bool, default True
+        True if they count on over full turns.
+
+    Returns
+    -------
+    dict of str to str
+        A remark for each angle.
+    """
     return {f"angle {name}": angle_convention(counts) for name in angles}
 
 
@@ -101,7 +158,7 @@ class Sampled(Result):
     status : Status
         How the computation ended.
     error_estimate : float
-        Largest estimated error of any component at any time.
+        Largest estimated error of any component at any time, ≥ 0, in the unit of the component.
     drift : dict of str to float
         max |F(t) − F(0)| of each integral F, relative to |F(0)| if that exceeds 1.
     cost : Cost
@@ -163,7 +220,7 @@ class Orbit(Sampled):
     status : Status
         How the computation ended.
     error_estimate : float
-        Largest estimated error of any component at any time.
+        Largest estimated error of any component at any time, ≥ 0, in the unit of the component.
     drift : dict of str to float
         max |F(t) − F(0)| of each integral F, relative to |F(0)| if that exceeds 1.
     cost : Cost
@@ -196,7 +253,7 @@ class Ensemble(Sampled):
     status : Status
         How the computation ended, for the least accurate orbit.
     error_estimate : float
-        Largest estimated error of any component at any time of any orbit.
+        Largest estimated error of any component at any time of any orbit, ≥ 0, in the unit of the component.
     drift : dict of str to float
         Largest drift of each integral over all orbits, see `Orbit`.
     cost : Cost
@@ -243,7 +300,7 @@ class SectionCrossings(Sampled):
     status : Status
         How the computation ended.
     error_estimate : float
-        Largest estimated error of any component at any crossing.
+        Largest estimated error of any component at any crossing, ≥ 0, in the unit of the component.
     drift : dict of str to float
         max |F(t) − F(0)| of each integral F, relative to |F(0)| if that exceeds 1.
     cost : Cost
@@ -253,7 +310,8 @@ class SectionCrossings(Sampled):
     angles : tuple of str
         Names of those that are angles; they count on over full turns.
     time_error : float
-        Largest estimated error of any time.  Along a conservative motion it grows, and the error of the states may not.
+        Largest estimated error of any time, ≥ 0, in units T.  Along a conservative motion it grows, and the error of
+        the states may not.
     """
 
     dims = ("crossing",)

@@ -1,9 +1,10 @@
 # mypy: allow-untyped-defs
-"""Length of a Taylor step: from the last terms of the series, checked where the series may not show what comes.
+"""Length of a Taylor step, from the last terms of the series; checked where these may miss a change ahead.
 
-The last terms of a series bound its error only if the terms after them fall as well.  They need not: the series of
-τ⁴⁰ at 0 ends before it begins, tanh(x) rounds to 1 and stays constant whatever x does later, x/√(x²) is 1 up to x = 0.
-So a step is compared with the field at its end and at a point inside: p′(s) = f(p(s)) for the polynomial p of the step.
+Not for users.  The last terms of a series bound its error only if the terms after them fall as well.  They need not:
+the series of τ⁴⁰ at 0 ends before it begins, tanh(x) rounds to 1 and stays constant whatever x does later, x/√(x²) is 1
+up to x = 0.  So a step is compared with the field at its end and at a point inside: p′(s) = f(p(s)) for the polynomial
+p of the step.
 
 In a field with functions every step is checked, which takes half as long again.  In a rational field the series of the
 state contains all that the field contains, so that it can deceive only where terms vanish by accident, at special
@@ -147,7 +148,7 @@ def step_of(c, n, tolerance):
 
 @inner
 def _rise(seen, i, h):
-    """Return Σ_{k≥1} |x_k| h^k, a bound on the change of the watched x within a step."""
+    """Return Σ_{k≥1} |x_k| h^k, an upper bound on the change of the watched x within a step."""
     total = 0.0
     for k in range(seen.shape[0] - 1, 0, -1):
         total = (total + abs(seen[k, i])) * h

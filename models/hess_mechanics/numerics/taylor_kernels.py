@@ -1,5 +1,5 @@
 # mypy: allow-untyped-defs
-"""Taylor series of traced fields: steps, dense output, compensated sums.
+"""Taylor series of traced fields: steps, dense output, compensated sums.  Not for users.
 
 All kernels are generated from the `Recursion` of a field (see `tracing`): one orbit here, many orbits in
 `batch_kernels`, crossings of a surface in `events_kernels`.
@@ -108,8 +108,8 @@ def expansion_source(recursion: Recursion) -> str:
         )
 
     def rates(letter: str, one: str, products: Callable[[int], str]) -> str:
-        found = names("rate", recursion.moving + len(observed))
-        return f"{found}= rates(({all_of(letter, known[-1])}), ({products(len(recursion.stages))}), p, {one})"
+        targets = names("rate", recursion.moving + len(observed))
+        return f"{targets}= rates(({all_of(letter, known[-1])}), ({products(len(recursion.stages))}), p, {one})"
 
     def seen(order: str) -> str:
         return "; ".join(f"seen[{order}, {i}] = rate{recursion.moving + i}" for i in observed) or "pass"

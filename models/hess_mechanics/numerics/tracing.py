@@ -40,42 +40,93 @@ def constant(x: Any) -> Any:
     """Return x and declare that it does not change along a motion.
 
     A traced field uses its value at the start of a step for the whole step.
+
+    Parameters
+    ----------
+    x : object
+        Expression of a field: a number, an array or a symbol.
+
+    Returns
+    -------
+    object
+        The same expression.
     """
     return x.at_start() if isinstance(x, Symbol) else x
 
 
 def positive(x: Any) -> Any:
-    """Return x and declare that it has no zero, so that a quotient by it is as regular as its series."""
+    """Return x and declare that it has no zero, so that a quotient by it is as regular as its series.
+
+    Parameters
+    ----------
+    x : object
+        Expression of a field: a number, an array or a symbol.
+
+    Returns
+    -------
+    object
+        The same expression.
+    """
     return x.as_positive() if isinstance(x, Symbol) else x
 
 
 def derivative(x: Any, y: Symbol) -> Any:
-    """Return ∂x/∂y for an expression x of a traced field and one of its variables y: a symbol, or the number 0.
+    """Return the derivative ∂x/∂y of an expression of a traced field.
 
     An expression that is constant along a motion (`constant`) still depends on the initial state.
+
+    Parameters
+    ----------
+    x : object
+        The expression.
+    y : Symbol
+        Variable of the field.
+
+    Returns
+    -------
+    Symbol or int
+        The derivative; the number 0 if x does not depend on y.
     """
     if not isinstance(x, Symbol):
         return 0
-    found = x.tape.derivative(x.node, y.node)
-    return 0 if found is x.tape.number(0) else Symbol(x.tape, found)
+    node = x.tape.derivative(x.node, y.node)
+    return 0 if node is x.tape.number(0) else Symbol(x.tape, node)
 
 
 def trace(field: Field, variables: int, parameters: int, observed: int = 0) -> Recursion:
     """Return the Taylor recursion of a field.
 
-    variables, parameters : lengths of y and p; observed : number of expressions that it returns after its rates.
-    Raises `NotTraceable` if the field uses anything but arithmetic and `FUNCTIONS`.
+    Parameters
+    ----------
+    field : Field
+        The field.
+    variables : int
+        Number of variables y.
+    parameters : int
+        Number of parameters p.
+    observed : int, default 0
+        Number of expressions that the field returns after its rates.
+
+    Returns
+    -------
+    Recursion
+        The recursion.
+
+    Raises
+    ------
+    NotTraceable
+        If the field uses anything but arithmetic and `FUNCTIONS`.
     """
-    tape, found = _record(field, variables, parameters, observed)
-    functions = tape.functions(found, variables)
+    tape, results = _record(field, variables, parameters, observed)
+    functions = tape.functions(results, variables)
     watched = [(node.operation, node.arguments[0]) for node in functions if node.operation in _SATURATED]
-    quotients = [node for node in below(found[:variables]) if node.operation == "/" and node.arguments[1].moves]
+    quotients = [node for node in below(results[:variables]) if node.operation == "/" and node.arguments[1].moves]
     divisors = [
         *(node.arguments[1] for node in quotients if node.arguments[1] not in tape.positive),
         *(node for node in functions if node.operation == "sqrt"),
     ]
     watched += [("/", node) for node in dict.fromkeys(divisors)]
-    rates = [*found[:variables], *functions.values(), *found[variables:], *(node for _, node in watched)]
+    rates = [*results[:variables], *functions.values(), *results[variables:], *(node for _, node in watched)]
     kinds = tuple(kind for kind, _ in watched)
     plain = Series(tape, variables, [*functions], multiplies_out=True).recursion(rates, parameters, kinds)
     if not plain.stages:
@@ -84,13 +135,53 @@ def trace(field: Field, variables: int, parameters: int, observed: int = 0) -> R
 
 
 def expressions(field: Field, variables: int, parameters: int) -> list[Node]:
-    """Return the rates of a field, then those of its functions, as recorded.  Raises `NotTraceable`."""
-    tape, found = _record(field, variables, parameters, 0)
-    return [*found, *tape.functions(found, variables).values()]
+    """Return the rates of a field, then those of its functions, as recorded.
+
+    Parameters
+    ----------
+    field : Field
+        The field.
+    variables : int
+        Number of variables y.
+    parameters : int
+        Number of parameters p.
+
+    Returns
+    -------
+    list of Node
+        The recorded expressions.
+
+    Raises
+    ------
+    NotTraceable
+        If the field cannot be traced.
+    """
+    tape, results = _record(field, variables, parameters, 0)
+    return [*results, *tape.functions(results, variables).values()]
 
 
 def divergence(field: Field, variables: int, parameters: int) -> Node:
-    """Return the divergence of a field, as recorded.  Raises `NotTraceable`."""
+    """Return the divergence of a field, as recorded.
+
+    Parameters
+    ----------
+    field : Field
+        The field.
+    variables : int
+        Number of variables y.
+    parameters : int
+        Number of parameters p.
+
+    Returns
+    -------
+    Node
+        The recorded expression.
+
+    Raises
+    ------
+    NotTraceable
+        If the field cannot be traced.
+    """
 
     def with_divergence(y: Sequence[Any], p: Sequence[Any]) -> Sequence[Any]:
         rates = tuple(field(y, p))
@@ -100,7 +191,22 @@ def divergence(field: Field, variables: int, parameters: int) -> Node:
 
 
 def check(field: Field, variables: int, parameters: int) -> None:
-    """Raise `NotTraceable` if the field cannot be traced, or does not return one rate for each variable."""
+    """Raise an error unless a field can be traced and returns one rate for each variable.
+
+    Parameters
+    ----------
+    field : Field
+        The field.
+    variables : int
+        Number of variables y.
+    parameters : int
+        Number of parameters p.
+
+    Raises
+    ------
+    NotTraceable
+        If the field cannot be traced.
+    """
     _record(field, variables, parameters, 0)
 
 
@@ -110,10 +216,10 @@ def _record(field: Field, variables: int, parameters: int, observed: int) -> tup
     y = tuple(Symbol(tape, tape.leaf("variable", i)) for i in range(variables))
     p = tuple(Symbol(tape, tape.leaf("parameter", i)) for i in range(parameters))
     try:
-        found = field(y, p)
-        if not hasattr(found, "__iter__"):
+        results = field(y, p)
+        if not hasattr(results, "__iter__"):
             raise NotTraceable("A field returns a sequence of rates, one for each variable: (rate,) for a single one.")
-        rates = [tape.lifted(rate) for rate in found]
+        rates = [tape.lifted(rate) for rate in results]
     except NotTraceable:
         raise
     except IndexError as error:

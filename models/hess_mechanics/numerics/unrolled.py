@@ -1,4 +1,4 @@
-"""Generated source with unrolled loops.
+"""Generated source with unrolled loops.  Not for users.
 
 LLVM keeps numbers in registers and packs them into vectors if each of them has a name.  Numba's loops over tuples
 prevent this, so the few loops that matter are unrolled here.
@@ -24,11 +24,11 @@ def compiled(source: str | CodeType, **names: Callable[..., Any]) -> dict[str, C
     """Return the compiled functions of a source by name; they may call each other and the functions `names`."""
     namespace: dict[str, Any] = dict(names)
     exec(source, namespace)
-    found = {
+    functions = {
         name: part(value) for name, value in namespace.items() if isinstance(value, FunctionType) and name not in names
     }
-    namespace.update(found)
-    return found
+    namespace.update(functions)
+    return functions
 
 
 def items(texts: Iterable[str]) -> str:

@@ -1,8 +1,8 @@
 # mypy: allow-untyped-defs
-"""Variational equations V̇ = J(y(t)) V, solved by Taylor series along with the orbit.
+"""Variational equations V̇ = J(y(t)) V, solved by Taylor series along with the orbit.  Not for users.
 
-The Jacobian J is derived symbolically from the traced field.  The series of its nonzero entries, quotients included,
-are computed along with the motion.  The recursion
+V with V(0) = 1 is the fundamental matrix.  The Jacobian J is derived symbolically from the traced field.  The series of
+its nonzero entries, quotients included, are computed along with the motion.  The recursion
 
     (k+1) V_(k+1) = Σ_m J_m V_(k−m)
 
@@ -62,8 +62,8 @@ def variation(field: Field, variables: int, parameters: int) -> Variation:
     fixed: list[tuple[int, int]] = []
 
     def with_jacobian(y: Sequence[Any], p: Sequence[Any]) -> Sequence[Any]:
-        for found in (moving, fixed):
-            found.clear()
+        for places in (moving, fixed):
+            places.clear()
         rates = tuple(field(y, p))
         entries = {(i, j): derivative(rate, x) for i, rate in enumerate(rates) for j, x in enumerate(y)}
         for place, entry in entries.items():
@@ -90,7 +90,7 @@ def products(of: Variation, columns: int) -> int:
     return len(of.recursion.pairs) + len(of.moving) * (1 if lanes * entries > _WRITTEN_OUT else lanes)
 
 
-def carrying_source(of: Variation, lanes: int) -> str:
+def _carrying_source(of: Variation, lanes: int) -> str:
     """Return the source of carry(seen, v, inverses), which computes v[1 … order, row, lane] from v[0] and J."""
     n = of.recursion.variables
     entries = [*of.moving, *of.fixed]
@@ -140,7 +140,7 @@ def carry(seen, v, inverses):
 
 
 @inner
-def largest_entry(v, rows, columns):
+def _largest_entry(v, rows, columns):
     """Return max |v| over v[row, column]."""
     largest = 0.0
     for i in range(rows):
@@ -150,7 +150,7 @@ def largest_entry(v, rows, columns):
 
 
 @inner
-def length_of(rates, rows):
+def _length_of(rates, rows):
     """Return |f|."""
     square = 0.0
     for i in range(rows):
@@ -159,7 +159,7 @@ def length_of(rates, rows):
 
 
 @inner
-def orthonormalised(v, rates, speed, rows, columns, growth):
+def _orthonormalised(v, rates, speed, rows, columns, growth):
     """Orthonormalise the columns of v[row, column] by Gram–Schmidt and add the logarithms of their lengths to growth.
 
     rates : if their length `speed` is not 0, the columns are made orthogonal to them first.
@@ -188,7 +188,7 @@ def orthonormalised(v, rates, speed, rows, columns, growth):
 
 
 @inner
-def is_bent(v, rows, columns, known, volume, limit):
+def _is_bent(v, rows, columns, known, volume, limit):
     """Return True if the condition number of the columns, or their length, may have passed the limit.
 
     known : 1 if a column of length 1 comes before them, else 0; volume : ln det v.
@@ -224,7 +224,7 @@ def variation_integrator(of: Variation, columns: int, ahead: bool = False) -> Ca
     watched = recursion.seen
     expand, evaluate, check = expansion(recursion), evaluation(n), checked(recursion)
     suspects = suspicion(recursion)
-    carry = compiled(carrying_source(of, lanes))["carry"]
+    carry = compiled(_carrying_source(of, lanes))["carry"]
     evaluate_row = evaluation(lanes)
     known = int(ahead)
 
@@ -259,19 +259,19 @@ def variation_integrator(of: Variation, columns: int, ahead: bool = False) -> Ca
                 c[0, i] = y[i]
             expand(c, left, right, inverses, parameters, seen)
             if limit < np.inf:
-                speed = length_of(c[1], n) if ahead else 0.0
+                speed = _length_of(c[1], n) if ahead else 0.0
                 rise = np.log(speed) if ahead else 0.0
                 if steps == 0:
                     speed_then = rise
                 # The column f(y) counts with length 1.
-                if is_bent(v[0], n, columns, known, (volume - volume_then) - (rise - speed_then), limit):
-                    orthonormalised(v[0], c[1], speed, n, columns, grown)
+                if _is_bent(v[0], n, columns, known, (volume - volume_then) - (rise - speed_then), limit):
+                    _orthonormalised(v[0], c[1], speed, n, columns, grown)
                     speed_then, volume_then = rise, volume
             carry(seen, v, inverses)
-            size = largest_entry(v[0], n, columns)
+            size = _largest_entry(v[0], n, columns)
             last, previous = last_terms(c, n)
-            last = max(last, largest_entry(v[order], n, columns) / size)
-            previous = max(previous, largest_entry(v[order - 1], n, columns) / size)
+            last = max(last, _largest_entry(v[order], n, columns) / size)
+            previous = max(previous, _largest_entry(v[order - 1], n, columns) / size)
             most = direction * ((times[count - 1] - t) - t_low)
             h = min(step_size(last, previous, order, tolerance), most)
             if suspects(seen, h, before):
@@ -288,7 +288,7 @@ def variation_integrator(of: Variation, columns: int, ahead: bool = False) -> Ca
                         frames[sample, i, j] = v[0, i, j] + moved[i, j]
                 for j in range(columns):
                     growth[sample, j] = grown[j]
-                divergence[sample] = volume + (volume_low + spread_over(seen, last_seen, inverses, s))
+                divergence[sample] = volume + (volume_low + _spread_over(seen, last_seen, inverses, s))
                 sample += 1
             if sample == count:
                 return steps + 1
@@ -305,7 +305,7 @@ def variation_integrator(of: Variation, columns: int, ahead: bool = False) -> Ca
                 y[i], low[i] = compensated(y[i], low[i], increments[i])
                 for j in range(columns):
                     v[0, i, j] += moved[i, j]
-            volume, volume_low = compensated(volume, volume_low, spread_over(seen, last_seen, inverses, s))
+            volume, volume_low = compensated(volume, volume_low, _spread_over(seen, last_seen, inverses, s))
             t, t_low = compensated(t, t_low, s)
             steps += 1
 
@@ -313,7 +313,7 @@ def variation_integrator(of: Variation, columns: int, ahead: bool = False) -> Ca
 
 
 @inner
-def spread_over(seen, which, inverses, s):
+def _spread_over(seen, which, inverses, s):
     """Return the integral of an observed series from 0 to s."""
     total = 0.0
     for k in range(inverses.size - 1, -1, -1):

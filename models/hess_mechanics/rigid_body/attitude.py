@@ -18,12 +18,12 @@ class Attitude:
 
     Attributes
     ----------
-    times : ndarray of float, shape (n,)
+    times : ndarray, shape (n,)
         Times.
-    axes : ndarray of float, shape (n, 3, 3)
+    axes : ndarray, shape (n, 3, 3)
         The vertical γ, e and γ × e in the axes of the body, in rows, orthonormal to round-off.
     defect : float
-        Estimate of their error, see `orthonormal` and `attitude_along`.
+        Estimate of their error, ≥ 0, see `orthonormal` and `attitude_along`.
     """
 
     times: Array
@@ -31,13 +31,30 @@ class Attitude:
     defect: float
 
     def in_space(self, vector: Sequence[float] | Array) -> Array:
-        """Return the components along γ, e, γ × e (n, 3) of a direction of the body, (3,) or (n, 3)."""
+        """Return the components of a direction of the body along γ, e and γ × e.
+
+        Parameters
+        ----------
+        vector : array_like, shape (3,) or (n, 3)
+            Direction in the axes of the body, the same at all times or one for each.
+
+        Returns
+        -------
+        ndarray, shape (n, 3)
+            Components in space.
+        """
         return np.asarray(np.einsum("nij,nj->ni", self.axes, np.broadcast_to(vector, self.axes.shape[:2])))
 
     def every_second(self) -> Attitude:
-        """Return the first, every second and the last of the samples, for a preview."""
-        kept = [*range(0, len(self.times) - 1, 2), len(self.times) - 1]
-        return replace(self, times=frozen(self.times[kept]), axes=frozen(self.axes[kept]))
+        """Return the first, every second and the last of the samples, for a preview.
+
+        Returns
+        -------
+        Attitude
+            The attitude at these times.
+        """
+        samples = [*range(0, len(self.times) - 1, 2), len(self.times) - 1]
+        return replace(self, times=frozen(self.times[samples]), axes=frozen(self.axes[samples]))
 
 
 TURN = 0.1
@@ -47,12 +64,26 @@ MOST_TURNS = 4000
 
 
 def attitude_along(times: Array, omega: Array, gamma: Array) -> Attitude:
-    """Return the attitude along an orbit from its samples: times (n,), ω (n, 3) and |γ| = 1 (n, 3) in axes of the body.
+    """Return the attitude of a body along an orbit, from samples of the orbit.
 
     The rotation between two samples is that of the Magnus expansion of fourth order, with the derivative of ω from its
     neighbours; only the turn about γ is used, because γ is known.  The result has a sample for every `TURN` of
     rotation, also between those of the orbit, so that the chord of two neighbours approximates the rotation.  Its
     defect is the largest angle, in radians, between a sample of γ and the quadrature from the sample before it.
+
+    Parameters
+    ----------
+    times : ndarray, shape (n,)
+        Times in order.
+    omega : ndarray, shape (n, 3)
+        Angular velocities in the axes of the body, in rad/T.
+    gamma : ndarray, shape (n, 3)
+        Unit vectors γ in the axes of the body.
+
+    Returns
+    -------
+    Attitude
+        The attitude at more times.
     """
     w, step = omega.T, np.diff(times)
     slope = np.gradient(w, times, axis=1) if len(times) > 2 else np.zeros_like(w)
@@ -67,10 +98,10 @@ def attitude_along(times: Array, omega: Array, gamma: Array) -> Attitude:
     angle = np.concatenate([[0.0], np.cumsum(turn)])
     e = np.cos(angle) * e + np.sin(angle) * f
     # Sample the total rotation in steps of TURN; the small term avoids a division by 0 for a body at rest.
-    turned = np.concatenate([[0.0], np.cumsum(length + 1e-12)])
-    at = np.linspace(0.0, turned[-1], max(2, int(min(MOST_TURNS, np.ceil(turned[-1] / TURN))) + 1))
-    i = np.clip(np.searchsorted(turned, at, side="right") - 1, 0, len(step) - 1)
-    share = (at - turned[i]) / (turned[i + 1] - turned[i])
+    total = np.concatenate([[0.0], np.cumsum(length + 1e-12)])
+    at = np.linspace(0.0, total[-1], max(2, int(min(MOST_TURNS, np.ceil(total[-1] / TURN))) + 1))
+    i = np.clip(np.searchsorted(total, at, side="right") - 1, 0, len(step) - 1)
+    share = (at - total[i]) / (total[i + 1] - total[i])
     v, length = share * v[:, i], share * length[i]
     g, e = _turned((g[:, i], e[:, i]), v, length)
     axes = np.stack([g.T, e.T, _cross(g, e).T], axis=1)
@@ -78,11 +109,23 @@ def attitude_along(times: Array, omega: Array, gamma: Array) -> Attitude:
 
 
 def contact_arc(axes: Array, at: Sequence[float] | Array, e: Sequence[float] | Array) -> Array:
-    """Return the arc (n,) that the contact point of a wheel has travelled on the unit sphere, positive towards e.
+    """Return the arc that the contact point of a wheel has travelled on the unit sphere.
 
     The contact `at` has the velocity ω × at, and its component along e is (ω, at × e).
 
-    axes : (n, 3, 3), as in `Attitude`; between two samples ω is constant.
+    Parameters
+    ----------
+    axes : ndarray, shape (n, 3, 3)
+        Axes of an `Attitude`; between two samples ω is constant.
+    at : array_like, shape (3,)
+        Contact point in the axes of the body.
+    e : array_like, shape (3,)
+        Direction in which the wheel rolls.
+
+    Returns
+    -------
+    ndarray, shape (n,)
+        Arc from the first sample, in radians, positive towards e.
     """
     steps = axes[:-1].transpose(0, 2, 1) @ axes[1:]
     # The antisymmetric part is sin θ times the axis of the rotation.
@@ -95,11 +138,11 @@ def contact_arc(axes: Array, at: Sequence[float] | Array, e: Sequence[float] | A
 
 def _cross(u: Array, v: Array) -> Array:
     """Return u × v of columns (3, n); `np.cross` takes several times as long."""
-    found = np.empty(u.shape)
+    product = np.empty(u.shape)
     for k in range(3):
         i, j = (k + 1) % 3, (k + 2) % 3
-        np.subtract(u[i] * v[j], u[j] * v[i], out=found[k])
-    return found
+        np.subtract(u[i] * v[j], u[j] * v[i], out=product[k])
+    return product
 
 
 def _frames(gamma: Array) -> tuple[Array, Array, Array]:
@@ -121,7 +164,22 @@ def _turned(several: tuple[Array, ...], v: Array, length: Array) -> tuple[Array,
 
 
 def orthonormal(g: Array, e: Array) -> tuple[Array, float]:
-    """Return γ, e and γ × e, rows of (n, 3, 3), and the largest of | |γ|−1 |, | |e|−1 |, |(e, γ)| before."""
+    """Return right-handed orthonormal axes from γ and e, and their defect.
+
+    Parameters
+    ----------
+    g : ndarray, shape (n, 3)
+        Verticals γ.
+    e : ndarray, shape (n, 3)
+        Second direction.
+
+    Returns
+    -------
+    axes : ndarray, shape (n, 3, 3)
+        The axes γ, e and γ × e, in rows.
+    defect : float
+        Largest of ||γ| − 1|, ||e| − 1| and |(e, γ)| before.
+    """
     long_g, long_e = np.linalg.norm(g, axis=1), np.linalg.norm(e, axis=1)
     defect = max(np.max(np.abs(x)) for x in (long_g - 1.0, long_e - 1.0, np.sum(g * e, axis=1)))
     g = g / long_g[:, None]

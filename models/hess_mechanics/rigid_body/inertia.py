@@ -32,20 +32,55 @@ MAX_RATIO = 1e20
 
 
 def require_finite(**values: float) -> None:
-    """Raise `InvalidParameter` naming the first value that is not a finite number."""
+    """Raise an error that names the first value that is not a finite number.
+
+    Parameters
+    ----------
+    **values : float
+        The values, by name.
+
+    Raises
+    ------
+    InvalidParameter
+        If a value is not a finite number.
+    """
     for name, value in values.items():
         as_number(name, value)
 
 
 def require_positive_definite(I11: float, I22: float) -> None:
-    """Raise `NotPositiveDefinite` unless I11, I22 > 0 (some I33 then completes the tensor)."""
+    """Raise an error unless I11 and I22 are positive; some I33 then completes the tensor.
+
+    Parameters
+    ----------
+    I11, I22 : float
+        Moments of inertia about the first and second axis.
+
+    Raises
+    ------
+    NotPositiveDefinite
+        If I11 ≤ 0 or I22 ≤ 0.
+    """
     for name, value in (("I11", I11), ("I22", I22)):
         if not value > 0:
             raise NotPositiveDefinite(f"{name} = {value:g}, but a moment of inertia is positive: choose {name} > 0.")
 
 
 def require_comparable(I11: float, I22: float) -> None:
-    """Raise `NotPositiveDefinite` unless I11, I22 > 0, `InvalidParameter` where their ratio is beyond `MAX_RATIO`."""
+    """Raise an error unless I11 and I22 are positive and their ratio is at most `MAX_RATIO`.
+
+    Parameters
+    ----------
+    I11, I22 : float
+        Moments of inertia about the first and second axis.
+
+    Raises
+    ------
+    NotPositiveDefinite
+        If I11 ≤ 0 or I22 ≤ 0.
+    InvalidParameter
+        If their ratio exceeds `MAX_RATIO`.
+    """
     require_positive_definite(I11, I22)
     if not 1.0 / MAX_RATIO <= I11 / I22 <= MAX_RATIO:
         raise InvalidParameter(f"The moments I11 and I22 are too different: choose a ratio below {MAX_RATIO:g}.")
@@ -63,7 +98,7 @@ class BodyCheck:
     is_body : bool
         True if some I33 makes the tensor that of a rigid body.
     I33 : tuple of two floats or None
-        Interval of the admissible I33; None if there is none, or if I33 is given.
+        Interval of the admissible I33, in the unit of the moments; None if there is none, or if I33 is given.
     sentence : str
         The result in words.
     """
@@ -74,7 +109,18 @@ class BodyCheck:
 
 
 def body_check(I33: tuple[float, float] | None) -> BodyCheck:
-    """Return the result in words, from the admissible interval of I33 or None."""
+    """Return the result of `check_body` in words.
+
+    Parameters
+    ----------
+    I33 : (float, float), optional
+        Interval of the admissible I33; None if there is none.
+
+    Returns
+    -------
+    BodyCheck
+        The result.
+    """
     if I33 is None:
         return BodyCheck(
             False,
@@ -93,11 +139,11 @@ def check_body(I11: float, I22: float, I13: float, I23: float) -> BodyCheck:
     I11 : float
         Moment of inertia about the first axis, I11 > 0.
     I22 : float
-        Moment of inertia about the second axis, I22 > 0.
+        Moment of inertia about the second axis, I22 > 0, in the unit of I11.
     I13 : float
-        Product of inertia.
+        Product of inertia, any finite number, in the unit of I11.
     I23 : float
-        Product of inertia.
+        Product of inertia, any finite number, in the unit of I11.
 
     Returns
     -------
@@ -152,12 +198,24 @@ def check_body(I11: float, I22: float, I13: float, I23: float) -> BodyCheck:
 
 
 def paired_weights(moments: Array, arms: Array, centre: Array | None = None) -> Array | None:
-    """Return the masses (3, 2) of point weights at ±arms on the principal axes that have the given moments of inertia.
+    """Return masses of point weights on the principal axes that have given moments of inertia.
 
-    The weights of a pair differ so that their centre of mass lies in the direction `centre`, which leaves the moments
-    as they are.  None if there are no such weights, because the moments are not those of a rigid body.
+    The weights of a pair differ so that their centre of mass lies in a given direction, which does not change the
+    moments.
 
-    moments, arms : (3,); centre : (3,), in the principal axes, or None for the fixed point.
+    Parameters
+    ----------
+    moments : ndarray, shape (3,)
+        Principal moments of inertia.
+    arms : ndarray, shape (3,)
+        Distances of the weights from the fixed point; each axis has weights at ±arm.
+    centre : ndarray, shape (3,), optional
+        Direction of the centre of mass in the principal axes.  By default it is the fixed point.
+
+    Returns
+    -------
+    ndarray, shape (3, 2), or None
+        Masses at +arm and −arm; None if the moments are not those of a rigid body.
     """
     second = 0.5 * np.sum(moments) - moments
     if np.min(second) < -1e-9 * np.max(moments):

@@ -1,4 +1,4 @@
-"""A rigid body of one's own: a fixed point, a linear constraint, a gyrostatic momentum, a polynomial potential.
+"""A user-defined rigid body: a fixed point, a linear constraint, a gyrostatic momentum, a polynomial potential.
 
 State y = (ω1, ω2, ω3, γ1, γ2, γ3), and with a drive (cos Ωt, sin Ωt, W) after these.  With M = Iω + K,
 
@@ -178,13 +178,13 @@ def _system(exponents: Exponents, is_constrained: bool, drive: Exponents) -> Sys
         I, k, a, _, c = split(p)
         omega, gamma = y[:3], y[3:6]
         E = _dot(_times(I, omega), omega) / 2 + _value(exponents, c, gamma)
-        found = {"E − W": E - y[8]} if is_driven else {"E": E}
-        found["γ²"] = _dot(gamma, gamma)
+        values = {"E − W": E - y[8]} if is_driven else {"E": E}
+        values["γ²"] = _dot(gamma, gamma)
         if is_constrained:
-            found["(a, ω)"] = _dot(a, omega)
+            values["(a, ω)"] = _dot(a, omega)
         elif not is_driven:
-            found["(M, γ)"] = _dot([one + other for one, other in zip(_times(I, omega), k, strict=True)], gamma)
-        return found
+            values["(M, γ)"] = _dot([one + other for one, other in zip(_times(I, omega), k, strict=True)], gamma)
+        return values
 
     state = (0.5, 0.4, 0.0, 0.6, 0.0, 0.8, *((1.0, 0.0, 0.0) if is_driven else ()))
     values = [2.0, 1.5, 1.0, 0.0, 0.1, 0.2, 0.0, 0.0, 0.3]
@@ -209,17 +209,17 @@ class OwnBody:
     Parameters
     ----------
     inertia : tuple of float, shape (6,)
-        I11, I22, I33, I12, I13, I23.
+        I11, I22, I33, I12, I13, I23, positive definite; their unit is the unit I.
     potential : Polynomial, optional
-        The potential U(γ).
+        The potential U(γ), in units I/T².
     constraint : (float, float, float), optional
-        The vector a of the constraint (a, ω) = 0; None for a free body.
+        The vector a of the constraint (a, ω) = 0, nonzero; None for a free body.
     momentum : (float, float, float), optional
-        Constant part k of the gyrostatic momentum.
+        Constant part k of the gyrostatic momentum, in units I/T.
     drive : (float, float, float), optional
-        Amplitude d of its periodic part d p(cos Ωt, sin Ωt).
+        Amplitude d of its periodic part d p(cos Ωt, sin Ωt), in units I/T.
     frequency : float, optional
-        Frequency Ω of the drive.
+        Frequency Ω of the drive, any finite number, in rad/T.
     shape : Polynomial, optional
         The polynomial p.  By default p = cos Ωt.
 
@@ -287,15 +287,18 @@ class OwnBody:
     def surface(self) -> Plane:
         """The section of its motions, crossed upwards: γ3 = 0, or sin Ωt = 0, once in a period of a drive."""
         is_periodic = self.is_driven and self.frequency != 0.0
-        wanted = "sinΩt" if is_periodic else "γ3"
-        normal = tuple(float(name == wanted) for name in self.system.variables)
+        variable = "sinΩt" if is_periodic else "γ3"
+        normal = tuple(float(name == variable) for name in self.system.variables)
         return Plane(normal, sense=-1 if is_periodic and self.frequency < 0.0 else 1)
 
     @property
     def system(self) -> System:
         """The equations of motion, shared by all bodies with the same terms of potential and drive.
 
-        Raises `WorkLimit`.
+        Raises
+        ------
+        WorkLimit
+            If too many forms of equations have been compiled in this process.
         """
         if _system.cache_info().currsize >= _FORMS:
             raise WorkLimit(f"{_FORMS} forms of equations have been compiled here: restart the program.")

@@ -33,13 +33,43 @@ class Reversal:
     sense: ClassVar[int] = 0
 
     def gradient(self, state: Array) -> Array:
-        """Return the gradient of (ω, γ) (5,)."""
+        """Return the gradient of (ω, γ).
+
+        Parameters
+        ----------
+        state : ndarray, shape (5,)
+            State (ω1, ω2, γ1, γ2, γ3).
+
+        Returns
+        -------
+        ndarray, shape (5,)
+            Derivatives with respect to the state.
+        """
         return np.array([*state[2:4], *state[:2], 0.0])
 
     def crossing_kernel(self, system: System, problem: Problem) -> tuple[Callable[..., tuple[int, int]], Array, float]:
-        """Return the kernel of the surface, see `section.Surface`.
+        """Return the kernel that finds crossings of the surface, see `plane_section.Surface`.
 
-        Raises `InvalidParameter` for systems with other variables.
+        Parameters
+        ----------
+        system : System
+            System with the variables (ω1, ω2, γ1, γ2, γ3).
+        problem : Problem
+            Not used: the surface does not depend on the parameters.
+
+        Returns
+        -------
+        kernel : callable
+            The kernel.
+        normal : ndarray, shape (1,)
+            Not used by this surface.
+        offset : float
+            Value of (ω, γ) on the surface, 0.
+
+        Raises
+        ------
+        InvalidParameter
+            If the system has other variables.
         """
         if system.variables != _VARIABLES:
             raise InvalidParameter(f"Reversals are defined for systems with the variables {', '.join(_VARIABLES)}.")
@@ -52,13 +82,45 @@ def _cross(system: System) -> Callable[..., Any]:
 
 
 def rate(states: Array) -> Array:
-    """Return (ω, γ) (n,) of states (n, 5), in rad/T."""
+    """Return the rate (ω, γ) of rotation about the vertical.
+
+    Parameters
+    ----------
+    states : ndarray, shape (n, 5)
+        States (ω1, ω2, γ1, γ2, γ3).
+
+    Returns
+    -------
+    ndarray, shape (n,)
+        Rates, in rad/T.
+    """
     return np.asarray(states[:, 0] * states[:, 2] + states[:, 1] * states[:, 3])
 
 
 def reversals(body: Body, start: Sequence[float], duration: float, accuracy: Accuracy) -> SectionCrossings:
-    """Return all times from 0 to `duration` at which (ω, γ) is 0, and the states there; see `section`.
+    """Return all reversals of a motion, the times at which (ω, γ) = 0.
 
-    Raises `InvalidParameter`, `WorkLimit`.
+    Parameters
+    ----------
+    body : Body
+        Body of a system with the variables (ω1, ω2, γ1, γ2, γ3).
+    start : sequence of float, shape (5,)
+        Initial state.
+    duration : float
+        Time; negative: backward.
+    accuracy : str or Level
+        Accuracy level.
+
+    Returns
+    -------
+    SectionCrossings
+        Times and states, at most 5000.
+
+    Raises
+    ------
+    InvalidParameter
+        If a number is out of range, or the system has other variables.
+    WorkLimit
+        If the motion needs too many steps.
     """
     return section(body, start, Reversal(), duration, accuracy, MOST)

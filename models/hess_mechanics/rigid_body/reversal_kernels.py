@@ -1,5 +1,5 @@
 # mypy: allow-untyped-defs
-"""Kernel of `reversal`: the surface (ω, γ) = 0 of systems with the variables (ω1, ω2, γ1, γ2, γ3)."""
+"""Kernel of `reversal`: the surface (ω, γ) = 0 of systems with the variables (ω1, ω2, γ1, γ2, γ3).  Not for users."""
 
 from __future__ import annotations
 

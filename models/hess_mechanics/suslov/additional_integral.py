@@ -52,7 +52,29 @@ def _check_order(k: int) -> None:
 
 
 def I11_of(k: int, I22: float, I23: float) -> float:
-    """Return I11 = I22 + k² I23²/I22 (`eq834`).  Raises `InvalidParameter`, `NotPositiveDefinite`."""
+    """Return I11 = I22 + k² I23²/I22, for which F2 of degree k exists (`eq834`).
+
+    Parameters
+    ----------
+    k : int
+        Degree in ω, odd, 1 to 15.
+    I22 : float
+        Moment of inertia about the second axis, I22 > 0.
+    I23 : float
+        Product of inertia, any finite number, in the unit of I22.
+
+    Returns
+    -------
+    float
+        Moment of inertia about the first axis, in the unit of I22.
+
+    Raises
+    ------
+    InvalidParameter
+        If k is even or out of range, or a value is not finite.
+    NotPositiveDefinite
+        If I22 ≤ 0.
+    """
     _check_order(k)
     require_finite(I22=I22, I23=I23)
     require_positive_definite(1.0, I22)
@@ -60,13 +82,38 @@ def I11_of(k: int, I22: float, I23: float) -> float:
 
 
 def I11_at(k: float, I22: float, I13: float, I23: float) -> float:
-    """Return I11 = I22 + k|k| (I13² + I23²)/I22: `I11_of` for any real k and both cases; below I22 for k < 0."""
+    """Return I11 = I22 + k|k| (I13² + I23²)/I22: `I11_of` for any real k and both cases of `eq834`.
+
+    Parameters
+    ----------
+    k : float
+        Any real number; I11 < I22 for k < 0.
+    I22 : float
+        Moment of inertia about the second axis, I22 > 0.
+    I13, I23 : float
+        Products of inertia, in the unit of I22.
+
+    Returns
+    -------
+    float
+        Moment of inertia about the first axis; not positive if k is too small.
+    """
     return I22 + k * abs(k) * (I13 * I13 + I23 * I23) / I22
 
 
 @dataclass(frozen=True)
 class Coefficients:
-    """Exact coefficients a, b, c of F2, n = (k+1)/2 of each, and `rest` = a_n, which is 0 if F2 is conserved."""
+    """Exact coefficients of the additional integral F2 of degree k.
+
+    Attributes
+    ----------
+    k : int
+        Degree in ω, odd, 1 to 15.
+    a, b, c : tuple of Fraction, length (k + 1)/2
+        Coefficients of V1, V2 and V3, see the module.
+    rest : Fraction
+        The coefficient a_n, n = (k + 1)/2; it is 0 if F2 is conserved.
+    """
 
     k: int
     a: tuple[Fraction, ...]
@@ -77,9 +124,26 @@ class Coefficients:
 
 @lru_cache(maxsize=64)
 def coefficients(k: int, I22: Fraction | float, I23: Fraction | float) -> Coefficients:
-    """Return the exact coefficients of case 1 of `eq834` for these I22 and I23 ≠ 0, with I11 from k.
+    """Return the exact coefficients of case 1 of `eq834` for these I22 and I23, with I11 from k.
 
-    Raises `InvalidParameter`.
+    Parameters
+    ----------
+    k : int
+        Degree in ω, odd, 1 to 15.
+    I22 : Fraction or float
+        Moment of inertia about the second axis, I22 > 0.
+    I23 : Fraction or float
+        Product of inertia, nonzero.
+
+    Returns
+    -------
+    Coefficients
+        The coefficients, as fractions.
+
+    Raises
+    ------
+    InvalidParameter
+        If k is even or out of range, I22 ≤ 0 or I23 = 0.
     """
     _check_order(k)
     if not (I22 > 0 and I23 != 0):
@@ -118,7 +182,7 @@ class AdditionalIntegral:
     c : ndarray of float, shape ((k + 1)/2,)
         Coefficients of V3.
     inertia : float
-        Moment of inertia about ξ: I11, in case 2 I22.
+        Moment of inertia about ξ: I11, in case 2 I22; positive, in units I.
     """
 
     k: int
@@ -157,7 +221,7 @@ class AdditionalIntegral:
         omega : array_like of float, shape (2,)
             Angular velocity (ω1, ω2).
         level : float
-            Value of F2.
+            Value of F2, any finite number.
 
         Returns
         -------
@@ -171,7 +235,20 @@ class AdditionalIntegral:
         return V / length, level / length
 
     def __call__(self, omega: Array, gamma: Array) -> Array:
-        """Return F2, shape (…), for ω (…, 2) and γ (…, 3)."""
+        """Return F2 = (γ, V(ω)).
+
+        Parameters
+        ----------
+        omega : array_like, shape (..., 2)
+            Angular velocities (ω1, ω2), in rad/T.
+        gamma : array_like, shape (..., 3)
+            Verticals γ.
+
+        Returns
+        -------
+        ndarray, shape (...,)
+            Values of F2.
+        """
         value: Array = np.sum(self.vector(omega) * np.asarray(gamma, float), axis=-1)
         return value
 
@@ -212,7 +289,18 @@ class AdditionalIntegral:
 
 
 def order(body: SuslovBody) -> int | None:
-    """Return the odd k ≤ 15 for which the body satisfies `eq834` to round-off, or None."""
+    """Return the odd k ≤ 15 for which the body satisfies `eq834` to round-off.
+
+    Parameters
+    ----------
+    body : SuslovBody
+        The body.
+
+    Returns
+    -------
+    int or None
+        The degree of F2; None if the body has a field or no such k exists.
+    """
     I11, I22, I13, I23, *b = body.parameters
     if any(b) or (I13 == 0.0) == (I23 == 0.0):
         return None
@@ -275,7 +363,18 @@ def additional_integral(k: int, body: SuslovBody) -> AdditionalIntegral:
 
 
 def of_body(body: SuslovBody) -> AdditionalIntegral | None:
-    """Return F2 of the body, or None if `eq834` does not hold."""
+    """Return the additional integral F2 of a body.
+
+    Parameters
+    ----------
+    body : SuslovBody
+        The body.
+
+    Returns
+    -------
+    AdditionalIntegral or None
+        F2, or None if `eq834` does not hold.
+    """
     k = order(body)
     return None if k is None else additional_integral(k, body)
 
@@ -289,7 +388,23 @@ _FORMULAS = {
 
 
 def formula(k: int) -> str:
-    """Return F2 in LaTeX, case 1 of `eq834`: expanded for k = 1 and 3, otherwise a sum.  Raises `InvalidParameter`."""
+    """Return F2 in LaTeX, case 1 of `eq834`: expanded for k = 1 and 3, otherwise as a sum.
+
+    Parameters
+    ----------
+    k : int
+        Degree in ω, odd, 1 to 15.
+
+    Returns
+    -------
+    str
+        The formula, without delimiters.
+
+    Raises
+    ------
+    InvalidParameter
+        If k is even or out of range.
+    """
     _check_order(k)
     return _FORMULAS.get(
         k,

@@ -27,19 +27,19 @@ class SuslovBody:
     Parameters
     ----------
     I11 : float
-        Moment of inertia about the first axis, I11 > 0.
+        Moment of inertia about the first axis, I11 > 0; its unit is the unit I of all moments and products.
     I22 : float
-        Moment of inertia about the second axis, I22 > 0.
+        Moment of inertia about the second axis, I22 > 0, in units I; I11/I22 from 1e-20 to 1e20.
     I13 : float
-        Product of inertia.
+        Product of inertia, any finite number, in units I.
     I23 : float
-        Product of inertia.
+        Product of inertia, any finite number, in units I.
     b1 : float, optional
-        First component of **b** = −mg **r**, with **r** the centre of mass.
+        First component of **b** = −mg **r**, with **r** the centre of mass; any finite number, in units I/T².
     b2 : float, optional
-        Second component of **b**.
+        Second component of **b**, any finite number, in units I/T².
     b3 : float, optional
-        Third component of **b**.
+        Third component of **b**, along the constraint; any finite number, in units I/T².
 
     Raises
     ------
@@ -83,7 +83,20 @@ class SuslovBody:
 
 
 def field(y: Sequence[Any], p: Sequence[Any]) -> tuple[Any, ...]:
-    """Return the right-hand side of the equations of motion (`Biz131`)."""
+    """Return the right-hand side of the equations of motion (`Biz131`).
+
+    Parameters
+    ----------
+    y : sequence, shape (5,)
+        State (ω1, ω2, γ1, γ2, γ3): numbers, arrays or symbols.
+    p : sequence, shape (7,)
+        Parameters (I11, I22, I13, I23, b1, b2, b3).
+
+    Returns
+    -------
+    tuple of length 5
+        Rates of the state.
+    """
     w1, w2, g1, g2, g3 = y
     I11, I22, I13, I23, b1, b2, b3 = p
     s = I13 * w1 + I23 * w2
@@ -97,7 +110,20 @@ def field(y: Sequence[Any], p: Sequence[Any]) -> tuple[Any, ...]:
 
 
 def integrals(y: Sequence[Any], p: Sequence[Any]) -> Mapping[str, Any]:
-    """Return the energy E and F1 = γ² (`Biz11`)."""
+    """Return the energy E and F1 = γ² (`Biz11`).
+
+    Parameters
+    ----------
+    y : sequence, shape (5,)
+        State (ω1, ω2, γ1, γ2, γ3): numbers, arrays or symbols.
+    p : sequence, shape (7,)
+        Parameters (I11, I22, I13, I23, b1, b2, b3).
+
+    Returns
+    -------
+    mapping of str to object
+        Values of the integrals, by name.
+    """
     w1, w2, g1, g2, g3 = y
     I11, I22, _, _, b1, b2, b3 = p
     return {
@@ -107,9 +133,26 @@ def integrals(y: Sequence[Any], p: Sequence[Any]) -> Mapping[str, Any]:
 
 
 def frequency(y: Array, p: Array) -> Array | float:
-    """Return ν = √(2(E+|b||γ|)/min(I11, I22)), a bound on |ω| along the motion, of states (5,) or (5, n).
+    """Return ν = √(2(E+|b||γ|)/min(I11, I22)), an upper bound on |ω| along the motion.
 
-    Raises `NotPositiveDefinite`, `InvalidParameter`.
+    Parameters
+    ----------
+    y : ndarray, shape (5,) or (5, n)
+        One or several states.
+    p : ndarray, shape (7,)
+        Parameters.
+
+    Returns
+    -------
+    float or ndarray, shape (n,)
+        The bound of each state, in rad/T.
+
+    Raises
+    ------
+    NotPositiveDefinite
+        If I11 ≤ 0 or I22 ≤ 0.
+    InvalidParameter
+        If the ratio of I11 and I22 is beyond 1e20.
     """
     I11, I22 = p[0], p[1]
     require_comparable(I11, I22)

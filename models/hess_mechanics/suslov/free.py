@@ -71,7 +71,22 @@ _MAX_SHAPE = 1e4
 class PassageConstants:
     """Constants of an inertia tensor that determine every passage of ω along its ellipse, see the module.
 
-    xi, eta : (3,) unit vectors; J, w, K, kappa, c : numbers (c for the arc σ = +1).
+    Attributes
+    ----------
+    xi : ndarray, shape (3,)
+        Unit vector ξ along the line of equilibria.
+    eta : ndarray, shape (3,)
+        Unit vector η = e3 × ξ.
+    J : float
+        Size √(I13² + I23²) of the products of inertia, J > 0.
+    w : float
+        Weighted mean (I22 I13² + I11 I23²)/J² of the moments, w > 0.
+    K : float
+        Dimensionless constant I11 I22/(J w), K > 0.
+    kappa : float
+        Dimensionless constant κ = √(I11 I22)/J, κ > 0.
+    c : float
+        Dimensionless constant c of the arc σ = +1, of either sign.
     """
 
     xi: Array
@@ -84,7 +99,7 @@ class PassageConstants:
 
     @property
     def size(self) -> float:
-        """The bound K + κ + |c| of the rotation of γ per unit of u."""
+        """Upper bound K + κ + |c| on the rotation of γ per unit of u."""
         return self.K + self.kappa + abs(self.c)
 
     @property
@@ -93,7 +108,20 @@ class PassageConstants:
         return 39.0 + math.log(max(1.0, self.kappa))
 
     def angle(self, u: Array | float, arc: int) -> Array:
-        """Return Φ(u) = −K ln cosh u + σc gd u, the angle about ξ of the rotating frame; shape of u."""
+        """Return Φ(u) = −K ln cosh u + σc gd u, the angle of the rotating frame about ξ.
+
+        Parameters
+        ----------
+        u : float or ndarray
+            Rescaled times.
+        arc : int
+            Arc σ, 1 or −1.
+
+        Returns
+        -------
+        ndarray
+            Angles in radians, of the shape of u.
+        """
         return -self.K * (np.abs(u) + _tail(u) - math.log(2.0)) + arc * self.c * _gd(u)
 
 
@@ -108,9 +136,24 @@ def _gd(u: Array | float) -> Array:
 
 
 def shape(body: SuslovBody) -> PassageConstants:
-    """Return K, κ, c and the directions ξ, η of a body without a field.
+    """Return the constants of the passages of a body without a field.
 
-    Raises `InvalidParameter` (a field; I13 = I23 = 0), `WorkLimit` (I13, I23 too small, or I11 and I22 too different).
+    Parameters
+    ----------
+    body : SuslovBody
+        Body with b = 0, and I13 or I23 nonzero.
+
+    Returns
+    -------
+    PassageConstants
+        K, κ, c and the directions ξ and η.
+
+    Raises
+    ------
+    InvalidParameter
+        If the body has a field, or I13 = I23 = 0.
+    WorkLimit
+        If I13 and I23 are too small, or I11 and I22 too different.
     """
     I11, I22, I13, I23, *b = body.parameters
     if any(b):
@@ -131,7 +174,7 @@ def shape(body: SuslovBody) -> PassageConstants:
         about = f"about {plain(angle, 2)}" if math.isfinite(angle) else "more than 1e308"
         raise WorkLimit(
             f"γ turns too often while ω passes from the unstable to the stable point ({about} radians; at most "
-            f"{_MAX_SHAPE:g} are computed): choose larger I13, I23, or I11 and I22 less different."
+            f"{_MAX_SHAPE:g} are computed): choose larger I13, I23, or more similar I11 and I22."
         )
     return PassageConstants(frozen(np.array([n2, -n1, 0.0])), frozen(np.array([n1, n2, 0.0])), J, w, K, kappa, c)
 
@@ -142,8 +185,20 @@ class Equilibria:
 
     There γ rotates about ξ on the circles Γ = (ξ, γ) = const, the limit cycles.
 
-    stable, unstable : (2,) ω^(+) = −|ω|ξ and ω^(−) = +|ω|ξ; speed : |ω^(±)|, the angular velocity of γ; xi : (3,);
-    rate : ω0, the rate at which ω departs and arrives; h : the energy.
+    Attributes
+    ----------
+    stable : ndarray, shape (2,)
+        Stable point ω^(+) = −|ω|ξ, in rad/T.
+    unstable : ndarray, shape (2,)
+        Unstable point ω^(−) = +|ω|ξ, in rad/T.
+    xi : ndarray, shape (3,)
+        Unit vector ξ.
+    speed : float
+        Size |ω^(±)|, the angular velocity of γ, in rad/T.
+    rate : float
+        Rate ω0 at which ω departs and arrives, in 1/T.
+    h : float
+        Energy, h > 0.
     """
 
     stable: Array
@@ -154,13 +209,41 @@ class Equilibria:
     h: float
 
     def gamma(self, Gamma: float, phi: float) -> tuple[float, float, float]:
-        """Return γ = Γξ + √(1−Γ²)(cos φ η + sin φ e3), η = e3 × ξ."""
+        """Return the vertical on a limit cycle, γ = Γξ + √(1−Γ²)(cos φ η + sin φ e3), η = e3 × ξ.
+
+        Parameters
+        ----------
+        Gamma : float
+            Height Γ = (ξ, γ) of the cycle, −1 to 1.
+        phi : float
+            Phase φ, in radians.
+
+        Returns
+        -------
+        tuple of three floats
+            The vertical γ.
+        """
         g1, g2, g3 = vertical(self.xi, Gamma, cmath.rect(math.sqrt(max(0.0, 1.0 - Gamma * Gamma)), phi)).tolist()
         return g1, g2, g3
 
 
 def vertical(xi: Array, Gamma: Array | float, z: Complex | complex) -> Array:
-    """Return γ = Γξ + Re z η + Im z e3 with η = e3 × ξ, shape (..., 3); xi : the first components of ξ."""
+    """Return γ = Γξ + Re z η + Im z e3 with η = e3 × ξ.
+
+    Parameters
+    ----------
+    xi : ndarray, shape (2,) or (3,)
+        Unit vector ξ.
+    Gamma : float or ndarray, shape (...)
+        Component Γ along ξ, −1 to 1.
+    z : complex or ndarray, shape (...)
+        Components across ξ.
+
+    Returns
+    -------
+    ndarray, shape (..., 3)
+        Verticals γ.
+    """
     z = np.asarray(z)
     return np.stack([Gamma * xi[0] - z.real * xi[1], Gamma * xi[1] + z.real * xi[0], z.imag], axis=-1)
 
@@ -171,7 +254,27 @@ def _rate(body: SuslovBody, of: PassageConstants, r: float) -> float:
 
 
 def equilibria(body: SuslovBody, h: float) -> Equilibria:
-    """Return the stable and the unstable point with energy h.  Raises `InvalidParameter` (h ≤ 0 too), `WorkLimit`."""
+    """Return the stable and the unstable equilibrium of ω with energy h.
+
+    Parameters
+    ----------
+    body : SuslovBody
+        Body with b = 0, and I13 or I23 nonzero.
+    h : float
+        Energy, h > 0.
+
+    Returns
+    -------
+    Equilibria
+        The equilibria.
+
+    Raises
+    ------
+    InvalidParameter
+        If the body has a field, I13 = I23 = 0, or h ≤ 0.
+    WorkLimit
+        If γ rotates too often during a passage, see `shape`.
+    """
     of, r = shape(body), _radius(h)
     speed = r / math.sqrt(of.w)
     point = speed * of.xi[:2]
@@ -187,14 +290,51 @@ def _radius(h: float) -> float:
 
 
 def equilibria_of_unit_rate(body: SuslovBody) -> Equilibria:
-    """Return the equilibria with the energy for which ω0 = 1.  Raises `InvalidParameter`, `WorkLimit`."""
+    """Return the equilibria with the energy for which ω0 = 1.
+
+    Parameters
+    ----------
+    body : SuslovBody
+        Body with b = 0, and I13 or I23 nonzero.
+
+    Returns
+    -------
+    Equilibria
+        The equilibria.
+
+    Raises
+    ------
+    InvalidParameter
+        If the body has a field, or I13 = I23 = 0.
+    WorkLimit
+        If γ rotates too often during a passage, see `shape`.
+    """
     return equilibria(body, 1.0 / equilibria(body, 1.0).rate ** 2)
 
 
 def arcs(body: SuslovBody, h: float, count: int = 91) -> tuple[Array, Array]:
-    """Return the two arcs of the ellipse E = h from the unstable to the stable point, σ = +1 first; (count, 2) each.
+    """Return the two arcs of the ellipse E = h, from the unstable to the stable point.
 
-    Raises `InvalidParameter`, `WorkLimit`.
+    Parameters
+    ----------
+    body : SuslovBody
+        Body with b = 0, and I13 or I23 nonzero.
+    h : float
+        Energy, h > 0.
+    count : int, default 91
+        Number of points of each arc.
+
+    Returns
+    -------
+    tuple of two ndarray, shape (count, 2)
+        Angular velocities (ω1, ω2), σ = +1 first.
+
+    Raises
+    ------
+    InvalidParameter
+        If the body has a field, I13 = I23 = 0, or h ≤ 0.
+    WorkLimit
+        If γ rotates too often during a passage, see `shape`.
     """
     of, r = shape(body), _radius(h)
     beta = np.linspace(-0.5 * math.pi, 0.5 * math.pi, count)
@@ -210,7 +350,19 @@ def _omega(of: PassageConstants, arc: int, tanh: Array, sech: Array) -> Array:
 
 @dataclass(frozen=True)
 class Passage:
-    """One motion ω(t): constants of its tensor, arc σ = ±1, u0 = u(0) and rate ω0."""
+    """One motion ω(t) from the unstable to the stable equilibrium.
+
+    Attributes
+    ----------
+    shape : PassageConstants
+        Constants of the inertia tensor.
+    arc : int
+        Arc σ, 1 or −1: the sign of I13ω1 + I23ω2.
+    u0 : float
+        Rescaled time u at t = 0.
+    rate : float
+        Rate ω0 of u, in 1/T.
+    """
 
     shape: PassageConstants
     arc: int
@@ -218,7 +370,18 @@ class Passage:
     rate: float
 
     def omega(self, u: Array) -> Array:
-        """Return ω (m, 2) in closed form (`biz132`)."""
+        """Return ω in closed form (`biz132`).
+
+        Parameters
+        ----------
+        u : ndarray, shape (m,)
+            Rescaled times.
+
+        Returns
+        -------
+        ndarray, shape (m, 2)
+            Angular velocities (ω1, ω2), in rad/T.
+        """
         return self.rate * _omega(self.shape, self.arc, np.tanh(u), _sech(u))
 
 
@@ -228,10 +391,29 @@ def _sech(u: Array) -> Array:
 
 
 def passage(body: SuslovBody, omega: Sequence[float]) -> Passage:
-    """Return the motion that starts with ω(0), however close to the line of equilibria.
+    """Return the motion of ω from its value at t = 0, however close to the line of equilibria.
 
     sinh u0 = tan β, where (cos β, sin β) is ω(0) on the ellipse E = h, with the angle β from the middle of the arc σ =
-    +1. Raises `InvalidParameter` (ω = 0, or on the line of equilibria), `WorkLimit`.
+    +1.
+
+    Parameters
+    ----------
+    body : SuslovBody
+        Body with b = 0, and I13 or I23 nonzero.
+    omega : sequence of float, shape (2,)
+        Angular velocity (ω1, ω2) at t = 0, in rad/T.
+
+    Returns
+    -------
+    Passage
+        The motion.
+
+    Raises
+    ------
+    InvalidParameter
+        If the body has a field, I13 = I23 = 0, or ω is 0 or on the line of equilibria.
+    WorkLimit
+        If γ rotates too often during the passage, see `shape`.
     """
     of = shape(body)
     w1, w2 = as_place(("ω1", "ω2"), omega)
@@ -267,9 +449,36 @@ def _log(x: Fraction) -> float:
 
 
 def transfer(of: PassageConstants, arc: int, u: Array, accuracy: Accuracy) -> tuple[Complex, Complex, float, int]:
-    """Return A and B of M(u) M(u0)^−1 for u (m,) in any order, u0 = u[0], the estimated error and the steps.
+    """Return the matrix M(u) M(u0)^−1 of SU(2), with u0 = u[0], its estimated error and the steps.
 
-    The error, of the rotation between any two, is estimated as in `orbit.solve`.  Raises `WorkLimit`.
+    The error of the rotation between any two of the u is estimated as in `orbit.solve`.
+
+    Parameters
+    ----------
+    of : PassageConstants
+        Constants of the inertia tensor.
+    arc : int
+        Arc σ, 1 or −1.
+    u : ndarray, shape (m,)
+        Rescaled times, in any order.
+    accuracy : str or Level
+        Accuracy level.
+
+    Returns
+    -------
+    A : ndarray of complex, shape (m,)
+        First element of the matrices ((A, −B̄), (B, Ā)).
+    B : ndarray of complex, shape (m,)
+        Second element.
+    error : float
+        Estimated error of the rotations.
+    steps : int
+        Taylor steps of all runs.
+
+    Raises
+    ------
+    WorkLimit
+        If the integration needs too many steps.
     """
     level, inside = as_level(accuracy), np.clip(u, -of.end, of.end)
     first, p = np.array([0.0, 1.0, arc * of.kappa, 0.0, 1.0, 0.0, 0.0, 0.0]), np.array([of.K, arc * of.c])
@@ -295,16 +504,39 @@ def transfer(of: PassageConstants, arc: int, u: Array, accuracy: Accuracy) -> tu
         # Factor 4: a rotation is quadratic in A and B, and both its ends have errors.
         return 4.0 * float((np.abs(one[0] - other[0]) + np.abs(one[1] - other[1])).max())
 
-    found = measured(level, run, apart)
-    A, B = found.result
+    result = measured(level, run, apart)
+    A, B = result.result
     A, B = A * A[0].conj() + B.conj() * B[0], B * A[0].conj() - A.conj() * B[0]
-    return A, B, found.error + 1e-15 * (1.0 + of.size), found.cost.steps
+    return A, B, result.error + 1e-15 * (1.0 + of.size), result.cost.steps
 
 
 def rotation(motion: Passage, elapsed: Array, accuracy: Accuracy) -> tuple[Array, Array, float, int]:
-    """Return the matrices (m, 3, 3) with γ = matrix · γ(0) after `elapsed` = ω0 t (m,), the limits, error and steps.
+    """Return the rotations of γ along a motion, and those to both of its ends.
 
-    limits : (2, 3), Γ^∓ = limits · γ(0) for t → ∓∞; the error is that of γ.  Raises `WorkLimit`.
+    Parameters
+    ----------
+    motion : Passage
+        The motion of ω.
+    elapsed : ndarray, shape (m,)
+        Rescaled times ω0 t.
+    accuracy : str or Level
+        Accuracy level.
+
+    Returns
+    -------
+    matrices : ndarray, shape (m, 3, 3)
+        Matrices with γ = matrix · γ(0).
+    limits : ndarray, shape (2, 3)
+        Rows with Γ^∓ = row · γ(0) for t → ∓∞.
+    error : float
+        Estimated error of γ.
+    steps : int
+        Taylor steps of all runs.
+
+    Raises
+    ------
+    WorkLimit
+        If the integration needs too many steps.
     """
     of, arc, u0 = motion.shape, motion.arc, motion.u0
     u = u0 + elapsed
@@ -349,21 +581,21 @@ class FreeMotion(Result):
     times : ndarray of float, shape (m,)
         Times.
     omega : ndarray of float, shape (m, 2)
-        Angular velocity (ω1, ω2).
+        Angular velocity (ω1, ω2), in rad/T.
     gamma : ndarray of float, shape (m, 3)
         Vertical γ.
     Gamma : ndarray of float, shape (m,)
-        Γ = (ξ, γ).
+        Γ = (ξ, γ), −1 to 1.
     phase : ndarray of float, shape (m,)
-        Phase φ of γ about ξ in (−π, π]: γ = Γξ + √(1−Γ²)(cos φ η + sin φ e3).
+        Phase φ of γ about ξ in (−π, π], in radians: γ = Γξ + √(1−Γ²)(cos φ η + sin φ e3).
     limits : tuple of two floats
-        Limits of Γ for t → −∞ and t → +∞.
+        Limits of Γ for t → −∞ and t → +∞, −1 to 1.
     level : str
         Name of the accuracy level.
     status : Status
         State of the computation, see `Status`.
     error_estimate : float
-        Estimated absolute error of any component of ω and γ.
+        Estimated absolute error of any component of ω and γ, ≥ 0.
     drift : mapping of str to float
         Drift of E, F1 and, if it exists, F2, as in `Orbit`.
     cost : Cost
@@ -422,8 +654,8 @@ def free_motion(
         Vertical γ at t = 0; it is normalised, with a note if its length was not 1.
     times : array_like of float, shape (m,)
         Times in order, all ≥ 0 or all ≤ 0, as in `solve`.
-    accuracy : Level or str
-        Accuracy level or its name, see `accuracy`.
+    accuracy : str or Level
+        Accuracy level or its name, see `level`.
 
     Returns
     -------
@@ -497,11 +729,37 @@ _PASSING = 20.0
 def sample_times(
     body: SuslovBody, omega: Sequence[float], duration: float, weights: tuple[float, float], sagitta: float, most: int
 ) -> Array:
-    """Return at most `most` times from 0 to `duration` ≠ 0 whose polygon looks like the curves.
+    """Return times of a motion whose polygon looks like the curves of ω and γ.
 
-    weights : pixels per unit of ω and of γ; sagitta : largest distance between curve and chord, in pixels, as in
-    `sampling.sample_times`, with the accelerations in closed form.  If `most` times are too few, the uniform rotation
-    near the line of equilibria is sampled less densely.  Raises as `passage`.
+    As `sampling.sample_times`, with the accelerations in closed form.  If `most` times are too few, the uniform
+    rotation near the line of equilibria is sampled less densely.
+
+    Parameters
+    ----------
+    body : SuslovBody
+        Body with b = 0, and I13 or I23 nonzero.
+    omega : sequence of float, shape (2,)
+        Angular velocity (ω1, ω2) at t = 0, in rad/T.
+    duration : float
+        Time, nonzero; negative: backward.
+    weights : (float, float)
+        Pixels per unit of ω and of γ.
+    sagitta : float
+        Largest distance between curve and chord, in pixels.
+    most : int
+        Largest number of times.
+
+    Returns
+    -------
+    ndarray, shape (n,)
+        Times from 0 to `duration`.
+
+    Raises
+    ------
+    InvalidParameter
+        If the duration is 0 or not finite, or as `passage`.
+    WorkLimit
+        If γ rotates too often during the passage, see `shape`.
     """
     motion = passage(body, omega)
     of, length = motion.shape, motion.rate * duration
@@ -542,16 +800,69 @@ def sampled_motion(
     accuracy: Accuracy,
     most: int = MOST_SAMPLES,
 ) -> FreeMotion:
-    """Return the motion over `duration` at the `sample_times` for plots, as `free_motion`, which raises."""
+    """Return the motion of a body without a field at the `sample_times` of a plot.
+
+    Parameters
+    ----------
+    body : SuslovBody
+        Body with b = 0, and I13 or I23 nonzero.
+    omega : sequence of float, shape (2,)
+        Angular velocity (ω1, ω2) at t = 0, in rad/T.
+    gamma : sequence of float, shape (3,)
+        Vertical γ at t = 0; it is normalised.
+    duration : float
+        Time, nonzero; negative: backward.
+    weights : (float, float)
+        Pixels per unit of ω and of γ.
+    accuracy : str or Level
+        Accuracy level.
+    most : int, default MOST_SAMPLES
+        Largest number of times.
+
+    Returns
+    -------
+    FreeMotion
+        The motion.
+
+    Raises
+    ------
+    InvalidParameter
+        As `free_motion`.
+    WorkLimit
+        As `free_motion`.
+    """
     return free_motion(body, omega, gamma, sample_times(body, omega, duration, weights, SAGITTA, most), accuracy)
 
 
 def rotation_along_circle(
     body: SuslovBody, omega: Sequence[float], gamma: Sequence[float], turn: float, accuracy: Accuracy
 ) -> tuple[float, float, float]:
-    """Return γ(0), moved by `turn` radians along the circle of all γ(0) with the same ω(0) and the same limit Γ^(−).
+    """Rotate γ(0) about the axis of the circle of all γ(0) with the same ω(0) and the same limit Γ^(−).
 
-    Raises as `passage`.
+    Parameters
+    ----------
+    body : SuslovBody
+        Body with b = 0, and I13 or I23 nonzero.
+    omega : sequence of float, shape (2,)
+        Angular velocity (ω1, ω2) at t = 0, in rad/T.
+    gamma : sequence of float, shape (3,)
+        Vertical γ at t = 0.
+    turn : float
+        Angle of the rotation, in radians.
+    accuracy : str or Level
+        Accuracy level.
+
+    Returns
+    -------
+    tuple of three floats
+        The rotated γ(0).
+
+    Raises
+    ------
+    InvalidParameter
+        As `passage`.
+    WorkLimit
+        As `passage`.
     """
     # Γ^(−) = (n, γ(0)).
     n = rotation(passage(body, omega), np.empty(0), accuracy)[1][0]

@@ -1,5 +1,5 @@
 # mypy: allow-untyped-defs
-"""Kernel of `free`: the rotation of γ along one passage, as a matrix of SU(2)."""
+"""Kernel of `free`: the rotation of γ along one passage, as a matrix of SU(2).  Not for users."""
 
 from __future__ import annotations
 
@@ -16,7 +16,17 @@ __all__ = ["field", "integrate"]
 def field(y: Sequence[Any], p: Sequence[Any]) -> tuple[Any, ...]:
     """Return the right-hand side of the equations of `free` in u: V = v1 + i v2, A = a1 + i a2, B = b1 + i b2.
 
-    T = tanh u, S = sech u; p = (K, σc).
+    Parameters
+    ----------
+    y : sequence, shape (8,)
+        T = tanh u, S = sech u, v1, v2, a1, a2, b1, b2.
+    p : sequence, shape (2,)
+        K and σc.
+
+    Returns
+    -------
+    tuple of length 8
+        Derivatives with respect to u.
     """
     T, S, v1, v2, a1, a2, b1, b2 = y
     K, c = p
@@ -37,5 +47,5 @@ _orbit = orbit_integrator(trace(field, variables=8, parameters=2))
 
 @kernel
 def integrate(y, p, u, order, tolerance, longest, max_steps, out):
-    """Integrate from u = 0 to the given u, see `orbit_integrator`."""
+    """Integrate from u = 0 to the given u; the arguments are those of `orbit_integrator`."""
     return _orbit(y, p, u, order, tolerance, longest, max_steps, out)

@@ -58,13 +58,13 @@ class PlaneBody(PlaneProblem):
     Parameters
     ----------
     I11 : float
-        Moment of inertia about the first axis, I11 > 0.
+        Moment of inertia about the first axis, I11 > 0; its unit is the unit I of moments of inertia.
     I22 : float
-        Moment of inertia about the second axis, I22 > 0.
+        Moment of inertia about the second axis, I22 > 0, in units I.
     b1 : float
-        First component of **b** = −mg **r**, with **r** the centre of mass.
+        First component of **b** = −mg **r**, with **r** the centre of mass; any finite number, in units I/T².
     b2 : float
-        Second component of **b**.
+        Second component of **b**, any finite number, in units I/T².
 
     Raises
     ------
@@ -104,7 +104,7 @@ class PlaneBody(PlaneProblem):
         Parameters
         ----------
         E : float
-            The energy.
+            Energy, any finite number.
 
         Returns
         -------
@@ -117,10 +117,29 @@ class PlaneBody(PlaneProblem):
 
 
 def state_at(body: PlaneBody, q: Sequence[float], p: Sequence[float]) -> tuple[float, ...]:
-    """Return the state (5,) with γ3 ≥ 0 at q and p (2,).
+    """Return the state with γ3 ≥ 0 at given q and p.
 
-    A state within 1e-12 of the equator is moved onto it; if ω ∥ γ there to 1e-12, ω is made exactly parallel to γ,
-    which gives a fixed point. Raises `InvalidParameter` if q is outside the elliptic domain (`Biz1360`).
+    A state within 1e-12 of the equator is moved onto it.  If ω is parallel to γ there to 1e-12, it is made exactly
+    parallel, which gives a fixed point.
+
+    Parameters
+    ----------
+    body : PlaneBody
+        The body.
+    q : sequence of float, shape (2,)
+        Point of the plane, inside the ellipse of `body.axes`.
+    p : sequence of float, shape (2,)
+        Momenta.
+
+    Returns
+    -------
+    tuple of five floats
+        State (ω1, ω2, γ1, γ2, γ3).
+
+    Raises
+    ------
+    InvalidParameter
+        If q is outside the ellipse (`Biz1360`), or a number is not finite.
     """
     q1, q2, p1, p2 = as_place(("q1", "q2", "p1", "p2"), (*q, *p))
     r1, r2 = body.axes
@@ -139,7 +158,18 @@ def state_at(body: PlaneBody, q: Sequence[float], p: Sequence[float]) -> tuple[f
 
 
 def mirror_image(states: Array) -> Array:
-    """Return states (..., 5) under γ3 → −γ3, which together with t → −t maps orbits with b3 = 0 to orbits."""
+    """Return the states under γ3 → −γ3, which together with t → −t maps orbits with b3 = 0 to orbits.
+
+    Parameters
+    ----------
+    states : ndarray, shape (..., 5)
+        States (ω1, ω2, γ1, γ2, γ3).
+
+    Returns
+    -------
+    ndarray, shape (..., 5)
+        Their mirror images.
+    """
     return np.asarray(states * np.array([1.0, 1.0, 1.0, 1.0, -1.0]))
 
 
@@ -147,11 +177,28 @@ def mirror_image(states: Array) -> Array:
 class Arc:
     """Arc of the parabola on which an orbit oscillates.
 
-    kind : "periodic", "asymptotic" (to a fixed point on the equator, both ways) or "fixed".
-    u0, v0, a : (2,), see the module; rate : ν = max(|v0|, √|a|).
-    tau : (τ₋, τ₊) where it meets the equator, with the start at τ = 0; touch : the one reached in infinite time.
-    other : (τ₋, τ₊) of another orbit on the same parabola, or None; period : T, ∞ if asymptotic.
-    stable : for a fixed point, True if nearby orbits stay near; otherwise None.
+    Attributes
+    ----------
+    kind : str
+        "periodic", "asymptotic" (to a fixed point on the equator, both ways) or "fixed".
+    u0 : ndarray, shape (2,)
+        Start (γ1, γ2) of the parabola, at τ = 0.
+    v0 : ndarray, shape (2,)
+        Velocity there, du/dτ.
+    a : ndarray, shape (2,)
+        Acceleration, the same everywhere.
+    rate : float
+        Scale ν = max(|v0|, √|a|) of τ, ν ≥ 0.
+    tau : (float, float)
+        The times τ₋ ≤ 0 ≤ τ₊ at which the arc meets the equator.
+    touch : float, optional
+        The one of these that the orbit reaches in infinite time; None if there is none.
+    other : (float, float), optional
+        The times (τ₋, τ₊) of another orbit on the same parabola; None if there is none.
+    period : float
+        Period T in time t; ∞ if the orbit is asymptotic, 0 for a fixed point.
+    stable : bool, optional
+        For a fixed point, True if nearby orbits stay near; otherwise None.
     """
 
     kind: str
@@ -166,17 +213,39 @@ class Arc:
     stable: bool | None
 
     def u(self, tau: Array) -> Array:
-        """Return (γ1, γ2) at τ (m,); shape (m, 2)."""
+        """Return points of the parabola.
+
+        Parameters
+        ----------
+        tau : ndarray, shape (m,)
+            Conformal times τ.
+
+        Returns
+        -------
+        ndarray, shape (m, 2)
+            Points (γ1, γ2).
+        """
         t = tau[:, None]
         return np.asarray(self.u0 + t * (self.v0 + 0.5 * t * self.a))
 
     def height(self, tau: Array) -> Array:
-        """Return |γ3| at τ (m,); it is 0 where the parabola is outside the domain."""
+        """Return |γ3| along the parabola.
+
+        Parameters
+        ----------
+        tau : ndarray, shape (m,)
+            Conformal times τ.
+
+        Returns
+        -------
+        ndarray, shape (m,)
+            Values of |γ3|; 0 where the parabola is outside the domain.
+        """
         return np.asarray(np.sqrt(np.maximum(0.0, 1.0 - np.sum(self.u(tau) ** 2, axis=1))))
 
     @property
     def ends(self) -> tuple[float, float]:
-        """The ends in τ of all arcs inside the domain, that of the other orbit included."""
+        """The first and the last τ of all arcs inside the domain, including that of the other orbit."""
         both = self.tau + (self.other or ())
         return min(both), max(both)
 
@@ -193,14 +262,38 @@ class Arc:
         return np.asarray(np.abs(np.sum(self.u(tau) * (self.v0 + tau[:, None] * self.a), axis=1)))
 
     def oval(self, ends: tuple[float, float]) -> Array:
-        """Return (τ, γ3), (m, 2), on γ3² = P(τ) over τ from one end to the other, both signs."""
+        """Return the curve γ3² = P(τ) over an interval of τ, with both signs of γ3.
+
+        Parameters
+        ----------
+        ends : (float, float)
+            Ends of the interval, two zeros of P.
+
+        Returns
+        -------
+        ndarray, shape (241, 2)
+            Points (τ, γ3) of the closed curve.
+        """
         angle = np.linspace(0.0, 2.0 * math.pi, 241)
         tau = 0.5 * (ends[0] + ends[1]) + 0.5 * (ends[1] - ends[0]) * np.cos(angle)
         return np.column_stack([tau, np.copysign(self.height(tau), np.sin(angle))])
 
 
 def rescaled_time(arc: Arc, states: Array) -> Array:
-    """Return τ (m,) of states (m, 5) of the orbit, from the exact u − u0 = τ (v + v0)/2 and v − v0 = a τ."""
+    """Return the conformal time τ of states of an orbit, from u − u0 = τ (v + v0)/2 and v − v0 = a τ.
+
+    Parameters
+    ----------
+    arc : Arc
+        The arc of the orbit.
+    states : ndarray, shape (m, 5)
+        States of the orbit.
+
+    Returns
+    -------
+    ndarray, shape (m,)
+        Times τ.
+    """
     v, unit = np.column_stack([-states[:, 1], states[:, 0]]), arc.rate or 1.0
     # Both in units in which ν is 1.
     slope = np.hstack([0.5 * (v + arc.v0) / unit, np.broadcast_to(arc.a / unit**2, v.shape)])
@@ -227,7 +320,7 @@ def _period(c: Array, low: Array, high: Array, side: Array) -> Array:
 def _solved(u0: Array, v0: Array, a: Array, height: float) -> tuple[Array, Array, Array, Array]:
     """Return the rows of `arcs` (n, 5) and T (n,) for each v0 (n, 2), P (n, 5) in units of 1/ν, and ν (n,).
 
-    Raises `InvalidParameter`.
+    Raises `InvalidParameter` if a motion is too fast for double precision.
     """
     with np.errstate(over="ignore", under="ignore", invalid="ignore"):
         rate = np.maximum(np.hypot(v0[:, 0], v0[:, 1]), math.sqrt(math.hypot(*a)))
@@ -287,9 +380,26 @@ def arc(body: PlaneBody, state: Sequence[float]) -> Arc:
 
 
 def periods_all_round(body: PlaneBody, q: Sequence[float], speed: float) -> Array:
-    """Return (α, T), (721, 2), of the orbits from q (2,) with p = speed (cos α, sin α), for α from −π to π.
+    """Return the periods of the orbits from a point of the plane in all directions.
 
-    T = ∞ for asymptotic orbits and equilibria (speed 0, no field).  Raises `InvalidParameter`.
+    Parameters
+    ----------
+    body : PlaneBody
+        The body.
+    q : sequence of float, shape (2,)
+        Point of the plane, inside the ellipse of `body.axes`.
+    speed : float
+        Size |p| of the momentum, ≥ 0.
+
+    Returns
+    -------
+    ndarray, shape (721, 2)
+        Angle α of p from −π to π, in radians, and the period T; ∞ for asymptotic orbits and equilibria.
+
+    Raises
+    ------
+    InvalidParameter
+        If q is outside the ellipse, or a motion is too fast for double precision.
     """
     state = state_at(body, q, (0.0, 0.0))
     r1, r2 = body.axes
@@ -299,10 +409,25 @@ def periods_all_round(body: PlaneBody, q: Sequence[float], speed: float) -> Arra
 
 
 def fixed_point_kinds(body: PlaneBody, E: float, count: int = 361) -> tuple[Array, Array]:
-    """Return points q (n, 2) on the boundary, and the kind (n,) of the fixed points with this energy there.
+    """Return points of the boundary of the domain and the stability of the fixed points there.
 
-    1: stable, −1: unstable, 0: none with this energy.  States on the equator with ω ∥ γ are fixed, and near them
-    τ̈ = P''τ/2, P'' = −2(|v|² + (u, a)).
+    States on the equator with ω ∥ γ are fixed, and near them τ̈ = P''τ/2, P'' = −2(|v|² + (u, a)).
+
+    Parameters
+    ----------
+    body : PlaneBody
+        The body.
+    E : float
+        Energy, any finite number.
+    count : int, default 361
+        Number of points.
+
+    Returns
+    -------
+    points : ndarray, shape (count, 2)
+        Points q of the ellipse.
+    kind : ndarray, shape (count,)
+        1: stable, −1: unstable, 0: no fixed point has this energy there.
     """
     angle = np.linspace(0.0, 2.0 * math.pi, count)
     u = np.column_stack([np.cos(angle), np.sin(angle)])
@@ -320,18 +445,70 @@ def _segment(body: PlaneBody, share: float, count: int) -> Array:
 
 
 def equipotentials(body: PlaneBody, levels: Sequence[float]) -> list[Array]:
-    """Return chords q (2, 2) of the ellipse where V is the given share of its maximum; none without a field."""
+    """Return chords of the ellipse on which V has given values.
+
+    Parameters
+    ----------
+    body : PlaneBody
+        The body.
+    levels : sequence of float
+        Values of V as shares of its maximum, −1 to 1.
+
+    Returns
+    -------
+    list of ndarray, shape (2, 2)
+        Ends q of each chord; empty without a field.
+    """
     return [_segment(body, share, 2) for share in levels] if body.b1 or body.b2 else []
 
 
 def forbidden(body: PlaneBody, E: float) -> list[Array]:
-    """Return the part of the ellipse where V exceeds the energy E, as closed curves q (m, 2), or []."""
+    """Return the part of the ellipse where V exceeds the energy.
+
+    Parameters
+    ----------
+    body : PlaneBody
+        The body.
+    E : float
+        Energy, any finite number.
+
+    Returns
+    -------
+    list of ndarray, shape (91, 2)
+        One closed curve of points q, or none.
+    """
     size = math.hypot(body.b1, body.b2)
     return [_segment(body, E / size, 91)] if size > E else []
 
 
 def sampled_orbit(body: PlaneBody, start: Sequence[float], duration: float, accuracy: Accuracy) -> tuple[Orbit, Array]:
-    """Return the orbit at the sample times of a plot, and the mirror image (m, 5) of its past at the same times."""
+    """Return an orbit at the sample times of a plot, and the mirror image of its past.
+
+    Parameters
+    ----------
+    body : PlaneBody
+        The body.
+    start : sequence of float, shape (5,)
+        Initial state.
+    duration : float
+        Time, nonzero; negative: backward.
+    accuracy : str or Level
+        Accuracy level.
+
+    Returns
+    -------
+    orbit : Orbit
+        The orbit.
+    mirror : ndarray, shape (m, 5)
+        Mirror images of the states at the opposite times.
+
+    Raises
+    ------
+    InvalidParameter
+        If a number is out of range.
+    WorkLimit
+        If the motion needs too many steps.
+    """
     weights = body.pixels_per_unit(body.energy(start))
     orbit = sampling.sampled_orbit(body, start, duration, weights, accuracy, MOST_SAMPLES)
     return orbit, frozen(mirror_image(solve(body, start, -orbit.times, accuracy).states))

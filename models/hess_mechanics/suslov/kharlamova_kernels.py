@@ -1,5 +1,5 @@
 # mypy: allow-untyped-defs
-"""Kernel of `kharlamova`: the zeros of the quartic P(τ) next to τ = 0."""
+"""Kernel of `kharlamova`: the zeros of the quartic P(τ) next to τ = 0.  Not for users."""
 
 from __future__ import annotations
 
@@ -87,9 +87,11 @@ def _zeros(c, reach, derivatives, zeros):
 
 @kernel
 def arcs(coefficients, out):
-    """Compute for each P, coefficients (n, 5) with P(0) ≥ 0, the zeros next to τ = 0.
+    """Compute the zeros next to τ = 0 of polynomials P of degree 4 with P(0) ≥ 0.
 
-    out : (n, 5), τ₋, τ₊, side of a double zero (−1, 1; 0: none), and the zeros of another orbit (0, 0: none).
+    coefficients : (n, 5), those of each P, the constant first.
+    out : (n, 5), the zeros τ₋ and τ₊, the side of a double zero (−1 or 1; 0: none), and the zeros of another orbit on
+    the same parabola (0, 0: none).
     """
     derivatives, zeros = np.empty((6, 5)), np.empty((6, 2))
     out[:] = 0.0

@@ -45,7 +45,6 @@ __all__ = [
     "forbidden",
     "level_curve",
     "motion_from",
-    "separable_integral",
 ]
 
 MOST_SAMPLES = 6000
@@ -62,7 +61,7 @@ class PlaneProblem(Body):
     I11 : float
         Moment of inertia about the first axis, I11 > 0.
     I22 : float
-        Moment of inertia about the second axis, I22 > 0.
+        Moment of inertia about the second axis, I22 > 0, in the unit of I11.
 
     Raises
     ------
@@ -143,14 +142,57 @@ class PlaneProblem(Body):
 
 
 def closure_error(body: Body, start: Sequence[float], period: float, accuracy: Accuracy) -> float:
-    """Return the distance between the start (5,) of an orbit and its state after one period, in the maximum norm."""
+    """Return the distance between the start of an orbit and its state after one period.
+
+    Parameters
+    ----------
+    body : Body
+        The body.
+    start : sequence of float, shape (d,)
+        Initial state.
+    period : float
+        Period of the orbit.
+    accuracy : str or Level
+        Accuracy level.
+
+    Returns
+    -------
+    float
+        Largest difference of a component.
+
+    Raises
+    ------
+    WorkLimit
+        If the motion needs too many steps.
+    """
     after = solve(body, start, [period], accuracy).states[0]
     return float(np.abs(after - np.array(start)).max())
 
 
 @dataclass(frozen=True)
 class PotentialBody(PlaneProblem):
-    """Plane problem with the coefficients of U.  Raises `InvalidParameter`, `NotPositiveDefinite`."""
+    """Plane problem with the potential U = ½(c1γ1² + c2γ2²) + λ(γ1²γ2 − γ2³/3) + μγ1²γ2².
+
+    Parameters
+    ----------
+    I11 : float
+        Moment of inertia about the first axis, I11 > 0.
+    I22 : float
+        Moment of inertia about the second axis, I22 > 0, in the unit of I11.
+    c1, c2 : float
+        Coefficients of γ1² and γ2², any finite numbers.
+    cubic : float, default 0.0
+        Coefficient λ, any finite number.
+    quartic : float, default 0.0
+        Coefficient μ, any finite number.
+
+    Raises
+    ------
+    InvalidParameter
+        If a parameter is not finite.
+    NotPositiveDefinite
+        If I11 ≤ 0 or I22 ≤ 0.
+    """
 
     c1: float
     c2: float
@@ -173,7 +215,18 @@ class PotentialBody(PlaneProblem):
         return self.cubic == self.quartic == 0.0
 
     def potential(self, u: Array) -> Array:
-        """Return U at u = (γ1, γ2), (..., 2)."""
+        """Return the potential U.
+
+        Parameters
+        ----------
+        u : ndarray, shape (..., 2)
+            Points (γ1, γ2).
+
+        Returns
+        -------
+        ndarray, shape (...,)
+            Values of U.
+        """
         return np.asarray(potential(u[..., 0], u[..., 1], self.parameters))
 
 
@@ -186,13 +239,39 @@ POTENTIALS: Mapping[str, tuple[float, float, float, float]] = {
 
 
 def potential(g1: Any, g2: Any, p: Sequence[Any]) -> Any:
-    """Return U(γ1, γ2)."""
+    """Return the potential U(γ1, γ2).
+
+    Parameters
+    ----------
+    g1, g2 : object
+        Components γ1 and γ2: numbers, arrays or symbols.
+    p : sequence, shape (6,)
+        Parameters (I11, I22, c1, c2, λ, μ).
+
+    Returns
+    -------
+    object
+        Values of U.
+    """
     _, _, c1, c2, cubic, quartic = p
     return (c1 * g1**2 + c2 * g2**2) / 2 + cubic * (g1**2 * g2 - g2**3 / 3) + quartic * (g1**2 * g2**2)
 
 
 def gradient(g1: Any, g2: Any, p: Sequence[Any]) -> tuple[Any, Any]:
-    """Return ∂U/∂γ1, ∂U/∂γ2."""
+    """Return the derivatives ∂U/∂γ1 and ∂U/∂γ2.
+
+    Parameters
+    ----------
+    g1, g2 : object
+        Components γ1 and γ2: numbers, arrays or symbols.
+    p : sequence, shape (6,)
+        Parameters (I11, I22, c1, c2, λ, μ).
+
+    Returns
+    -------
+    tuple of length 2
+        The two derivatives.
+    """
     _, _, c1, c2, cubic, quartic = p
     both = g1 * g2
     return (
@@ -205,6 +284,18 @@ def field(y: Sequence[Any], p: Sequence[Any]) -> tuple[Any, ...]:
     """Return the right-hand side of `Biz01` with this potential.
 
     Iω̇ = γ × ∂U/∂γ without its third component, γ̇ = γ × ω.
+
+    Parameters
+    ----------
+    y : sequence, shape (5,)
+        State (ω1, ω2, γ1, γ2, γ3): numbers, arrays or symbols.
+    p : sequence, shape (6,)
+        Parameters (I11, I22, c1, c2, λ, μ).
+
+    Returns
+    -------
+    tuple of length 5
+        Rates of the state.
     """
     w1, w2, g1, g2, g3 = y
     U1, U2 = gradient(g1, g2, p)
@@ -212,15 +303,45 @@ def field(y: Sequence[Any], p: Sequence[Any]) -> tuple[Any, ...]:
 
 
 def integrals(y: Sequence[Any], p: Sequence[Any]) -> Mapping[str, Any]:
-    """Return the energy E and F1 = γ²."""
+    """Return the energy E and F1 = γ².
+
+    Parameters
+    ----------
+    y : sequence, shape (5,)
+        State (ω1, ω2, γ1, γ2, γ3): numbers, arrays or symbols.
+    p : sequence, shape (6,)
+        Parameters (I11, I22, c1, c2, λ, μ).
+
+    Returns
+    -------
+    mapping of str to object
+        Values of the integrals, by name.
+    """
     w1, w2, g1, g2, g3 = y
     return {"E": (p[0] * w1**2 + p[1] * w2**2) / 2 + potential(g1, g2, p), "F1": g1**2 + g2**2 + g3**2}
 
 
 def frequency(y: Array, p: Array) -> Array | float:
-    """Return ν = √(2(T + 2 max|U|)/min(I11, I22)), a bound on |ω| along the motion, of states (5,) or (5, n).
+    """Return ν = √(2(T + 2 max|U|)/min(I11, I22)), an upper bound on |ω| along the motion.
 
-    Raises `NotPositiveDefinite`, `InvalidParameter`.
+    Parameters
+    ----------
+    y : ndarray, shape (5,) or (5, n)
+        One or several states.
+    p : ndarray, shape (6,)
+        Parameters.
+
+    Returns
+    -------
+    float or ndarray, shape (n,)
+        The bound of each state, in rad/T.
+
+    Raises
+    ------
+    NotPositiveDefinite
+        If I11 ≤ 0 or I22 ≤ 0.
+    InvalidParameter
+        If the ratio of I11 and I22 is beyond 1e20.
     """
     I11, I22 = p[0], p[1]
     require_comparable(I11, I22)
@@ -249,8 +370,21 @@ SYSTEM = System(
 )
 
 
-def separable_integral(body: PotentialBody, states: Array) -> Array:
-    """Return F2 = ½(I11ω1² + c2γ2²) (...) of states (..., 5); an integral if the body `separates`."""
+def _separable_integral(body: PotentialBody, states: Array) -> Array:
+    """Return F2 = ½(I11ω1² + c2γ2²), an integral if the body `separates`.
+
+    Parameters
+    ----------
+    body : PotentialBody
+        The body.
+    states : ndarray, shape (..., 5)
+        States (ω1, ω2, γ1, γ2, γ3).
+
+    Returns
+    -------
+    ndarray, shape (...,)
+        Values of F2.
+    """
     return np.asarray(0.5 * (body.I11 * states[..., 0] ** 2 + body.c2 * states[..., 3] ** 2))
 
 
@@ -266,12 +400,24 @@ _EDGE = 1.0 - 1e-9
 
 @dataclass(frozen=True)
 class PlaneMotion:
-    """One motion: its energy, and whether it is periodic.
+    """One motion of a plane problem, and whether it is periodic.
 
-    period : 2(t2 − t1) of two successive crossings of the equator, None if there are fewer;
-    closure_error : distance from the start after one period; fixed : True if the state is an equilibrium.
-    one_sided : True if its energy keeps it from the equator.
-    integral : range of F2 of a quadratic potential along the motion, relative to its largest value.
+    Attributes
+    ----------
+    orbit : Orbit
+        The motion at the sample times of a plot.
+    energy : float
+        Energy of the motion.
+    period : float, optional
+        Period 2(t2 − t1), from two successive crossings of the equator; None if there are fewer.
+    closure_error : float
+        Distance from the start after one period; ∞ without a period.
+    fixed : bool
+        True if the state is an equilibrium.
+    one_sided : bool
+        True if the energy prevents the motion from reaching the equator.
+    integral : float
+        Range of F2 of a quadratic potential along the motion, relative to its largest value; ≥ 0.
     """
 
     orbit: Orbit
@@ -284,13 +430,34 @@ class PlaneMotion:
 
 
 def motion_from(body: PotentialBody, start: tuple[float, ...], duration: float, accuracy: Accuracy) -> PlaneMotion:
-    """Return the motion from a state (5,), sampled for a plot of the plane.
+    """Return the motion from a state, sampled for a plot of the plane.
 
-    Raises `InvalidParameter`, `WorkLimit`.
+    Parameters
+    ----------
+    body : PotentialBody
+        The body.
+    start : tuple of five floats
+        Initial state (ω1, ω2, γ1, γ2, γ3).
+    duration : float
+        Time, nonzero; negative: backward.
+    accuracy : str or Level
+        Accuracy level.
+
+    Returns
+    -------
+    PlaneMotion
+        The motion.
+
+    Raises
+    ------
+    InvalidParameter
+        If a number is out of range.
+    WorkLimit
+        If the motion needs too many steps.
     """
     orbit = sampled_orbit(body, start, duration, (0.0, 0.0, *(0.5 * PIXELS,) * 3), accuracy, MOST_SAMPLES)
     fixed = not np.any(np.array(SYSTEM.field(start, body.parameters)))
-    F2 = separable_integral(body, orbit.states)
+    F2 = _separable_integral(body, orbit.states)
     integral = float(np.ptp(F2)) / max(float(np.abs(F2).max()), 1e-300)
     period, left = None, math.inf
     if not fixed:
@@ -314,7 +481,20 @@ def _radius(body: PotentialBody, value: float) -> Array:
 
 
 def level_curve(body: PotentialBody, value: float) -> list[Array]:
-    """Return the parts u (m, 2) of the curve U = value inside γ1² + γ2² = 1, for one of the `POTENTIALS`."""
+    """Return the curve U = value inside γ1² + γ2² = 1, for one of the `POTENTIALS`.
+
+    Parameters
+    ----------
+    body : PotentialBody
+        The body.
+    value : float
+        Value of U.
+
+    Returns
+    -------
+    list of ndarray, shape (m, 2)
+        Points (γ1, γ2) of each part of the curve.
+    """
     radius = _radius(body, value)
     cuts = np.flatnonzero(np.diff(radius < _EDGE)) + 1
     parts = np.split(radius[:, None] * _ALL_ROUND, cuts)
@@ -322,7 +502,20 @@ def level_curve(body: PotentialBody, value: float) -> list[Array]:
 
 
 def forbidden(body: PotentialBody, energy: float) -> list[Array]:
-    """Return the part of the disk where U > energy, as closed curves u (m, 2), for one of the `POTENTIALS`."""
+    """Return the part of the disk where U exceeds the energy, for one of the `POTENTIALS`.
+
+    Parameters
+    ----------
+    body : PotentialBody
+        The body.
+    energy : float
+        Energy, any finite number.
+
+    Returns
+    -------
+    list of ndarray, shape (482, 2)
+        One closed curve of points (γ1, γ2), or none.
+    """
     radius = _radius(body, energy)
     return (
         [] if np.all(radius >= _EDGE) else [frozen(np.concatenate([_ALL_ROUND, (radius[:, None] * _ALL_ROUND)[::-1]]))]

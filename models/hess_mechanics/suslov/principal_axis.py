@@ -2,7 +2,7 @@
 
 The vector field is γ3 P ∇E with a Poisson structure P: Hamiltonian in the time τ, dτ = γ3 dt.  It conserves the
 standard measure (its divergence is 0), in τ the measure γ3 dω dγ.  The case b3 = 0 is `kharlamova`, the
-case b1 = b2 = 0 is `quartic`; for general b the motion is chaotic, see `SuslovSection.invariant_density`.
+case b1 = b2 = 0 is `quartic`; for general b the motion is chaotic, without attractors.
 
 On the equator γ3 = 0 two of the brackets are infinite and τ reverses, while the motion itself is regular.
 """
@@ -26,7 +26,22 @@ __all__ = ["Conformal", "conformal", "divergence", "energy_gradient", "poisson_m
 
 
 def poisson_matrix(y: Sequence[Any], p: Sequence[Any]) -> tuple[tuple[Any, ...], ...]:
-    """Return {x_i, x_j} (`Biz133`) of x = (ω1, ω2, γ1, γ2, γ3): of rank 4, singular on the equator γ3 = 0."""
+    """Return the Poisson brackets {x_i, x_j} of x = (ω1, ω2, γ1, γ2, γ3) (`Biz133`).
+
+    The matrix has rank 4 and is singular on the equator γ3 = 0.
+
+    Parameters
+    ----------
+    y : sequence, shape (5,)
+        State (ω1, ω2, γ1, γ2, γ3): numbers, arrays or symbols.
+    p : sequence, shape (7,)
+        Parameters of a `SuslovBody`.
+
+    Returns
+    -------
+    tuple, shape (5, 5)
+        Rows of the matrix.
+    """
     _, _, g1, g2, g3 = y
     I11, I22 = p[0], p[1]
     one = (0, 0, 0, -1 / I11, g2 / (I11 * g3))
@@ -35,22 +50,56 @@ def poisson_matrix(y: Sequence[Any], p: Sequence[Any]) -> tuple[tuple[Any, ...],
 
 
 def energy_gradient(y: Sequence[Any], p: Sequence[Any]) -> tuple[Any, ...]:
-    """Return ∇E, where E is the energy (`Biz11`)."""
+    """Return the gradient ∇E of the energy (`Biz11`).
+
+    Parameters
+    ----------
+    y : sequence, shape (5,)
+        State (ω1, ω2, γ1, γ2, γ3): numbers, arrays or symbols.
+    p : sequence, shape (7,)
+        Parameters of a `SuslovBody`.
+
+    Returns
+    -------
+    tuple of length 5
+        Derivatives of E with respect to the state.
+    """
     return (p[0] * y[0], p[1] * y[1], p[4], p[5], p[6])
 
 
 def divergence(y: Sequence[Any], p: Sequence[Any]) -> Any:
-    """Return Σ ∂ẏ_i/∂y_i of the general field (`Biz131`): it is 0 everywhere only for I13 = I23 = 0."""
+    """Return the divergence Σ ∂ẏ_i/∂y_i of the field (`Biz131`), which is 0 everywhere only for I13 = I23 = 0.
+
+    Parameters
+    ----------
+    y : sequence, shape (5,)
+        State (ω1, ω2, γ1, γ2, γ3): numbers, arrays or symbols.
+    p : sequence, shape (7,)
+        Parameters of a `SuslovBody`.
+
+    Returns
+    -------
+    object
+        The divergence, in 1/T.
+    """
     I11, I22, I13, I23 = p[:4]
     return I23 * y[0] / I22 - I13 * y[1] / I11
 
 
 @dataclass(frozen=True)
 class Conformal:
-    """One motion in the times t and τ.
+    """One motion in the time t and in the conformal time τ.
 
-    orbit : at equidistant times t; tau : τ (n,), 0 at t = 0; brackets : {ω1, γ3}, {ω2, γ3} (n, 2), ±∞ on the equator;
-    residual : largest |ẋ − γ3{x, E}| off the equator, relative to the largest |ẋ|: round-off.
+    Attributes
+    ----------
+    orbit : Orbit
+        The motion at equidistant times t.
+    tau : ndarray, shape (n,)
+        Conformal time τ, 0 at t = 0.
+    brackets : ndarray, shape (n, 2)
+        Brackets {ω1, γ3} and {ω2, γ3}, ±∞ on the equator.
+    residual : float
+        Largest |ẋ − γ3{x, E}| off the equator, relative to the largest |ẋ|; of the size of round-off.
     """
 
     orbit: Orbit
@@ -71,9 +120,30 @@ _MOST = 100_000
 
 
 def conformal(body: SuslovBody, start: Sequence[float], duration: float, accuracy: Accuracy) -> Conformal:
-    """Return the motion from `start` (5,) over the time `duration` ≠ 0 (negative: backwards), with τ and the brackets.
+    """Return a motion with its conformal time τ and its Poisson brackets (`Biz135`).
 
-    Raises `InvalidParameter` unless I13 = I23 = 0, `WorkLimit`.
+    Parameters
+    ----------
+    body : SuslovBody
+        Body with I13 = I23 = 0.
+    start : sequence of float, shape (5,)
+        Initial state (ω1, ω2, γ1, γ2, γ3).
+    duration : float
+        Time, nonzero; negative: backward.
+    accuracy : str or Level
+        Accuracy level.
+
+    Returns
+    -------
+    Conformal
+        The motion at up to 100 000 times.
+
+    Raises
+    ------
+    InvalidParameter
+        If I13 or I23 is nonzero, or the duration is 0 or not finite.
+    WorkLimit
+        If the motion needs too many samples or steps.
     """
     if body.I13 != 0.0 or body.I23 != 0.0:
         raise InvalidParameter("The conformally Hamiltonian form needs I13 = I23 = 0: set these to 0.")

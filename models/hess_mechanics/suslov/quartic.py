@@ -56,13 +56,13 @@ class QuarticBody(PlaneProblem):
     Parameters
     ----------
     I11 : float
-        Moment of inertia about the first axis, I11 > 0.
+        Moment of inertia about the first axis, I11 > 0; its unit is the unit I of moments of inertia.
     I22 : float
-        Moment of inertia about the second axis, I22 > 0.
+        Moment of inertia about the second axis, I22 > 0, in units I.
     b3 : float
-        Third component of **b** = −mg **r**, with **r** the centre of mass; not 0.
+        Third component of **b** = −mg **r**, with **r** the centre of mass; nonzero, in units I/T².
     E : float
-        The energy, E > −|b3|.
+        Energy, E > −|b3|, in units I/T².
 
     Raises
     ------
@@ -100,8 +100,8 @@ class QuarticBody(PlaneProblem):
         if not 1.0 / _MOST_SIZE <= smallest <= largest <= _MOST_SIZE:
             sizes = " and ".join(f"{plain(one, 2)}" if math.isfinite(one) else "beyond 1e308" for one in self.axes)
             raise InvalidParameter(
-                f"The region in the plane has half axes {sizes}, which no picture can show: choose E, b3 and the "
-                "moments of inertia less different in size."
+                f"The region in the plane has half axes {sizes}, which no picture can show: choose more similar sizes "
+                "of E, b3 and the moments of inertia."
             )
 
     @property
@@ -141,7 +141,7 @@ class QuarticBody(PlaneProblem):
         Parameters
         ----------
         half_width : float
-            Largest |q| of the plot.
+            Largest |q| of the plot, positive.
 
         Returns
         -------
@@ -196,7 +196,7 @@ class QuarticBody(PlaneProblem):
         Parameters
         ----------
         size : float, optional
-            Factor of the semi-axes.
+            Factor of the semi-axes, ≥ 0.
 
         Returns
         -------
@@ -212,7 +212,7 @@ class QuarticBody(PlaneProblem):
         Parameters
         ----------
         heights : sequence of float
-            Values of γ3.
+            Values of γ3, −1 to 1.
 
         Returns
         -------
@@ -303,22 +303,54 @@ class QuarticBody(PlaneProblem):
 
 
 def level_error(body: QuarticBody, states: Array) -> float:
-    """Return the largest |H − ½| of states (m, 5), where H = (p² + γ3²)/2 is ½ on all motions."""
+    """Return the largest |H − ½| of states, where H = (p² + γ3²)/2 is ½ on all motions.
+
+    Parameters
+    ----------
+    body : QuarticBody
+        The body.
+    states : ndarray, shape (m, 5)
+        States (ω1, ω2, γ1, γ2, γ3).
+
+    Returns
+    -------
+    float
+        The error of H.
+    """
     q, p = body.to_plane(states)
     return float(0.5 * np.abs(np.sum(p * p, axis=1) + body.height(q) ** 2 - 1.0).max())
 
 
 def state_at(body: QuarticBody, q: Sequence[float], direction: float) -> tuple[float, ...]:
-    """Return the state (5,) at q (2,) with the velocity q̇ = −p in `direction`, an angle in radians.
+    """Return the state at a point of the plane with a given direction of q̇ = −p.
 
-    Raises `OutsideRegion` if |γ3| > 1.
+    Parameters
+    ----------
+    body : QuarticBody
+        The body.
+    q : sequence of float, shape (2,)
+        Point of the plane.
+    direction : float
+        Angle of q̇, in radians.
+
+    Returns
+    -------
+    tuple of five floats
+        State (ω1, ω2, γ1, γ2, γ3).
+
+    Raises
+    ------
+    OutsideRegion
+        If |γ3| > 1 at the point.
+    InvalidParameter
+        If a number is not finite.
     """
     require_finite(q1=q[0], q2=q[1], direction=direction)
     g3 = float(body.height(np.array(q)))
     if abs(g3) > 1.0 + _EDGE:
         raise OutsideRegion(
             f"At q = ({q[0]:.6g}, {q[1]:.6g}) the potential is {0.5 * g3 * g3:.6g}, above the level ½: γ₃ would be "
-            f"{g3:.6g}. Choose a start that is not grey."
+            f"{g3:.6g}. Choose a start in the region of motion."
         )
     g3 = min(1.0, max(-1.0, g3))
     size = math.sqrt((1.0 - g3) * (1.0 + g3))
@@ -326,13 +358,46 @@ def state_at(body: QuarticBody, q: Sequence[float], direction: float) -> tuple[f
 
 
 def start_on_section(body: QuarticBody, x: float, y: float) -> tuple[float, float, float]:
-    """Return q1, q2 and the direction of q̇ for `state_at` at (x, y) of the section.  Raises `OutsideRegion`."""
+    """Return the arguments of `state_at` for a point of the section.
+
+    Parameters
+    ----------
+    body : QuarticBody
+        The body.
+    x : float
+        Coordinate q along the major axis.
+    y : float
+        Its momentum p.
+
+    Returns
+    -------
+    tuple of three floats
+        Values q1, q2 and the direction of q̇, in radians.
+
+    Raises
+    ------
+    OutsideRegion
+        If no motion crosses the section there.
+    """
     p = QuarticSection(body).state_at(x, y)[2:4]
     return (*((x, 0.0) if body.across else (0.0, x)), math.atan2(-p[1], -p[0]))
 
 
 def angular_momentum(body: QuarticBody, states: Array) -> Array:
-    """Return q1 p2 − q2 p1 (m,) of states (m, 5): an integral for I11 = I22."""
+    """Return q1 p2 − q2 p1 of states, an integral for I11 = I22.
+
+    Parameters
+    ----------
+    body : QuarticBody
+        The body.
+    states : ndarray, shape (m, 5)
+        States (ω1, ω2, γ1, γ2, γ3).
+
+    Returns
+    -------
+    ndarray, shape (m,)
+        Values of q1 p2 − q2 p1.
+    """
     q, p = body.to_plane(states)
     return np.asarray(q[:, 0] * p[:, 1] - q[:, 1] * p[:, 0])
 
@@ -341,7 +406,10 @@ def angular_momentum(body: QuarticBody, states: Array) -> Array:
 class QuarticSection(PoincareSection):
     """Section of a body at its energy, in the canonical coordinates (q, p) along the major axis.
 
-    Its methods raise as `QuarticBody`.
+    Parameters
+    ----------
+    body : QuarticBody
+        The body, with its energy.
     """
 
     body: QuarticBody
@@ -381,11 +449,44 @@ class QuarticSection(PoincareSection):
         return "the integrable case I₁₁ = I₂₂" if self.body.integrable else ""
 
     def at_constant(self, name: str, value: float) -> QuarticSection:
-        """Return the section with another value of one constant."""
+        """Return the section with another value of one constant.
+
+        Parameters
+        ----------
+        name : str
+            Name of the constant: I11, I22, b3 or E.
+        value : float
+            Its new value.
+
+        Returns
+        -------
+        QuarticSection
+            The other section.
+
+        Raises
+        ------
+        ModelError
+            As `QuarticBody`.
+        """
         return QuarticSection(replace(self.body, **{name: value}))
 
     def states_at(self, q: Array | float, p: Array | float) -> tuple[Array, Mask]:
-        """Return the states (n, 5) at (q, p) (n,), and the mask (n,) of the places with motion, p² + γ3² < 1."""
+        """Return the states at points of the section.
+
+        Parameters
+        ----------
+        q : float or ndarray, shape (n,)
+            Coordinates q.
+        p : float or ndarray, shape (n,)
+            Momenta p.
+
+        Returns
+        -------
+        states : ndarray, shape (n, 5)
+            States (ω1, ω2, γ1, γ2, γ3).
+        possible : ndarray of bool, shape (n,)
+            True for points with motion, p² + γ3² < 1.
+        """
         q, p = np.array(q, float, ndmin=1), np.array(p, float, ndmin=1)
         along = 1 - self.body.across
         place, momentum = np.zeros((2, q.size)), np.zeros((2, q.size))
@@ -397,7 +498,18 @@ class QuarticSection(PoincareSection):
         return np.stack([*self.body.omega(place), *momentum, g3], axis=1), left > 0.0
 
     def places_of(self, states: Array) -> Array:
-        """Return (q, p) (n, 2) of states (n, 5) of the section."""
+        """Return the points of the section at which given states lie.
+
+        Parameters
+        ----------
+        states : ndarray, shape (n, 5)
+            States of the section.
+
+        Returns
+        -------
+        ndarray, shape (n, 2)
+            Coordinates q and p.
+        """
         q, p = self.body.to_plane(states)
         along = 1 - self.body.across
         return np.column_stack([q[:, along], p[:, along]])

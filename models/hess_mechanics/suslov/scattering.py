@@ -55,15 +55,15 @@ class Scattering(Result):
     B : complex
         The other element.
     cos_chi : float
-        Coefficient cos χ, see Notes.
+        Coefficient cos χ, −1 to 1, see Notes.
     sin_chi : float
-        Coefficient sin χ ≥ 0.
+        Coefficient sin χ, 0 to 1.
     phi_star : float
-        Phase φ* in radians; 0 if sin χ = 0.
+        Phase φ* in radians, −π to π; 0 if sin χ = 0.
     status : Status
         State of the computation, see `Status`.
     error_estimate : float
-        Estimated error of Γ⁺, for any θ⁻ and φ.
+        Estimated error of Γ⁺, ≥ 0, for any θ⁻ and φ.
     cost : Cost
         Steps and time of the computation.
 
@@ -156,13 +156,13 @@ def scattering(body: SuslovBody, accuracy: Accuracy, arc: int = 1, distance: flo
     ----------
     body : SuslovBody
         Body with b = 0 and I13 or I23 not 0.
-    accuracy : Level or str
-        Accuracy level or its name, see `accuracy`.
+    accuracy : str or Level
+        Accuracy level or its name, see `level`.
     arc : int, optional
         Arc σ = ±1, the sign of I13ω1 + I23ω2.
     distance : float, optional
-        Component of ω across ξ at the start, in units of |ω⁻|; for I13 = 0 this is |ω2(0)|.  Then φ and θ⁻ belong to
-        the start.  By default they are asymptotic.
+        Component of ω across ξ at the start, positive, in units of |ω⁻|; for I13 = 0 this is |ω2(0)|.  Then φ and θ⁻
+        belong to the start.  By default they are asymptotic.
 
     Returns
     -------
@@ -187,8 +187,8 @@ def scattering(body: SuslovBody, accuracy: Accuracy, arc: int = 1, distance: flo
     Examples
     --------
     >>> from hess_mechanics import SuslovBody, scattering
-    >>> found = scattering(SuslovBody(4.0, 1.0, 0.0, 0.75), "precise")
-    >>> round(found.cos_chi, 6)
+    >>> result = scattering(SuslovBody(4.0, 1.0, 0.0, 0.75), "precise")
+    >>> round(result.cos_chi, 6)
     -0.907965
     """
     level = as_level(accuracy)
@@ -259,9 +259,21 @@ def cos_chi(body: SuslovBody) -> float:
 
 
 def cos_chi_over(low: int, high: int, I22: float, I13: float, I23: float) -> Array:
-    """Return (k, cos χ) in closed form for equidistant k from low to high, I11 by `I11_at`; (m, 2).
+    """Return cos χ in closed form over evenly spaced k, with I11 from `I11_at`.
 
-    Values of k without a body are left out.
+    Parameters
+    ----------
+    low, high : int
+        First and last k.
+    I22 : float
+        Moment of inertia about the second axis, I22 > 0.
+    I13, I23 : float
+        Products of inertia, in the unit of I22.
+
+    Returns
+    -------
+    ndarray, shape (m, 2)
+        Values of k and cos χ; those of k without a body are left out.
     """
     rows = []
     for one in np.linspace(low, high, 20 * (high - low) + 1).tolist():
@@ -272,20 +284,61 @@ def cos_chi_over(low: int, high: int, I22: float, I13: float, I23: float) -> Arr
     return frozen(np.array(rows).reshape(-1, 2))
 
 
-def theta_plus_grid(found: Scattering, m: int, n: int) -> Array:
-    """Return θ⁺ at the centres of m × n cells of −π < φ < π, 0 < θ⁻ < π; (n, m), rows of equal θ⁻."""
+def theta_plus_grid(rotation: Scattering, m: int, n: int) -> Array:
+    """Return θ⁺ at the centres of the cells of −π < φ < π, 0 < θ⁻ < π.
+
+    Parameters
+    ----------
+    rotation : Scattering
+        The scattering.
+    m, n : int
+        Number of cells in φ and in θ⁻.
+
+    Returns
+    -------
+    ndarray, shape (n, m)
+        Angles θ⁺ in radians; each row has one θ⁻.
+    """
     phi, theta = centres(-math.pi, math.pi, m), centres(0.0, math.pi, n)
-    return frozen(found.theta_plus(theta[:, None], phi[None, :]))
+    return frozen(rotation.theta_plus(theta[:, None], phi[None, :]))
 
 
 def start(
     body: SuslovBody, h: float, theta: float, phi: float, distance: float, arc: int = 1
 ) -> tuple[tuple[float, float], tuple[float, float, float]]:
-    """Return ω(0), γ(0) of the orbit with energy h that starts at θ⁻, azimuth φ and `distance` from the unstable point.
+    """Return the initial ω and γ of the orbit that starts at given angles and distance from the unstable point.
 
-    φ is the phase of `scattering` with that distance.  For I13 I23 ≠ 0 the rounding of ω to doubles limits the accuracy
-    of the time of the passage: below a distance of 1e-8 the phase of arrival shifts, and Γ⁺ by at most 1e-16/distance.
-    Raises `InvalidParameter`, `WorkLimit`.
+    For I13 I23 ≠ 0 the rounding of ω to doubles limits the accuracy of the time of the passage: below a distance of
+    1e-8 the phase of arrival shifts, and Γ⁺ by at most 1e-16/distance.
+
+    Parameters
+    ----------
+    body : SuslovBody
+        Body with b = 0, and I13 or I23 nonzero.
+    h : float
+        Energy, h > 0.
+    theta : float
+        Incoming angle θ⁻, in radians.
+    phi : float
+        Azimuth φ, in radians: the phase of `scattering` with this distance.
+    distance : float
+        Component of ω across ξ, in units of |ω⁻|, positive.
+    arc : int, default 1
+        Arc σ, 1 or −1.
+
+    Returns
+    -------
+    omega : tuple of two floats
+        Angular velocity (ω1, ω2).
+    gamma : tuple of three floats
+        Vertical γ.
+
+    Raises
+    ------
+    InvalidParameter
+        If a number is out of range, the body has a field, or I13 = I23 = 0.
+    WorkLimit
+        If γ rotates too often during the passage, see `shape`.
     """
     _check_arc(arc)
     require_finite(theta=theta, phi=phi)

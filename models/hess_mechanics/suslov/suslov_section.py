@@ -43,9 +43,21 @@ def _side(psi: Array) -> Array:
 
 @dataclass(frozen=True)
 class AngleSection(PoincareSection):
-    """Section γ_k = 0 in (ψ, δ) at the energy E, crossed while γ_k increases; b are the last parameters of the body.
+    """Section γ_k = 0 in (ψ, δ) at the energy E, crossed while γ_k increases.
 
-    Raises `InvalidParameter`.
+    Parameters
+    ----------
+    body : object
+        Body whose last three parameters are b1, b2, b3.
+    E : float
+        Energy, any finite number.
+    k : int, default 3
+        Index of the section, 1, 2 or 3.
+
+    Raises
+    ------
+    InvalidParameter
+        If E is not finite or k is out of range.
     """
 
     body: Any
@@ -95,7 +107,7 @@ class AngleSection(PoincareSection):
 
     @property
     def lowest_energy(self) -> float:
-        """The energy below which no motion reaches the plane."""
+        """The energy below which no motion reaches the section."""
         return -math.hypot(*self._field)
 
     @property
@@ -109,20 +121,61 @@ class AngleSection(PoincareSection):
         return {**vars(self.body), "E": self.E, "h": self.h}
 
     def at_constant(self, name: str, value: float) -> Self:
-        """Return the section with another value of one constant; E is kept when the body changes."""
+        """Return the section with another value of one constant; E stays the same when the body changes.
+
+        Parameters
+        ----------
+        name : str
+            Name of the constant, one of `constants`.
+        value : float
+            Its new value.
+
+        Returns
+        -------
+        AngleSection
+            The other section.
+
+        Raises
+        ------
+        InvalidParameter
+            If the value is not finite.
+        NotPositiveDefinite
+            If a moment of inertia is not positive.
+        """
         if name in vars(self.body):
             return replace(self, body=replace(self.body, **{name: value}))
         return replace(self, E=value + self._bottom if name == "h" else value)
 
     def require_reached(self) -> None:
-        """Raise `OutsideRegion` if no motion of this energy reaches the plane."""
+        """Raise an error if no motion of this energy reaches the section.
+
+        Raises
+        ------
+        OutsideRegion
+            If E is not above `lowest_energy`.
+        """
         if self.lowest_energy >= self.E:
             raise OutsideRegion(
                 f"No motion with E = {self.E:g} reaches γ{self.k} = 0: choose E above {self.lowest_energy:.6g}."
             )
 
     def states_at(self, psi: Array, delta: Array) -> tuple[Array, Mask]:
-        """Return the states (n, 5) at (ψ, δ) (n,), and the mask (n,) of the places with motion."""
+        """Return the states at points of the section.
+
+        Parameters
+        ----------
+        psi : ndarray, shape (n,)
+            Angles ψ, in radians.
+        delta : ndarray, shape (n,)
+            Angles δ, in radians, 0 < δ < π.
+
+        Returns
+        -------
+        states : ndarray, shape (n, 5)
+            States (ω1, ω2, γ1, γ2, γ3).
+        possible : ndarray of bool, shape (n,)
+            True for points with motion.
+        """
         psi, delta = np.array(psi, float, ndmin=1), np.array(delta, float, ndmin=1)
         gamma = self._gamma(psi)
         side = _side(psi)
@@ -143,7 +196,18 @@ class AngleSection(PoincareSection):
         return gamma
 
     def places_of(self, states: Array) -> Array:
-        """Return (ψ, δ) (n, 2) of states (n, 5) of the section."""
+        """Return the points of the section at which given states lie.
+
+        Parameters
+        ----------
+        states : ndarray, shape (n, 5)
+            States with γ_k = 0.
+
+        Returns
+        -------
+        ndarray, shape (n, 2)
+            Angles ψ and δ, in radians.
+        """
         first, second = self._in_plane
         psi = np.arctan2(states[:, 2 + second], states[:, 2 + first])
         w1, w2 = states[:, 0], states[:, 1]
@@ -170,9 +234,19 @@ class AngleSection(PoincareSection):
         return [arc for arc in arcs if arc[0] < arc[1]]
 
     def spread(self, count: int, window: Window | None = None) -> tuple[tuple[float, ...], ...]:
-        """Return `count` states, spread evenly over the possible part of the window, by default the whole section.
+        """Return states that are spread evenly over the possible part of a window.
 
-        There are fewer only if nothing is possible, or if the possible part contains no double.
+        Parameters
+        ----------
+        count : int
+            Number of states.
+        window : ((float, float), (float, float)), optional
+            Corners (ψ, δ) of the window, in radians.  By default the whole section.
+
+        Returns
+        -------
+        tuple of tuple of float
+            The states; fewer only if nothing is possible, or the possible part contains no double.
         """
         (psi0, delta0), (psi1, delta1) = window or ((-math.pi, 0.0), (math.pi, math.pi))
         arcs = self._arcs(psi0, psi1)
@@ -188,18 +262,50 @@ class AngleSection(PoincareSection):
         return tuple(tuple(map(float, state)) for state in states[ok])
 
     def possible(self, psi: Array) -> Mask:
-        """Return the mask (n,) of the angles ψ that the energy allows."""
+        """Return True where the energy allows motion.
+
+        Parameters
+        ----------
+        psi : ndarray, shape (n,)
+            Angles ψ, in radians.
+
+        Returns
+        -------
+        ndarray of bool, shape (n,)
+            True for possible angles.
+        """
         return np.asarray(np.array(self.parameters[-3:]) @ self._gamma(psi) < self.E)
 
     def impossible(self, window: Window) -> Array:
-        """Return cells (1, n) over the window: 1 where the energy does not allow ψ."""
+        """Return the forbidden region of a window, as cells.
+
+        Parameters
+        ----------
+        window : ((float, float), (float, float))
+            Corners (ψ, δ) of the window, in radians.
+
+        Returns
+        -------
+        ndarray, shape (1, 240)
+            1 where the energy does not allow ψ, otherwise 0.
+        """
         psi = np.linspace(window[0][0], window[1][0], _COLUMNS + 1)
         return frozen(1.0 - self.possible(0.5 * (psi[1:] + psi[:-1]))[None, :].astype(float))
 
 
 @dataclass(frozen=True)
 class SuslovSection(AngleSection):
-    """Section γ_k = 0 of a body; h counts from its lowest energy."""
+    """Section γ_k = 0 of a Suslov body at the energy E; h counts from the lowest energy of the body.
+
+    Parameters
+    ----------
+    body : SuslovBody
+        The body.
+    E : float
+        Energy, any finite number.
+    k : int, default 3
+        Index of the section, 1, 2 or 3.
+    """
 
     body: SuslovBody
 
@@ -233,9 +339,9 @@ class SuslovSection(AngleSection):
 
 def _section(values: Mapping[str, float]) -> SuslovSection:
     body = SuslovBody(*(values[name] for name in SYSTEM.parameters))
-    found = SuslovSection(body, 0.0, int(values["k"])).at_constant("h", values["h"])
-    found.require_reached()
-    return found
+    section = SuslovSection(body, 0.0, int(values["k"])).at_constant("h", values["h"])
+    section.require_reached()
+    return section
 
 
 SECTION = on_section(

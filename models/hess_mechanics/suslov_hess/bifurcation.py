@@ -37,17 +37,17 @@ class TurningPoints:
     Attributes
     ----------
     h : float
-        The energy.
+        Energy, h > −1.
     f : float
-        The area integral.
+        Area integral, |f| ≤ f_max(h).
     roots : tuple of three floats
         The roots n0 < n1 ≤ n2 of 2(h+n)(1−n²) − f²; the motion has n1 ≤ n3 ≤ n2.
     w_squared : float
-        |w|² at n3 = n1.
+        |w|² at n3 = n1, ≥ 0.
     sine_squared : float
-        1 − n1².
+        1 − n1², 0 to 1.
     period : float
-        Period of n3.
+        Period of n3, positive, in units 1/√b.
     """
 
     h: float
@@ -142,16 +142,42 @@ def f_max(h: float) -> float:
 
 
 def f_max_each(h: Array) -> Array:
-    """Return `f_max` of each h (n,) in [−1, 1e12]; it is 0 at h = −1."""
+    """Return `f_max` of each energy.
+
+    Parameters
+    ----------
+    h : ndarray, shape (n,)
+        Energies, −1 ≤ h ≤ 1e12, in units b = 1.
+
+    Returns
+    -------
+    ndarray, shape (n,)
+        Largest |f|, in units b = 1; 0 at h = −1.
+    """
     out = np.empty(h.size)
     largest_f_into(h, out)
     return out
 
 
 def h_min(f: float) -> float:
-    """Return the least h of motions with this f (`Geq3`): |f| = `f_max` there, and 1 − n² = |f|√n with n in (0, 1].
+    """Return the least h of motions with a given f (`Geq3`).
 
-    Raises `InvalidParameter` if f is not finite.
+    There |f| = `f_max`, and 1 − n² = |f|√n with n in (0, 1].
+
+    Parameters
+    ----------
+    f : float
+        Area integral, any finite number, in units b = 1.
+
+    Returns
+    -------
+    float
+        The least energy, in units b = 1.
+
+    Raises
+    ------
+    InvalidParameter
+        If f is not finite.
     """
     require_finite(f=f)
     low, high = 0.0, 1.0
@@ -162,7 +188,20 @@ def h_min(f: float) -> float:
 
 
 def reach(h: float, n3: Array) -> Array:
-    """Return the largest |f| of motions with this h that reach the heights n3 (n,); it is |f| at a turning point."""
+    """Return the largest |f| of motions that reach given heights; it is |f| at a turning point.
+
+    Parameters
+    ----------
+    h : float
+        Energy, h > −1, in units b = 1.
+    n3 : ndarray, shape (n,)
+        Heights n3, −1 to 1.
+
+    Returns
+    -------
+    ndarray, shape (n,)
+        Largest |f|, in units b = 1; 0 where no motion reaches the height.
+    """
     return np.sqrt(np.maximum(0.0, 2.0 * (h + n3) * (1.0 - n3 * n3)))
 
 
@@ -202,14 +241,14 @@ def turning_points(h: float, f: float) -> TurningPoints:
     """
     _check_h(h)
     h, f = float(h), as_number("f", f) + 0.0  # f = −0.0 is f = 0
-    fm, found, period = f_max_and_roots(h, f)
+    fm, numbers, period = f_max_and_roots(h, f)
     if abs(f) > fm * (1 + 1e-15):
         # Rounded down, so that the bound in the message is itself accepted.
         raise OutsideRegion(
             f"No motion has h = {h:.15g} and f = {f:.15g}: at this h choose |f| ≤ {fm * (1 - 1e-11):.12g}, "
             "or a larger h."
         )
-    n0, n1, n2, _, _, _, w1, v1 = found
+    n0, n1, n2, _, _, _, w1, v1 = numbers
     if not math.isfinite(period):
         raise Separatrix("h = 1, f = 0 is the separatrix: no return. Move h or f a little.")
     return TurningPoints(h, f, (n0, n1, n2), 2.0 * w1, v1, period)
@@ -259,7 +298,7 @@ def curve(h_end: float, points: int = 200) -> Array:
     h_end : float
         The last energy, −1 < h_end ≤ 1e12, in units b = 1.
     points : int, optional
-        Number of points.
+        Number of points, 1 to 100 000.
 
     Returns
     -------

@@ -1,9 +1,9 @@
 # mypy: allow-untyped-defs
 """Kernels of `bifurcation`: the largest f, the roots of the gyroscopic function, and the period of n3, units b = 1.
 
-The roots of p(n) = 2(h+n)(1−n²) − f² come from its expansions about its two extrema, p(n_c+s) = p_c ∓ 2D s² − 2s³
-with D = √(h²+3).  The gaps between the roots then keep their relative accuracy, however close (h, f) is to the
-bifurcation curve, to the separatrix (1, 0) or to the bottom (−1, 0).
+Not for users.  The roots of p(n) = 2(h+n)(1−n²) − f² come from its expansions about its two extrema,
+p(n_c+s) = p_c ∓ 2D s² − 2s³ with D = √(h²+3).  The gaps between the roots then keep their relative accuracy, however
+close (h, f) is to the bifurcation curve, to the separatrix (1, 0) or to the bottom (−1, 0).
 """
 
 from __future__ import annotations
@@ -12,11 +12,11 @@ import math
 
 from hess_mechanics.numerics.jit import inner, kernel
 
-__all__ = ["f_max_and_roots", "largest_f", "largest_f_into", "period_from_gaps", "roots", "upper_extremum"]
+__all__ = ["f_max_and_roots", "largest_f", "largest_f_into", "period_from_gaps", "roots"]
 
 
 @inner
-def upper_extremum(h):
+def _upper_extremum(h):
     """Return (D, h+n_c, 1−n_c) at the maximum n_c of p, without cancellation for any h ≥ −1."""
     e = h + 1.0
     D = math.sqrt(h * h + 3.0)
@@ -26,7 +26,7 @@ def upper_extremum(h):
 @inner
 def largest_f(h):
     """Return f_max(h) = √(2(h+n_c)(1−n_c²))."""
-    _, k, d = upper_extremum(h)
+    _, k, d = _upper_extremum(h)
     return math.sqrt(2.0 * k * d * (2.0 - d))
 
 
@@ -44,7 +44,7 @@ def roots(h, f):
     The result is (n0, n1, n2, g10, g21, g20, w1, v1): roots n0 ≤ n1 ≤ n2; gaps g_ij = n_i − n_j;
     w1 = h + n1 (half of |w|² at the lower turning point) and v1 = 1 − n1².
     """
-    D, k, d = upper_extremum(h)
+    D, k, d = _upper_extremum(h)
     fm = math.sqrt(2.0 * k * d * (2.0 - d))
     above = max(0.0, (fm - abs(f)) * (fm + abs(f)))
     # The minimum n_m = (−h−D)/3: p(n_m) = −below, with h+n_m and 1+n_m computed without cancellation.
@@ -114,6 +114,6 @@ def f_max_and_roots(h, f):
     fm = largest_f(h)
     if not abs(f) <= fm * (1.0 + 1e-15):
         return fm, (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0), 0.0
-    found = roots(h, f)
+    numbers = roots(h, f)
     # The gap n1 − n0 is 0 only on the separatrix, where the period is infinite.
-    return fm, found, period_from_gaps(found[3], found[5]) if found[3] > 0.0 else math.inf
+    return fm, numbers, period_from_gaps(numbers[3], numbers[5]) if numbers[3] > 0.0 else math.inf

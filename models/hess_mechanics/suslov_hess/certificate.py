@@ -22,13 +22,13 @@ FORMAT = "Suslov–Hess torus, 1"
 EDGE_FORMAT = "Suslov–Hess edge, 1"
 
 
-def _pair(found: Enclosure) -> list[str]:
+def _pair(interval: Enclosure) -> list[str]:
     """Return both ends as strings: rationals if they are equal, otherwise decimals."""
-    return [str(found.low)] * 2 if found.low == found.high else list(found.decimals())
+    return [str(interval.low)] * 2 if interval.low == interval.high else list(interval.decimals())
 
 
-def _pairs(found: Iterable[Enclosure] | None) -> list[list[str]] | None:
-    return None if found is None else [_pair(one) for one in found]
+def _pairs(intervals: Iterable[Enclosure] | None) -> list[list[str]] | None:
+    return None if intervals is None else [_pair(one) for one in intervals]
 
 
 def _short(number: Fraction) -> str:

@@ -49,9 +49,30 @@ _MAX_STEPS = 200_000
 
 
 def matrices(a: Array | float, h: Array, f: Array, accuracy: Accuracy) -> Array:
-    """Return the rows (Re α, Im α, Im β, L, ζ, steps) of tori (a, h, f), each (n,); shape (n, 6), see `monodromy`.
+    """Return the matrices of the circle maps of tori, as rows (Re α, Im α, Im β, L, ζ, steps).
 
-    Every torus must satisfy |f| ≤ f_max(h).  Raises `WorkLimit`.
+    The first three numbers are times e^{−L}, and ζ is the lift of arg α, see `monodromy`.
+
+    Parameters
+    ----------
+    a : float or ndarray, shape (n,)
+        Inertia parameter a = I23/I22.
+    h : ndarray, shape (n,)
+        Energy of each torus, in units b = 1.
+    f : ndarray, shape (n,)
+        Area integral of each torus, |f| ≤ f_max(h), in units b = 1.
+    accuracy : str or Level
+        Accuracy level.
+
+    Returns
+    -------
+    ndarray, shape (n, 6)
+        A row for each torus.
+
+    Raises
+    ------
+    WorkLimit
+        If a torus needs too many steps.
     """
     level = as_level(accuracy)
     out = np.empty((h.size, 6))
@@ -61,20 +82,41 @@ def matrices(a: Array | float, h: Array, f: Array, accuracy: Accuracy) -> Array:
 
 
 def discriminants(rows: Array) -> Array:
-    """Return ((Re α)² − |det|) e^{−2L} from the rows of `matrices`; it is positive where the map locks.
+    """Return ((Re α)² − |det|) e^{−2L}, which is positive where the map locks.
 
     It equals (Im β)² − (Im α)².  The first form is used where Im α and Im β are large and nearly equal, because their
     difference loses digits there.
+
+    Parameters
+    ----------
+    rows : ndarray, shape (..., 6)
+        Rows of `matrices`.
+
+    Returns
+    -------
+    ndarray, shape (...,)
+        Discriminants.
     """
     re, im, im_beta, log_scale, *_ = np.moveaxis(rows, -1, 0)
     unit = np.exp(-log_scale)
     cancels = im**2 + im_beta**2 > 1e4 * (re**2 + unit**2)
-    found: Array = np.where(cancels, (re - unit) * (re + unit), (im_beta - im) * (im_beta + im))
-    return found
+    values: Array = np.where(cancels, (re - unit) * (re + unit), (im_beta - im) * (im_beta + im))
+    return values
 
 
 def rotation_numbers_of(rows: Array) -> Array:
-    """Return ρ (n,) from the rows of `matrices`: an integer where the map locks, otherwise k + arccos(±Re α)/π."""
+    """Return the rotation numbers of circle maps.
+
+    Parameters
+    ----------
+    rows : ndarray, shape (n, 6)
+        Rows of `matrices`.
+
+    Returns
+    -------
+    ndarray, shape (n,)
+        Rotation numbers ρ in turns per return: an integer where the map locks, otherwise k + arccos(±Re α)/π.
+    """
     re, _, _, _, zeta, _ = rows.T
     discriminant = discriminants(rows)
     k = np.floor(zeta / np.pi)
@@ -94,9 +136,9 @@ class FixedPoint:
     Attributes
     ----------
     phi : float
-        The angle φ of the fixed point, in radians.
+        The angle φ of the fixed point, in radians, −π to π.
     log_multiplier : float
-        Natural logarithm of the multiplier, which itself may exceed the range of doubles.
+        Natural logarithm of the multiplier, which itself may exceed the range of doubles; negative for a stable cycle.
     """
 
     phi: float
@@ -109,7 +151,7 @@ class FixedPoint:
 
     @property
     def multiplier(self) -> float:
-        """The multiplier dΘ/dφ at the fixed point; ∞ beyond the range of doubles."""
+        """The multiplier dΘ/dφ at the fixed point, ≥ 0; ∞ beyond the range of doubles."""
         return math.exp(self.log_multiplier) if self.log_multiplier < 709.0 else math.inf
 
 
@@ -120,29 +162,29 @@ class CircleMap(Result):
     Attributes
     ----------
     a : float
-        The coupling, a = I23/I22.
+        Inertia parameter, a = I23/I22, |a| ≤ 1e6.
     h : float
-        The energy.
+        Energy, h > −1.
     f : float
-        The area integral.
+        Area integral, |f| ≤ f_max(h).
     level : str
         Name of the accuracy level.
     matrix : tuple of three floats
         (Re α, Im α, Im β), each times e^{−log_scale}.
     log_scale : float
-        Natural logarithm of the common factor of `matrix`.
+        Natural logarithm of the common factor of `matrix`, ≥ 0.
     kind : str
         "elliptic" (no limit cycle; conjugate to a rotation), "parabolic" or "hyperbolic" (two limit cycles).
     trace : float
-        |2 Re α|; ∞ beyond the range of doubles.
+        |2 Re α|, ≥ 0; ∞ beyond the range of doubles.
     log_trace : float
-        Natural logarithm of `trace`.
+        Natural logarithm of `trace`, any number; −∞ if the trace is 0.
     rotation_number : float
         Rotation number ρ of the lifted map, in turns per return.
     fixed_points : tuple of FixedPoint
         The stable fixed point, then the unstable one; one for a parabolic map, none for elliptic ones and the identity.
     period : float
-        Period of n3, that is, the time between two returns.
+        Period of n3, that is, the time between two returns, in units 1/√b.
     status : Status
         State of the computation, see `Status`.
     error_estimate : float
@@ -183,8 +225,8 @@ class CircleMap(Result):
         Examples
         --------
         >>> from hess_mechanics import circle_map
-        >>> found = circle_map(a=0.5, h=1.5, f=0.6, accuracy="standard")
-        >>> found.theta([0.0, 1.0]).round(4)
+        >>> result = circle_map(a=0.5, h=1.5, f=0.6, accuracy="standard")
+        >>> result.theta([0.0, 1.0]).round(4)
         array([-1.8468, -1.7131])
         """
         return _theta(self.matrix, np.asarray(phi, float))
@@ -265,7 +307,18 @@ def _theta(matrix: tuple[float, float, float], phi: Array) -> Array:
 
 
 def check_a(a: float) -> None:
-    """Raise `InvalidParameter` unless a is finite and |a| ≤ `MAX_A`."""
+    """Raise an error unless a is finite and |a| ≤ `MAX_A`.
+
+    Parameters
+    ----------
+    a : float
+        Inertia parameter a.
+
+    Raises
+    ------
+    InvalidParameter
+        If a is not finite or too large.
+    """
     require_finite(a=a)
     if abs(a) > MAX_A:
         raise InvalidParameter(f"a = {a:g} is too large: choose |a| ≤ {MAX_A:g}.")
@@ -276,8 +329,8 @@ _PROBES = np.linspace(-math.pi, math.pi, 32, endpoint=False)
 
 def _difference(m: Array, n: Array) -> float:
     """Return the difference of two maps, rows of `matrices`: the larger of those in Θ (32 phases) and the trace."""
-    turned = _theta((m[0], m[1], m[2]), _PROBES) - _theta((n[0], n[1], n[2]), _PROBES)
-    angle = float(np.max(np.abs(np.angle(np.exp(1j * turned)))))
+    angles = _theta((m[0], m[1], m[2]), _PROBES) - _theta((n[0], n[1], n[2]), _PROBES)
+    angle = float(np.max(np.abs(np.angle(np.exp(1j * angles)))))
     other = m[0] - n[0] * math.exp(n[3] - m[3])
     return max(angle, 2 * abs(float(other)) * _weight(m))
 
@@ -294,10 +347,26 @@ def _rounding(m: Array) -> float:
 
 
 def neighbours(h: Array, f: Array, edge: Array) -> tuple[Array, Array]:
-    """Return tori (h, f), each (n,), moved by three units in the last place, as `measured.nearby` moves states.
+    """Return tori moved by three units in the last place, as `measured.nearby` moves states.
 
-    f moves into the region, which ends at the `edge` f_max(h) (n,).  h moves into the region near that edge, otherwise
-    away from the separatrix.
+    f moves into the region, which ends at f_max(h).  h moves into the region near that edge, otherwise away from the
+    separatrix.
+
+    Parameters
+    ----------
+    h : ndarray, shape (n,)
+        Energies, in units b = 1.
+    f : ndarray, shape (n,)
+        Area integrals, in units b = 1.
+    edge : ndarray, shape (n,)
+        Values of f_max(h).
+
+    Returns
+    -------
+    h : ndarray, shape (n,)
+        The moved energies.
+    f : ndarray, shape (n,)
+        The moved area integrals.
     """
     upwards = (h >= 1.0) | (np.abs(f) > 0.5 * edge)
     moved = h + np.where(upwards, 3.0, -3.0) * np.spacing(np.abs(h))
@@ -310,13 +379,13 @@ def circle_map(a: float, h: float, f: float, accuracy: Accuracy) -> CircleMap:
     Parameters
     ----------
     a : float
-        The coupling a = I23/I22, |a| ≤ 1e6.
+        Inertia parameter a = I23/I22, |a| ≤ 1e6.
     h : float
-        The energy h > −1, in units b = 1.
+        Energy, −1 < h ≤ 1e12, in units b = 1.
     f : float
         The area integral, |f| ≤ f_max(h), in units b = 1.
-    accuracy : Level or str
-        Accuracy level or its name, see `accuracy`.
+    accuracy : str or Level
+        Accuracy level or its name, see `level`.
 
     Returns
     -------
@@ -346,8 +415,8 @@ def circle_map(a: float, h: float, f: float, accuracy: Accuracy) -> CircleMap:
     Examples
     --------
     >>> from hess_mechanics import circle_map, level
-    >>> found = circle_map(a=0.0, h=1.5, f=0.6, accuracy=level("precise"))  # without coupling the map does not lock
-    >>> found.kind, len(found.fixed_points)
+    >>> result = circle_map(a=0.0, h=1.5, f=0.6, accuracy=level("precise"))  # for a = 0 the map does not lock
+    >>> result.kind, len(result.fixed_points)
     ('elliptic', 0)
     """
     level = as_level(accuracy)
@@ -362,8 +431,8 @@ def circle_map(a: float, h: float, f: float, accuracy: Accuracy) -> CircleMap:
         row: Array = matrices(a, energies, fs, at)[0]
         return row, int(row[5])
 
-    found = measured(level, run, lambda one, other: _difference(one, other) + _rounding(one))
-    coarse, error = found.result, found.error
+    result = measured(level, run, lambda one, other: _difference(one, other) + _rounding(one))
+    coarse, error = result.result, result.error
     re, im, im_beta, log_scale = (float(x) for x in coarse[:4])
 
     log_trace = math.log(2 * abs(re)) + log_scale if re else -math.inf
@@ -399,7 +468,7 @@ def circle_map(a: float, h: float, f: float, accuracy: Accuracy) -> CircleMap:
         rho,
         fixed,
         turning.period,
-        found.status,
+        result.status,
         error,
-        found.cost,
+        result.cost,
     )

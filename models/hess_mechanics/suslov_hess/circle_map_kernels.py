@@ -1,5 +1,5 @@
 # mypy: allow-untyped-defs
-"""Kernels of `circle_map`: the SU(1,1) matrix of one torus or of many, and the map Θ."""
+"""Kernels of `circle_map`: the SU(1,1) matrix of one torus or of many, and the map Θ.  Not for users."""
 
 from __future__ import annotations
 

@@ -38,13 +38,13 @@ class EdgeProof(Printed):
     Attributes
     ----------
     a : Fraction
-        The coupling.
+        Inertia parameter.
     h : Fraction
-        The energy.
+        Energy, h > −1.
     f : Fraction
-        The area integral.
+        Area integral, nonzero.
     n : Fraction
-        The constant value of n3.
+        The constant value of n3, 0 < n ≤ 1.
     statement : str
         `TWO_EQUILIBRIA` or `PERIODIC_ORBIT`.
     fixed_points : tuple of Enclosure
@@ -75,11 +75,11 @@ def prove_edge(a: Fraction, h: Fraction, f: Fraction) -> EdgeProof:
     Parameters
     ----------
     a : Fraction
-        The coupling, in units b = 1.
+        Inertia parameter.
     h : Fraction
-        The energy h > −1; (h, f) lies on the edge.
+        Energy h > −1, in units b = 1; (h, f) lies on the edge.
     f : Fraction
-        The area integral, not 0.
+        Area integral, nonzero, in units b = 1.
 
     Returns
     -------
@@ -121,5 +121,5 @@ def _double_root(h: Fraction, f: Fraction) -> Fraction:
     return -(2 * h - f * f - 2 * h / 9) / (Fraction(4, 3) + 4 * h * h / 9)
 
 
-def _opposite(found: Enclosure) -> Enclosure:
-    return Enclosure(-found.high, -found.low)
+def _opposite(interval: Enclosure) -> Enclosure:
+    return Enclosure(-interval.high, -interval.low)

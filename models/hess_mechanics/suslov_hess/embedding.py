@@ -35,8 +35,14 @@ __all__ = ["CrossSection", "cross_section", "density_along", "embed"]
 class CrossSection:
     """The closed curve whose revolution about the Z axis is the torus; it begins and ends at the lowest n3.
 
-    radius, height : √(X² + Y²) and Z, (n,), n3 grows along the first half.
-    times : (n,), times since the lowest n3 in units b = 1; infinite on the separatrix, but for the first.
+    Attributes
+    ----------
+    radius : ndarray, shape (n,)
+        Distance √(X² + Y²) from the axis, 0 to 1.
+    height : ndarray, shape (n,)
+        Height Z, −1 to 1; n3 grows along the first half.
+    times : ndarray, shape (n,)
+        Times since the lowest n3, in units b = 1; on the separatrix all but the first are infinite.
     """
 
     radius: Array
@@ -45,17 +51,46 @@ class CrossSection:
 
 
 def embed(reduced: Array, h: float) -> Array:
-    """Return the points (n, 3) of reduced states (n, 5) of the energy h, in units b = 1."""
+    """Return the points of the unit ball that represent reduced states.
+
+    Parameters
+    ----------
+    reduced : ndarray, shape (n, 5)
+        States (w1, w2, n1, n2, n3) of the energy h, in units b = 1.
+    h : float
+        Energy, h > −1, in units b = 1.
+
+    Returns
+    -------
+    ndarray, shape (n, 3)
+        Points (X, Y, Z).
+    """
     w1, w2, n1, n2, _ = reduced.T
     square = 2.0 * (h + 1.0)
     return np.column_stack([w1, w2, (n1 * w2 - n2 * w1) / math.sqrt(square)]) / math.sqrt(square)
 
 
 def cross_section(h: float, turning: TurningPoints | None, count: int) -> CrossSection:
-    """Return the cross-section of a torus at `count` points, evenly in θ, n3 = ½(n1 + n2) − ½(n2 − n1) cos θ.
+    """Return the cross-section of a torus, evenly in θ, n3 = ½(n1 + n2) − ½(n2 − n1) cos θ.
 
-    turning : the turning points of the torus (h, f), None on the separatrix.
-    Raises `InvalidParameter` if there are too few points.
+    Parameters
+    ----------
+    h : float
+        Energy, h > −1, in units b = 1.
+    turning : TurningPoints or None
+        Turning points of the torus (h, f); None on the separatrix.
+    count : int
+        Number of points, at least 3.
+
+    Returns
+    -------
+    CrossSection
+        The closed curve.
+
+    Raises
+    ------
+    InvalidParameter
+        If there are too few points.
     """
     if count < 3:
         raise InvalidParameter(f"A closed curve needs at least three points, not {count}.")
@@ -81,11 +116,33 @@ def _times(n0: float, n1: float, n2: float, theta: Array) -> Array:
     # Imported here because it takes 0.2 s, and few commands draw a torus.
     from scipy.special import ellipk, ellipkinc
 
-    found = math.sqrt(2.0 / (n2 - n0)) * (ellipk(m) - ellipkinc(0.5 * (math.pi - theta), m))
-    return np.asarray(np.maximum(0.0, found))
+    times = math.sqrt(2.0 / (n2 - n0)) * (ellipk(m) - ellipkinc(0.5 * (math.pi - theta), m))
+    return np.asarray(np.maximum(0.0, times))
 
 
 def density_along(theta: CircleMap, count: int, accuracy: Accuracy) -> Complex:
-    """Return the points ζ_s (count,) of the invariant density along the cross-section; raises as `zeta_at`."""
+    """Return the points ζ_s of the invariant density along the cross-section of a torus.
+
+    Parameters
+    ----------
+    theta : CircleMap
+        The circle map of the torus.
+    count : int
+        Number of points, at least 3.
+    accuracy : str or Level
+        Accuracy level.
+
+    Returns
+    -------
+    ndarray of complex, shape (count,)
+        Points ζ_s of the unit disk.
+
+    Raises
+    ------
+    InvalidParameter
+        As `zeta_at`.
+    WorkLimit
+        As `zeta_at`.
+    """
     times = cross_section(theta.h, turning_points(theta.h, theta.f), count).times
     return zeta_at(theta, times, accuracy)

@@ -33,11 +33,11 @@ class HessBody:
     Parameters
     ----------
     I22 : float
-        Moment of inertia, I22 > 0.
+        Moment of inertia about the second axis, I22 > 0; its unit is the unit I of moments of inertia.
     I23 : float
-        Product of inertia.
+        Product of inertia, any finite number, in units I; |I23| < I22 for a rigid body.
     b3 : float
-        Third component of the centre of mass times the weight, **b** = mg **r**.
+        Third component of the centre of mass times the weight, **b** = mg **r**; any finite number, in units I/T².
 
     Raises
     ------
@@ -70,7 +70,7 @@ class HessBody:
 
     @property
     def a(self) -> float:
-        """The coupling a = I23/I22."""
+        """The inertia parameter a = I23/I22."""
         return self.I23 / self.I22
 
     @property
@@ -116,7 +116,7 @@ class HessBody:
         Parameters
         ----------
         I33 : float
-            The third moment of inertia, which the equations do not contain.
+            The third moment of inertia, positive, in units I; the equations do not contain it.
 
         Returns
         -------
@@ -142,7 +142,13 @@ class HessBody:
 
     @property
     def frequency_unit(self) -> float:
-        """The unit of frequency √|b|: in units b = 1 time is t√|b| and angular velocity w/√|b|.  Raises `NoField`."""
+        """The unit of frequency √|b|: in units b = 1 time is t√|b| and angular velocity w/√|b|.
+
+        Raises
+        ------
+        NoField
+            If b = 0.
+        """
         if self.b == 0.0:
             raise NoField("b3 = 0: without a field h and f have no unit. Choose a nonzero b3.")
         return math.sqrt(abs(self.b))
@@ -237,7 +243,20 @@ class HessBody:
 
 
 def field(y: Sequence[Any], p: Sequence[Any]) -> tuple[Any, ...]:
-    """Return the right-hand side of the reduced equations (`eq01`)."""
+    """Return the right-hand side of the reduced equations (`eq01`).
+
+    Parameters
+    ----------
+    y : sequence, shape (5,)
+        State (w1, w2, n1, n2, n3): numbers, arrays or symbols.
+    p : sequence, shape (2,)
+        Parameters (a, b).
+
+    Returns
+    -------
+    tuple of length 5
+        Rates of the state.
+    """
     w1, w2, n1, n2, n3 = y
     a, b = p
     return (
@@ -250,7 +269,20 @@ def field(y: Sequence[Any], p: Sequence[Any]) -> tuple[Any, ...]:
 
 
 def integrals(y: Sequence[Any], p: Sequence[Any]) -> Mapping[str, Any]:
-    """Return the energy E, F1 = n² and the area integral F2 = w1 n1 + w2 n2 (`eq03`)."""
+    """Return the energy E, F1 = n² and the area integral F2 = w1 n1 + w2 n2 (`eq03`).
+
+    Parameters
+    ----------
+    y : sequence, shape (5,)
+        State (w1, w2, n1, n2, n3): numbers, arrays or symbols.
+    p : sequence, shape (2,)
+        Parameters (a, b).
+
+    Returns
+    -------
+    mapping of str to object
+        Values of the integrals, by name.
+    """
     w1, w2, n1, n2, n3 = y
     _, b = p
     return {
@@ -261,7 +293,20 @@ def integrals(y: Sequence[Any], p: Sequence[Any]) -> Mapping[str, Any]:
 
 
 def frequency(y: Array, p: Array) -> Array | float:
-    """Return ν = √(w² + 4|b||n|), an upper bound on |w| along the motion, of a state (5,) or of states (5, n)."""
+    """Return ν = √(w² + 4|b||n|), an upper bound on |w| along the motion.
+
+    Parameters
+    ----------
+    y : ndarray, shape (5,) or (5, n)
+        One or several states.
+    p : ndarray, shape (2,)
+        Parameters (a, b).
+
+    Returns
+    -------
+    float or ndarray, shape (n,)
+        The bound of each state, in rad/T.
+    """
     nu: Array | float = np.sqrt(y[0] ** 2 + y[1] ** 2 + 4 * abs(p[1]) * np.sqrt(y[2] ** 2 + y[3] ** 2 + y[4] ** 2))
     return nu
 

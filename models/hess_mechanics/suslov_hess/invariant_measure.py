@@ -51,23 +51,50 @@ class InvariantMeasure:
     Attributes
     ----------
     zeta : float
-        The fixed point ζ, which is real.
+        The fixed point ζ, real, −1 < ζ < 1.
     gap : float
-        1 − |ζ|, accurate also if ζ rounds to ±1.
+        1 − |ζ|, positive, accurate also if ζ rounds to ±1.
     """
 
     zeta: float
     gap: float
 
     def density(self, phi: Array | Sequence[float]) -> Array:
-        """Return p(φ), per radian; same shape as φ."""
+        """Return the invariant density p(φ).
+
+        Parameters
+        ----------
+        phi : array_like
+            Angles φ, in radians.
+
+        Returns
+        -------
+        ndarray
+            Density per radian, of the shape of φ.
+        """
         half = 0.5 * (np.asarray(phi, float) - (math.pi if self.zeta < 0.0 else 0.0))
         square = self.gap * self.gap + 4.0 * (1.0 - self.gap) * np.sin(half) ** 2
         return np.asarray(self.gap * (2.0 - self.gap) / (2.0 * math.pi * square))
 
 
 def invariant_measure(theta: CircleMap) -> InvariantMeasure:
-    """Return the invariant measure of an elliptic circle map.  Raises `InvalidParameter` for other maps."""
+    """Return the invariant measure of an elliptic circle map.
+
+    Parameters
+    ----------
+    theta : CircleMap
+        The circle map.
+
+    Returns
+    -------
+    InvariantMeasure
+        The measure.
+
+    Raises
+    ------
+    InvalidParameter
+        If the map has limit cycles.
+    """
     if theta.kind != "elliptic":
         raise InvalidParameter(
             f"At a = {theta.a:g}, h = {theta.h:g}, f = {theta.f:g} the circle map has limit cycles, and no invariant "
@@ -88,12 +115,31 @@ _NARROWEST = 1e-4
 
 
 def zeta_at(theta: CircleMap, times: Sequence[float] | Array, accuracy: Accuracy) -> Complex:
-    """Return ζ_s (m,) of a torus whose density can be drawn, at the times s ≥ 0 (m,) since a return, in units b = 1.
+    """Return the points ζ_s that determine the invariant density of a torus at times s since a return.
 
-    It follows from three orbits whose hyperbolic directions from ζ are 120° apart: their directions from ζ_s stay 120°
+    They follow from three orbits whose hyperbolic directions from ζ are 120° apart: their directions from ζ_s stay 120°
     apart, because a Möbius map conserves cross-ratios.
-    Raises `InvalidParameter` if there is no density (limit cycles), at f = 0, where w vanishes at the return, and if
-    the density is too narrow; `WorkLimit`.
+
+    Parameters
+    ----------
+    theta : CircleMap
+        The circle map of the torus.
+    times : array_like, shape (m,)
+        Times s ≥ 0, in units b = 1.
+    accuracy : str or Level
+        Accuracy level.
+
+    Returns
+    -------
+    ndarray of complex, shape (m,)
+        Points ζ_s of the unit disk.
+
+    Raises
+    ------
+    InvalidParameter
+        If the map has limit cycles, f = 0, or the density is too narrow to draw.
+    WorkLimit
+        If an orbit needs too many steps.
     """
     measure = invariant_measure(theta)
     narrow = InvalidParameter("The density lies almost on one line: choose a smaller |a| or another torus.")
@@ -106,10 +152,10 @@ def zeta_at(theta: CircleMap, times: Sequence[float] | Array, accuracy: Accuracy
         raise jumps
     turning = turning_points(theta.h, theta.f)
     starts = np.angle((_CUBE_ROOTS + measure.zeta) / (1.0 + measure.zeta * _CUBE_ROOTS))
-    found = [
+    orbits = [
         solve(SYSTEM.at((theta.a, 1.0)), turning.state_at_lower_turn(phi), times, accuracy) for phi in starts.tolist()
     ]
-    w1, w2 = np.stack([orbit.states[:, :2] for orbit in found]).transpose(2, 0, 1)
+    w1, w2 = np.stack([orbit.states[:, :2] for orbit in orbits]).transpose(2, 0, 1)
     size = np.hypot(w1, w2)
     if not size.all():
         raise jumps
@@ -117,7 +163,7 @@ def zeta_at(theta: CircleMap, times: Sequence[float] | Array, accuracy: Accuracy
     one, two, three = _CUBE_ROOTS
     ratio = one * (two - three) / (three * (two - one)) * (z2 - z1) / (z2 - z3)
     zeta = (z1 - ratio * z3) / (1.0 - ratio)
-    error = max(orbit.error_estimate for orbit in found)
+    error = max(orbit.error_estimate for orbit in orbits)
     if np.min(1.0 - np.abs(zeta)) < max(_NARROWEST, 10.0 * error):
         raise narrow
     return frozen(zeta)
@@ -128,10 +174,28 @@ CELLS = (120, 120)
 
 
 def density_on_torus(theta: CircleMap, accuracy: Accuracy, cells: tuple[int, int] = CELLS) -> Array:
-    """Return the density at the centres of the cells (m, n) of the torus, relative to a uniform one; shape (n, m).
+    """Return the invariant density over a torus, relative to a uniform one.
 
-    Rows have equal φ and columns equal σ = 2πs/T, both from −π to π; σ = 0 at the return.  The mean is 1.
-    Raises as `zeta_at`.
+    Parameters
+    ----------
+    theta : CircleMap
+        The circle map of the torus.
+    accuracy : str or Level
+        Accuracy level.
+    cells : (int, int), default CELLS
+        Number of cells (m, n) along σ = 2πs/T and along φ; m is rounded to an even number.
+
+    Returns
+    -------
+    ndarray, shape (n, m)
+        Density at the centres of the cells, σ and φ from −π to π, σ = 0 at the return; the mean is 1.
+
+    Raises
+    ------
+    InvalidParameter
+        As `zeta_at`.
+    WorkLimit
+        As `zeta_at`.
     """
     m, n = 2 * max(1, cells[0] // 2), cells[1]
     zeta = zeta_at(theta, (np.arange(m) + 0.5) / m * theta.period, accuracy)[:, None]

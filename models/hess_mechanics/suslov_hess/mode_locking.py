@@ -1,7 +1,8 @@
 """Mode locking of the circle map: the rotation number over (h, f), and the boundary |t| = 2 of the lock zone.
 
-A Möbius map locks at integers only, and here at 0 only (section 2 of proofs.md).  The lock zone ends on the
-bifurcation curve (`Geq3`) at h* = (1−2a²)/(2a√(1+a²)) and at the point (1, 0).
+The lock zone is the Arnold tongue of the rotation number 0.  A Möbius map locks at integers only, and here at 0 only
+(section 2 of proofs.md).  The lock zone ends on the bifurcation curve (`Geq3`) at h* = (1−2a²)/(2a√(1+a²)) and at the
+point (1, 0).
 """
 
 from __future__ import annotations
@@ -59,16 +60,16 @@ def _rising_roots(function: Callable[[Array], Array], low: Array, high: Array) -
 
 
 def lock_boundary(a: float, accuracy: Accuracy, points: int = 48) -> Array:
-    """Return the boundary |t| = 2 of the lock zone, for f ≥ 0.
+    """Return the boundary |t| = 2 of the lock zone (the Arnold tongue of ρ = 0), for f ≥ 0.
 
     Parameters
     ----------
     a : float
-        The coupling a = I23/I22, |a| ≤ 1e5.
-    accuracy : Level or str
-        Accuracy level or its name, see `accuracy`.
+        Inertia parameter a = I23/I22, |a| ≤ 1e5.
+    accuracy : str or Level
+        Accuracy level or its name, see `level`.
     points : int, optional
-        Number of points.
+        Number of points, 3 to 100 000.
 
     Returns
     -------
@@ -110,8 +111,30 @@ def lock_boundary(a: float, accuracy: Accuracy, points: int = 48) -> Array:
 
 
 def critical_each(h: Array, f: Array, accuracy: Accuracy, high: float) -> Array:
-    """Return `critical_a` of possible tori (h, f), each (n,); NaN where there is none below `high`."""
-    level, found = as_level(accuracy), np.full(h.size, np.nan)
+    """Return `critical_a` of possible tori.
+
+    Parameters
+    ----------
+    h : ndarray, shape (n,)
+        Energies, in units b = 1.
+    f : ndarray, shape (n,)
+        Area integrals, |f| ≤ f_max(h), in units b = 1.
+    accuracy : str or Level
+        Accuracy level.
+    high : float
+        Upper end of the search interval (0, high).
+
+    Returns
+    -------
+    ndarray, shape (n,)
+        Values of a; NaN where there is none below `high`.
+
+    Raises
+    ------
+    WorkLimit
+        If a torus needs too many steps.
+    """
+    level, result = as_level(accuracy), np.full(h.size, np.nan)
 
     def locked(a: Array) -> Array:
         return _locked(a, h[own], f[own], level)
@@ -119,8 +142,8 @@ def critical_each(h: Array, f: Array, accuracy: Accuracy, high: float) -> Array:
     low, top = np.full(h.size, 1e-9), np.full(h.size, high)
     own = np.arange(h.size)
     own = np.flatnonzero((locked(low) < 0.0) & (locked(top) > 0.0))
-    found[own] = _rising_roots(locked, low[own], top[own])
-    return found
+    result[own] = _rising_roots(locked, low[own], top[own])
+    return result
 
 
 def critical_a(h: float, f: float, accuracy: Accuracy, high: float = 10.0) -> float:
@@ -129,18 +152,18 @@ def critical_a(h: float, f: float, accuracy: Accuracy, high: float = 10.0) -> fl
     Parameters
     ----------
     h : float
-        The energy, in units b = 1.
+        Energy, −1 < h ≤ 1e12, in units b = 1.
     f : float
-        The area integral, in units b = 1.
-    accuracy : Level or str
-        Accuracy level or its name, see `accuracy`.
+        Area integral, |f| ≤ f_max(h), in units b = 1.
+    accuracy : str or Level
+        Accuracy level or its name, see `level`.
     high : float, optional
-        Upper end of the search interval (0, high).
+        Upper end of the search interval (0, high), at most 1e6.
 
     Returns
     -------
     float
-        The critical coupling a.
+        The critical inertia parameter a, 0 < a < high.
 
     Raises
     ------
@@ -160,10 +183,10 @@ def critical_a(h: float, f: float, accuracy: Accuracy, high: float = 10.0) -> fl
     """
     check_a(high)
     turning_points(h, f)
-    found = float(critical_each(np.array([h], float), np.array([f], float), accuracy, high)[0])
-    if math.isnan(found):
+    a = float(critical_each(np.array([h], float), np.array([f], float), accuracy, high)[0])
+    if math.isnan(a):
         raise InvalidParameter(f"No lock boundary crosses this h and f between a = 0 and a = {high:g}.")
-    return found
+    return a
 
 
 CELLS = (100, 75)
@@ -171,7 +194,20 @@ CELLS = (100, 75)
 
 
 def affordable_cells(a: float, cells: tuple[int, int]) -> tuple[int, int]:
-    """Return fewer cells (m, n) if a large |a| makes each one expensive, but at least 8 × 8."""
+    """Return fewer cells if a large |a| makes each one expensive, but at least 8 × 8.
+
+    Parameters
+    ----------
+    a : float
+        Inertia parameter a.
+    cells : (int, int)
+        Number of cells across and up, (m, n).
+
+    Returns
+    -------
+    (int, int)
+        The reduced numbers.
+    """
     share_ = min(1.0, math.sqrt(10.0 / max(abs(a), 1e-9)))
     m, n = (max(8, round(size * share_)) for size in cells)
     return m, n
@@ -180,11 +216,36 @@ def affordable_cells(a: float, cells: tuple[int, int]) -> tuple[int, int]:
 def rotation_number_window(
     a: float, h: tuple[float, float], f: tuple[float, float], accuracy: Accuracy, cells: tuple[int, int] = CELLS
 ) -> Array:
-    """Return ρ at the centres of the cells (m, n) of a window, shape (n, m).
+    """Return the rotation numbers at the centres of the cells of a window of (h, f).
 
     Cells outside the region have the value at its edge (same h), so that a plot can be clipped along the bifurcation
     curve; the separatrix (1, 0), which has no return, has the limit f → 0 at h = 1.  ρ is odd in f, so only |f| is
-    computed, by two threads.  Raises `InvalidParameter`, `WorkLimit`.
+    computed, by two threads.
+
+    Parameters
+    ----------
+    a : float
+        Inertia parameter a, |a| ≤ 1e6.
+    h : (float, float)
+        Range of h, in units b = 1.
+    f : (float, float)
+        Range of f, in units b = 1.
+    accuracy : str or Level
+        Accuracy level.
+    cells : (int, int), default CELLS
+        Number of cells across and up, (m, n).
+
+    Returns
+    -------
+    ndarray, shape (n, m)
+        Rotation numbers, in turns per return.
+
+    Raises
+    ------
+    InvalidParameter
+        If a is not finite or too large.
+    WorkLimit
+        If a torus needs too many steps.
     """
     level = as_level(accuracy)
     check_a(a)

@@ -61,7 +61,6 @@ __all__ = [
     "UNDECIDED",
     "Proof",
     "ProofStep",
-    "check_possible",
     "prove",
 ]
 
@@ -85,11 +84,11 @@ class ProofStep:
     Attributes
     ----------
     start : Fraction
-        The value of s at which the step starts; it ends at the start of the next step, or at π.
+        The value of s at which the step starts, 0 to π; it ends at the start of the next step, or at π.
     radius : Fraction
-        Radius r of the disc |s − start| ≤ r.
+        Radius r of the disc |s − start| ≤ r, positive.
     bound : Fraction
-        Bound K of the coefficients on the disc.
+        Upper bound K on the coefficients on the disc.
     terms : int
         Number N of terms.
     matrix : tuple of Enclosure
@@ -110,11 +109,11 @@ class Proof(Printed):
     Attributes
     ----------
     a : Fraction
-        The coupling.
+        Inertia parameter, |a| ≤ 1e6.
     h : Fraction
-        The energy.
+        Energy, −1 < h ≤ 1e12.
     f : Fraction
-        The area integral.
+        Area integral.
     statement : str
         `TWO_CYCLES` (|t| > 2), `NO_CYCLE` (|t| < 2) or `UNDECIDED`.
     trace : Enclosure
@@ -132,7 +131,7 @@ class Proof(Printed):
     steps : tuple of ProofStep
         The Taylor steps.
     bits : int
-        Precision in bits.
+        Precision in bits, 64 to 512.
     seconds : float
         Wall time in seconds.
 
@@ -183,15 +182,15 @@ def prove(
     Parameters
     ----------
     a : str, float or Fraction
-        The coupling a = I23/I22, |a| ≤ 1e6, taken as exact, see `balls.exact`.
+        Inertia parameter a = I23/I22, |a| ≤ 1e6, taken as exact, see `balls.exact`.
     h : str, float or Fraction
-        The energy, −1 < h ≤ 1e12, in units b = 1, taken as exact.
+        Energy, −1 < h ≤ 1e12, in units b = 1, taken as exact.
     f : str, float or Fraction
-        The area integral, in units b = 1, taken as exact.
+        Area integral, |f| ≤ f_max(h), in units b = 1, taken as exact.
     most_bits : int, optional
-        Largest precision in bits.
+        Largest precision in bits, at least 64.
     most_work : float, optional
-        Largest number of Taylor steps times the square of their terms, at one precision.
+        Largest number of Taylor steps times the square of their terms, at one precision; positive.
     digits : int, optional
         Number of decimal digits to which |t| is enclosed.
 
@@ -232,13 +231,13 @@ def prove(
     """
     begun = time.perf_counter()
     at = exact("a", a), exact("h", h), exact("f", f)
-    check_possible(*at)
+    _require_torus(*at)
     if _discriminant(*at[1:]) == 0:
         return prove_edge(*at)
     if at[2] == 0 and at[1] < 1:
         with working(FIRST_BITS):
             return _oscillation(*at, begun)
-    bits, found = FIRST_BITS, None
+    bits, proof = FIRST_BITS, None
     while True:
         with working(bits):
             turns = _turns(at[1], at[2], bits)
@@ -247,30 +246,32 @@ def prove(
                 plan.append(step)
                 work += step[2] ** 2
                 if work > most_work:
-                    if found is None:
+                    if proof is None:
                         raise WorkLimit(
                             f"This proof needs more than {len(plan)} steps: choose smaller |a|, or (h, f) "
                             "farther from (1, 0)."
                         )
-                    return found
-            found = _proof(at, turns, plan, bits, begun)
-        known = found.trace.precision < 10.0**-digits and found.rotation_number is not None
-        if (known and found.statement != UNDECIDED) or 2 * bits > most_bits:
-            return found
+                    return proof
+            proof = _proof(at, turns, plan, bits, begun)
+        known = proof.trace.precision < 10.0**-digits and proof.rotation_number is not None
+        if (known and proof.statement != UNDECIDED) or 2 * bits > most_bits:
+            return proof
         bits *= 2
 
 
-def check_possible(a: Fraction, h: Fraction, f: Fraction) -> None:
-    """Check that motions with exactly this (h, f) exist, from the sign of the discriminant of 2(h + n)(1 − n²) − f².
+def _require_torus(a: Fraction, h: Fraction, f: Fraction) -> None:
+    """Raise an error unless motions with exactly this (h, f) exist.
+
+    The sign of the discriminant of 2(h + n)(1 − n²) − f² decides.
 
     Parameters
     ----------
     a : Fraction
-        The coupling.
+        Inertia parameter.
     h : Fraction
-        The energy, in units b = 1.
+        Energy, in units b = 1.
     f : Fraction
-        The area integral, in units b = 1.
+        Area integral, in units b = 1.
 
     Raises
     ------

@@ -75,18 +75,50 @@ _MARGIN = 0.03
 
 @dataclass(frozen=True)
 class Torus:
-    """Parameters (a, h, f) of one torus, in units b = 1."""
+    """Parameters of one torus, in units b = 1.
+
+    Parameters
+    ----------
+    a : float
+        Inertia parameter a = I23/I22, |a| ≤ 1e6.
+    h : float
+        Energy; motion needs h > −1.
+    f : float
+        Area integral; motion needs |f| ≤ f_max(h).
+    """
 
     a: float
     h: float
     f: float
 
     def at(self, **values: float) -> Torus:
-        """Return the torus with some parameters replaced."""
+        """Return the torus with some parameters replaced.
+
+        Parameters
+        ----------
+        **values : float
+            New values of a, h or f, by name.
+
+        Returns
+        -------
+        Torus
+            The other torus.
+        """
         return Torus(**{**vars(self), **values})
 
     def range_of(self, name: str) -> tuple[float, float]:
-        """Return the range of the parameter `name` ("a", "h" or "f") for which motion is possible, given the others."""
+        """Return the range of a parameter for which motion is possible, given the others.
+
+        Parameters
+        ----------
+        name : str
+            Name of the parameter, "a", "h" or "f".
+
+        Returns
+        -------
+        (float, float)
+            Smallest and largest value; ±∞ where there is no limit.
+        """
         if name == "h":
             return h_min(self.f), math.inf
         last = math.inf if name == "a" else f_max(self.h) if self.h > -1.0 else 0.0
@@ -95,7 +127,17 @@ class Torus:
 
 @dataclass(frozen=True)
 class ParameterLine:
-    """Tori with the parameter `name` ("a", "h" or "f") between `low` and `high`, and the others from `torus`."""
+    """Tori on a line in the space of parameters: one of them varies.
+
+    Parameters
+    ----------
+    name : str
+        Name of the parameter that varies, "a", "h" or "f".
+    torus : Torus
+        A torus with the values of the other parameters.
+    low, high : float
+        Ends of the line, in units b = 1.
+    """
 
     name: str
     torus: Torus
@@ -108,20 +150,64 @@ class ParameterLine:
         return self.low, self.high
 
     def place(self, torus: Torus) -> float:
-        """Return the value of the parameter for a torus."""
+        """Return the value of the varying parameter for a torus.
+
+        Parameters
+        ----------
+        torus : Torus
+            The torus.
+
+        Returns
+        -------
+        float
+            The value.
+        """
         return float(vars(torus)[self.name])
 
     def places(self, count: int) -> Array:
-        """Return equidistant values of the parameter (count,), both ends included."""
+        """Return equidistant values of the varying parameter, both ends included.
+
+        Parameters
+        ----------
+        count : int
+            Number of values.
+
+        Returns
+        -------
+        ndarray, shape (count,)
+            The values.
+        """
         return np.linspace(self.low, self.high, count)
 
     def tori(self, values: Array | float) -> dict[str, Any]:
-        """Return a, h and f by name, with these values of the parameter."""
+        """Return all parameters of tori of the line.
+
+        Parameters
+        ----------
+        values : float or ndarray, shape (n,)
+            Values of the varying parameter.
+
+        Returns
+        -------
+        dict
+            Parameters a, h and f, by name.
+        """
         return {**vars(self.torus), self.name: values}
 
 
 def possible_part(line: ParameterLine) -> ParameterLine:
-    """Return the line cut to the values with motion, plus a share `_MARGIN` at each end; uncut if there is none."""
+    """Return the part of a line where motion is possible, with a small margin at each end.
+
+    Parameters
+    ----------
+    line : ParameterLine
+        The line.
+
+    Returns
+    -------
+    ParameterLine
+        The shorter line; the whole line if no motion is possible on it.
+    """
     first, last = line.torus.range_of(line.name)
     low, high = max(line.low, first), min(line.high, last)
     room = _MARGIN * (high - low)
@@ -153,14 +239,28 @@ class TorusValues(Result):
     possible: Mask
 
     def labels(self) -> Labels:
-        """Return all values with names and units, over the index of the torus."""
+        """Return all values with names and units, over the index of the torus.
+
+        Returns
+        -------
+        Labels
+            Rotation number, trace, locking and possibility.
+        """
         named = {"ρ": self.rho, "trace": self.trace, "locked": self.locked, "possible": self.possible}
         return Labels({}, {name: (("torus",), values) for name, values in named.items()}, {"ρ": "turns", "trace": "1"})
 
 
 @dataclass(frozen=True)
 class PeriodicTorus:
-    """A torus with ρ = p/q, and the defect max |Θ^q − id| in radians."""
+    """A torus with a rational rotation number p/q.
+
+    Attributes
+    ----------
+    torus : Torus
+        Its parameters.
+    defect : float
+        Largest |Θ^q(φ) − φ|, in radians; of the size of round-off.
+    """
 
     torus: Torus
     defect: float
@@ -175,7 +275,27 @@ def _together(*numbers: Array | float) -> Iterator[Array]:
 
 
 def values_at(a: Array | float, h: Array | float, f: Array | float, accuracy: Accuracy) -> TorusValues:
-    """Return ρ, |t| and locking of tori (a, h, f), arrays (n,) or numbers.  Raises `InvalidParameter`, `WorkLimit`."""
+    """Return rotation number, trace and locking of tori.
+
+    Parameters
+    ----------
+    a, h, f : float or array_like, shape (n,)
+        Parameters in units b = 1; arrays are broadcast against each other.
+    accuracy : str or Level
+        Accuracy level.
+
+    Returns
+    -------
+    TorusValues
+        The values, NaN where no motion is possible.
+
+    Raises
+    ------
+    InvalidParameter
+        If a value is not finite, or |a| or |h| is too large.
+    WorkLimit
+        If there are more than a million tori, or one needs too many steps.
+    """
     level = as_level(accuracy)
     a, h, f = _together(a, h, f)
     if a.ndim != 1 or a.size > MAX_POINTS:
@@ -196,9 +316,28 @@ def values_at(a: Array | float, h: Array | float, f: Array | float, accuracy: Ac
 
 
 def rotation_errors(a: Array | float, h: Array | float, f: Array | float, accuracy: Accuracy) -> Array:
-    """Return estimated errors (n,) of ρ from `values_at`; NaN if there is no torus.
+    """Return estimated errors of the rotation numbers of `values_at`.
 
-    They compare ρ with that of the `neighbours` at a hundredth of the tolerance.  Raises as `values_at`.
+    They compare ρ with that of the `neighbours` at a hundredth of the tolerance.
+
+    Parameters
+    ----------
+    a, h, f : float or array_like, shape (n,)
+        Parameters in units b = 1; arrays are broadcast against each other.
+    accuracy : str or Level
+        Accuracy level.
+
+    Returns
+    -------
+    ndarray, shape (n,)
+        Errors in turns per return; NaN if there is no torus.
+
+    Raises
+    ------
+    InvalidParameter
+        As `values_at`.
+    WorkLimit
+        As `values_at`.
     """
     level = as_level(accuracy)
     energies, fs = np.broadcast_arrays(*np.atleast_1d(h, f))
@@ -208,9 +347,32 @@ def rotation_errors(a: Array | float, h: Array | float, f: Array | float, accura
 
 
 def lock_curve(plane: str, torus: Torus, window: Sequence[float], accuracy: Accuracy, points: int = 48) -> Array:
-    """Return the boundary |t| = 2 in a plane of `PLANES` through the torus, for x0 … x1 of `window`; shape (n, 2).
+    """Return the boundary |t| = 2 of the Arnold tongue, in a plane of parameters through a torus.
 
-    In (h, f) it is `lock_boundary`, f ≥ 0; in the other planes a(h) or a(f), where it exists.
+    Parameters
+    ----------
+    plane : str
+        One of `PLANES`.
+    torus : Torus
+        The torus.
+    window : sequence of float
+        Range x0, x1 of the horizontal axis; further numbers are ignored.
+    accuracy : str or Level
+        Accuracy level.
+    points : int, default 48
+        Number of points.
+
+    Returns
+    -------
+    ndarray, shape (n, 2)
+        Points of the boundary: in (h, f) that of `lock_boundary`, f ≥ 0, otherwise a over h or f, where it exists.
+
+    Raises
+    ------
+    InvalidParameter
+        If a parameter is out of range.
+    WorkLimit
+        If a torus needs too many steps.
     """
     x0, x1 = window[:2]
     if plane == "h, f":
@@ -236,9 +398,30 @@ def _abscissas(plane: str, torus: Torus, x0: float, x1: float, points: int) -> A
 def perturbed_rotation(
     a: Array | float, h: Array | float, f: Array | float, epsilon: float, accuracy: Accuracy, count: int = TURNS
 ) -> Array:
-    """Return ρ (n,) of Θ_ε for tori (a, h, f), arrays (n,) or numbers, by a weighted average over `count` returns.
+    """Return the rotation numbers of the perturbed maps Θ_ε of tori, by weighted averages.
 
-    Raises `InvalidParameter` (|ε| ≥ 1/3), `WorkLimit`.
+    Parameters
+    ----------
+    a, h, f : float or array_like, shape (n,)
+        Parameters in units b = 1; arrays are broadcast against each other.
+    epsilon : float
+        Strength ε of the perturbation, |ε| < 1/3.
+    accuracy : str or Level
+        Accuracy level.
+    count : int, default TURNS
+        Number of returns over which ρ is averaged.
+
+    Returns
+    -------
+    ndarray, shape (n,)
+        Rotation numbers in turns per return.
+
+    Raises
+    ------
+    InvalidParameter
+        If |ε| ≥ 1/3, or the arrays have different shapes.
+    WorkLimit
+        If a torus needs too many steps.
     """
     level = as_level(accuracy)
     require_finite(epsilon=epsilon)
@@ -264,7 +447,29 @@ def perturbed_rotation(
 
 
 def place_of(rho: float, line: ParameterLine, accuracy: Accuracy) -> float | None:
-    """Return a value of the parameter of a line with this ρ, or None."""
+    """Return a value of the parameter of a line at which ρ has a given value.
+
+    Parameters
+    ----------
+    rho : float
+        Rotation number, in turns per return.
+    line : ParameterLine
+        The line.
+    accuracy : str or Level
+        Accuracy level.
+
+    Returns
+    -------
+    float or None
+        The value; None if 121 points of the line show none.
+
+    Raises
+    ------
+    InvalidParameter
+        As `values_at`.
+    WorkLimit
+        As `values_at`.
+    """
     x, values = line.places(121), along(line, 121, accuracy)
     excess = values.rho - rho
     both = values.possible[1:] & values.possible[:-1]
@@ -286,7 +491,27 @@ def place_of(rho: float, line: ParameterLine, accuracy: Accuracy) -> float | Non
 
 
 def return_error(torus: Torus, q: int, accuracy: Accuracy) -> float:
-    """Return max |Θ^q(φ) − φ| over 64 phases, in radians: round-off if every orbit closes after q returns."""
+    """Return the largest |Θ^q(φ) − φ| over 64 phases, which is round-off if every orbit closes after q returns.
+
+    Parameters
+    ----------
+    torus : Torus
+        The torus.
+    q : int
+        Number of returns, positive.
+    accuracy : str or Level
+        Accuracy level.
+
+    Returns
+    -------
+    float
+        The error, in radians.
+
+    Raises
+    ------
+    OutsideRegion
+        If no motion has these parameters.
+    """
     theta = circle_map(torus.a, torus.h, torus.f, accuracy)
     phi = np.linspace(-math.pi, math.pi, 64, endpoint=False)
     image = phi
@@ -298,9 +523,34 @@ def return_error(torus: Torus, q: int, accuracy: Accuracy) -> float:
 def rows(
     plane: str, torus: Torus, window: Window, cells: tuple[int, int], first: int, last: int, accuracy: Accuracy
 ) -> TorusValues:
-    """Return `values_at` the centres of the cells (m, n) of a window of a plane, for the rows first … last − 1.
+    """Return the values of the tori at the centres of some rows of cells, in a window of a plane of parameters.
 
-    The result is flat, row after row: (last − first) × m values.
+    Parameters
+    ----------
+    plane : str
+        One of `PLANES`.
+    torus : Torus
+        Torus with the value of the third parameter.
+    window : ((float, float), (float, float))
+        Ranges of the horizontal and the vertical axis.
+    cells : (int, int)
+        Number of cells across and up, (m, n).
+    first, last : int
+        The rows are first, …, last − 1.
+    accuracy : str or Level
+        Accuracy level.
+
+    Returns
+    -------
+    TorusValues
+        Values row after row, (last − first) × m of each.
+
+    Raises
+    ------
+    InvalidParameter
+        As `values_at`.
+    WorkLimit
+        As `values_at`.
     """
     return values_at(**_tori(plane, torus, window, cells, slice(first, last)), accuracy=accuracy)
 
@@ -314,14 +564,49 @@ def _tori(plane: str, torus: Torus, window: Window, cells: tuple[int, int], own:
 
 
 def rows_error(plane: str, torus: Torus, window: Window, accuracy: Accuracy) -> float:
-    """Return the 99 % quantile of the estimated error of ρ over a window, from 30 × 20 cells; 0 if none is possible."""
+    """Return the 99 % quantile of the estimated error of ρ over a window, from 30 × 20 cells.
+
+    Parameters
+    ----------
+    plane : str
+        One of `PLANES`.
+    torus : Torus
+        Torus with the value of the third parameter.
+    window : ((float, float), (float, float))
+        Ranges of the horizontal and the vertical axis.
+    accuracy : str or Level
+        Accuracy level.
+
+    Returns
+    -------
+    float
+        The error in turns per return; 0 if no torus is possible.
+
+    Raises
+    ------
+    InvalidParameter
+        As `values_at`.
+    WorkLimit
+        As `values_at`.
+    """
     errors = rotation_errors(**_tori(plane, torus, window, (30, 20), slice(None)), accuracy=accuracy)
     known = errors[np.isfinite(errors)]
     return float(np.quantile(known, 0.99)) if known.size else 0.0
 
 
 def together(parts: Sequence[TorusValues]) -> TorusValues:
-    """Return the parts of one map, concatenated."""
+    """Return the parts of one map as one.
+
+    Parameters
+    ----------
+    parts : sequence of TorusValues
+        Values of successive rows.
+
+    Returns
+    -------
+    TorusValues
+        All values, in this order.
+    """
     return TorusValues(
         *(
             frozen(np.concatenate([getattr(part, name) for part in parts]))
@@ -331,14 +616,62 @@ def together(parts: Sequence[TorusValues]) -> TorusValues:
 
 
 def along(line: ParameterLine, count: int, accuracy: Accuracy) -> TorusValues:
-    """Return `values_at` equidistant points of a line."""
+    """Return the values of equidistant tori of a line.
+
+    Parameters
+    ----------
+    line : ParameterLine
+        The line.
+    count : int
+        Number of tori.
+    accuracy : str or Level
+        Accuracy level.
+
+    Returns
+    -------
+    TorusValues
+        The values, in the order of the parameter.
+
+    Raises
+    ------
+    InvalidParameter
+        As `values_at`.
+    WorkLimit
+        As `values_at`.
+    """
     return values_at(**line.tori(line.places(count)), accuracy=accuracy)
 
 
 def perturbations_along(
     line: ParameterLine, count: int, epsilon: float, accuracy: Accuracy, turns: int = TURNS
 ) -> Array:
-    """Return `perturbed_rotation` at equidistant points of a line, (count,); NaN if there is no torus."""
+    """Return the perturbed rotation numbers of equidistant tori of a line.
+
+    Parameters
+    ----------
+    line : ParameterLine
+        The line.
+    count : int
+        Number of tori.
+    epsilon : float
+        Strength ε of the perturbation, |ε| < 1/3.
+    accuracy : str or Level
+        Accuracy level.
+    turns : int, default TURNS
+        Number of returns over which ρ is averaged.
+
+    Returns
+    -------
+    ndarray, shape (count,)
+        Rotation numbers in turns per return; NaN if there is no torus.
+
+    Raises
+    ------
+    InvalidParameter
+        If |ε| ≥ 1/3, or as `values_at`.
+    WorkLimit
+        As `values_at`.
+    """
     x, possible = line.places(count), along(line, count, accuracy).possible
     out = np.full(count, np.nan)
     if possible.any():
@@ -347,16 +680,51 @@ def perturbations_along(
 
 
 def periodic_torus(rho: Fraction, line: ParameterLine, accuracy: Accuracy) -> PeriodicTorus | None:
-    """Return the torus of a line with this ρ, or None if none is found."""
+    """Return a torus of a line that has a given rational rotation number.
+
+    Parameters
+    ----------
+    rho : Fraction
+        Rotation number, in turns per return.
+    line : ParameterLine
+        The line.
+    accuracy : str or Level
+        Accuracy level.
+
+    Returns
+    -------
+    PeriodicTorus or None
+        The torus with its defect; None if none is found.
+
+    Raises
+    ------
+    InvalidParameter
+        As `values_at`.
+    WorkLimit
+        As `values_at`.
+    """
     place = place_of(float(rho), line, accuracy)
     if place is None:
         return None
-    found = Torus(**line.tori(place))
-    return PeriodicTorus(found, return_error(found, rho.denominator, accuracy))
+    torus = Torus(**line.tori(place))
+    return PeriodicTorus(torus, return_error(torus, rho.denominator, accuracy))
 
 
 def plateaus(rho: Array, possible: Mask) -> list[Fraction]:
-    """Return the rationals that neighbours of a curve ρ (n,) share to 1e-6, in order of their denominators."""
+    """Return the rationals at which a curve of rotation numbers has plateaus, the steps of a devil's staircase.
+
+    Parameters
+    ----------
+    rho : ndarray, shape (n,)
+        Rotation numbers along a line, in turns per return.
+    possible : ndarray of bool, shape (n,)
+        True where motion is possible.
+
+    Returns
+    -------
+    list of Fraction
+        Values that two neighbours share to 1e-6, with denominators up to 12, in order of these.
+    """
     level = np.flatnonzero(possible[1:] & possible[:-1] & (np.abs(np.diff(rho)) < 1e-6))
     steps = [(Fraction(float(rho[i])).limit_denominator(12), float(rho[i])) for i in level]
     near = {step for step, value in steps if abs(float(step) - value) < 1e-5}

@@ -42,13 +42,13 @@ class Track:
     times : ndarray of float, shape (n,)
         Times.
     omega : ndarray of float, shape (n, 2)
-        Angular velocity (ω1, ω2).
+        Angular velocity (ω1, ω2), in rad/T.
     gamma : ndarray of float, shape (n, 3)
         Vertical γ.
     phi : ndarray of float, shape (n,)
-        Angle of (w2, w1) in (−π, π].
+        Angle of (w2, w1) in (−π, π], in radians.
     n3 : ndarray of float, shape (n,)
-        Third component of n.
+        Third component of n, −1 to 1.
     orbit : Orbit
         The reduced orbit in units b = 1.
     """
@@ -75,11 +75,38 @@ def _in_body_units(body: HessBody, orbit: Orbit) -> Track:
 
 
 def start_of_track(body: HessBody, h: float, f: float, phi0: float, duration: float) -> tuple[Array, float]:
-    """Return the initial state (5,) and the time span, in units b = 1, of the orbit that `track` follows.
+    """Return the initial state and the duration, in units b = 1, of the orbit that `track` follows.
 
-    The orbit has the phase φ0 at n3 = n3^(1), and its span is limited to `MAX_RETURNS` periods of n3.  The separatrix
-    (h = 1, f = 0) has no lower turning point: the orbit starts there at the maximum of n3.
-    Raises `OutsideRegion`, `NoField`, `InvalidParameter`.
+    The separatrix (h = 1, f = 0) has no lower turning point: there the orbit starts at the maximum of n3.
+
+    Parameters
+    ----------
+    body : HessBody
+        The body.
+    h : float
+        Energy, h > −1, in units b = 1.
+    f : float
+        Area integral, |f| ≤ f_max(h), in units b = 1.
+    phi0 : float
+        Phase at n3 = n3^(1), in radians.
+    duration : float
+        Time, in the units of the body.
+
+    Returns
+    -------
+    state : ndarray, shape (5,)
+        State (w1, w2, n1, n2, n3).
+    duration : float
+        Time in units b = 1, at most `MAX_RETURNS` periods of n3.
+
+    Raises
+    ------
+    OutsideRegion
+        If no motion has this h and f.
+    NoField
+        If b = 0.
+    InvalidParameter
+        If a number is not finite.
     """
     require_finite(phi0=phi0, span=duration)
     length = duration * body.frequency_unit
@@ -91,9 +118,21 @@ def start_of_track(body: HessBody, h: float, f: float, phi0: float, duration: fl
 
 
 def pixels_per_unit(body: HessBody, half_width: float) -> Array:
-    """Return the pixels per unit of w1, w2, n1, n2, n3 (units b = 1) in plots of `PIXELS`; shape (5,).
+    """Return the pixels per unit of each reduced variable, in units b = 1, in plots of `PIXELS`.
 
     The plots show ω within ± half_width, and γ within the unit circle.
+
+    Parameters
+    ----------
+    body : HessBody
+        The body.
+    half_width : float
+        Largest |ω| of the plot, positive, in rad/T.
+
+    Returns
+    -------
+    ndarray, shape (5,)
+        Pixels per unit of w1, w2, n1, n2, n3.
     """
     radius = 0.5 * PIXELS
     w = radius * body.frequency_unit / half_width
@@ -103,9 +142,38 @@ def pixels_per_unit(body: HessBody, half_width: float) -> Array:
 def track(
     body: HessBody, h: float, f: float, phi0: float, duration: float, accuracy: Accuracy, half_width: float
 ) -> Track:
-    """Return the orbit of `start_of_track` over `duration` (in the time of the body), sampled for `pixels_per_unit`.
+    """Return the orbit of `start_of_track`, sampled for a plot.
 
-    Raises `OutsideRegion`, `NoField`, `InvalidParameter`.
+    Parameters
+    ----------
+    body : HessBody
+        The body.
+    h : float
+        Energy, h > −1, in units b = 1.
+    f : float
+        Area integral, |f| ≤ f_max(h), in units b = 1.
+    phi0 : float
+        Phase at n3 = n3^(1), in radians.
+    duration : float
+        Time, in the units of the body.
+    accuracy : str or Level
+        Accuracy level.
+    half_width : float
+        Largest |ω| of the plot, positive, in rad/T.
+
+    Returns
+    -------
+    Track
+        The orbit, in the units of the body.
+
+    Raises
+    ------
+    OutsideRegion
+        If no motion has this h and f.
+    NoField
+        If b = 0.
+    InvalidParameter
+        If a number is not finite.
     """
     start, length = start_of_track(body, h, f, phi0, duration)
     times = _times(body, start, length, half_width)
@@ -122,8 +190,34 @@ def cycles(
 ) -> tuple[Track, Track]:
     """Return the stable and the unstable limit cycle, each over one period and sampled as in `track`.
 
-    Only the stable cycle is integrated.  The reversor (w1, n1, t) → (−w1, −n1, −t) maps it to the unstable one, which
-    avoids integrating an unstable orbit.
+    Only the stable cycle is integrated.  The reversor (w1, n1, t) → (−w1, −n1, −t) maps it to the unstable one.
+
+    Parameters
+    ----------
+    body : HessBody
+        The body.
+    h : float
+        Energy, h > −1, in units b = 1.
+    f : float
+        Area integral, |f| ≤ f_max(h), in units b = 1.
+    stable : FixedPoint
+        Stable fixed point of the circle map.
+    accuracy : str or Level
+        Accuracy level.
+    half_width : float
+        Largest |ω| of the plot, positive, in rad/T.
+
+    Returns
+    -------
+    (Track, Track)
+        The stable and the unstable cycle.
+
+    Raises
+    ------
+    OutsideRegion
+        If no motion has this h and f.
+    NoField
+        If b = 0.
     """
     turning = turning_points(h, f)
     start = turning.state_at_lower_turn(stable.phi)
@@ -135,9 +229,28 @@ def cycles(
 
 
 def annulus(body: HessBody, h: float, turning: TurningPoints | None) -> tuple[Array, Array]:
-    """Return the inner and the outer ellipse that bound the motion in the (ω1, ω2) plane; shape (181, 2) each.
+    """Return the inner and the outer ellipse that bound the motion in the (ω1, ω2) plane.
 
-    |w|² = 2(h + n3) between the turning points; on the separatrix (`turning` is None) |w|² lies between 0 and 4.
+    |w|² = 2(h + n3) between the turning points; on the separatrix |w|² lies between 0 and 4.
+
+    Parameters
+    ----------
+    body : HessBody
+        The body.
+    h : float
+        Energy, h > −1, in units b = 1.
+    turning : TurningPoints or None
+        Turning points of the torus; None on the separatrix.
+
+    Returns
+    -------
+    tuple of two ndarray, shape (181, 2)
+        Points (ω1, ω2) of both ellipses.
+
+    Raises
+    ------
+    NoField
+        If b = 0.
     """
     inner, outer = (0.0, 2.0) if turning is None else (turning.initial_rho, turning.final_rho)
     s = np.linspace(0.0, 2.0 * math.pi, 181)

@@ -36,9 +36,16 @@ __all__ = ["SECTION", "TorusSection"]
 
 @dataclass(frozen=True)
 class TorusSection(PoincareSection):
-    """Section of the torus (h, f) of the reduced equations with coupling a, units b = 1, with the coordinate φ.
+    """Section of the torus (h, f) of the reduced equations, in units b = 1, with the coordinate φ.
 
-    Raises `OutsideRegion`, `Separatrix`, `InvalidParameter` if there is no torus.
+    Parameters
+    ----------
+    a : float
+        Inertia parameter a = I23/I22, any finite number.
+    h : float
+        Energy, h > −1.
+    f : float
+        Area integral, |f| ≤ f_max(h).
     """
 
     a: float
@@ -90,11 +97,44 @@ class TorusSection(PoincareSection):
         return ""
 
     def at_constant(self, name: str, value: float) -> TorusSection:
-        """Return the section with another value of one constant."""
+        """Return the section with another value of one constant.
+
+        Parameters
+        ----------
+        name : str
+            Name of the constant, "a", "h" or "f".
+        value : float
+            Its new value.
+
+        Returns
+        -------
+        TorusSection
+            The other section.
+        """
         return replace(self, **{name: value})
 
     def states_at(self, phi: Array) -> tuple[Array, Mask]:
-        """Return the states (n, 5) at φ (n,) and the mask of possible states, which is True everywhere."""
+        """Return the states at points of the section.
+
+        Parameters
+        ----------
+        phi : ndarray, shape (n,)
+            Angles φ, in radians.
+
+        Returns
+        -------
+        states : ndarray, shape (n, 5)
+            States (w1, w2, n1, n2, n3).
+        possible : ndarray of bool, shape (n,)
+            True for every finite angle.
+
+        Raises
+        ------
+        OutsideRegion
+            If no motion has this h and f.
+        Separatrix
+            If h = 1 and f = 0.
+        """
         n3 = self.n3
         rho = math.sqrt(2.0 * (self.h + n3))
         along = self.f / rho
@@ -104,7 +144,18 @@ class TorusSection(PoincareSection):
         return np.column_stack([rho * s, rho * c, *gamma]), np.isfinite(s)
 
     def places_of(self, states: Array) -> Array:
-        """Return φ (n, 1) of states (n, 5)."""
+        """Return the points of the section at which given states lie.
+
+        Parameters
+        ----------
+        states : ndarray, shape (n, 5)
+            States of the section.
+
+        Returns
+        -------
+        ndarray, shape (n, 1)
+            Angles φ, in radians.
+        """
         return np.arctan2(states[:, :1], states[:, 1:2])
 
 

@@ -84,7 +84,7 @@ def test_an_orbit_that_arrives_nowhere_is_lost_and_a_place_without_motion_is_now
     found = arrivals(Mapped(top=0.5), sets, np.array([0.1, 0.1]), np.array([0.4, 0.6]))
     assert found.number.tolist() == [numbers_of(sets)[0], NOWHERE]
     assert found.crossings[1] == CROSSINGS
-    kept = sets.kept([True, False, True])
+    kept = sets.subset([True, False, True])
     assert len(kept.states) == 2
     middle = np.array(sets.states[1])
     assert arrivals(Mapped(), kept, middle[:1], middle[1:]).number.tolist() == [LOST]

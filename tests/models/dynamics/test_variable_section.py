@@ -129,7 +129,8 @@ def test_a_uniform_rotation_passes_an_angle_once_a_turn(sense, end):
 
 
 @mark.parametrize(
-    ("angles", "words"), [("q", "the angle q must be a variable"), ("v", "v is no angle: after a full turn the field")]
+    ("angles", "words"),
+    [("q", "the angle q must be a variable"), ("v", "v is not an angle: a full turn changes")],
 )
 def test_what_is_no_angle_is_refused(angles, words):
     with raises(InvalidParameter, match=words):
@@ -215,7 +216,7 @@ def test_a_slow_return_is_waited_for_if_that_is_wished():
 
 def test_an_orbit_diagram_from_outside_of_the_section_is_refused(returns):
     with raises(OutsideRegion, match=r"section at y = 0\.1, py = 5:"):
-        orbit_diagram(returns, "E", [0.08, 0.09], (0.1, 5.0), transient=5, kept=5)
+        orbit_diagram(returns, "E", [0.08, 0.09], (0.1, 5.0), transient=5, crossings=5)
 
 
 @mark.parametrize("place", [0.1, (0.1,), (0.1, 0.2, 0.3), "x", None, (10**400, 0.1)])

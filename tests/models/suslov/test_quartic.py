@@ -105,7 +105,11 @@ test_what_is_no_motion_is_refused = refused(
     (lambda: QuarticBody(1.0, -1.0, 1.0, 1.0), "choose I22 > 0", NotPositiveDefinite),
     (lambda: QuarticBody(1.0, 1.0, 1e-155, 1.0), "no picture can show"),
     (lambda: QuarticBody(1.0, 1.0, 1e-320, 1000.0), "half axes beyond 1e308 and beyond 1e308, which"),
-    (lambda: state_at(RING, (5.0, 0.0), 0.0), "above the level ½: .* Choose a start that is not grey", OutsideRegion),
+    (
+        lambda: state_at(RING, (5.0, 0.0), 0.0),
+        "above the level ½: .* in the region of motion",
+        OutsideRegion,
+    ),
     (lambda: start_on_section(RING, 2.2, 0.99), "No motion crosses the section at q = 2.2, p = 0.99", OutsideRegion),
 )
 
