@@ -47,7 +47,7 @@ def test_version_and_patience(monkeypatch, capsys):
         main(["--version"])
     assert (end.value.code, capsys.readouterr().out.split()[0]) == (0, "hess-explorer")
     monkeypatch.setattr(output, "LONG", 0.01)
-    with output.computing():
+    with output.long_computation():
         time.sleep(0.2)
     assert capsys.readouterr().err == f"{output.PATIENCE}\n"
 

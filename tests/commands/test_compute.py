@@ -119,7 +119,7 @@ def test_a_system_of_ones_own(answer, refusal, tmp_path):
     [
         "import hess_mechanics; assert not unused('numba', 'hess_mechanics.catalogue'); "
         "assert not hasattr(hess_mechanics, 'nothing'); from hess_mechanics import *; circle_map; proved_orbit",
-        "parsed(['serve']); assert not unused('numpy', 'hess_mechanics')",
+        "parse(['serve']); assert not unused('numpy', 'hess_mechanics')",
         f"main({CIRCLE_MAP}); assert not unused('panel', 'bokeh', 'holoviews', 'playwright')",
         "import hess_explorer.server.serving; "
         "assert not unused('holoviews', 'matplotlib', 'panel_material_ui', 'hess_explorer.sweep')",
@@ -128,7 +128,7 @@ def test_a_system_of_ones_own(answer, refusal, tmp_path):
 )
 def test_nothing_is_imported_that_is_not_used(script):
     first = (
-        "import sys; from hess_explorer.__main__ import main, parsed; unused = lambda *names: {*names} & {*sys.modules}"
+        "import sys; from hess_explorer.__main__ import main, parse; unused = lambda *names: {*names} & {*sys.modules}"
     )
     code = [sys.executable, "-c", f"{first}\n{script}"]
     done = subprocess.run(code, cwd=ROOT, capture_output=True, timeout=120, check=False)

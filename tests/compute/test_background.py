@@ -71,7 +71,7 @@ def gate(monkeypatch):
     for work in begun:
         work.stop()
     closed.let(10_000)
-    wait_until(lambda: all(work.left == 0 for work in begun))
+    wait_until(lambda: all(work.backlog == 0 for work in begun))
 
 
 @pytest.fixture
@@ -107,11 +107,11 @@ def test_pieces_are_begun_in_their_order_and_on_all_threads(gate):
         assert gate.begun.acquire(timeout=60.0)
     time.sleep(0.02)
     assert [arguments for _, arguments in gate.calls] == [(n,) for n in range(THREADS)]
-    assert work.left == 10
+    assert work.backlog == 10
     gate.let()
     wait_until(lambda: len(gate.calls) == THREADS + 1)
     assert sorted(arguments for _, arguments in gate.calls) == [(n,) for n in range(THREADS + 1)]
-    assert work.left == 9
+    assert work.backlog == 9
 
 
 def test_added_pieces_follow_those_under_way(gate):
@@ -119,9 +119,9 @@ def test_added_pieces_follow_those_under_way(gate):
     work.follow(tasks(2))
     assert gate.begun.acquire(timeout=60.0)
     work.add(tasks(3, first=2))
-    assert work.left == 5
+    assert work.backlog == 5
     gate.let(5)
-    wait_until(lambda: work.left == 0)
+    wait_until(lambda: work.backlog == 0)
     assert sorted(arguments for _, arguments in gate.calls) == [(n,) for n in range(5)]
     # Also when nothing is under way any more.
     work.add(tasks(1, first=9))
@@ -148,7 +148,7 @@ def test_a_newer_choice_ends_the_older_work(gate):
     work.follow(tasks(3, first=100))
     # No other old work is started.
     gate.let(THREADS + 3)
-    wait_until(lambda: work.left == 0)
+    wait_until(lambda: work.backlog == 0)
     time.sleep(0.02)
     begun = sorted(arguments[0] for _, arguments in gate.calls)
     assert begun == [*range(THREADS), 100, 101, 102]
@@ -183,7 +183,7 @@ def test_a_piece_that_has_begun_ends_when_nobody_wants_it_any_more(endless):
         assert not ended.is_set()
     work.follow(tasks(1, first=60))
     assert ended.wait(60.0)
-    wait_until(lambda: work.left == 0)
+    wait_until(lambda: work.backlog == 0)
     assert work.error == ""
 
 
@@ -193,7 +193,7 @@ def test_a_piece_that_takes_too_long_ends_with_a_sentence(endless, monkeypatch):
     work = Background()
     work.follow([piece])
     assert ended.wait(60.0)
-    wait_until(lambda: work.left == 0)
+    wait_until(lambda: work.backlog == 0)
     assert work.error.startswith("A part of this state takes more than 0.02 s to compute")
     assert "choose a shorter time span" in work.error
 
@@ -201,7 +201,7 @@ def test_a_piece_that_takes_too_long_ends_with_a_sentence(endless, monkeypatch):
 def test_what_is_refused_ends_the_work_with_its_sentence(free_gate):
     work = Background()
     work.follow([*tasks(2), Task(refuse, 7), *tasks(500, first=10)])
-    wait_until(lambda: work.left == 0)
+    wait_until(lambda: work.backlog == 0)
     assert work.error == "7 is refused: choose another."
     assert len(free_gate.calls) < 100
     work.follow(tasks(1))
@@ -211,13 +211,13 @@ def test_what_is_refused_ends_the_work_with_its_sentence(free_gate):
 def test_what_fails_is_logged_and_ends_the_work(free_gate, caplog):
     work = Background()
     work.follow([Task(fail, 7), *tasks(500)])
-    wait_until(lambda: work.left == 0)
+    wait_until(lambda: work.backlog == 0)
     assert work.error == "A part of this state could not be computed. Please report the link."
     assert "fail" in caplog.text
     assert "ZeroDivisionError" in caplog.text
     # The threads live on.
     work.follow(tasks(4, first=900))
-    wait_until(lambda: work.left == 0)
+    wait_until(lambda: work.backlog == 0)
     assert free_gate.peek(square, 903) == 903**2
 
 
@@ -227,8 +227,8 @@ def test_sessions_take_turns(gate):
     wait_until(lambda: len(gate.calls) == THREADS)
     short.follow(tasks(2, first=1000))
     gate.let(12)
-    wait_until(lambda: short.left == 0)
-    assert long.left > 20
+    wait_until(lambda: short.backlog == 0)
+    assert long.backlog > 20
 
 
 # ---- Places in the link -----------------------------------------------------------------------------------------
@@ -284,7 +284,7 @@ def plain(browser, picture):
 
 def completed(browser, requested=1):
     """Return the state after all missing results have been computed."""
-    wait_until(lambda: browser.session.background.left == 0, seconds=60.0)
+    wait_until(lambda: browser.session.background.backlog == 0, seconds=60.0)
     browser.ask(requested)
     return browser.ask(requested)
 
@@ -297,7 +297,7 @@ def test_what_is_found_may_ask_for_more(free_gate):
     wait_until(lambda: completed(browser, 2)["progress"] is None)
     assert "being computed" not in browser.texts["section"]
     assert "mean div = " in browser.texts["section"]
-    assert browser.session.background.left == 0
+    assert browser.session.background.backlog == 0
 
 
 def test_a_section_fills_while_one_asks_for_more(gate):
@@ -308,7 +308,7 @@ def test_a_section_fills_while_one_asks_for_more(gate):
     seen = []
     for done in range(1, 6):
         gate.let()
-        wait_until(lambda done=done: browser.session.background.left == PIECES - done)
+        wait_until(lambda done=done: browser.session.background.backlog == PIECES - done)
         state = browser.ask(1)
         assert state["progress"] == [done, PIECES]
         assert state["answers"] == 1
@@ -331,7 +331,7 @@ def test_stop_leaves_what_is_drawn_says_how_much_and_begins_nothing_again(gate):
     browser = Browser(EP, SMALL)
     wait_until(lambda: len(gate.calls) == THREADS)
     gate.let(3)
-    wait_until(lambda: browser.session.background.left == PIECES - 3)
+    wait_until(lambda: browser.session.background.backlog == PIECES - 3)
     browser.ask(1, hidden=["sphere", "split", "chart"])
     browser.ask(1, stop=True)
     gate.let(1000)
@@ -340,12 +340,12 @@ def test_stop_leaves_what_is_drawn_says_how_much_and_begins_nothing_again(gate):
     begun = len(gate.calls)
     # Nor does a picture that comes into sight.
     assert browser.ask(2, hidden=["split", "chart"])["progress"] is None
-    assert browser.session.background.left == 0
+    assert browser.session.background.backlog == 0
     assert len(gate.calls) == begun
     # Stop cancels the work of the new value, which is on its way.
     browser.ask(3, values={"h": 45.0})
     browser.ask(4, values={"h": 46.0}, stop=True)
-    wait_until(lambda: browser.session.background.left == 0)
+    wait_until(lambda: browser.session.background.backlog == 0)
     assert 46.0 not in {arguments[1] for _, arguments in gate.calls if len(arguments) > 3}
     assert browser.texts["notes"].startswith("Stopped: ")
     # Another state is computed as ever, and the note goes.
@@ -382,13 +382,13 @@ def test_the_last_piece_may_come_while_its_picture_is_drawn(gate):
     browser = Browser(EP, {**SMALL, "orbits": 0.0})
     total = browser.state["progress"][1]
     gate.let(total - 1)
-    wait_until(lambda: browser.session.background.left == 1)
+    wait_until(lambda: browser.session.background.backlog == 1)
     show, drawn = browser.session.stage.show, []
 
     def slowly(result, hold_axes):
         drawn.append(result)
         gate.let(1000)
-        wait_until(lambda: browser.session.background.left == 0)
+        wait_until(lambda: browser.session.background.backlog == 0)
         return show(result, hold_axes)
 
     browser.session.stage.show = slowly

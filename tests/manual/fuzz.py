@@ -30,7 +30,7 @@ from hess_explorer.__main__ import main
 from hess_explorer.commands import COMMANDS
 from hess_explorer.commands.compute import command_of
 from hess_explorer.commands.output import PATIENCE
-from hess_explorer.compute.budget import limited
+from hess_explorer.compute.budget import time_budget
 from hess_explorer.page.description import describe
 from hess_explorer.page.requested import linked
 from hess_explorer.protocol.specs import CLIENT, ChoiceSpec, Formula, Link, NumberSpec, Places, written
@@ -115,7 +115,7 @@ def _watched(findings, given, budget=True, told=lambda: False):
     spent = None
     try:
         # A session answers within this budget.
-        with warnings.catch_warnings(record=True) as caught, limited(Event()) if budget else nullcontext() as spent:
+        with warnings.catch_warnings(record=True) as caught, time_budget(Event()) if budget else nullcontext() as spent:
             warnings.simplefilter("always")
             # The garbage collector may find resources of an earlier test at any time.
             warnings.simplefilter("ignore", ResourceWarning)

@@ -11,7 +11,7 @@ from urllib.parse import parse_qsl, urlencode
 
 from . import CommandError
 
-__all__ = ["assigned", "defined", "integer", "run_file", "state"]
+__all__ = ["assignment_of", "integer", "run_file", "state", "user_object"]
 
 T = TypeVar("T")
 
@@ -25,7 +25,7 @@ def run_file(path: str | Path) -> dict[str, Any]:
         raise CommandError(f"{str(path)!r} stops with {type(error).__name__}: {error}.") from error
 
 
-def defined(text: str, kind: str, fits: Callable[[Any], bool]) -> Any:
+def user_object(text: str, kind: str, fits: Callable[[Any], bool]) -> Any:
     """Return the object FILE.py:NAME of a Python file of the user.
 
     kind : its kind in words; fits(object) : whether it is one.  Raises `CommandError`.
@@ -49,7 +49,7 @@ def integer(low: int, high: int) -> Callable[[str], int]:
     return integer
 
 
-def assigned(value: Callable[[str], T]) -> Callable[[str], tuple[str, T]]:
+def assignment_of(value: Callable[[str], T]) -> Callable[[str], tuple[str, T]]:
     """Return the argument type of NAME=VALUE; value : type of the value."""
 
     def assignment(text: str) -> tuple[str, T]:

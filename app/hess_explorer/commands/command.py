@@ -9,7 +9,7 @@ from typing import Any, NoReturn
 
 from hess_explorer.commands import CommandError, arguments
 
-__all__ = ["OUT", "OUTPUT", "STATE", "Command", "Option", "Options", "flag", "option", "picture", "whole"]
+__all__ = ["OUT", "OUTPUT", "STATE", "Command", "Option", "Options", "flag", "integer_option", "option", "picture"]
 
 Options = argparse.Namespace
 """The parsed options of a command."""
@@ -54,7 +54,7 @@ class Command(argparse.ArgumentParser):
             except argparse.ArgumentError as error:
                 raise CommandError(f"There are two options {name}: rename one of them.") from error
 
-    def parsed(self, prog: str, words: Sequence[str] | None = None) -> Options:
+    def parse(self, prog: str, words: Sequence[str] | None = None) -> Options:
         """Return the options of a command line; prog : how the command is typed.  Raises `CommandError`."""
         self.prog, self.usage = prog, " ".join([prog, "[OPTIONS]", *self.places])
         self.epilog = f"Example: {prog} {self.example}" if self.example else ""
@@ -81,7 +81,7 @@ def flag(name: str, help: str) -> Option:
     return option(name, help, action="store_true")
 
 
-def whole(name: str, low: int, high: int, help: str, default: int) -> Option:
+def integer_option(name: str, low: int, high: int, help: str, default: int) -> Option:
     """Return the option of an integer from `low` to `high`."""
     return option(name, f"{help} (default {default})", type=arguments.integer(low, high), metavar="N", default=default)
 

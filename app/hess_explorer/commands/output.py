@@ -15,7 +15,7 @@ from typing import Any
 
 from hess_explorer.commands import CommandError
 
-__all__ = ["LONG", "PATIENCE", "computing", "show", "write", "write_file"]
+__all__ = ["LONG", "PATIENCE", "long_computation", "show", "write", "write_file"]
 
 LONG = 2.0
 """Seconds after which a command reports that it is still running."""
@@ -26,7 +26,7 @@ _LOST = "null stands for a number that is missing or exceeds the range of double
 
 
 @contextmanager
-def computing(own_progress: bool = False) -> Iterator[None]:
+def long_computation(own_progress: bool = False) -> Iterator[None]:
     """Report on stderr a computation that takes long, and convert an overflow to `CommandError`.
 
     own_progress : True if the command prints its own progress.

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any
 
 from . import CommandError
 from .arguments import run_file
-from .command import Command, Options, option, whole
+from .command import Command, Options, integer_option, option
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -200,7 +200,7 @@ _SEVERAL = {"nargs": "+", "action": "extend"}
 COMMAND = Command(
     "Serve the explorer on this machine and open it in the browser.",
     (
-        whole("--port", 1, 65535, "port to listen on", 5006),
+        integer_option("--port", 1, 65535, "port to listen on", 5006),
         option(
             "--address",
             "address to listen on (default 127.0.0.1, this machine only; 0.0.0.0 for all networks)",
@@ -225,8 +225,8 @@ COMMAND = Command(
             metavar="HOST",
             **_SEVERAL,
         ),
-        whole("--workers", 1, 64, "number of worker processes; for a class, about the number of cores", 1),
-        whole("--sessions", 1, 100_000, "maximum number of open pages per worker; 1000 need about 3 GB", 1000),
+        integer_option("--workers", 1, 64, "number of worker processes; for a class, about the number of cores", 1),
+        integer_option("--sessions", 1, 100_000, "maximum number of open pages per worker; 1000 need about 3 GB", 1000),
         option(
             "--chart",
             "store of a sweep over two parameters of a scene, which opens as a chart",

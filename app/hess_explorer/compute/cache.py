@@ -13,7 +13,7 @@ from typing import Any, Generic, ParamSpec, TypeVar, cast
 import numpy as np
 from cachetools import LRUCache
 
-from hess_explorer.compute.budget import Abandoned, OverBudget, check
+from hess_explorer.compute.budget import ClientGone, OverBudget, check
 
 __all__ = ["CACHE", "ResultCache", "Task", "size_of"]
 
@@ -88,7 +88,7 @@ class ResultCache:
         if running is not own:
             try:
                 return running.result(), True
-            except (Abandoned, OverBudget):
+            except (ClientGone, OverBudget):
                 # Another session's budget ended, not this one's.
                 return self.get(function, *arguments)
         try:

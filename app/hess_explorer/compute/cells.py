@@ -12,7 +12,7 @@ from typing import Self, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from hess_explorer.compute.budget import Abandoned, OverBudget
+from hess_explorer.compute.budget import ClientGone, OverBudget
 from hess_mechanics.catalogue import Computation, NoValue
 from hess_mechanics.errors import (
     InvalidParameter,
@@ -26,7 +26,7 @@ from hess_mechanics.errors import (
 from hess_mechanics.numerics.accuracy import Level, Status
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["CellResults", "Outcome", "Outcomes", "UserError", "evaluate", "refused"]
+__all__ = ["CellResults", "Outcome", "Outcomes", "UserError", "evaluate", "failure"]
 
 logger = logging.getLogger("hess_explorer")
 
@@ -93,12 +93,12 @@ class CellResults:
     why: Mapping[int, str] = field(default_factory=dict)
 
 
-def refused(error: Exception, cell: Mapping[str, object]) -> tuple[Outcome, str]:
+def failure(error: Exception, cell: Mapping[str, object]) -> tuple[Outcome, str]:
     """Return the status and message of a cell that raised an error; unexpected errors are logged.
 
-    Raises `Abandoned` and `OverBudget` again, because they end the whole computation.
+    Raises `ClientGone` and `OverBudget` again, because they end the whole computation.
     """
-    if isinstance(error, (Abandoned, OverBudget)):
+    if isinstance(error, (ClientGone, OverBudget)):
         raise error
     for kind, outcome in _OF_ERROR:
         if isinstance(error, kind):
@@ -158,7 +158,7 @@ def _one_by_one(
             found = what.compute(cell, level)
         # An error in one cell must not stop the others.
         except Exception as error:
-            status[i], why[i] = refused(error, cell)
+            status[i], why[i] = failure(error, cell)
             continue
         status[i] = Outcome[getattr(found, "status", Status.OK).name]
         outcomes = []
@@ -169,7 +169,7 @@ def _one_by_one(
                 if name in errors:
                     errors[name][i] = one.error(found)
             except Exception as error:
-                outcome, why[i] = refused(error, cell)
+                outcome, why[i] = failure(error, cell)
                 outcomes.append(outcome)
                 continue
             if not math.isfinite(values[name][i]):

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 
-from hess_explorer.compute.budget import Abandoned, limited
+from hess_explorer.compute.budget import ClientGone, time_budget
 from hess_mechanics.numerics.parallel import THREADS
 
 __all__ = ["MOST", "POOL", "Pool", "RequestQueue"]
@@ -116,11 +116,11 @@ class RequestQueue:
         """Process one request; the next one waits for those of other sessions."""
         with self._lock:
             request = self._waiting.popleft() if self._waiting else None
-        with limited(self._left):
+        with time_budget(self._left):
             try:
                 if request is not None:
                     request()
-            except Abandoned:
+            except ClientGone:
                 pass
             # Log any error, and go on with the next request of the session.
             except Exception:

@@ -27,7 +27,7 @@ from hess_mechanics.numerics.results import Array
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-__all__ = ["Drawing", "as_figure", "as_file", "densities", "image_figure", "saved"]
+__all__ = ["Drawing", "as_figure", "as_file", "densities", "figure_bytes", "image_figure"]
 
 _DOTS_PER_INCH = 300
 _POINTS = 0.6
@@ -84,7 +84,7 @@ def as_file(data: PictureData, request: FileRequest) -> bytes:
     """
     if request.kind in ("csv", "json"):
         return (as_csv if request.kind == "csv" else as_json)(data).encode()
-    return saved(as_figure(data, request.width, request.black), data, request.kind)
+    return figure_bytes(as_figure(data, request.width, request.black), data, request.kind)
 
 
 def as_figure(data: PictureData, width: float = 85.0, black: bool = False) -> Figure:
@@ -199,7 +199,7 @@ def _style() -> AbstractContextManager[None]:
     return mpl.rc_context(dict(_STYLE))
 
 
-def saved(figure: Figure, data: PictureData, kind: str) -> bytes:
+def figure_bytes(figure: Figure, data: PictureData, kind: str) -> bytes:
     """Return a figure as a file whose metadata contain link, parameters and version."""
     text = data.metadata_text
     metadata: dict[str, dict[str, Any]] = {

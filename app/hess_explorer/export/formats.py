@@ -17,7 +17,7 @@ __all__ = [
     "FileRequest",
     "Format",
     "Loop",
-    "holding",
+    "formats_of",
 ]
 
 
@@ -84,6 +84,6 @@ class FileRequest:
     loop: Loop | None = None
 
 
-def holding(*what: str) -> tuple[str, ...]:
+def formats_of(*what: str) -> tuple[str, ...]:
     """Return the formats of the given categories."""
     return tuple(kind for kind, one in FORMATS.items() if one.holds in what)

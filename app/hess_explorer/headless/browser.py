@@ -14,7 +14,7 @@ from hess_mechanics.errors import ModelError
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, BrowserType, Page
 
-__all__ = ["BrowserError", "find_browser", "is_root", "launched", "wait_ready"]
+__all__ = ["BrowserError", "find_browser", "headless_browser", "is_root", "wait_ready"]
 
 VARIABLE = "HESS_EXPLORER_BROWSER"
 _COMMANDS = ("chromium", "chromium-headless-shell", "google-chrome")
@@ -66,7 +66,7 @@ def is_root() -> bool:
 
 
 @contextmanager
-def launched() -> Iterator[Browser]:
+def headless_browser() -> Iterator[Browser]:
     """Yield a running headless browser.  Raises `BrowserError`."""
     try:
         from playwright.sync_api import sync_playwright

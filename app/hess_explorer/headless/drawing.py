@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from hess_explorer.export.figure import Drawing, densities
 from hess_explorer.export.formats import WIDTHS
 from hess_explorer.export.picture_data import PictureData
-from hess_explorer.headless.browser import BrowserError, launched, wait_ready
+from hess_explorer.headless.browser import BrowserError, headless_browser, wait_ready
 from hess_explorer.offline.html import module_address
 from hess_explorer.offline.pages import state_page
 from hess_explorer.scenes import add, scenes
@@ -64,7 +64,7 @@ class _Studio:
                 try:
                     if browser is None or not browser.is_connected():
                         running.close()
-                        browser = running.enter_context(launched())
+                        browser = running.enter_context(headless_browser())
                     future.set_result(act(browser))
                 except BaseException as error:
                     future.set_exception(error)

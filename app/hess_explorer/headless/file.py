@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from hess_explorer.export.figure import as_figure, as_file, image_figure, saved
+from hess_explorer.export.figure import as_figure, as_file, figure_bytes, image_figure
 from hess_explorer.export.formats import FORMATS, FileRequest
 from hess_explorer.export.picture_data import PictureData
 from hess_explorer.headless.drawing import drawing_of, png_of
@@ -30,7 +30,7 @@ def content(
         return as_film(data, request, report)
     if FORMATS[kind].holds == "data" or isinstance(data.picture, Plot):
         return as_file(data, request)
-    return png_of(data, width, black) if kind == "png" else saved(figure(data, width, black), data, kind)
+    return png_of(data, width, black) if kind == "png" else figure_bytes(figure(data, width, black), data, kind)
 
 
 def figure(data: PictureData, width: float = 85.0, black: bool = False) -> Figure:

@@ -15,7 +15,7 @@ import numpy as np
 
 from hess_explorer.export.code import code
 from hess_explorer.export.columns import Table, columns_of
-from hess_explorer.export.formats import FileRequest, holding
+from hess_explorer.export.formats import FileRequest, formats_of
 from hess_explorer.export.picture_data import CLIENT_KEPT, Address, PictureData, address, compute, picture_of
 from hess_explorer.protocol.specs import NumberSpec, Places, Spec, Value, query_in, refusal, written
 from hess_explorer.scenes import scene_named, scenes
@@ -27,7 +27,7 @@ from hess_mechanics.numerics.files import write_whole
 
 __all__ = ["SceneState", "from_link", "state"]
 
-_ENDINGS = holding("data", "figure", "film")
+_ENDINGS = formats_of("data", "figure", "film")
 
 
 @dataclass(frozen=True, eq=False)

@@ -51,13 +51,13 @@ class BackgroundTasks:
 
         Call it before the state is computed, because the last task may end during that computation.
         """
-        self._left = self.background.left
+        self._left = self.background.backlog
         return self._left == 0 if more else self._stopped
 
     @property
     def news(self) -> bool:
         """True if a task has ended since the state was computed, or none is running or about to start."""
-        return self._next is None and not 0 < self.background.left == self._left
+        return self._next is None and not 0 < self.background.backlog == self._left
 
     def follow(self, report: Report, more: bool, ended: bool) -> list[str]:
         """Plan the tasks that the report lists; return a note if they ended early.  `start` starts them."""

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from hess_explorer.compute.background import Background
-from hess_explorer.compute.budget import Abandoned
+from hess_explorer.compute.budget import ClientGone
 from hess_explorer.lessons import tries
 from hess_explorer.lessons.lesson import Lesson
 from hess_explorer.page.background_tasks import BackgroundTasks
@@ -110,7 +110,7 @@ class Session:
                     self._in_sight = [name for name in scene.pictures if name not in request.hidden]
                 if request.requested is not None:
                     self._update(request.held)
-        except Abandoned:
+        except ClientGone:
             raise
         # Log any error, and leave neither a traceback nor an outdated picture on the page.
         except Exception:

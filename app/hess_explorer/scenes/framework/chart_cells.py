@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from hess_explorer.compute.cache import Task
-from hess_explorer.compute.cells import evaluate, refused
+from hess_explorer.compute.cells import evaluate, failure
 from hess_explorer.protocol.specs import places, written
 from hess_explorer.scenes.framework.charted import Charted
 from hess_explorer.scenes.framework.windows import Window
@@ -81,7 +81,7 @@ def chart_row(cells: Cells, window: Window, count: int, row: int) -> Array:
             known[i] = tuple(cells.arguments(x, y).values())
         # An error in one cell must not stop the others.
         except Exception as error:
-            found[2, i], _ = refused(error, {cells.x.name: x, cells.y.name: y})
+            found[2, i], _ = failure(error, {cells.x.name: x, cells.y.name: y})
     if known:
         # By the arguments, which not every parameter of the scene changes.
         found[:, [*known]] = Task(_evaluated, cells.charted, cells.number, cells.level, tuple(known.values())).get()
