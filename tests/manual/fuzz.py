@@ -294,7 +294,7 @@ def _left(browser):
     """Stop pending pieces, and wait for those that have started before the program ends."""
     if browser is not None:
         browser.session.background.stop()
-        while browser.session.background.left:
+        while browser.session.background.backlog:
             time.sleep(0.005)
 
 

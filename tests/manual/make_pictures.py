@@ -15,7 +15,7 @@ from PIL import Image
 from playwright.sync_api import FloatRect, Page
 
 from hess_explorer.assets import STATIC
-from hess_explorer.headless.browser import launched, wait_ready
+from hess_explorer.headless.browser import headless_browser, wait_ready
 from hess_explorer.headless.screenshot import screenshot, server_process
 from hess_explorer.scenes import scenes
 from support.modules import look_inside
@@ -76,7 +76,7 @@ def taken(page: Page, base: str, name: str, theme: str) -> Image.Image:
 def main(names: list[str]) -> None:
     """Make the named pictures, or all."""
     with (
-        launched() as browser,
+        headless_browser() as browser,
         tempfile.TemporaryDirectory() as folder,
         server_process(Path(folder) / "server.log") as (_, base),
     ):

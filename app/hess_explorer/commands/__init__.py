@@ -31,7 +31,10 @@ COMMANDS: Mapping[str, tuple[str, str]] = {
 class CommandError(Exception):
     """A command cannot be carried out; the message is one sentence that names the problem and a remedy.
 
-    status : exit status of the program.
+    Attributes
+    ----------
+    status : int
+        Exit status of the program.
     """
 
     def __init__(self, message: str, status: int = 2) -> None:

@@ -28,7 +28,14 @@ def run_file(path: str | Path) -> dict[str, Any]:
 def user_object(text: str, kind: str, fits: Callable[[Any], bool]) -> Any:
     """Return the object FILE.py:NAME of a Python file of the user.
 
-    kind : its kind in words; fits(object) : whether it is one.  Raises `CommandError`.
+    Raises `CommandError`.
+
+    Parameters
+    ----------
+    kind : str
+        Its kind in words.
+    fits : callable
+        `fits(object)` returns whether it is one.
     """
     path, _, name = text.rpartition(":")
     found = run_file(path).get(name)
@@ -50,7 +57,13 @@ def integer(low: int, high: int) -> Callable[[str], int]:
 
 
 def assignment_of(value: Callable[[str], T]) -> Callable[[str], tuple[str, T]]:
-    """Return the argument type of NAME=VALUE; value : type of the value."""
+    """Return the argument type of NAME=VALUE.
+
+    Parameters
+    ----------
+    value : callable
+        Type of the value.
+    """
 
     def assignment(text: str) -> tuple[str, T]:
         name, given = text.split("=", 1)

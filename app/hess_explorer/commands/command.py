@@ -30,8 +30,14 @@ Option = tuple[str, str, Mapping[str, Any]]
 class Command(argparse.ArgumentParser):
     """A command, which reports an error in one sentence, without the usage text, and knows no abbreviations.
 
-    description, options : its help text and its options.  run : runs the command with the parsed options; raises
-    `CommandError`.  example : arguments of an example.
+    Attributes
+    ----------
+    description, options : str
+        Its help text and its options.
+    run : callable or None
+        Runs the command with the parsed options; raises `CommandError`.
+    example : str
+        Arguments of an example.
     """
 
     def __init__(
@@ -55,7 +61,15 @@ class Command(argparse.ArgumentParser):
                 raise CommandError(f"There are two options {name}: rename one of them.") from error
 
     def parse(self, prog: str, words: Sequence[str] | None = None) -> Options:
-        """Return the options of a command line; prog : how the command is typed.  Raises `CommandError`."""
+        """Return the options of a command line.
+
+        Raises `CommandError`.
+
+        Parameters
+        ----------
+        prog : str
+            How the command is typed.
+        """
         self.prog, self.usage = prog, " ".join([prog, "[OPTIONS]", *self.places])
         self.epilog = f"Example: {prog} {self.example}" if self.example else ""
         return self.parse_args(words)
@@ -72,7 +86,13 @@ class Command(argparse.ArgumentParser):
 
 
 def option(name: str, help: str, group: str = "", **settings: Any) -> Option:
-    """Return an option; settings : arguments of `ArgumentParser.add_argument`."""
+    """Return an option.
+
+    Parameters
+    ----------
+    settings
+        Arguments of `ArgumentParser.add_argument`.
+    """
     return name, group, {"help": help, **settings}
 
 
@@ -111,7 +131,13 @@ STATE = (
 
 
 def picture(more: str = "") -> tuple[Option, ...]:
-    """Return the options of a state, a picture and an output file; more : help text on several pictures."""
+    """Return the options of a state, a picture and an output file.
+
+    Parameters
+    ----------
+    more : str
+        Help text on several pictures.
+    """
     return (
         *STATE,
         option(

@@ -27,9 +27,14 @@ def titles(group: str) -> dict[str, str]:
 
 
 def parse(name: str, rest: list[str]) -> Options:
-    """Return the options of a computation; rest : the words after its name.
+    """Return the options of a computation.
 
     Raises `CommandError` if there is no such computation or system.
+
+    Parameters
+    ----------
+    rest : list
+        The words after its name.
     """
     of = {one.system: one for one in catalogue().values() if one.name == name}
     if not of:

@@ -29,7 +29,10 @@ _LOST = "null stands for a number that is missing or exceeds the range of double
 def long_computation(own_progress: bool = False) -> Iterator[None]:
     """Report on stderr a computation that takes long, and convert an overflow to `CommandError`.
 
-    own_progress : True if the command prints its own progress.
+    Parameters
+    ----------
+    own_progress : bool
+        True if the command prints its own progress.
     """
     import numpy as np
 
@@ -57,8 +60,18 @@ def write(
 ) -> None:
     """Write a result in the chosen format.
 
-    table : DataFrame of its columns.  facts : all other results.  data : returns a Dataset of the columns.  notes :
-    remarks in full sentences.  Raises `CommandError` if the file cannot be written.
+    Raises `CommandError` if the file cannot be written.
+
+    Parameters
+    ----------
+    table
+        DataFrame of its columns.
+    facts : mapping of str to Any
+        All other results.
+    data : callable
+        Returns a Dataset of the columns.
+    notes : sequence of str
+        Remarks in full sentences.
     """
     lost: list[str] = []
     known = _strict(facts, lost)

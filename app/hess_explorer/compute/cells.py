@@ -83,8 +83,14 @@ _OF_ERROR: tuple[tuple[type[Exception], Outcome], ...] = (
 class CellResults:
     """The results at n cells.
 
-    values, errors : by the name of the number, each (n,); errors only of numbers with an estimate.
-    status : (n,).  why : by cell, the reason why it has no number, or which of its numbers is missing.
+    Attributes
+    ----------
+    values, errors : mapping of str to Array
+        By the name of the number, each (n,); errors only of numbers with an estimate.
+    status : Outcomes
+        (n,).
+    why : mapping of int to str
+        By cell, the reason why it has no number, or which of its numbers is missing.
     """
 
     values: Mapping[str, Array]
@@ -108,9 +114,14 @@ def failure(error: Exception, cell: Mapping[str, object]) -> tuple[Outcome, str]
 
 
 def evaluate(what: Computation, numbers: Sequence[str], columns: Mapping[str, Array], level: Level) -> CellResults:
-    """Return numbers of a computation at cells; columns : values (n,) of parameters, the others have their defaults.
+    """Return numbers of a computation at cells.
 
     Each cell without any finite number has a status and a message.
+
+    Parameters
+    ----------
+    columns : mapping of str to Array
+        Values (n,) of parameters, the others have their defaults.
     """
     count = next(iter(columns.values())).size
     with np.errstate(all="ignore"):

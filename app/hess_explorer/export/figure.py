@@ -54,7 +54,10 @@ _ALIGNED = {"alphabetic": "baseline", "middle": "center"}
 class Drawing:
     """A picture as the page draws it: PNG file without texts, the texts, and the edge in pixels of the page.
 
-    texts : text, x, y, turn, size, colour, alpha, align, baseline of each, see `LiftedText` in "types.d.ts".
+    Attributes
+    ----------
+    texts : Sequence
+        Text, x, y, turn, size, colour, alpha, align, baseline of each, see `LiftedText` in "types.d.ts".
     """
 
     image: bytes
@@ -184,7 +187,13 @@ def image_figure(data: PictureData, drawing: Drawing, width: float = 85.0) -> Fi
 
 
 def _wrapped(text: str, side: float, size: float) -> list[str]:
-    """Return the lines of a text below an image; side : width in inches, size : of its letters in points."""
+    """Return the lines of a text below an image.
+
+    Parameters
+    ----------
+    side : float
+        Width in inches, size : of its letters in points.
+    """
     return textwrap.wrap(text, max(10, int(72.0 * side / (_LETTER * size))))
 
 

@@ -67,7 +67,13 @@ SECONDS, SERVED_SECONDS = Bounds(1.0, 60.0), Bounds(1.0, 30.0)
 
 
 class Loop(NamedTuple):
-    """A film that repeats itself, 1080 pixels wide, light or dark; home : address of the page, for the link."""
+    """A film that repeats itself, 1080 pixels wide, light or dark.
+
+    Attributes
+    ----------
+    home : str
+        Address of the page, for the link.
+    """
 
     dark: bool = False
     home: str = ""

@@ -21,9 +21,14 @@ __all__ = ["content", "figure"]
 def content(
     data: PictureData, request: FileRequest, report: Callable[[int, int], None] = lambda done, of: None
 ) -> bytes:
-    """Return the contents of the file; report : progress callback of `as_film`.
+    """Return the contents of the file.
 
     Raises `InvalidParameter`, and `BrowserError` if a browser is needed and there is none.
+
+    Parameters
+    ----------
+    report : callable
+        Progress callback of `as_film`.
     """
     kind, width, black = request.kind, request.width, request.black
     if FORMATS[kind].holds == "film":

@@ -57,7 +57,10 @@ _ESSENTIAL = 4
 class OwnScene(Scene[OwnState]):
     """A scene without files of its own.
 
-    text : what stands beside the pictures, Markdown with formulas.
+    Attributes
+    ----------
+    text : str
+        What stands beside the pictures, Markdown with formulas.
     """
 
     text: str = ""
@@ -317,7 +320,15 @@ def _first_picture(system: System) -> str:
 
 
 def _picture(system: System, picture: str, leveled: bool) -> Picture[Any]:
-    """Return the picture of a text; leveled : its section has periodic orbits.  Raises `InvalidParameter`."""
+    """Return the picture of a text.
+
+    Raises `InvalidParameter`.
+
+    Parameters
+    ----------
+    leveled : bool
+        Its section has periodic orbits.
+    """
     if picture == _EXPONENT:
         return exponent_picture()
     if picture == _BRANCH:

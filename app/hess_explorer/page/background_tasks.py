@@ -47,9 +47,14 @@ class BackgroundTasks:
         self.background.stop()
 
     def ended(self, more: bool) -> bool:
-        """Return True if no task is running any more; more : True if the state is unchanged.
+        """Return True if no task is running any more.
 
         Call it before the state is computed, because the last task may end during that computation.
+
+        Parameters
+        ----------
+        more : bool
+            True if the state is unchanged.
         """
         self._left = self.background.backlog
         return self._left == 0 if more else self._stopped

@@ -245,7 +245,13 @@ class Session:
             self._draw(more=True)
 
     def _draw(self, more: bool = False) -> None:
-        """Draw the requested state; more : True to redraw it with new results of the background tasks."""
+        """Draw the requested state.
+
+        Parameters
+        ----------
+        more : bool
+            True to redraw it with new results of the background tasks.
+        """
         wanted, ended = self.requested, self._tasks.ended(more)
         self.values, notes = wanted.values, list[str]()
         try:

@@ -90,7 +90,13 @@ class ChoiceSpec:
 
 @dataclass(frozen=True)
 class Formula:
-    """A formula as a text; reads : raises `InvalidParameter` for other texts."""
+    """A formula as a text.
+
+    Attributes
+    ----------
+    reads : callable
+        Raises `InvalidParameter` for other texts.
+    """
 
     name: str
     label: str
@@ -113,7 +119,12 @@ class Formula:
 class Places:
     """Points chosen with the mouse in a picture, as a text "x,y;x,y"; they have no control.
 
-    most : maximum number of points; low, high : corners of the rectangle that contains them.
+    Attributes
+    ----------
+    most : int
+        Maximum number of points.
+    low, high : tuple
+        Corners of the rectangle that contains them.
     """
 
     name: str
@@ -270,7 +281,13 @@ class Link:
             self.note("The link was made by another version of this page: its values may have another meaning here.")
 
     def note(self, note: str, given: str = "") -> None:
-        """Append a note on a correction, or raise `InvalidParameter`; given : quotation from the link."""
+        """Append a note on a correction, or raise `InvalidParameter`.
+
+        Parameters
+        ----------
+        given : str
+            Quotation from the link.
+        """
         if not self._lenient:
             raise InvalidParameter(f"{given}{refusal(note).removesuffix('.')}; {_REMEDY}")
         if note not in self.notes:

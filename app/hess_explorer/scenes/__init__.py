@@ -47,7 +47,12 @@ def scene_named(name: str) -> Scene[Any] | None:
 def add(scene: Any, source: str) -> None:
     """Add a scene of one's own, before the page is served.
 
-    source : where it comes from, for messages.  Raises `InvalidParameter`, also if its name is taken.
+    Raises `InvalidParameter`, also if its name is taken.
+
+    Parameters
+    ----------
+    source : str
+        Where it comes from, for messages.
     """
     _added.append(_checked(scene, source))
     scenes.cache_clear()

@@ -180,7 +180,12 @@ def diagram_scene(
 ) -> Scene[S]:
     """Return the scene of such states.
 
-    section : the regime of its motions, which is charted; words : other arguments of `Scene`.
+    Parameters
+    ----------
+    section : Charted
+        The regime of its motions, which is charted.
+    words
+        Other arguments of `Scene`.
     """
     return Scene(
         state,

@@ -23,7 +23,12 @@ __all__ = ["SpeedAccuracy", "speed_and_accuracy"]
 class Study(State):
     """Measurements of a state of the other scene.
 
-    shown : state of the other scene; trials : its computations.
+    Attributes
+    ----------
+    shown : State
+        State of the other scene.
+    trials : tuple
+        Its computations.
     """
 
     shown: State

@@ -81,7 +81,10 @@ class Axes:
 class CellGrid:
     """Numbers at the centres of cells (m, n) that fill the rectangle x × y; rows of equal y.
 
-    ends : numbers of the first and the last colour, if they depend on the state.
+    Attributes
+    ----------
+    ends : Range or None
+        Numbers of the first and the last colour, if they depend on the state.
     """
 
     cells: Array
@@ -107,7 +110,10 @@ def in_window(
 class Sign:
     """One legend entry: a word and a sign of a kind ("line", "dot", "dot small", "dot diamond", "box") in a CSS style.
 
-    least : for layers of cells, the sign stands for numbers in [least, least + 1).
+    Attributes
+    ----------
+    least : float or None
+        For layers of cells, the sign stands for numbers in [least, least + 1).
     """
 
     label: str
@@ -128,11 +134,26 @@ CENTRE_OF_MASS = Sign("centre of mass", "dot", f"background: conic-gradient({_QU
 class Layer(Generic[S]):
     """One layer of glyphs.
 
-    name : name within the plot; its source is "<plot>-<name>", or "data-<track>" if it draws a track of the scene.
-    glyph : its name in Bokeh; columns : names of its position columns; style : properties of the glyph.
-    data(state) : its columns, empty for nothing; within(state, axes) : the same if they depend on the axes.
-    moving : whether it changes with every state; such layers lie above axes and background, which are not repainted.
-    legend : its entries in the legend of the scene; tag : the word that names it in the picture, see "tags.py".
+    Attributes
+    ----------
+    name : str
+        Name within the plot; its source is "<plot>-<name>", or "data-<track>" if it draws a track of the scene.
+    glyph : str
+        Its name in Bokeh.
+    columns : tuple of str
+        Names of its position columns.
+    style : mapping of str to Any
+        Properties of the glyph.
+    data : callable or None
+        `data(state)` returns its columns, empty for nothing.
+    within : callable or None
+        `within(state, axes)` returns the same if they depend on the axes.
+    moving : bool
+        Whether it changes with every state; such layers lie above axes and background, which are not repainted.
+    legend : tuple of Sign
+        Its entries in the legend of the scene.
+    tag : str
+        The word that names it in the picture, see "tags.py".
     """
 
     name: str
@@ -430,8 +451,16 @@ def image(
 ) -> Layer[S]:
     """Return a layer of numbers on a grid, below all other layers.
 
-    smooth : interpolate between the centres of cells, for continuous functions; cyclic : the same with `low` and `high`
-    identified; kinds : numbers are labels, with smooth borders between them; fine : cells are about as large as pixels.
+    Parameters
+    ----------
+    smooth : bool
+        Interpolate between the centres of cells, for continuous functions.
+    cyclic : bool
+        The same with `low` and `high` identified.
+    kinds : bool
+        Numbers are labels, with smooth borders between them.
+    fine : bool
+        Cells are about as large as pixels.
     """
     colors = getattr(palettes, palette) if isinstance(palette, str) else palette
     layer: Layer[S] = Layer(

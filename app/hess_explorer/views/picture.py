@@ -52,7 +52,13 @@ class Picture(ABC, Generic[S]):
     """Renderer in the browser: "plot" is Bokeh, the others draw on their own canvases."""
 
     def of(self, part: Callable[[T], S], **changes: Any) -> Picture[T]:
-        """Return the same picture for states with `part`: its functions apply to that; changes : other fields."""
+        """Return the same picture for states with `part`: its functions apply to that.
+
+        Parameters
+        ----------
+        changes
+            Other fields.
+        """
 
         def through(value: Any) -> Any:
             if isinstance(value, Layer):

@@ -34,9 +34,15 @@ def found_by_rows(
 
     None until all rows of the first stage are known.
 
-    row_of : computes a row of cells (…, m) from its arguments; stages : the arguments of the rows, the coarsest first;
-    sooner : requests results that are computed after the first stage.  Each cell is the middle one of `COARSE`² cells
-    of the next stage.
+    Parameters
+    ----------
+    row_of : callable
+        Computes a row of cells (…, m) from its arguments.
+    stages : Sequence
+        The arguments of the rows, the coarsest first.
+    sooner : callable
+        Requests results that are computed after the first stage.  Each cell is the middle one of `COARSE`² cells of the
+        next stage.
     """
     cells: Array | None = None
     left = 0

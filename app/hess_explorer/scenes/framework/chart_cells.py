@@ -25,7 +25,12 @@ __all__ = ["STORED", "Cells", "Side", "chart_row"]
 class Side:
     """A parameter of the scene as a side of a chart, or a coordinate of its last place.
 
-    ends : the usual range; axis : index of the coordinate.
+    Attributes
+    ----------
+    ends : Range
+        The usual range.
+    axis : int or None
+        Index of the coordinate.
     """
 
     symbol: str

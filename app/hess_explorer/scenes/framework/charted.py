@@ -25,8 +25,14 @@ Numbers = Mapping[str, tuple["Charted", str]]
 class Charted:
     """A computation whose numbers a scene charts.
 
-    key : of the computation; arguments(state) : its arguments other than the defaults, raises `ModelError`; known : the
-    computations by key, empty for the catalogue.
+    Attributes
+    ----------
+    key : str
+        Of the computation.
+    arguments : callable
+        `arguments(state)` returns its arguments other than the defaults, raises `ModelError`.
+    known : mapping of str to Computation
+        The computations by key, empty for the catalogue.
     """
 
     key: str
@@ -47,8 +53,14 @@ class Charted:
 class Charts:
     """The numbers that a scene charts, and over which parameters.
 
-    charted : the computations; over : the first two sides, parameters by name and coordinates by symbol; placed : a
-    parameter of places and the symbols of their coordinates, which are sides as well.
+    Attributes
+    ----------
+    charted : tuple of Charted
+        The computations.
+    over : tuple
+        The first two sides, parameters by name and coordinates by symbol.
+    placed : tuple
+        A parameter of places and the symbols of their coordinates, which are sides as well.
     """
 
     charted: tuple[Charted, ...]
@@ -93,7 +105,14 @@ def of_motion(
 ) -> tuple[Charted, ...]:
     """Return MEGNO, exponents and crossings of the chosen motion of a system.
 
-    start(state) : its initial state, raises `ModelError`; time(state) : the averaging time; known : as in `Charted`.
+    Parameters
+    ----------
+    start : callable
+        `start(state)` returns its initial state, raises `ModelError`.
+    time : callable or None
+        `time(state)` returns the averaging time.
+    known : mapping of str to Computation or None
+        As in `Charted`.
     """
     known = known or {}
 

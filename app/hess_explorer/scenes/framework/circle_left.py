@@ -65,7 +65,13 @@ def Gamma_picture(
     orbit: Callable[[Any], tuple[Array, Array]],
     *others: Layer[Any],
 ) -> Plot[Any]:
-    """Return the graph of Γ over the time `span`, with levels; orbit(state) : times and Γ of the chosen orbit."""
+    """Return the graph of Γ over the time `span`, with levels.
+
+    Parameters
+    ----------
+    orbit : callable
+        `orbit(state)` returns times and Γ of the chosen orbit.
+    """
     return Plot(
         name="Gamma",
         title="Γ = (ξ, γ) against time",

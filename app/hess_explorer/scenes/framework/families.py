@@ -19,7 +19,14 @@ __all__ = ["Begin", "Family"]
 class Family:
     """A scene's section and its return map over one parameter.
 
-    state : class of the scene's states; name, symbol : of the parameter; others : all other parameters of the section.
+    Attributes
+    ----------
+    state : callable
+        Class of the scene's states.
+    name, symbol : str
+        Of the parameter.
+    others : tuple
+        All other parameters of the section.
     """
 
     state: Callable[..., Sectioned]
@@ -29,7 +36,13 @@ class Family:
 
     @classmethod
     def of(cls, state: Sectioned, name: str, symbol: str, names: tuple[str, ...]) -> Family:
-        """Return the family through a state; names : names of all parameters of the section."""
+        """Return the family through a state.
+
+        Parameters
+        ----------
+        names : tuple of str
+            Names of all parameters of the section.
+        """
         return cls(type(state), name, symbol, tuple((one, getattr(state, one)) for one in names if one != name))
 
     def __call__(self, value: float) -> PoincareSection:

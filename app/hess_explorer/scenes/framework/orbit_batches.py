@@ -22,11 +22,22 @@ T = TypeVar("T")
 class OrbitBatch:
     """Some orbits of a section.
 
-    orbits : points (n, 2) of each orbit, in order of time; firsts : True for orbits of the first of two kinds.
-    drift : the largest drift of each integral; steps : their Taylor steps.
-    reasons : why each orbit ends early; empty for the others.
-    same_side : True if all points of an orbit lie on its side of the curve that divides the kinds, if there is one.
-    elsewhere : points (m, 2) that are drawn separately.
+    Attributes
+    ----------
+    orbits : tuple of Array
+        Points (n, 2) of each orbit, in order of time.
+    firsts : tuple of bool
+        True for orbits of the first of two kinds.
+    drift : mapping of str to float
+        The largest drift of each integral.
+    steps : int
+        Their Taylor steps.
+    reasons : tuple of str
+        Why each orbit ends early; empty for the others.
+    same_side : tuple of bool
+        True if all points of an orbit lie on its side of the curve that divides the kinds, if there is one.
+    elsewhere : array or None
+        Points (m, 2) that are drawn separately.
     """
 
     orbits: tuple[Array, ...]

@@ -40,8 +40,11 @@ H_co = TypeVar("H_co", bound=Host, covariant=True)
 class Part(Generic[H_co]):
     """One result of a scene with its texts; the state declares it with `@part`.
 
-    host : the state or part that it belongs to.  Each class of parts declares in a `Protocol` the members of the host
-    that it needs.  Results are cached properties, computed when a picture in sight needs them.
+    Attributes
+    ----------
+    host : H_co
+        The state or part that it belongs to.  Each class of parts declares in a `Protocol` the members of the host that
+        it needs.  Results are cached properties, computed when a picture in sight needs them.
     """
 
     host: H_co

@@ -89,7 +89,10 @@ class Periodic(Protocol):
 class NotPeriodic:
     """For scenes without a search for periodic orbits.
 
-    looking : True while the exponent has to wait for something else.
+    Attributes
+    ----------
+    looking : bool
+        True while the exponent has to wait for something else.
     """
 
     looking: bool = False

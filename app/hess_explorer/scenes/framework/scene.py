@@ -47,9 +47,14 @@ class Preset:
 class Motion:
     """One motion of a system, as "Speed and accuracy" measures it.
 
-    system, state, parameters, span : as for `hess_mechanics.solve`, in the units of the computation.
-    weights : (d,) pixels of the scene's pictures per unit of each variable.
-    unit : factor from the time of the computation to the time t of the page.
+    Attributes
+    ----------
+    system, state, parameters, span : System
+        As for `hess_mechanics.solve`, in the units of the computation.
+    weights : tuple of float
+        (d,) pixels of the scene's pictures per unit of each variable.
+    unit : float
+        Factor from the time of the computation to the time t of the page.
     """
 
     system: System
@@ -69,7 +74,12 @@ class Motion:
 class Report:
     """The texts beside the pictures: derived quantities, the status line and its summary, notes.
 
-    todo : computations that the state still needs; total : the number of its background computations.
+    Attributes
+    ----------
+    todo : Sequence
+        Computations that the state still needs.
+    total : int
+        The number of its background computations.
     """
 
     derived: Sequence[str]
@@ -84,9 +94,15 @@ class Report:
 class State:
     """One state of a scene: its fields are the parameters, its cached properties the results.
 
-    work : level and cache; seen : the pictures in sight; drawn : their columns, by source.
-    A property is computed once, when a picture in sight needs it.  Results that later states can use go through
-    `work` into the process-wide cache.
+    Attributes
+    ----------
+    work : Work
+        Level and cache.
+    seen : frozenset
+        The pictures in sight.
+    drawn : mapping of str to Columns
+        Their columns, by source.  A property is computed once, when a picture in sight needs it.  Results that later
+        states can use go through `work` into the process-wide cache.
     """
 
     work: Work = field(default_factory=Work, kw_only=True, compare=False, repr=False)
@@ -104,7 +120,13 @@ class State:
         return self.work.dragging
 
     def plan(self, kind: Kind, steady: bool = False) -> Plan:
-        """Return the plan of the level for a kind of computation; steady : hardly any slider changes the result."""
+        """Return the plan of the level for a kind of computation.
+
+        Parameters
+        ----------
+        steady : bool
+            Hardly any slider changes the result.
+        """
         return self.work.plan(kind, steady)
 
     def known(self, name: str) -> Any | None:
@@ -365,7 +387,10 @@ class Scene(Generic[S]):
     def taken_over(self, there: Values, before: Scene[Any], left: Values) -> dict[str, Value]:
         """Return the values `there` of this scene, updated with changed values of the same meaning in the scene before.
 
-        left : the values of the scene before; those that are impossible here are not taken over.
+        Parameters
+        ----------
+        left : Values
+            The values of the scene before; those that are impossible here are not taken over.
         """
         defaults, mine, its = before.defaults(), self._meanings(there), before._meanings(left)
         taken = {

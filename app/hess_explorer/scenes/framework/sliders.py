@@ -47,7 +47,13 @@ HIDDEN, SHOWN = "not shown", "shown"
 
 
 def declared(spec: Spec, compare: bool = True) -> Any:
-    """Return the field of a parameter; compare : whether results of the state can depend on it."""
+    """Return the field of a parameter.
+
+    Parameters
+    ----------
+    compare : bool
+        Whether results of the state can depend on it.
+    """
     return field(default=spec.default, metadata={_SPEC: spec}, compare=compare)
 
 
@@ -85,7 +91,13 @@ def choice(label: str, options: tuple[str, ...], default: str, *, doc: str, grou
 
 
 def formula(label: str, default: str, reads: Callable[[str], object], *, doc: str, group: Group = "Body") -> Any:
-    """Declare a formula; reads : raises `InvalidParameter` for texts that are none."""
+    """Declare a formula.
+
+    Parameters
+    ----------
+    reads : callable
+        Raises `InvalidParameter` for texts that are none.
+    """
     return declared(Formula("", label, default, doc, group, reads))
 
 

@@ -53,9 +53,22 @@ CIRCULAR_SECTION = Sign("circular section of the gyration ellipsoid", "line", f"
 class Solid:
     """A body along an orbit.
 
-    times : (n,) times of the player; omega : (n, 2) with ω3 = 0, or (n, 3); gamma : (n, 3) in the body's axes.
-    mass : the direction of the centre of mass, None without a field; shape : its ellipsoid, None if none is drawn.
-    about_shape : the caption; drawn : False if the picture stays empty.
+    Attributes
+    ----------
+    times : array
+        (n,) times of the player.
+    omega : array
+        (n, 2) with ω3 = 0, or (n, 3).
+    gamma : array
+        (n, 3) in the body's axes.
+    mass : Direction or None
+        The direction of the centre of mass, None without a field.
+    shape : Shape or None
+        Its ellipsoid, None if none is drawn.
+    about_shape : Caption
+        The caption.
+    drawn : bool
+        False if the picture stays empty.
     """
 
     times: Array
@@ -175,8 +188,16 @@ def solid_body(
 ) -> BodyInSpace[S]:
     """Return the picture of a body.
 
-    ball : it rolls on another ball; field : there may be a field; wheels : they impose (ω, e) = 0.
-    section : draw its circular section, and the trail of the centre of mass.
+    Parameters
+    ----------
+    ball : bool
+        It rolls on another ball.
+    field : bool
+        There may be a field.
+    wheels : bool
+        They impose (ω, e) = 0.
+    section : bool
+        Draw its circular section, and the trail of the centre of mass.
     """
 
     def rods(state: S) -> list[Rod]:

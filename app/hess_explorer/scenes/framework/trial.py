@@ -55,12 +55,22 @@ def _always(shown: object) -> bool:
 class Trial(Generic[S]):
     """One kind of computation of a scene.
 
-    kind, pictures : the kind, and the pictures that show it; empty means all pictures.
-    run(state, plan) : computes it as the scene does; error(state, result, truth) : its error in `unit`, NaN if there
-    is nothing to compare.
-    alike : part of a plan in which the truth is computed as the measured level, because other points are not compared.
-    seen : the largest invisible error; shown(state) : True if the pictures show it in this state.
-    most : limits of parameters for which it takes about a second.
+    Attributes
+    ----------
+    kind, pictures : Kind
+        The kind, and the pictures that show it; empty means all pictures.
+    run : callable
+        `run(state, plan)` returns computes it as the scene does.
+    error : callable
+        `error(state, result, truth)` returns its error in `unit`, NaN if there is nothing to compare.
+    alike : Alike
+        Part of a plan in which the truth is computed as the measured level, because other points are not compared.
+    seen : float
+        The largest invisible error.
+    shown : callable
+        `shown(state)` returns true if the pictures show it in this state.
+    most : tuple
+        Limits of parameters for which it takes about a second.
     """
 
     kind: Kind
@@ -147,7 +157,13 @@ def orbit_trial() -> Trial[Any]:
 
 
 def curve_error(values: Array, exact: Array, height: float, period: float = math.inf) -> float:
-    """Return the largest error of a curve (n,) in pixels of an axis of length `height`; period : ∞ if not an angle."""
+    """Return the largest error of a curve (n,) in pixels of an axis of length `height`.
+
+    Parameters
+    ----------
+    period : float
+        ∞ if not an angle.
+    """
     away = values - exact
     if math.isfinite(period):
         away = away - period * np.round(away / period)

@@ -31,8 +31,12 @@ T = TypeVar("T")
 class Work:
     """The computation of one state at a level, through the cache.
 
-    chosen : the name of the chosen level, which a held slider does not change.
-    auto : True if the level is set by measurement, see `settle`.
+    Attributes
+    ----------
+    chosen
+        The name of the chosen level, which a held slider does not change.
+    auto
+        True if the level is set by measurement, see `settle`.
     """
 
     def __init__(self, accuracy: str = "standard", dragging: bool = False) -> None:
@@ -60,7 +64,10 @@ class Work:
     def plan(self, kind: Kind, steady: bool = False) -> Plan:
         """Return the plan of the level for a kind of computation; scenes set their own numbers of points for a drag.
 
-        steady : hardly any slider changes the result; during a drag it keeps its plan, but no finer than `standard`.
+        Parameters
+        ----------
+        steady : bool
+            Hardly any slider changes the result; during a drag it keeps its plan, but no finer than `standard`.
         """
         if steady:
             return plan(
@@ -70,7 +77,13 @@ class Work:
         return replace(found, share=1.0, cells=1.0) if self.dragging else found
 
     def awaited(self, what: str = "") -> str:
-        """Return the caption of a result that is not known yet; what : its name and "is" or "are"."""
+        """Return the caption of a result that is not known yet.
+
+        Parameters
+        ----------
+        what : str
+            Its name and "is" or "are".
+        """
         soon = "computed when the slider is released." if self.dragging else "being computed."
         return f"{what} {soon}" if what else soon.capitalize()
 
@@ -83,8 +96,11 @@ class Work:
     def need(self, task: Task[T], preview: Task[T] | EllipsisType | None = ...) -> T | None:
         """Return the result of a task; until it is known, that of its preview, which is computed at once.
 
-        preview : by default the task itself; None for no result.  A task with another preview is added to `todo` unless
-        a slider is held.  Then a smaller preview is shown even if the result is known.
+        Parameters
+        ----------
+        preview : Task or EllipsisType or None
+            By default the task itself; None for no result.  A task with another preview is added to `todo` unless a
+            slider is held.  Then a smaller preview is shown even if the result is known.
         """
         if preview in (..., task):
             value, hit = CACHE.get(task.function, *task.arguments)

@@ -75,7 +75,14 @@ def layers(
 ) -> Layers[S]:
     """Return the layers: rotation number ρ, lock zone in one tone, no motion in grey, a ring at the torus on show.
 
-    rotation : over the window; boundary : |t| = 2, (n, 2) with f ≥ 0; curve : upper branch of the edge, (n, 2).
+    Parameters
+    ----------
+    rotation : callable
+        Over the window.
+    boundary : callable
+        |t| = 2, (n, 2) with f ≥ 0.
+    curve : callable
+        Upper branch of the edge, (n, 2).
     """
     corners = ("h", "f")
 

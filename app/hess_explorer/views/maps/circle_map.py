@@ -134,8 +134,11 @@ def cycles(theta: CircleMap) -> str:
 def about(theta: CircleMap | None, proof: str = "") -> Caption:
     """Return the kind of a map, its trace and rotation number, and its multipliers; None on the separatrix.
 
-    proof : the proved statement, if known.  It replaces the kind and the numbers that it encloses, or the whole caption
-    if it says that there is no torus.
+    Parameters
+    ----------
+    proof : str
+        The proved statement, if known.  It replaces the kind and the numbers that it encloses, or the whole caption if
+        it says that there is no torus.
     """
     if theta is None:
         return Caption("Separatrix: no return.")

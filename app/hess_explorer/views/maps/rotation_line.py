@@ -30,7 +30,14 @@ _DRAWN_TRACE = 50.0
 class Tori:
     """Tori along a line of parameters.
 
-    x : (n,) the parameter; values : ρ and trace of each torus; here : the parameter of the torus on show.
+    Attributes
+    ----------
+    x : array
+        (n,) the parameter.
+    values : TorusValues
+        ρ and trace of each torus.
+    here : float
+        The parameter of the torus on show.
     """
 
     x: Array

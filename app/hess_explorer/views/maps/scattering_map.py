@@ -99,7 +99,14 @@ def over_orders(
 ) -> Plot[S]:
     """Return the plot of cos χ over k; a click sets k.
 
-    orders : the closed form, rows (k, cos χ); closed : its value for the body; here : the body's k and computed cos χ.
+    Parameters
+    ----------
+    orders : callable
+        The closed form, rows (k, cos χ).
+    closed : callable
+        Its value for the body.
+    here : callable
+        The body's k and computed cos χ.
     """
 
     def about(state: S) -> Caption:

@@ -63,8 +63,14 @@ def between(
 ) -> Layers[S]:
     """Return the layers between the orbits of a section and the chosen orbits, including their track.
 
-    elsewhere : points (n, 2) on another sheet; curve : l and L/G of the Hess relation.
-    across : both ends of the line of the rotation number within the window.
+    Parameters
+    ----------
+    elsewhere : callable
+        Points (n, 2) on another sheet.
+    curve : callable
+        l and L/G of the Hess relation.
+    across : callable
+        Both ends of the line of the rotation number within the window.
     """
     return (
         dots("elsewhere", lambda s: elsewhere(s).T, color=theme.SHEET, size=12, label="on another sheet: another G"),

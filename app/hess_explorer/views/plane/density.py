@@ -24,8 +24,11 @@ _BRIGHT = 0.995
 def tones(counts: Sequence[Array]) -> list[Array]:
     """Return the opacity (n, m) of each kind of orbits, 0 to 255, in the order in which they are drawn.
 
-    counts : crossings (n, m) of each kind in each pixel.  The tone grows with the logarithm of all crossings there.  A
-    kind covers the ones before it in proportion to its share of them, so that the colours mix by these shares.
+    Parameters
+    ----------
+    counts : sequence of Array
+        Crossings (n, m) of each kind in each pixel.  The tone grows with the logarithm of all crossings there.  A kind
+        covers the ones before it in proportion to its share of them, so that the colours mix by these shares.
     """
     total = np.sum(counts, axis=0)
     full = max(2.0, float(np.quantile(total[total > 0], _BRIGHT)))

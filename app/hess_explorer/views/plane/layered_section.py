@@ -119,8 +119,14 @@ def layers(
 ) -> Layers[S]:
     """Return the layers: points (n, 2) of both kinds, the chosen orbits with rings at their starts, impossible in grey.
 
-    impossible : cells (m, n) over the window, 1 if impossible; labels : names of the kinds in the legend; between :
-    further layers, above the points of all orbits and below those of the chosen ones.
+    Parameters
+    ----------
+    impossible : callable
+        Cells (m, n) over the window, 1 if impossible.
+    labels : tuple
+        Names of the kinds in the legend.
+    between : Layers
+        Further layers, above the points of all orbits and below those of the chosen ones.
     """
     return (
         image(

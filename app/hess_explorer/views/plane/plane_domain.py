@@ -87,7 +87,12 @@ def momentum_picture(
 ) -> Plot[S]:
     """Return the plot of q1p2 − q2p1 over time, (n,) each: an integral if the force is central.
 
-    least : minimal half height of the axis; is_integral : whether the force is central.
+    Parameters
+    ----------
+    least : callable
+        Minimal half height of the axis.
+    is_integral : callable
+        Whether the force is central.
     """
 
     def about(state: S) -> Caption:

@@ -40,7 +40,12 @@ def layers(
 ) -> Layers[S]:
     """Return the layers: points (n, 2) of the chosen orbit, small points of others, a ring at the start, grey region.
 
-    forbidden : parts as of `region`; ended : points of other orbits that end early.
+    Parameters
+    ----------
+    forbidden : callable or None
+        Parts as of `region`.
+    ended : Points or None
+        Points of other orbits that end early.
     """
     found: list[Layer[S]] = []
     if forbidden is not None:

@@ -39,9 +39,17 @@ _THINNEST = 0.12
 class Shape:
     """Ellipsoid of a body with a fixed point, in the coordinates of its attitude.
 
-    axes : (3, 3), principal axes in rows; moments : (3,); names : names of the axes.
-    section : (3,), normal of a circular section of the gyration ellipsoid, with the radius of the middle moment;
-    selects the gyration ellipsoid (M, I⁻¹M) = const.  None selects the ellipsoid of inertia (ω, Iω) = const.
+    Attributes
+    ----------
+    axes : array
+        (3, 3), principal axes in rows.
+    moments : array
+        (3,).
+    names : tuple
+        Names of the axes.
+    section : array or None
+        (3,), normal of a circular section of the gyration ellipsoid, with the radius of the middle moment; selects the
+        gyration ellipsoid (M, I⁻¹M) = const.  None selects the ellipsoid of inertia (ω, Iω) = const.
     """
 
     axes: Array
@@ -66,7 +74,12 @@ class Shape:
     def weights(self, centre: Array | None, hollow: bool) -> Array:
         """Return six weights with these moments and their centre of mass along `centre`, (n, 4) as x, y, z, radius.
 
-        Their volumes are proportional to their masses.  Empty if there are none; hollow : they lie in a ball's wall.
+        Their volumes are proportional to their masses.  Empty if there are none.
+
+        Parameters
+        ----------
+        hollow : bool
+            They lie in a ball's wall.
         """
         arms = np.full(3, _WALL) if hollow else self.semi_axes + _WEIGHT
         masses = paired_weights(self.moments, arms, None if centre is None else self.axes @ centre)
@@ -81,10 +94,17 @@ class Shape:
 class Wheels:
     """Vagner's wheels for the constraint (ω, e) = 0: they roll on a fixed shell without slipping sideways.
 
-    The axles are parallel; `at` and −`at` touch the shell; the wheels lie in the plane of `at` and `e`.  The velocity
-    ω × at has no component along the axle at × e if and only if (ω, e) = 0.
+    The axles are parallel; `at` and −`at` touch the shell; the wheels lie in the plane of `at` and `e`.  The velocity ω
+    × at has no component along the axle at × e if and only if (ω, e) = 0.
 
-    at : unit vector of the body orthogonal to e; e : unit vector of the constraint; look : of the trace, as in `Rod`.
+    Attributes
+    ----------
+    at : Sequence
+        Unit vector of the body orthogonal to e.
+    e : Sequence
+        Unit vector of the constraint.
+    look : str
+        Of the trace, as in `Rod`.
     """
 
     at: Sequence[float] | Array
@@ -96,7 +116,10 @@ class Wheels:
 class Rod:
     """A rod from the fixed point to the unit sphere, along a direction of the body, with a dot and a label.
 
-    look : "mass" (ends in a ball), "axis", "orbit", "second", "stable", "unstable" or "muted".
+    Attributes
+    ----------
+    look : str
+        "mass" (ends in a ball), "axis", "orbit", "second", "stable", "unstable" or "muted".
     """
 
     along: Sequence[float] | Array
@@ -131,14 +154,32 @@ _WEIGHTS = Sign("weights with the body's moments of inertia", "dot", "background
 class BodyInSpace(Picture[S]):
     """The sphere fixed in space, with γ downwards like gravity, and the body inside at the player's time.
 
-    shape(state) : the ellipsoid of the body, or None.
-    motion(state) : its attitude and the times (n,) in the player's units, or None.
-    wheels : the wheels of its constraint; trail(state) : the direction whose trace is drawn, or None.
-    mass(state) : direction of the centre of mass of its weights, or None.
-    hollow : draw a glass ball rolling on an inner ball instead of the ellipsoid; heavy(state) : whether γ is gravity.
-    attitude : the picture whose attitude it follows, if it has none of its own.
-    rods : fixed to the body; curves : in space; circles, marks : fixed in the space of the picture.
-    bare : omit the lines of the sphere.
+    Attributes
+    ----------
+    shape : callable or None
+        `shape(state)` returns the ellipsoid of the body, or None.
+    motion : callable or None
+        `motion(state)` returns its attitude and the times (n,) in the player's units, or None.
+    wheels : Wheels or None
+        The wheels of its constraint.
+    trail : callable or None
+        `trail(state)` returns the direction whose trace is drawn, or None.
+    mass : callable or None
+        `mass(state)` returns direction of the centre of mass of its weights, or None.
+    hollow : bool
+        Draw a glass ball rolling on an inner ball instead of the ellipsoid.
+    heavy : callable
+        `heavy(state)` returns whether γ is gravity.
+    attitude : str
+        The picture whose attitude it follows, if it has none of its own.
+    rods : callable
+        Fixed to the body.
+    curves : callable
+        In space.
+    circles, marks : sequence of Circle
+        Fixed in the space of the picture.
+    bare : bool
+        Omit the lines of the sphere.
     """
 
     shape: Callable[[S], Shape | None] = lambda state: None

@@ -39,9 +39,15 @@ class Curve:
 class TorusInSpace(Picture[S]):
     """The torus as `hess_mechanics.suslov_hess.embedding` places it.
 
-    surface(state) : its cross-section, or None.
-    curves(state) : curves by their looks, "orbit", "stable" or "unstable".
-    zeta(state) : the points ζ_s (n,) of the invariant density along the cross-section, or None to leave it out.
+    Attributes
+    ----------
+    surface : callable or None
+        `surface(state)` returns its cross-section, or None.
+    curves : callable
+        `curves(state)` returns curves by their looks, "orbit", "stable" or "unstable".
+    zeta : callable or None
+        `zeta(state)` returns the points ζ_s (n,) of the invariant density along the cross-section, or None to leave it
+        out.
     """
 
     name: str = "surface"

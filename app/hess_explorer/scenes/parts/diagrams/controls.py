@@ -62,7 +62,10 @@ def parameter_of_diagram(symbols: tuple[str, ...], default: str) -> str:
 class DiagramControls(State, ABC):
     """The parameters of a diagram; a scene declares those of its body and the parameter of the diagram.
 
-    symbols : symbol of each parameter of the section → its name.
+    Attributes
+    ----------
+    symbols : mapping of str to str
+        Symbol of each parameter of the section → its name.
     """
 
     h: float

@@ -35,7 +35,10 @@ _ROOM, _LEAST = 0.1, 0.01
 class Course:
     """An orbit followed through the values of the parameter, in pieces; parameters as of `diagram_over`.
 
-    before : the course at whose end this one starts; without it, it starts at `place`.
+    Attributes
+    ----------
+    before : Course or None
+        The course at whose end this one starts; without it, it starts at `place`.
     """
 
     family: Family

@@ -47,7 +47,10 @@ class DiagramDensity(Part[OrbitDiagram]):
     The diagram gives the place to which the orbit settles at each of its values.  Between two values there are further
     columns.  The orbits are followed in stages, each of which makes them some times as long.
 
-    forward : direction of time of each way: backward in time, back, and there, in this order.
+    Attributes
+    ----------
+    forward : mapping of str to bool
+        Direction of time of each way: backward in time, back, and there, in this order.
     """
 
     forward: ClassVar[Mapping[str, bool]] = {BACKWARD: False, FALLING: True, RISING: True}
@@ -142,7 +145,13 @@ class DiagramDensity(Part[OrbitDiagram]):
 
 @dataclass(frozen=True)
 class _Columns:
-    """Columns of pixels whose orbits are followed together; first : crossings of each in the first stage."""
+    """Columns of pixels whose orbits are followed together.
+
+    Attributes
+    ----------
+    first : int
+        Crossings of each in the first stage.
+    """
 
     family: Family
     values: tuple[float, ...]

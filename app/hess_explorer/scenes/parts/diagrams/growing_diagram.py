@@ -219,7 +219,13 @@ class OrbitDiagram(Part[DiagramControls]):
         return {self.name: x} if near is None else {self.name: near[2], "chosen": written([near[3]])}
 
     def caption(self, points: str = "") -> Caption:
-        """Return the caption: progress, doublings, periods; points : their number in words."""
+        """Return the caption: progress, doublings, periods.
+
+        Parameters
+        ----------
+        points : str
+            Their number in words.
+        """
         known, asked = sum(self.progress.values()), self.along_values.size * len(self._courses)
         if known < asked:
             return Caption(self.work.awaited(), f"{known} of {asked} values are known.")
@@ -258,7 +264,10 @@ class OrbitDiagram(Part[DiagramControls]):
 class DiagramBranch(Continuation[OrbitDiagram]):
     """The branch of a periodic orbit over the parameter of the diagram: of the requested one, or of that which doubles.
 
-    period : one of `PERIODS`, or `NONE`.
+    Attributes
+    ----------
+    period : str
+        One of `PERIODS`, or `NONE`.
     """
 
     period: str

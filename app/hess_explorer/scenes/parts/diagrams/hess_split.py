@@ -36,7 +36,12 @@ _CLOSE = (1e-3, -1e-3, 2e-3, -2e-3)
 class HessSplit(Part[Host]):
     """The splitting of the separatrices of the Hess manifold near the Hess case.
 
-    torus : the torus of the Hess case itself; away : ε of the state on show.
+    Attributes
+    ----------
+    torus : HessTorus
+        The torus of the Hess case itself.
+    away : float
+        ε of the state on show.
     """
 
     torus: HessTorus

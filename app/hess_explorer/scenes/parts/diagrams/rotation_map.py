@@ -63,7 +63,12 @@ def window_over(plane: str) -> Any:
 class RotationMap(Part[Host]):
     """The rotation number over a plane of `PLANES`, coarse first, and a line through the torus on show.
 
-    line : the parameter that changes along the line; text : the window in a link.
+    Attributes
+    ----------
+    line : str
+        The parameter that changes along the line.
+    text : str
+        The window in a link.
     """
 
     plane: str

@@ -34,7 +34,12 @@ _LINES = (("solid", 1.5), ("dashed", 2.0), ("dotted", 3.0), ("solid", 4.0))
 class Costs:
     """Time and error of every level, for each kind of computation; measured in the background.
 
-    shown : the `bare` state; trials : its computations.
+    Attributes
+    ----------
+    shown : State
+        The `bare` state.
+    trials : tuple
+        Its computations.
     """
 
     work: Work

@@ -105,8 +105,14 @@ class HeavyTorus(Part[Host]):
 class HessSurface(Part[OnTorus]):
     """The torus as a surface, and the curves on it.
 
-    shaded : whether by its invariant density; orbit() : the orbit on show as reduced states (n, 5) in units b = 1, and
-    its times (n,); says() : the second part of the caption.
+    Attributes
+    ----------
+    shaded : bool
+        Whether by its invariant density.
+    orbit : callable
+        `orbit()` returns the orbit on show as reduced states (n, 5) in units b = 1, and its times (n,).
+    says : callable
+        `says()` returns the second part of the caption.
     """
 
     shaded: bool

@@ -34,7 +34,12 @@ _BOXES, _CIRCLES = 300, 16
 class ProvedError:
     """A proved error: its entry in the status line, and regions that hold the true orbit where it is visibly off.
 
-    band : convex polygons (n, 2) of (ω1, ω2); around : pairs of a centre γ and an angular radius.
+    Attributes
+    ----------
+    band : tuple of Array
+        Convex polygons (n, 2) of (ω1, ω2).
+    around : tuple
+        Pairs of a centre γ and an angular radius.
     """
 
     sentence: str
@@ -55,7 +60,12 @@ class _Host(Host, Protocol):
 class OrbitProof(Part[_Host]):
     """The proved error of the orbit on show, for a traced system.
 
-    certain : `SHOWN` or `HIDDEN`; units : factors from ω1 and ω2 of the computation to those of the picture.
+    Attributes
+    ----------
+    certain : str
+        `SHOWN` or `HIDDEN`.
+    units : tuple
+        Factors from ω1 and ω2 of the computation to those of the picture.
     """
 
     certain: str

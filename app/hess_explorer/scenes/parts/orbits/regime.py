@@ -38,7 +38,10 @@ class _Host(Sectioned, Protocol):
 class OrbitRegime(Part[_Host]):
     """The kind of motion that starts at a place of a section, with its attractor and its repeller.
 
-    long : the averaging time of the divergence.
+    Attributes
+    ----------
+    long : float
+        The averaging time of the divergence.
     """
 
     long: float

@@ -101,7 +101,12 @@ class _Section(Sectioned, Protocol):
 class SectionBranch(Continuation[_Section]):
     """The branch of the periodic orbit of a section over a parameter.
 
-    along : symbols of the section's parameters → their names; besides : choices that the section also depends on.
+    Attributes
+    ----------
+    along : mapping of str to str
+        Symbols of the section's parameters → their names.
+    besides : tuple of str
+        Choices that the section also depends on.
     """
 
     orbit: SectionPeriodicOrbit

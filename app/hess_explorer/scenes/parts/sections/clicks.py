@@ -82,7 +82,10 @@ class _Host(Host, Protocol):
 class _Chosen:
     """The starts of the orbits chosen by clicks; the last orbit is on show.
 
-    refused : the place chosen for the orbit on show, if no motion is possible there.
+    Attributes
+    ----------
+    refused : Place or None
+        The place chosen for the orbit on show, if no motion is possible there.
     """
 
     places: Sequence[Place]
@@ -94,7 +97,12 @@ class _Chosen:
 class Clicks(Part[_Host]):
     """The places at which clicks in a section start orbits.
 
-    excuse : the reason why some places have no orbit; remedy : the choices that give all of them one.
+    Attributes
+    ----------
+    excuse : str
+        The reason why some places have no orbit.
+    remedy : str
+        The choices that give all of them one.
     """
 
     excuse: str
@@ -175,7 +183,12 @@ class Clicks(Part[_Host]):
 def filled(state: Any, held: int, **more: Any) -> Section:
     """Return the section of a state whose `orbits` fill its `window`, among those of its `clicks`.
 
-    held : the largest number of orbits while a slider is held; more : as of `Section`.
+    Parameters
+    ----------
+    held : int
+        The largest number of orbits while a slider is held.
+    more
+        As of `Section`.
     """
 
     def seeds(section: Section) -> list[tuple[Start, ...]]:

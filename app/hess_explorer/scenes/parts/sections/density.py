@@ -39,8 +39,14 @@ class SectionDensity(Part[Section]):
 
     The orbits are followed in stages, each of which doubles their lengths.
 
-    is_on : show it; kinds : their number, by default one for each direction of time; kind_of(states) : the kinds (k,)
-    of orbits, by default in turn.
+    Attributes
+    ----------
+    is_on : bool
+        Show it.
+    kinds : int
+        Their number, by default one for each direction of time.
+    kind_of : callable or None
+        `kind_of(states)` returns the kinds (k,) of orbits, by default in turn.
     """
 
     is_on: bool

@@ -49,7 +49,13 @@ _WAYS = ((1.0, 1.0), (-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0))
 
 @dataclass(frozen=True, eq=False)
 class Indicator(Part[Section]):
-    """The cells of a section coloured by MEGNO; is_on : show them."""
+    """The cells of a section coloured by MEGNO.
+
+    Attributes
+    ----------
+    is_on : bool
+        Show them.
+    """
 
     is_on: bool
 

@@ -48,8 +48,14 @@ class _Host(Host, Protocol):
 class BodyOrbit(Part[_Host]):
     """The orbit on show, from `start`.
 
-    accuracy : its level, if it is not the chosen one; most : the largest number of samples; max_step : its longest
-    step, 0 without a limit.
+    Attributes
+    ----------
+    accuracy : callable or None
+        Its level, if it is not the chosen one.
+    most : int
+        The largest number of samples.
+    max_step : float
+        Its longest step, 0 without a limit.
     """
 
     accuracy: Callable[[], Level] | None = None

@@ -76,7 +76,12 @@ def length_of_manifolds() -> Any:
 class SectionPeriodicOrbit(Part[Section]):
     """A periodic orbit shown in place of the chosen orbit of a section.
 
-    period : one of `PERIODS`, or `NONE`; reach : the length of the manifolds of a saddle.
+    Attributes
+    ----------
+    period : str
+        One of `PERIODS`, or `NONE`.
+    reach : float
+        The length of the manifolds of a saddle.
     """
 
     period: str

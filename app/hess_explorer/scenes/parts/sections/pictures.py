@@ -32,8 +32,12 @@ def _density(labels: tuple[str, ...], colors: tuple[str, ...]) -> Layers[Any]:
 def section_layers(*parts: str, **more: Any) -> Layers[Any]:
     """Return the layers of a section with one kind of orbits.
 
-    parts : names of the parts of the state that it shows besides, by default all; more : other arguments of
-    `section_plane.layers`.
+    Parameters
+    ----------
+    parts
+        Names of the parts of the state that it shows besides, by default all.
+    more
+        Other arguments of `section_plane.layers`.
     """
     parts = parts or ("megno", "density", "periodic_orbit")
 
@@ -49,7 +53,13 @@ def section_layers(*parts: str, **more: Any) -> Layers[Any]:
 
 
 def section_picture(**more: Any) -> Plot[Any]:
-    """Return the picture of a section, in which a click starts the orbit; more : other arguments of `Plot`."""
+    """Return the picture of a section, in which a click starts the orbit.
+
+    Parameters
+    ----------
+    more
+        Other arguments of `Plot`.
+    """
 
     def side(axis: int) -> Callable[[Any], tuple[float, float]]:
         return lambda s: tuple(corner[axis] for corner in s.section.frame)
@@ -92,8 +102,20 @@ def filled_picture(
 ) -> Plot[Any]:
     """Return the picture of a section filled with two kinds of orbits, in which clicks start others.
 
-    full : the whole section; labels : labels of the two kinds; under : layers below all others; over : those of the
-    periodic orbit; between : as in `layered_section.layers`; more : other arguments of `Plot`.
+    Parameters
+    ----------
+    full : Window
+        The whole section.
+    labels : tuple
+        Labels of the two kinds.
+    under : Layers
+        Layers below all others.
+    over : Layers or None
+        Those of the periodic orbit.
+    between : Layers
+        As in `layered_section.layers`.
+    more
+        Other arguments of `Plot`.
     """
     (x0, y0), (x1, y1) = full
 
@@ -128,7 +150,10 @@ def filled_picture(
 def section_trials(**most: float) -> tuple[Trial[Any], Trial[Any]]:
     """Return the trials of a section and of its cells of MEGNO, `section` and `megno` of a state.
 
-    most : limits of further parameters for which levels are compared.
+    Parameters
+    ----------
+    most
+        Limits of further parameters for which levels are compared.
     """
     return (
         Trial(

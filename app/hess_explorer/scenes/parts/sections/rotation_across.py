@@ -51,9 +51,13 @@ class _Host(Host, Protocol):
 class RotationAcross(Part[_Host]):
     """Rotation numbers along a line across the Andoyer–Deprit section.
 
-    first() : the place of the first chosen start.
-    about_middle : True counts turns about the middle of the window, on a line from there to the right; False counts
-    them by the angle l, on a vertical line through that start, which further starts do not move.
+    Attributes
+    ----------
+    first : callable
+        `first()` returns the place of the first chosen start.
+    about_middle : bool
+        True counts turns about the middle of the window, on a line from there to the right; False counts them by the
+        angle l, on a vertical line through that start, which further starts do not move.
     """
 
     section: Section

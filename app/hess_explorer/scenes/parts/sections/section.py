@@ -105,8 +105,14 @@ class _Host(Sectioned, Protocol):
 class Known:
     """The orbits of a section as far as they are known.
 
-    own, others : batches of the chosen orbits and of the others, None if not known yet; few : fewer crossings of the
-    others, until all are known; reason : why all of it is left out, else an empty string.
+    Attributes
+    ----------
+    own, others : list or None
+        Batches of the chosen orbits and of the others, None if not known yet.
+    few : list or None
+        Fewer crossings of the others, until all are known.
+    reason : str
+        Why all of it is left out, else an empty string.
     """
 
     own: list[OrbitBatch | None]
@@ -129,14 +135,27 @@ class Known:
 class Section(Part[_Host]):
     """A section with chosen orbits among others, computed in batches.
 
-    chosen() : the states from which the chosen orbits start, by default the given one; the last one is on show.
-    compute(section, starts, crossings, forward, level, most_steps) : the `OrbitBatch` of these starts.
-    most_steps : largest number of Taylor steps of each orbit.
-    seeds : the starts of the others; ways : their directions of time, True is forward.
-    later : draw only the later half of the crossings.
-    whole() : the window of the whole picture, by default that of the section.
-    at_once : compute the chosen orbits, and a few crossings of the others, before anything is shown.
-    alone : whether nothing else is shown in the window, such as basins.
+    Attributes
+    ----------
+    chosen : callable or None
+        `chosen()` returns the states from which the chosen orbits start, by default the given one; the last one is on
+        show.
+    compute : callable
+        `compute(section, starts, crossings, forward, level, most_steps)` returns the `OrbitBatch` of these starts.
+    most_steps : int
+        Largest number of Taylor steps of each orbit.
+    seeds : Seeds
+        The starts of the others.
+    ways : tuple of bool
+        Their directions of time, True is forward.
+    later : bool
+        Draw only the later half of the crossings.
+    whole : callable or None
+        `whole()` returns the window of the whole picture, by default that of the section.
+    at_once : bool
+        Compute the chosen orbits, and a few crossings of the others, before anything is shown.
+    alone : bool
+        Whether nothing else is shown in the window, such as basins.
     """
 
     chosen: Callable[[], Sequence[Start]] | None = None
@@ -228,7 +247,10 @@ class Section(Part[_Host]):
     def points(self, first: bool = True, ends: bool = False, later: bool = False) -> Array:
         """Return the drawn points (n, 2) of the other orbits of one kind, those that end early or the rest.
 
-        later : the later half of their crossings, whatever is drawn.
+        Parameters
+        ----------
+        later : bool
+            The later half of their crossings, whatever is drawn.
         """
         if (first, ends, later) not in self._points:
             self._points[first, ends, later] = joined(
