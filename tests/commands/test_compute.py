@@ -144,7 +144,7 @@ def test_nothing_is_imported_that_is_not_used(script):
         (["orbti"], "There is no command 'orbti': did you mean orbit?"),
         (["xyzzy"], "There is no command 'xyzzy': choose from serve, shot, "),
         (["orbit", "sulsov"], "There is no system 'sulsov': did you mean suslov"),
-        (["orbit"], "Name a system after orbit: ball, "),
+        (["orbit"], "Add a system after orbit: ball, "),
         (replaced(CIRCLE_MAP, "--h", "nan"), "h is not a finite number"),
         (replaced(CIRCLE_MAP, "--h", "x"), "--h: invalid float value: 'x'"),
         (replaced(CIRCLE_MAP, "--f", "9"), "choose |f| ≤ 1.81"),

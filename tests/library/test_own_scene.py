@@ -137,7 +137,7 @@ def test_it_has_a_slider_for_each_parameter_and_initial_value_and_the_presets_as
     ("given", "message"),
     [
         ({"pictures": ["x q"]}, "has no 'q': choose among x, y, px, py"),
-        ({"pictures": ["x"]}, "'x' is no picture. Write two names"),
+        ({"pictures": ["x"]}, "'x' is not a picture. Write the names of two"),
         ({"pictures": ["x y", "x y"]}, "each picture may occur once"),
         ({"pictures": ["section at x = a"]}, "not a valid expression"),
         ({"pictures": ["section y q"]}, "coordinates among y, px, py"),
@@ -168,7 +168,7 @@ def test_what_is_no_system_or_too_small_for_a_section_is_refused():
 
 
 def test_a_name_that_cannot_stand_in_a_link_is_refused():
-    with raises(InvalidParameter, match="'x-y' cannot stand in a link"):
+    with raises(InvalidParameter, match="'x-y' cannot be used in a link"):
         hess.scene(System("s", lambda y, p: (y[0],), variables=["x-y"]))
 
 

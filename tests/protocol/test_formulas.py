@@ -95,7 +95,7 @@ def test_a_parameter_keeps_the_text_and_refuses_with_its_name():
     spec = Formula("U", "Potential", "g3")
     assert spec.read(" g1 ^ 2 ") == ("g1 ^ 2", None)
     assert spec.read("g1 +") == ("g3", spec.read("g1 +")[1])
-    assert spec.read("g1 +")[1].startswith("Potential: This is no polynomial")
+    assert spec.read("g1 +")[1].startswith("Potential: This is not a polynomial")
 
 
 def test_random_formulas_are_polynomials_with_the_same_values_or_refused(request):

@@ -99,7 +99,7 @@ def refuses(function, over, said, **fixed):
 @pytest.mark.parametrize(
     ("function", "over", "said"),
     [
-        (math.hypot, {"x": [1.0]}, "hypot.. takes no keyword arguments.*let it take its parameters by name"),
+        (math.hypot, {"x": [1.0]}, "hypot.. takes no keyword arguments.*it must accept its parameters by name"),
         (product_of, {"x": [1.0]}, "missing 1 required positional argument: 'y'"),
         (product_of, {"z": [1.0]}, "unexpected keyword argument 'z'"),
         (lambda x: "many", {"x": [1.0]}, "'many'.*return a number or a named tuple of numbers"),

@@ -1,8 +1,8 @@
 """The commands of `hess-explorer`.
 
-A command that is written by hand is a module with a `COMMAND`: its description, options and function as data
-(`command.py`).  The others are the computations of the catalogue (`compute.py`).  Only the module of the given command
-is imported, so that `serve` does not wait for the mechanics, nor a computation for the web libraries.
+A command written by hand is a module with a `COMMAND`: its description, options and function as data (`command.py`).
+All others are computations of the catalogue (`compute.py`).  Only the module of the given command is imported, so that
+`serve` does not wait for the mechanics, nor a computation for the web libraries.
 """
 
 from __future__ import annotations

@@ -17,25 +17,30 @@ T = TypeVar("T")
 
 
 def run_file(path: str | Path) -> dict[str, Any]:
-    """Return the names that a Python file of the user defines.  Raises `CommandError` if it stops."""
+    """Run a Python file of the user and return its names.  Raises `CommandError` if the file raises an exception."""
     try:
         return runpy.run_path(str(path))
     # Whatever the user's code raises.
     except Exception as error:
-        raise CommandError(f"{str(path)!r} stops with {type(error).__name__}: {error}.") from error
+        raise CommandError(f"{str(path)!r} failed with {type(error).__name__}: {error}.") from error
 
 
 def user_object(text: str, kind: str, fits: Callable[[Any], bool]) -> Any:
     """Return the object FILE.py:NAME of a Python file of the user.
 
-    Raises `CommandError`.
-
     Parameters
     ----------
+    text : str
+        File and name.
     kind : str
-        Its kind in words.
+        Kind of the object, for the error message.
     fits : callable
-        `fits(object)` returns whether it is one.
+        `fits(object)` returns whether the object is of this kind.
+
+    Raises
+    ------
+    CommandError
+        If the file defines no such object.
     """
     path, _, name = text.rpartition(":")
     found = run_file(path).get(name)
@@ -57,13 +62,7 @@ def integer(low: int, high: int) -> Callable[[str], int]:
 
 
 def assignment_of(value: Callable[[str], T]) -> Callable[[str], tuple[str, T]]:
-    """Return the argument type of NAME=VALUE.
-
-    Parameters
-    ----------
-    value : callable
-        Type of the value.
-    """
+    """Return the argument type of NAME=VALUE, where `value` converts the text of the value."""
 
     def assignment(text: str) -> tuple[str, T]:
         name, given = text.split("=", 1)

@@ -28,12 +28,14 @@ Option = tuple[str, str, Mapping[str, Any]]
 
 
 class Command(argparse.ArgumentParser):
-    """A command, which reports an error in one sentence, without the usage text, and knows no abbreviations.
+    """A command that reports errors in one sentence, without the usage text, and accepts no abbreviations.
 
-    Attributes
+    Parameters
     ----------
-    description, options : str
-        Its help text and its options.
+    description : str
+        Help text.
+    options : sequence of Option
+        Options and positional arguments.
     run : callable or None
         Runs the command with the parsed options; raises `CommandError`.
     example : str
@@ -61,14 +63,19 @@ class Command(argparse.ArgumentParser):
                 raise CommandError(f"There are two options {name}: rename one of them.") from error
 
     def parse(self, prog: str, words: Sequence[str] | None = None) -> Options:
-        """Return the options of a command line.
-
-        Raises `CommandError`.
+        """Parse the arguments of a command line.
 
         Parameters
         ----------
         prog : str
-            How the command is typed.
+            Name of the program in messages.
+        words : sequence of str, optional
+            The arguments, by default those of this process.
+
+        Raises
+        ------
+        CommandError
+            If the arguments are invalid.
         """
         self.prog, self.usage = prog, " ".join([prog, "[OPTIONS]", *self.places])
         self.epilog = f"Example: {prog} {self.example}" if self.example else ""
@@ -86,13 +93,7 @@ class Command(argparse.ArgumentParser):
 
 
 def option(name: str, help: str, group: str = "", **settings: Any) -> Option:
-    """Return an option.
-
-    Parameters
-    ----------
-    settings
-        Arguments of `ArgumentParser.add_argument`.
-    """
+    """Return an option with further arguments of `ArgumentParser.add_argument`."""
     return name, group, {"help": help, **settings}
 
 
@@ -131,13 +132,7 @@ STATE = (
 
 
 def picture(more: str = "") -> tuple[Option, ...]:
-    """Return the options of a state, a picture and an output file.
-
-    Parameters
-    ----------
-    more : str
-        Help text on several pictures.
-    """
+    """Return the options of a state, a picture and an output file; `more` is help text on several pictures."""
     return (
         *STATE,
         option(

@@ -22,19 +22,24 @@ __all__ = ["command_of", "parse", "titles"]
 
 
 def titles(group: str) -> dict[str, str]:
-    """Return the computations under a heading: names and titles."""
+    """Return the titles of the computations under a heading, by name."""
     return {one.name: one.title for one in catalogue().values() if one.group == group}
 
 
 def parse(name: str, rest: list[str]) -> Options:
-    """Return the options of a computation.
-
-    Raises `CommandError` if there is no such computation or system.
+    """Parse the arguments of a computation.
 
     Parameters
     ----------
-    rest : list
-        The words after its name.
+    name : str
+        Name of the computation.
+    rest : list of str
+        The arguments after its name.
+
+    Raises
+    ------
+    CommandError
+        If there is no such computation or system.
     """
     of = {one.system: one for one in catalogue().values() if one.name == name}
     if not of:
@@ -48,7 +53,7 @@ def parse(name: str, rest: list[str]) -> Options:
             raise _unknown("system", rest[0], [*of])
         return command_of(what).parse(f"{prog} {rest[0]}", rest[1:])
     if not {"-h", "--help"} & {*rest}:
-        raise CommandError(f"Name a system after {name}: {', '.join(of)}.")
+        raise CommandError(f"Add a system after {name}: {', '.join(of)}.")
     overview = Command(f"{next(iter(of.values())).title}.  SYSTEM --help shows the options.")
     own = {"FILE.py:NAME": "a System that a Python file of yours defines"}
     overview.list_words("systems", {system: motions()[system].title for system in of} | own)
@@ -71,7 +76,7 @@ def _own(name: str, text: str) -> Computation:
 
 
 def command_of(what: Computation) -> Command:
-    """Return the command of a computation."""
+    """Return the command of a computation, with an option for each parameter."""
     numbers = (f"  {name:<18} {one.title} ({one.symbol}{_unit(one.unit)})" for name, one in what.numbers.items())
     description = [
         f"{what.title}.",

@@ -27,7 +27,7 @@ _LOST = "null stands for a number that is missing or exceeds the range of double
 
 @contextmanager
 def long_computation(own_progress: bool = False) -> Iterator[None]:
-    """Report on stderr a computation that takes long, and convert an overflow to `CommandError`.
+    """Print a message to stderr if the block takes long, and convert an overflow to `CommandError`.
 
     Parameters
     ----------
@@ -60,18 +60,23 @@ def write(
 ) -> None:
     """Write a result in the chosen format.
 
-    Raises `CommandError` if the file cannot be written.
-
     Parameters
     ----------
-    table
-        DataFrame of its columns.
-    facts : mapping of str to Any
+    options : argparse.Namespace
+        Options `format` and `out` of the command.
+    table : pandas.DataFrame
+        The columns.
+    facts : mapping of str
         All other results.
     data : callable
-        Returns a Dataset of the columns.
+        Returns the columns as an xarray.Dataset.
     notes : sequence of str
         Remarks in full sentences.
+
+    Raises
+    ------
+    CommandError
+        If the file cannot be written.
     """
     lost: list[str] = []
     known = _strict(facts, lost)
@@ -93,18 +98,18 @@ def write(
 
 
 def _plain(value: Any) -> Any:
-    """Return numbers and arrays of NumPy, and complex numbers, as JSON has them."""
+    """Convert NumPy numbers, arrays and complex numbers to types of JSON."""
     return [value.real, value.imag] if isinstance(value, complex) else value.tolist()
 
 
 def _strict(named: Mapping[str, Any], lost: list[str]) -> dict[str, Any]:
-    """Return values that JSON has, with null for numbers that are not finite, which are appended to `lost`."""
+    """Replace numbers that are not finite by null, and append their names to `lost`."""
     known: dict[str, Any] = json.loads(json.dumps(named, default=_plain), parse_constant=lost.append)
     return known
 
 
 def _netcdf(data: Any, attributes: Mapping[str, str]) -> bytes:
-    """Return a file of NetCDF 3, which SciPy writes; its names are ASCII, `long_name` has the symbols."""
+    """Return a NetCDF 3 file, written by SciPy; its names are ASCII, `long_name` has the symbols."""
     for name, one in data.variables.items():
         one.attrs["long_name"] = name
     data.attrs = attributes
@@ -113,7 +118,7 @@ def _netcdf(data: Any, attributes: Mapping[str, str]) -> bytes:
 
 
 def _ascii(name: str) -> str:
-    """Return the name with Greek letters written out: omega1 for ω₁."""
+    """Spell out Greek letters in a name: omega1 for ω₁."""
     return "".join(
         char if char.isascii() else unicodedata.name(char).rpartition(" ")[2].lower()
         for char in unicodedata.normalize("NFKD", name).replace("−", "-").replace("/", "_")

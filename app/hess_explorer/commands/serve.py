@@ -83,9 +83,9 @@ def _run(options: Options) -> None:
 
 
 def _shown(found: xr.Dataset) -> str:
-    """Put a sweep over two evenly spaced parameters into the chart of a scene, and return the link of its state.
+    """Show a sweep over two evenly spaced parameters in the chart of a scene, and return the link of the state.
 
-    Raises `InvalidParameter`.
+    Raises `InvalidParameter` if no scene has such a chart.
     """
     import numpy as np
 
@@ -144,12 +144,12 @@ def _lessons(paths: Sequence[Path]) -> tuple[Lesson, ...]:
     if not lessons:
         raise CommandError("\n".join(map(str, mistakes)))
     for mistake in mistakes:
-        print(f"{mistake}  Its lesson is left out.", file=sys.stderr)
+        print(f"{mistake}  The lesson is omitted.", file=sys.stderr)
     return lessons
 
 
 def _first_words() -> str:
-    """Return the first message, which says how long the start takes."""
+    """Return the first message, with the expected duration of the start."""
     from hess_explorer.server.compiled import KEEPS_KERNELS, all_compiled
 
     if not KEEPS_KERNELS:
@@ -161,9 +161,9 @@ def _first_words() -> str:
 
 
 def _second_compiler() -> AbstractContextManager[object]:
-    """Start to compile the circle map of the first scene at a first start, while this process starts.
+    """Compile the circle map of the first scene in a second process, at the first start.
 
-    This process then compiles labels and the orbit, which takes as long.
+    Meanwhile this process compiles labels and the orbit, which takes as long.
     """
     from hess_explorer.server.compiled import KEEPS_KERNELS, all_compiled, compiler
 
@@ -177,7 +177,7 @@ circle_map(0.5, 1.5, 0.6, "draft").theta([0.0])
 
 
 def _require_free(address: str, port: int) -> None:
-    """Raise `CommandError` unless the port can be listened on."""
+    """Raise `CommandError` if the port is in use or cannot be opened."""
     try:
         socket.create_server((address, port), family=socket.AF_INET6 if ":" in address else socket.AF_INET).close()
     except (OSError, UnicodeError) as error:

@@ -107,5 +107,5 @@ class Background:
 
     @property
     def error(self) -> str:
-        """The message of a failed task, which also discards the others; empty if no task failed."""
+        """The message of the task that failed and thereby discarded the others; empty if none failed."""
         return self._job.error

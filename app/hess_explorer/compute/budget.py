@@ -25,7 +25,7 @@ WAIT = 60.0
 
 
 class ClientGone(Exception):
-    """The client has gone, so the result is no longer needed."""
+    """The client has disconnected, so the result is no longer needed."""
 
 
 class OverBudget(WorkLimit):
@@ -62,12 +62,12 @@ _budget: ContextVar[Budget | None] = ContextVar("budget", default=None)
 def time_budget(
     cancellation: threading.Event, seconds: float = SECONDS, wait: float = WAIT, what: str = "This state"
 ) -> Iterator[Budget]:
-    """Give this thread a time budget; `check` raises when it is used up or the client has gone.
+    """Give this thread a time budget; `check` raises when it is used up or the client has disconnected.
 
     Parameters
     ----------
     left : threading.Event
-        Set when the client has gone.
+        Set when the client has disconnected.
     seconds, wait : float
         Limits of CPU time and of wall-clock time, in seconds.
     what : str
@@ -83,7 +83,7 @@ def time_budget(
 
 
 def check() -> None:
-    """Raise `OverBudget` if the time budget is used up, `ClientGone` if the client has gone."""
+    """Raise `OverBudget` if the time budget is used up, `ClientGone` if the client has disconnected."""
     budget = _budget.get()
     if budget is None:
         return

@@ -24,7 +24,7 @@ _OVERHEAD, _NUMBER = 512, 64
 
 
 def size_of(value: Any) -> int:
-    """Return the size of a result in bytes: its arrays, nested in dataclasses, mappings and tuples, plus overhead."""
+    """Return the size of a result in bytes: all arrays in dataclasses, mappings and tuples, plus overhead."""
     # The most frequent type first.
     if type(value) is float:
         return _NUMBER
@@ -55,7 +55,7 @@ class Task(Generic[T_co]):
         return self.function(*self.arguments)
 
     def get(self) -> T_co:
-        """Return the result, from the cache if it is known."""
+        """Return the result, computed at most once."""
         return cast(T_co, CACHE.get(self.function, *self.arguments)[0])
 
 

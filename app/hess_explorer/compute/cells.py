@@ -1,4 +1,4 @@
-"""Numbers of a computation at many cells, for sweeps and charts: each cell has a status, or a reason for its lack."""
+"""Evaluate a computation at many cells, for sweeps and charts; each cell has a status."""
 
 from __future__ import annotations
 
@@ -85,12 +85,14 @@ class CellResults:
 
     Attributes
     ----------
-    values, errors : mapping of str to Array
-        By the name of the number, each (n,); errors only of numbers with an estimate.
-    status : Outcomes
-        (n,).
+    values : mapping of str to array (n,)
+        The numbers by name.
+    errors : mapping of str to array (n,)
+        Their estimated errors, where estimates exist.
+    status : array (n,) of Outcome
+        Status of each cell.
     why : mapping of int to str
-        By cell, the reason why it has no number, or which of its numbers is missing.
+        The reason why a cell has no number, or which of its numbers is missing, by index of the cell.
     """
 
     values: Mapping[str, Array]
@@ -100,9 +102,9 @@ class CellResults:
 
 
 def failure(error: Exception, cell: Mapping[str, object]) -> tuple[Outcome, str]:
-    """Return the status and message of a cell that raised an error; unexpected errors are logged.
+    """Return the status and message of a cell that raised an error; log unexpected errors.
 
-    Raises `ClientGone` and `OverBudget` again, because they end the whole computation.
+    `ClientGone` and `OverBudget` are raised again, because they end the whole computation.
     """
     if isinstance(error, (ClientGone, OverBudget)):
         raise error
@@ -114,14 +116,20 @@ def failure(error: Exception, cell: Mapping[str, object]) -> tuple[Outcome, str]
 
 
 def evaluate(what: Computation, numbers: Sequence[str], columns: Mapping[str, Array], level: Level) -> CellResults:
-    """Return numbers of a computation at cells.
+    """Evaluate numbers of a computation at n cells.
 
     Each cell without any finite number has a status and a message.
 
     Parameters
     ----------
-    columns : mapping of str to Array
-        Values (n,) of parameters, the others have their defaults.
+    what : Computation
+        The computation.
+    numbers : sequence of str
+        Names of its numbers.
+    columns : mapping of str to array (n,)
+        Values of parameters; all others have their defaults.
+    level : Level
+        Level of accuracy.
     """
     count = next(iter(columns.values())).size
     with np.errstate(all="ignore"):
@@ -133,7 +141,7 @@ def evaluate(what: Computation, numbers: Sequence[str], columns: Mapping[str, Ar
 def _at_once(
     what: Computation, numbers: Sequence[str], columns: Mapping[str, Array], level: Level, count: int
 ) -> CellResults | None:
-    """Return the numbers of all cells at once; None if some of them are computed one by one only, or one fails."""
+    """Evaluate all cells in one call; return None if a number has no such function, or if a cell fails."""
     assert what.many is not None
     every = {one.name: np.full(count, one.default) for one in what.parameters} | dict(columns)
     try:
@@ -185,7 +193,7 @@ def _one_by_one(
                 continue
             if not math.isfinite(values[name][i]):
                 outcomes.append(Outcome.BEYOND_RANGE)
-        # A cell with some of its numbers is not without a value.
+        # A cell with at least one number has a value.
         if len(outcomes) == len(numbers):
             status[i] = outcomes[0]
     return CellResults(values, errors, status, why)

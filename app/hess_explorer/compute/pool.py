@@ -25,7 +25,7 @@ PATIENCE = 1.0
 
 
 class Pool:
-    """Runs requests, those of the sessions in rotation, and background tasks when a core is free."""
+    """Runs the requests of all sessions in rotation, and background tasks when a core is free."""
 
     def __init__(self, cores: int) -> None:
         # One thread more than cores, so that a slow request does not block the others.  Many more threads would delay
@@ -86,7 +86,8 @@ class RequestQueue:
 
     Attributes
     ----------
-    served : time of the end of the last request.
+    served : float
+        Time at which the last request ended, in seconds.
     """
 
     def __init__(self) -> None:

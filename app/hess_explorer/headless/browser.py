@@ -24,7 +24,7 @@ _QUIET = ("--disable-background-networking", "--disable-component-update", "--di
 
 
 class BrowserError(ModelError):
-    """There is no usable browser; the message tells the user what to do."""
+    """No usable browser was found; the message contains a remedy."""
 
 
 def find_browser(playwright_own: str) -> str | None:
@@ -102,8 +102,8 @@ def _launch(chromium: BrowserType, path: str, *, sandbox: bool) -> Browser:
 def wait_ready(page: Page, after: int = -1, seconds: float = 120) -> None:
     """Wait until the page has drawn a state whose number exceeds `after`.
 
-    The root element of the page has data-ready="true" when all requested data are drawn, and data-state, the number
-    of states drawn so far.  Raises Playwright's TimeoutError after `seconds`.
+    The root element of the page has data-ready="true" when all requested data are drawn; data-state is the number of
+    states drawn so far.  Raises Playwright's TimeoutError after `seconds`.
     """
     page.wait_for_function(
         "after => { const d = document.documentElement.dataset;"

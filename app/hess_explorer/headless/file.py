@@ -1,4 +1,4 @@
-"""Write a picture in any of the file formats: tables and plots without a browser, all else as the page draws it."""
+"""Write a picture in any file format: tables and plots without a browser, everything else with the page."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from hess_explorer.export.figure import as_figure, as_file, figure_bytes, image_figure
 from hess_explorer.export.formats import FORMATS, FileRequest
 from hess_explorer.export.picture_data import PictureData
-from hess_explorer.headless.drawing import drawing_of, png_of
+from hess_explorer.headless.drawing import page_image, png_of
 from hess_explorer.headless.film import as_film
 from hess_explorer.views.plot import Plot
 
@@ -21,14 +21,23 @@ __all__ = ["content", "figure"]
 def content(
     data: PictureData, request: FileRequest, report: Callable[[int, int], None] = lambda done, of: None
 ) -> bytes:
-    """Return the contents of the file.
-
-    Raises `InvalidParameter`, and `BrowserError` if a browser is needed and there is none.
+    """Return the contents of a file.
 
     Parameters
     ----------
+    data : PictureData
+        The picture.
+    request : FileRequest
+        The format and its settings.
     report : callable
         Progress callback of `as_film`.
+
+    Raises
+    ------
+    InvalidParameter
+        If a setting is not supported, or a library is not installed.
+    BrowserError
+        If a browser is needed and there is none.
     """
     kind, width, black = request.kind, request.width, request.black
     if FORMATS[kind].holds == "film":
@@ -42,4 +51,4 @@ def figure(data: PictureData, width: float = 85.0, black: bool = False) -> Figur
     """Return a picture as a figure of Matplotlib; parameters as in `as_figure`, errors as in `content`."""
     if isinstance(data.picture, Plot):
         return as_figure(data, width, black)
-    return image_figure(data, drawing_of(data, width, black), width)
+    return image_figure(data, page_image(data, width, black), width)

@@ -24,7 +24,7 @@ _LOAD_SECONDS = 120
 
 
 class ServerError(ModelError):
-    """The server or the page did not become ready; the message gives the reason."""
+    """The server or the page did not become ready; the message contains the reason."""
 
 
 def free_port() -> int:

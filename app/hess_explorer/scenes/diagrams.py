@@ -11,7 +11,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from hess_explorer.compute.cache import Task
-from hess_explorer.protocol.specs import Values, written
+from hess_explorer.protocol.specs import Values, places_text
 from hess_explorer.scenes.framework.charted import Charted, Charts, parameters_of
 from hess_explorer.scenes.framework.part import Start, part
 from hess_explorer.scenes.framework.periodic_search import NONE, Closed
@@ -122,11 +122,11 @@ class DiagramState(DiagramControls):
         if found is None:
             return self.diagram.choose(x, y)
         value, place, period = found
-        return {self.diagram.name: value, "chosen": written([place]), "branch": f"period {period}"}
+        return {self.diagram.name: value, "chosen": places_text([place]), "branch": f"period {period}"}
 
     def start_here(self, x: float, y: float) -> Values:
         """Return the parameters of an orbit that starts at a place of the section."""
-        return {"chosen": written([(x, min(max(y, 1e-6), math.pi - 1e-6))])}
+        return {"chosen": places_text([(x, min(max(y, 1e-6), math.pi - 1e-6))])}
 
     # ---- words --------------------------------------------------------------------------------------------------
 

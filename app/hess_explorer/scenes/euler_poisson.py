@@ -10,7 +10,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from hess_explorer.protocol.specs import Value, Values, written
+from hess_explorer.protocol.specs import Value, Values, places_text
 from hess_explorer.scenes.framework.charted import Charts, of_motion
 from hess_explorer.scenes.framework.hess_case import HeavyHess
 from hess_explorer.scenes.framework.inertia import limits_of_moments
@@ -82,7 +82,7 @@ _RIS: dict[str, Value] = {"I1": 1.0, "I2": 1.5, "I3": 2.0, "m": -math.sqrt(0.5),
 _THERE, _LOW = "2.8,0.3", "-1.54,-0.86"
 """The first of these starts is impossible at the lowest energies."""
 _LS = np.array([-2.9, -2.7, -2.5, -2.2, 2.2, 2.5, 2.7, 2.9])
-_ON_HESS = written([*zip(_LS, hess_curve(HeavyBody.hess((1.0, 1.5, 2.0), -math.sqrt(0.5)), _LS), strict=True)])
+_ON_HESS = places_text([*zip(_LS, hess_curve(HeavyBody.hess((1.0, 1.5, 2.0), -math.sqrt(0.5)), _LS), strict=True)])
 
 
 def _figure(number: int, f: float, what: str, energies: Mapping[str, float]) -> Iterator[Preset]:

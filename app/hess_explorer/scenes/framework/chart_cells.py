@@ -10,7 +10,7 @@ import numpy as np
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.compute.cells import evaluate, failure
-from hess_explorer.protocol.specs import places, written
+from hess_explorer.protocol.specs import places, places_text
 from hess_explorer.scenes.framework.charted import Charted
 from hess_explorer.scenes.framework.windows import Window
 from hess_explorer.views.layers import Range
@@ -49,7 +49,7 @@ class Side:
             return state.changed({self.name: value})
         place = [*places(getattr(state, self.name))[-1]]
         place[self.axis] = value
-        return state.changed({self.name: written([tuple(place)])})
+        return state.changed({self.name: places_text([tuple(place)])})
 
 
 @dataclass(frozen=True)

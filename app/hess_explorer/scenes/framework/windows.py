@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from hess_explorer.protocol.specs import Value, Values, places, written
+from hess_explorer.protocol.specs import Value, Values, places, places_text
 from hess_mechanics.dynamics.cells import Window
 from hess_mechanics.dynamics.sampling import PIXELS
 
@@ -17,7 +17,7 @@ def tidy_window(text: Value) -> str:
     if len(corners) != 2 or corners[0][0] == corners[1][0] or corners[0][1] == corners[1][1]:
         return ""
     (x0, y0), (x1, y1) = corners
-    return written([(min(x0, x1), min(y0, y1)), (max(x0, x1), max(y0, y1))])
+    return places_text([(min(x0, x1), min(y0, y1)), (max(x0, x1), max(y0, y1))])
 
 
 def window_of(text: Value, full: Window) -> Window:
@@ -42,4 +42,4 @@ def boxed(corners: tuple[float, float, float, float], bounds: Window, name: str 
     (x0, y0), (x1, y1) = bounds
     left, right = max(x0, min(corners[0], corners[2])), min(x1, max(corners[0], corners[2]))
     low, high = max(y0, min(corners[1], corners[3])), min(y1, max(corners[1], corners[3]))
-    return {name: written([(left, low), (right, high)])} if low < high and left < right else {}
+    return {name: places_text([(left, low), (right, high)])} if low < high and left < right else {}

@@ -10,7 +10,7 @@ from itertools import product
 import numpy as np
 
 from hess_explorer.compute.cache import Task
-from hess_explorer.protocol.specs import Values, written
+from hess_explorer.protocol.specs import Values, places_text
 from hess_explorer.protocol.specs import places as points_of
 from hess_explorer.scenes.framework.continuation import Continuation
 from hess_explorer.scenes.framework.families import Begin, Family
@@ -216,7 +216,7 @@ class OrbitDiagram(Part[DiagramControls]):
             ),
             default=None,
         )
-        return {self.name: x} if near is None else {self.name: near[2], "chosen": written([near[3]])}
+        return {self.name: x} if near is None else {self.name: near[2], "chosen": places_text([near[3]])}
 
     def caption(self, points: str = "") -> Caption:
         """Return the caption: progress, doublings, periods.

@@ -10,7 +10,7 @@ from typing import Any, Protocol
 import numpy as np
 
 from hess_explorer.compute.cache import Task
-from hess_explorer.protocol.specs import Places, Values, places, written
+from hess_explorer.protocol.specs import Places, Values, places, places_text
 from hess_explorer.scenes.framework.orbit_batches import in_batches
 from hess_explorer.scenes.framework.part import Host, Part, Start
 from hess_explorer.scenes.framework.periodic_search import Closed
@@ -149,11 +149,11 @@ class Clicks(Part[_Host]):
 
     def add(self, x: float, y: float) -> Values:
         """Return the starts with another orbit added at (x, y)."""
-        return {"starts": written([*self.picked.places, self._inside(x, y)])}
+        return {"starts": places_text([*self.picked.places, self._inside(x, y)])}
 
     def move(self, x: float, y: float) -> Values:
         """Return the starts with the orbit on show moved to (x, y)."""
-        return {"starts": written([*places(self.host.starts)[:-1], self._inside(x, y)])}
+        return {"starts": places_text([*places(self.host.starts)[:-1], self._inside(x, y)])}
 
     def look_closer(self, corners: tuple[float, float, float, float]) -> Values:
         """Return the window that a box selects."""
