@@ -30,8 +30,8 @@ WRONG = {
     "scene=scattering&h=1": "The scene scattering has no parameter 'h', only I22, I13, ",
     "t=-1": "'t=-1' cannot be used: t must lie between 0 and 1e6",
     "h=0.2&f=5": "At h = 0.2 the largest possible |f| is ",
-    "scene=own-body&U=abs(g1)": "'U=abs(g1)' cannot be used: Potential U(γ): This is not a polynomial: use numbers, g1, "
-    "g2, g3, + − * / ^ and parentheses, like 0.5*g1^2 - g3; correct it",
+    "scene=own-body&U=abs(g1)": "'U=abs(g1)' cannot be used: Potential U(γ): This is not a polynomial: use numbers, "
+    "g1, g2, g3, + − * / ^ and parentheses, like 0.5*g1^2 - g3; correct it",
     "scene=own-body&p=x": "'p=x' cannot be used: ",
     "scene=suslov&starts=1": "'starts=1' cannot be used: The places of the chosen orbits must be points x,y;x,y",
 }

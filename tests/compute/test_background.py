@@ -13,7 +13,7 @@ from hess_explorer.compute.background import Background
 from hess_explorer.compute.cache import ResultCache, Task
 from hess_explorer.page.connection import Connection
 from hess_explorer.page.session import Session
-from hess_explorer.protocol.specs import MAX_QUERY, decode, encode, places, written
+from hess_explorer.protocol.specs import MAX_QUERY, decode, encode, places, places_text
 from hess_explorer.scenes import euler_poisson
 from hess_explorer.scenes.framework.scene import Scene
 from hess_explorer.scenes.framework.work import Work
@@ -26,7 +26,7 @@ from support.wire import read_frame
 
 # With the exponent in sight, which is folded at first.
 EP = SCENES["euler-poisson"]
-EP = replace(EP, views=tuple(replace(view, folded="") if view.name == "exponent" else view for view in EP.views))
+EP = replace(EP, views=tuple(replace(view, button="") if view.name == "exponent" else view for view in EP.views))
 STARTS = next(spec for spec in EP.specs if spec.name == "starts")
 SMALL = {**EP.defaults(), "orbits": 12.0, "count": 20.0, "long": 5.0, "span": 1.0, "indicator": "nothing"}
 """1 piece for the start, 3 for the orbits, 12 for the line, 1 for the exponent; 4 that are computed twice."""
@@ -236,14 +236,14 @@ def test_sessions_take_turns(gate):
 
 def test_of_too_many_places_the_last_ones_are_kept():
     pairs = [(0.01 * n, 0.0) for n in range(20)]
-    assert places(STARTS.read(written(pairs))[0]) == pairs[-12:]
+    assert places(STARTS.read(places_text(pairs))[0]) == pairs[-12:]
 
 
 def test_a_link_with_all_places_is_not_too_long():
     random = np.random.default_rng(5)
     full = {
         **EP.defaults(),
-        "starts": written(random.uniform(-1.0, 1.0, (12, 2)).tolist()),
+        "starts": places_text(random.uniform(-1.0, 1.0, (12, 2)).tolist()),
         "window": "-3.141589999,-0.9876543211;-1.234567891,0.9876543211",
     }
     query = encode(EP.name, full)

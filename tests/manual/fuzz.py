@@ -33,7 +33,7 @@ from hess_explorer.commands.output import PATIENCE
 from hess_explorer.compute.budget import time_budget
 from hess_explorer.page.description import describe
 from hess_explorer.page.requested import linked
-from hess_explorer.protocol.specs import CLIENT, ChoiceSpec, Formula, Link, NumberSpec, Places, written
+from hess_explorer.protocol.specs import CLIENT, ChoiceSpec, Formula, Link, NumberSpec, Places, places_text
 from hess_explorer.scenes import scenes
 from hess_explorer.server.warm import compute
 from hess_mechanics.catalogue import catalogue
@@ -170,7 +170,7 @@ def _value(random, spec, wild=False):
     if isinstance(spec, Formula):
         return random.choice(["", "g1", "0.5*g1^2 - g3", "g1^9"])
     assert isinstance(spec, Places)
-    return written(
+    return places_text(
         [
             tuple(random.uniform(low, high) for low, high in zip(spec.low, spec.high, strict=True))
             for _ in range(random.randint(0, spec.most + 2))

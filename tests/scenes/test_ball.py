@@ -152,7 +152,7 @@ def test_the_numbers_in_the_caption_of_the_section_are_those_of_its_points(name)
     assert ("A curve: there is another integral. ω₁γ₁ + ω₂γ₂ is constant." in said) == symmetric
     if symmetric:
         w1, w2, g1, g2, _ = view.result.orbit.path.states[0]
-        assert view.derived("ω₁γ₁ + ω₂γ₂ = #, an integral") == approx([w1 * g1 + w2 * g2], rel=6e-4)
+        assert view.quantities("ω₁γ₁ + ω₂γ₂ = #, an integral") == approx([w1 * g1 + w2 * g2], rel=6e-4)
 
 
 @pytest.mark.parametrize("start", [0.05, 1.0, -2.0])

@@ -110,7 +110,7 @@ def test_points_on_another_sheet_are_drawn_apart():
     # There another momentum has this energy as well; at most of the other points there is none.
     assert np.mean(np.array(other_momenta(view, apart[:20])) >= 2) > 0.9
     assert deviations(np.array(other_momenta(view, everything[::40])) >= 2, 0.35) < -5.0
-    assert view.derived("on another sheet: # points") == [len(apart)]
+    assert view.quantities("on another sheet: # points") == [len(apart)]
 
 
 def test_on_a_small_sheet_another_start_is_found():
@@ -215,7 +215,7 @@ def test_the_split_of_the_separatrices_is_0_in_the_hess_case_and_begins_in_propo
     view = View(EP, {"orbits": 0.0, "count": 20.0, "long": 20.0, "away": away}, seen=["split"])
     torus = HessTorus((1.0, 0.625, 0.375), 9.975, 50.0, 5.0)
     exact = split_at(torus, away, level("reference"))
-    slope, off = view.derived("split/ε → # ± #")
+    slope, off = view.quantities("split/ε → # ± #")
     if away:
         value, error, l, shown = view.numbers(
             "split", "\nThe separatrices are split. By # ± # at l = #; as ε → 0: # ε."

@@ -72,7 +72,7 @@ def test_a_cell_without_a_number_has_a_status():
     words = ["BEYOND_RANGE", "NO_FIELD", "FAILED", "NO_VALUE", "BEYOND_RANGE", "OK"]
     assert [Outcome(code).name for code in found.status.values] == words
     assert found.partial.values[-1] == 0.2
-    with pytest.raises(InvalidParameter, match="a function of your own: call it"):
+    with pytest.raises(InvalidParameter, match="your own function: call it"):
         explain(found, x=1.0)
 
 

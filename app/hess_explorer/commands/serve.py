@@ -109,16 +109,16 @@ def _shown(found: xr.Dataset) -> str:
     fixed = json.loads(found.attrs["parameters"])
     for scene in scenes().values():
         symbols = {one.name: one.symbol for one in scene.specs if isinstance(one, NumberSpec)}
-        numbers = {} if scene.charted is None or not {*names} <= {*symbols} else scene.charted.numbers
-        for chart, (charted, name) in numbers.items():
+        numbers = {} if scene.chart_set is None or not {*names} <= {*symbols} else scene.chart_set.numbers
+        for chart, (source, name) in numbers.items():
             variable = name.replace("-", "_")
-            if charted.key != found.attrs["computation"] or variable not in found:
+            if source.key != found.attrs["computation"] or variable not in found:
                 continue
             x, y = names
             chosen = {"chart": chart, "chart_x": symbols[x], "chart_y": symbols[y]}
             own = {name: value for name, value in fixed.items() if name in symbols}
             values, _ = scene.admit({**scene.defaults(), **own, **chosen, "accuracy": found.attrs["accuracy"]})
-            key = scene.of(values).charting.key
+            key = scene.of(values).chart_part.key
             corners = ({**fixed, **{name: float(found[name][i]) for name in names}} for i in (0, -1))
             if all(_same(key.arguments(one[x], one[y]), one) for one in corners):
                 errors = cells.get(f"{variable}_error", np.full(cells.status.shape, np.nan))

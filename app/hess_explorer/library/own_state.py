@@ -11,10 +11,10 @@ import numpy as np
 from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.specs import Value, Values, places_text
 from hess_explorer.scenes.framework.part import Start, part
-from hess_explorer.scenes.framework.periodic_search import Closed, NotPeriodic
+from hess_explorer.scenes.framework.periodic_search import ClosedOrbit, NotPeriodic
 from hess_explorer.scenes.framework.scene import State
 from hess_explorer.scenes.framework.sliders import accuracy_level, exponent_time, parameter, time_span
-from hess_explorer.scenes.framework.windows import boxed
+from hess_explorer.scenes.framework.windows import box_window
 from hess_explorer.scenes.parts.orbits.exponent import OrbitExponent
 from hess_explorer.scenes.parts.sections import (
     MEGNO,
@@ -116,7 +116,7 @@ class OwnState(State):
     def look_closer(self, corners: Corners) -> Values:
         """Return the window that a box in the section selects."""
         (x0, x1), (y0, y1) = self.poincare.window
-        return boxed(corners, ((x0, y0), (x1, y1)))
+        return box_window(corners, ((x0, y0), (x1, y1)))
 
     def start_at(self, x: float, y: float) -> Values:
         """Return the initial values at a place of the section; empty if no motion crosses it there."""
@@ -144,17 +144,17 @@ class LevelState(OwnState):
     @property
     def start(self) -> Start:
         """The initial state of the orbit on show."""
-        return self.given if self.closed is None else self.closed.state
+        return self.given if self.closed_orbit is None else self.closed_orbit.state
 
     @property
     def duration(self) -> float:
         """The time span of the orbit on show."""
-        return self.span if self.closed is None else self.closed.time
+        return self.span if self.closed_orbit is None else self.closed_orbit.time
 
     @property
-    def closed(self) -> Closed | None:
+    def closed_orbit(self) -> ClosedOrbit | None:
         """The periodic orbit; None if unknown."""
-        return self.periodic_orbit.closed
+        return self.periodic_orbit.closed_orbit
 
     periodic_orbit = part(lambda s: SectionPeriodicOrbit(s.section, s.periodic, s.reach))
 

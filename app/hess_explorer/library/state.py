@@ -103,7 +103,7 @@ class SceneState:
         >>> state.periodic.kind, state.periodic.period
         ('elliptic', 1)
         """
-        closed = _first(self._shown("section").state, ("closed",)) if "section" in self.pictures else None
+        closed = _first(self._shown("section").state, ("closed_orbit",)) if "section" in self.pictures else None
         return None if closed is None else closed.orbit
 
     @property

@@ -278,7 +278,7 @@ class Session:
         self.wire.say("summary", report.summary)
         self.wire.say("status", report.status)
         self.wire.say("notes", "\n".join([*self.requested.notes, *notes, *report.notes]))
-        self.wire.say("derived", "\n".join(report.derived))
+        self.wire.say("derived", "\n".join(report.quantities))
 
     def _refuse(self, sentence: str) -> Report:
         """Clear the pictures and show the reason."""

@@ -127,14 +127,14 @@ class BallSectionState(SectionState):
         """The energy."""
         return self.h - math.hypot(self.b1, self.b2)
 
-    def admitted(self, notes: list[str]) -> BallSectionState:
+    def valid_state(self, notes: list[str]) -> BallSectionState:
         """Move ψ out of the band that the energy forbids."""
         psi = self.psi if self.band is None else outside_band(self.band, self.psi)
         if psi != self.psi:
             notes.append(
                 f"With this energy γ cannot lie on the plane at ψ = {digits(self.psi)}: ψ was set to {digits(psi)}."
             )
-        return self.changed({"psi": psi})
+        return self.with_values({"psi": psi})
 
     @cached_property
     def band(self) -> tuple[float, float] | None:
@@ -190,7 +190,7 @@ class BallSectionState(SectionState):
 
     def returns(self) -> Array | None:
         """Return consecutive values (ψ, next ψ) of the chosen orbit (n, 2)."""
-        closed = self.closed
+        closed = self.closed_orbit
         if closed is not None:
             psi = closed.orbit.places[:, 0]
             return np.column_stack([psi, np.roll(psi, -1)])
@@ -214,16 +214,16 @@ class BallSectionState(SectionState):
             return Caption("Left out: too many steps.")
         if is_reversible(self.body):
             return Caption("One point: every orbit that returns closes.", "Proved by the symmetry γ₃ → −γ₃, t → −t.")
-        if self.closed is not None:
-            return Caption("Each ψ against the next.", f"Period {self.closed.orbit.period}.")
+        if self.closed_orbit is not None:
+            return Caption("Each ψ against the next.", f"Period {self.closed_orbit.orbit.period}.")
         if has_area_integral(self.body):
             return Caption("A curve: there is another integral.", "ω₁γ₁ + ω₂γ₂ is constant.")
         return Caption("Each ψ against the next.")
 
-    def derived(self) -> Iterator[str]:
+    def quantities(self) -> Iterator[str]:
         """Yield the energies and the start of the orbit."""
         yield f"E = {digits(self.E)}"
-        yield from super().derived()
+        yield from super().quantities()
         yield f"lowest energy −|b| = {digits(lowest_energy(self.body))}"
         yield f"ω(0) = {vector(self.start[:2])}"
         yield f"γ(0) = {vector(self.start[2:])}"
@@ -267,7 +267,7 @@ SCENE = Scene(
         Plot(
             name="returns",
             title="First return",
-            folded="Show the first return",
+            button="Show the first return",
             caption=BallSectionState._about_returns,
             axes=("ψ", "ψ at the next crossing"),
             x=ANGLE,

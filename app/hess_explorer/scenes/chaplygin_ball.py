@@ -10,14 +10,14 @@ from functools import cached_property
 import numpy as np
 
 from hess_explorer.compute.cache import Task
-from hess_explorer.scenes.framework.charted import Charted, Charts, of_motion, tensor_of
+from hess_explorer.scenes.framework.charted import Charts, ChartSource, of_motion, tensor_of
 from hess_explorer.scenes.framework.circle_left import DIGITS, PHI, Gamma_picture, sphere
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
 from hess_explorer.scenes.framework.sliders import accuracy_level, parameter, time_span
 from hess_explorer.scenes.framework.solid_body import Solid, constrained_solid, solid_body
 from hess_explorer.scenes.framework.trial import Trial, curve_error
 from hess_explorer.scenes.framework.work import orbit_status
-from hess_explorer.scenes.parts.orbits.proof import OrbitProof, proved_error_shown
+from hess_explorer.scenes.parts.orbits.proof import OrbitProof, show_proved_error
 from hess_explorer.scenes.parts.sections import BodyOrbit
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
@@ -67,7 +67,7 @@ class ChaplyginBall(State):
     phi: float = parameter(PHI)
     digits: float = parameter(DIGITS)
     span: float = time_span(60.0, 400.0, what="the chosen orbit")
-    certain: str = proved_error_shown()
+    certain: str = show_proved_error()
     accuracy: str = accuracy_level()
 
     @cached_property
@@ -204,7 +204,7 @@ class ChaplyginBall(State):
             return Caption("Γ returns to its initial value.", f"Γ = {shown[0]}.")
         return Caption(f"Γ {'increases' if last > first else 'decreases'}.", f"From {shown[0]} to {shown[1]}.")
 
-    def derived(self) -> Iterator[str]:
+    def quantities(self) -> Iterator[str]:
         """Yield the dimensions of the strip, its axis ξ and the distance δ."""
         most, least = (tuple(map(in_digits, axes)) for axes in (self.strip.outer, self.strip.inner))
         slowest, fastest = (in_digits(float(np.hypot(*end))) for end in self.strip.unstable)
@@ -219,12 +219,12 @@ class ChaplyginBall(State):
         if self.orbit.has_result("path"):
             yield from orbit_status(self.orbit.path)
             yield from self.proof.status()
-        if self.known("map_or_reason") and self.map is not None:
+        if self.peek("map_or_reason") and self.map is not None:
             yield f"{self.map.phis.size} phases, error ≤ {float(self.map.errors.max()):.1e}"
 
     def notes(self) -> Iterator[str]:
         """Yield the reason for a missing map."""
-        if self.known("map_or_reason") and self.map_or_reason[1]:
+        if self.peek("map_or_reason") and self.map_or_reason[1]:
             yield self.map_or_reason[1]
 
 
@@ -256,7 +256,7 @@ SCENE = Scene(
     measures=_MEASURES,
     charts=Charts(
         (
-            Charted(
+            ChartSource(
                 "ball-scattering",
                 lambda s: {**tensor_of(s.body), "D": s.D, "theta": s.theta, "phi": s.phi, "distance": s.distance},
             ),

@@ -12,12 +12,12 @@ import numpy as np
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.specs import Values, places_text
-from hess_explorer.scenes.framework.charted import Charted, Charts, parameters_of
+from hess_explorer.scenes.framework.charted import Charts, ChartSource, parameters_of
 from hess_explorer.scenes.framework.part import Start, part
-from hess_explorer.scenes.framework.periodic_search import NONE, Closed
+from hess_explorer.scenes.framework.periodic_search import NONE, ClosedOrbit
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene
 from hess_explorer.scenes.framework.solid_body import Solid, constrained_solid, solid_body
-from hess_explorer.scenes.framework.windows import boxed
+from hess_explorer.scenes.framework.windows import box_window
 from hess_explorer.scenes.parts.diagrams.controls import (
     BACKWARD,
     BOUNDS,
@@ -76,12 +76,12 @@ class DiagramState(DiagramControls):
     @property
     def start(self) -> Start:
         """The initial state of the orbit on show: on the periodic orbit if its branch is shown."""
-        return self.diagram.start if self.closed is None else self.closed.state
+        return self.diagram.start if self.closed_orbit is None else self.closed_orbit.state
 
     @property
-    def closed(self) -> Closed | None:
+    def closed_orbit(self) -> ClosedOrbit | None:
         """The periodic orbit on show; None if none is requested, or none is found."""
-        return None if self.branch == NONE else self.continuation.closed
+        return None if self.branch == NONE else self.continuation.closed_orbit
 
     @property
     def duration(self) -> float:
@@ -144,13 +144,13 @@ class DiagramState(DiagramControls):
         first, error = digits(float(times[0])), digits(self.reversals.error_estimate, 1)
         return Caption(f"The rotation reverses {many}.", f"First at t = {first} ± {error}.")
 
-    def derived(self) -> list[str]:
+    def quantities(self) -> list[str]:
         """Return the energy, the chosen place, the bifurcations of the branch and the check of the body."""
         psi, delta = map(digits, self.diagram.place)
         return [
             f"E = {digits(self.poincare.E)}",
             f"chosen: ψ = {psi}, δ = {delta}",
-            *super().derived(),
+            *super().quantities(),
             check_body(*self.body.parameters[:4]).sentence,
         ]
 
@@ -176,7 +176,7 @@ def _flip_values(s: DiagramState, axes: Axes) -> list[tuple[float, float, str]]:
 
 
 def diagram_scene(
-    state: type[S], module: str, presets: tuple[Preset, ...], section: Charted, ball: bool = False, **words: Any
+    state: type[S], module: str, presets: tuple[Preset, ...], section: ChartSource, ball: bool = False, **words: Any
 ) -> Scene[S]:
     """Return the scene of such states.
 
@@ -198,21 +198,21 @@ def diagram_scene(
     )
 
 
-def regime_in(section: str, **more: float) -> Charted:
+def regime_in(section: str, **more: float) -> ChartSource:
     """Return the regime of the motion in a section of the catalogue, at other arguments too."""
 
     def arguments(s: DiagramState) -> Mapping[str, float]:
         psi, delta = s.diagram.place
         return {**parameters_of(s.body), "h": s.h, "psi": psi, "delta": delta, **more}
 
-    return Charted(f"regime {section}", arguments)
+    return ChartSource(f"regime {section}", arguments)
 
 
 def _pictures(state: type[DiagramState], ball: bool) -> tuple[Picture[Any], ...]:
     """Return the pictures: diagram with branch, body, section, reversal and, folded, Poisson sphere."""
 
     def closed(s: DiagramState) -> list[PeriodicOrbit]:
-        return [] if s.closed is None else [s.closed.orbit]
+        return [] if s.closed_orbit is None else [s.closed_orbit.orbit]
 
     def dotted(way: str) -> Callable[[DiagramState], Array | None]:
         return lambda s: None if s.density.tones else s.diagram.points(way)
@@ -228,7 +228,7 @@ def _pictures(state: type[DiagramState], ball: bool) -> tuple[Picture[Any], ...]
             first=Axes((state.first, state.last), (-math.pi, math.pi)),
             x=lambda s: (s.diagram.frame[0][0], s.diagram.frame[1][0]),
             y=lambda s: s.diagram.height,
-            on_box=lambda s, corners: boxed(corners, BOUNDS),
+            on_box=lambda s, corners: box_window(corners, BOUNDS),
             layers=(
                 *density.layers(
                     lambda s: s.density.tones,
@@ -318,6 +318,6 @@ def _pictures(state: type[DiagramState], ball: bool) -> tuple[Picture[Any], ...]
         ),
         replace(
             along_the_orbit(lambda s: centre_of_mass(s.body.parameters[-3:]), lambda s: s.proof.around),
-            folded="Show the Poisson sphere",
+            button="Show the Poisson sphere",
         ),
     )

@@ -290,10 +290,10 @@ class EulerPoisson(FilledState):
             f"{self.density.said}r·M keeps its sign along {sum(kept)} of {len(kept)} orbits.",
         )
 
-    def derived(self) -> Iterator[str]:
+    def quantities(self) -> Iterator[str]:
         """Yield a and r, the start of the orbit on show and the check of the body."""
         yield f"a = {digits(self.body.hess_a)}, r = {vector(self.body.r)}"
-        yield from super().derived()
+        yield from super().quantities()
         if self.section.has_result("known") and len(self.elsewhere):
             yield f"on another sheet: {len(self.elsewhere)} points"
         yield self.body.check.sentence
@@ -326,7 +326,7 @@ SCENE = Scene(
     charts=Charts(
         of_motion(SYSTEM, lambda s: start_on(s.poincare, s.starts), time=lambda s: s.long),
         over=_NAMES,
-        placed=("starts", _NAMES),
+        place=("starts", _NAMES),
     ),
     group="Euler–Poisson",
     essential=("away", "h", "f"),
@@ -353,8 +353,8 @@ SCENE = Scene(
         along_the_orbit(
             lambda s: Direction(math.copysign(1.0, s.m) * np.array(s.body.r), "r"), lambda s: s.proof.around
         ),
-        exponent_picture(folded="Show the Lyapunov exponent"),
-        surface_picture(lambda s: s.surface, folded="Show the torus in space"),
+        exponent_picture(button="Show the Lyapunov exponent"),
+        surface_picture(lambda s: s.surface, button="Show the torus in space"),
         split_picture(lambda s: s.split),
         branch_picture(),
     ),

@@ -12,7 +12,7 @@ import numpy as np
 from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.specs import Values
 from hess_explorer.scenes.framework import free_body
-from hess_explorer.scenes.framework.charted import Charted, Charts, tensor_of
+from hess_explorer.scenes.framework.charted import Charts, ChartSource, tensor_of
 from hess_explorer.scenes.framework.circle_left import Gamma_picture
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
 from hess_explorer.scenes.framework.sliders import ONE_TURN, Slider, accuracy_level, choice, parameter, time_span
@@ -262,7 +262,7 @@ class FreeSuslov(State):
         came, went, other = map(digits, (*self.orbit.limits, self.second.limits[1]))
         return Caption("Γ tends to a constant.", f"From Γ⁻ = {came} to Γ⁺ = {went} and {other} (dotted).")
 
-    def derived(self) -> Iterator[str]:
+    def quantities(self) -> Iterator[str]:
         """Yield I11 and k², the energy, the rate, the directions and F2."""
         points = self.points
         yield from free_body.about_I11(self.k, self.body)
@@ -279,12 +279,12 @@ class FreeSuslov(State):
 
     def status(self) -> Iterator[str]:
         """Yield the status of the orbit."""
-        if self.known("orbit"):
+        if self.peek("orbit"):
             yield from orbit_status(self.orbit)
 
     def notes(self) -> Iterator[str]:
         """Yield warnings: a thinned curve, a passage beyond the time span."""
-        if self.known("orbit") and self.orbit.times.size >= MOST_SAMPLES:
+        if self.peek("orbit") and self.orbit.times.size >= MOST_SAMPLES:
             yield f"This long motion is drawn with {MOST_SAMPLES} points, so its uniform rotation is thinned out."
         needed = -self.passage.u0 / self.points.rate
         if needed > self.span:
@@ -296,7 +296,7 @@ SCENE = Scene(
     __file__,
     place=2,
     presets=PRESETS,
-    charts=Charts((Charted("cos-chi", lambda s: tensor_of(s.body)),), over=("k", "I23")),
+    charts=Charts((ChartSource("cos-chi", lambda s: tensor_of(s.body)),), over=("k", "I23")),
     group="Free body",
     essential=("k", "I23", "Gamma", "phi"),
     title="Free Suslov problem",

@@ -78,9 +78,9 @@ class HessLeak(State):
         """The motion on the Hess manifold."""
         return HeavyHess((self.I1, self.I2, self.I3), self.m, self.h, self.f)
 
-    def admitted(self, notes: list[str]) -> HessLeak:
+    def valid_state(self, notes: list[str]) -> HessLeak:
         """Clamp h to its minimum and f to the region of this h."""
-        return self.changed(self.hess.admitted(notes))
+        return self.with_values(self.hess.corrections(notes))
 
     def limits(self) -> Mapping[str, Slider]:
         """Return sliders over the possible values."""
@@ -94,7 +94,9 @@ class HessLeak(State):
     @cached_property
     def map(self) -> CircleMap:
         """The circle map, with the multipliers of the cycles."""
-        return self.work.need(Task(circle_map, self.bridge.hess.a, self.hess.turning.h, self.hess.turning.f, REFERENCE))
+        return self.work.need(
+            Task(circle_map, self.bridge.hess.a, self.hess.turning_points.h, self.hess.turning_points.f, REFERENCE)
+        )
 
     @property
     def period(self) -> float:
@@ -108,7 +110,7 @@ class HessLeak(State):
     @cached_property
     def exact(self) -> Orbit:
         """The motion of the reduced system, in units b = 1."""
-        start = tuple(self.hess.turning.state_at_lower_turn(self.phi0).tolist())
+        start = tuple(self.hess.turning_points.state_at_lower_turn(self.phi0).tolist())
         return self.work.need(
             Task(
                 mechanics.exact_motion,
@@ -142,7 +144,9 @@ class HessLeak(State):
 
     def motion(self) -> Motion:
         """Return the exact motion of the reduced system."""
-        return reduced_motion(self.bridge.hess, self.hess.turning, self.phi0, self._periods * self.hess.turning.period)
+        return reduced_motion(
+            self.bridge.hess, self.hess.turning_points, self.phi0, self._periods * self.hess.turning_points.period
+        )
 
     @cached_property
     def solid(self) -> Solid:
@@ -174,7 +178,7 @@ class HessLeak(State):
     def heights(self) -> list[Circle]:
         """Return the circles that bound n3."""
         r, sign = self.bridge.heavy.r, math.copysign(1.0, self.bridge.hess.b)
-        return parallels(r, [sign * n3 for n3 in self.hess.turning.roots[1:]])
+        return parallels(r, [sign * n3 for n3 in self.hess.turning_points.roots[1:]])
 
     # ---- words --------------------------------------------------------------------------------------------------
 
@@ -206,9 +210,9 @@ class HessLeak(State):
         return Caption(layer, "It stays there." if stays else "It changes layer later.")
 
     def _about_sphere(self) -> Caption:
-        return Caption("γ of the exact and the leaking orbit.", f"n₃ {ranging(*self.hess.turning.roots[1:])}.")
+        return Caption("γ of the exact and the leaking orbit.", f"n₃ {ranging(*self.hess.turning_points.roots[1:])}.")
 
-    def derived(self) -> Iterator[str]:
+    def quantities(self) -> Iterator[str]:
         """Yield the reduced body and torus, the exact growth and the measured growth."""
         growth = mechanics.exact_growth(self.map)
         yield f"a = b′/a₁′ = {digits(self.bridge.hess.a)}"
@@ -229,7 +233,7 @@ class HessLeak(State):
 
     def status(self) -> Iterator[str]:
         """Yield the status of the chosen and the exact orbit."""
-        if self.known("leaks"):
+        if self.peek("leaks"):
             chosen, exact = self.run, self.exact
             yield f"{chosen.level}: orbit {chosen.times.size} points, {chosen.steps} Taylor steps, computed once"
             yield "drift " + " ".join(f"{name} {digits(drift, 1)}" for name, drift in chosen.drift.items())
@@ -239,7 +243,7 @@ class HessLeak(State):
         """Yield warnings: not a rigid body, a motion that round-off perturbs within the torus."""
         if not self.bridge.heavy.check.is_body:
             yield self.bridge.heavy.check.sentence
-        if self.known("exact") and self.exact.error_estimate > UNSURE:
+        if self.peek("exact") and self.exact.error_estimate > UNSURE:
             yield BY_THE_UNSTABLE_CYCLE
 
 
@@ -248,7 +252,9 @@ SCENE = Scene(
     __file__,
     place=12,
     presets=PRESETS,
-    charts=Charts(of_torus(lambda s: (s.bridge.hess.a, s.hess.turning.h, s.hess.turning.f)), over=("h", "f")),
+    charts=Charts(
+        of_torus(lambda s: (s.bridge.hess.a, s.hess.turning_points.h, s.hess.turning_points.f)), over=("h", "f")
+    ),
     group="Euler–Poisson",
     essential=("h", "f", "phi0", "returns"),
     title="Leak off the Hess manifold",
@@ -293,7 +299,7 @@ SCENE = Scene(
             name="difference",
             title="Distance from the exact motion",
             caption=HessLeak._about_difference,
-            folded="Show the distance from the exact motion",
+            button="Show the distance from the exact motion",
             axes=("t", "lg |difference|"),
             x=HessLeak.times,
             y=lambda s: lg_axis(largest_distance(s.map.h)),

@@ -10,7 +10,7 @@ from functools import cached_property
 import numpy as np
 
 from hess_explorer.compute.cache import Task
-from hess_explorer.scenes.framework.charted import Charted, Charts
+from hess_explorer.scenes.framework.charted import Charts, ChartSource
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
 from hess_explorer.scenes.framework.sliders import (
     ONE_TURN,
@@ -119,7 +119,7 @@ class Kharlamova(State):
     )
     accuracy: str = accuracy_level()
 
-    def admitted(self, notes: list[str]) -> Kharlamova:
+    def valid_state(self, notes: list[str]) -> Kharlamova:
         """Move a start outside the domain to its edge."""
         r1, r2 = self.body.axes
         size = math.hypot(self.q1 / r1, self.q2 / r2)
@@ -287,7 +287,7 @@ class Kharlamova(State):
             f"After T the orbit returns to its start, to {digits(self.closure_error, 1)}.",
         )
 
-    def derived(self) -> Iterator[str]:
+    def quantities(self) -> Iterator[str]:
         """Yield the energy, start, force, period and divergence."""
         yield f"E = {digits(self.h)}"
         yield f"Start: γ₃ = {digits(self.start[4])}"
@@ -297,19 +297,19 @@ class Kharlamova(State):
             yield f"Back after T: {digits(self.closure_error, 1)}"
         else:
             yield "T = ∞" if self.arc.kind == "asymptotic" else "A fixed point"
-        if self.known("sampled"):
+        if self.peek("sampled"):
             largest = float(np.abs(divergence([*self.orbit.states.T], self.body.parameters)).max())
             yield f"div v = {digits(largest)} on the orbit: the standard measure"
         yield "In τ: Hamiltonian, measure γ₃ dω dγ"
 
     def status(self) -> Iterator[str]:
         """Yield the status of the orbit."""
-        if self.known("sampled"):
+        if self.peek("sampled"):
             yield from orbit_status(self.orbit)
 
     def notes(self) -> Iterator[str]:
         """Yield a warning if the orbit is too long to draw in detail."""
-        if self.known("sampled") and self.orbit.times.size >= MOST_SAMPLES:
+        if self.peek("sampled") and self.orbit.times.size >= MOST_SAMPLES:
             yield f"This long motion is drawn with only {MOST_SAMPLES} points: choose a shorter time span for details."
 
 
@@ -324,7 +324,7 @@ SCENE = Scene(
     presets=PRESETS,
     charts=Charts(
         (
-            Charted(
+            ChartSource(
                 "period",
                 lambda s: {
                     "I11": s.I11,
@@ -407,7 +407,7 @@ SCENE = Scene(
         Plot(
             name="curve",
             title="γ₃ against τ",
-            folded="Show γ₃ against τ",
+            button="Show γ₃ against τ",
             axes=("τ", "γ₃"),
             caption=Kharlamova._about_curve,
             x=Kharlamova.tau_axis,

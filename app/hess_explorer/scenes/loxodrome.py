@@ -155,7 +155,7 @@ class Loxodrome(State):
         turns = abs(float(self.pendulum_motion.swing[-1])) / (2.0 * math.pi)
         return Caption("The body rotates.", f"{digits(turns)} turns in this time.")
 
-    def derived(self) -> Iterator[str]:
+    def quantities(self) -> Iterator[str]:
         """Yield a, the angle of the loxodrome and the derived data of the body."""
         p, heavy = self.pendulum, self.pendulum.body
         yield f"a = ±√((a₃−a₂)(a₂−a₁))/a₂ = {digits(p.a)}"

@@ -188,7 +188,7 @@ class OwnBodyState(State):
     @property
     def periodic_orbit(self) -> NotPeriodic:
         """None; the exponent, which needs another kernel, waits for the orbit's."""
-        return NotPeriodic(looking=not self.is_compiled)
+        return NotPeriodic(is_searching=not self.is_compiled)
 
     orbit = part(lambda s: BodyOrbit(s, max_step=s.max_step))
     exponent = part(OrbitExponent)
@@ -226,7 +226,7 @@ class OwnBodyState(State):
         found = {} if self.constraint == _CONSTRAINED else {"a1": 0.0, "a2": 0.0, "a3": 0.0}
         return found if any((self.d1, self.d2, self.d3)) else {**found, "frequency": self.frequency}
 
-    def derived(self) -> Iterator[str]:
+    def quantities(self) -> Iterator[str]:
         """Yield what is conserved, and whether it is a rigid body."""
         yield f"conserved: {', '.join(self.body.system.integrals(*self.body.system.example))}"
         yield self.body.check.sentence
@@ -262,7 +262,7 @@ def _energy_caption(s: OwnBodyState) -> Caption:
 
 def _section_caption(s: OwnBodyState) -> Caption:
     if not s.is_compiled or s.crossings is None:
-        return _caption(s) if not s.is_compiled else Caption(s.awaited())
+        return _caption(s) if not s.is_compiled else Caption(s.pending_caption())
     where = "Once in each period of the drive." if s.body.is_driven and s.frequency else "Where γ₃ = 0, upwards."
     return Caption(where, f"{len(s.crossings.times)} crossings up to t = {digits(s.long)}.")
 

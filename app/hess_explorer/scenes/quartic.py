@@ -103,12 +103,12 @@ class Quartic(SectionState):
     upwards: str = coordinate_of_branch(_NAMES)
     span: float = time_span(40.0, 200.0, most=1e3, what="the chosen orbit")
 
-    def admitted(self, notes: list[str]) -> Quartic:
+    def valid_state(self, notes: list[str]) -> Quartic:
         """Move a start that the energy forbids to the edge of the region."""
         q = self.body.inside((self.Q1, self.Q2))
         if q != (self.Q1, self.Q2):
             notes.append(f"With this energy the start is impossible: it was moved to the edge, q = {vector(q)}.")
-        return self.changed({"Q1": q[0], "Q2": q[1]})
+        return self.with_values({"Q1": q[0], "Q2": q[1]})
 
     def limits(self) -> Mapping[str, Slider]:
         """Return the sliders: h above −|b3|, q over the region."""
@@ -168,7 +168,7 @@ class Quartic(SectionState):
 
     def first(self) -> tuple[float, float]:
         """Return the q from which the orbit on show starts."""
-        if self.closed is None:
+        if self.closed_orbit is None:
             return self.Q1, self.Q2
         (q,), _ = self.body.to_plane(np.array([self.start]))
         return float(q[0]), float(q[1])
@@ -207,10 +207,10 @@ class Quartic(SectionState):
     def _about_sphere(self) -> Caption:
         return Caption("The motion of the body.", f"γ = (p₁, p₂, γ₃), γ₃ {staying(self.orbit.path.states[:, 4])}.")
 
-    def derived(self) -> Iterator[str]:
+    def quantities(self) -> Iterator[str]:
         """Yield the moment of inertia, the energy, the start and the error of H = ½."""
         yield f"I₁₁ = {digits(self.body.I11)}"
-        yield from super().derived()
+        yield from super().quantities()
         yield f"h/|b₃| = {digits(self.h / abs(self.b3))}"
         yield f"Start: γ₃ = {digits(self.start[4])}"
         yield f"ω(0) = {vector(self.start[:2])}"

@@ -87,7 +87,7 @@ class RotationNumber(State):
     part_ha: str = window_over("h, a")
     part_fa: str = window_over("f, a")
 
-    def admitted(self, notes: list[str]) -> RotationNumber:
+    def valid_state(self, notes: list[str]) -> RotationNumber:
         """Clamp f to the region of this h, and repair the windows."""
         return replace(
             self,
@@ -170,14 +170,14 @@ class RotationNumber(State):
             f"ρ = {digits(self.map.rotation_number)}.",
         )
 
-    def derived(self) -> Iterator[str]:
+    def quantities(self) -> Iterator[str]:
         """Yield the circle map and the ladder of the other family."""
         if self.map is not None:
             yield circle.riccati_matrix(self.map)
             yield f"|trace| = {digits(self.map.trace, 6)}, ρ = {digits(self.map.rotation_number)}"
             if self.map.fixed_points:
                 yield "multipliers " + ", ".join(digits(point.multiplier) for point in self.map.fixed_points)
-        perturbed = self.known("perturbed")
+        perturbed = self.peek("perturbed")
         if perturbed is not None:
             steps = ", ".join(map(str, mechanics.plateaus(perturbed, self.tori.values.possible)[:8]))
             yield f"plateaus of Θ(φ + ε sin 3φ): {steps.replace('-', '−') or 'none seen'}"

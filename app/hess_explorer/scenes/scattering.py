@@ -11,7 +11,7 @@ import numpy as np
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework import free_body
-from hess_explorer.scenes.framework.charted import Charted, Charts, tensor_of
+from hess_explorer.scenes.framework.charted import Charts, ChartSource, tensor_of
 from hess_explorer.scenes.framework.circle_left import CIRCLES, DIGITS, PHI, sphere
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
 from hess_explorer.scenes.framework.sliders import Slider, accuracy_level, parameter
@@ -76,7 +76,7 @@ class ScatteringState(State):
         """Return the slider of k, limited to I11 > 0."""
         return free_body.limits_of_k(self.I22, self.I13, self.I23)
 
-    def admitted(self, notes: list[str]) -> ScatteringState:
+    def valid_state(self, notes: list[str]) -> ScatteringState:
         """Limit the distance to 1e-16 beside an oblique line, where doubles round the start."""
         if self.I13 * self.I23 == 0.0 or self.digits <= _MOST_DIGITS:
             return self
@@ -174,7 +174,7 @@ class ScatteringState(State):
         phi, before, after = map(in_digits, (self.phi, self.theta, self.theta_plus))
         return Caption(numbers=f"φ = {phi}: from θ⁻ = {before} to θ⁺ = {after}.")
 
-    def derived(self) -> Iterator[str]:
+    def quantities(self) -> Iterator[str]:
         """Yield I11 and k², the rotation and the start."""
         yield from free_body.about_I11(self.k, self.body)
         yield f"cos χ = {in_digits(self.limit.cos_chi, 6)}"
@@ -190,7 +190,7 @@ class ScatteringState(State):
             f"{found.level}: rotation {found.cost.steps} Taylor steps, error ≤ {found.error_estimate:.1e} "
             f"({found.status})"
         )
-        if self.known("orbit"):
+        if self.peek("orbit"):
             yield f"orbit {self.orbit.times.size} points, error ≤ {self.orbit.error_estimate:.1e}"
             yield from drift_status([self.orbit.drift])
 
@@ -224,8 +224,8 @@ SCENE = Scene(
     measures=(_MAP,),
     charts=Charts(
         (
-            Charted("scattering", lambda s: {**tensor_of(s.body), "theta": s.theta, "phi": s.phi}),
-            Charted("cos-chi", lambda s: tensor_of(s.body)),
+            ChartSource("scattering", lambda s: {**tensor_of(s.body), "theta": s.theta, "phi": s.phi}),
+            ChartSource("cos-chi", lambda s: tensor_of(s.body)),
         ),
         over=("k", "I23"),
     ),

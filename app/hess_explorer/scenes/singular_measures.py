@@ -195,7 +195,7 @@ class SingularMeasures(State):
     def _about_history(self) -> Caption:
         return cloud.about_history(self.clouds, of_patch=self.along == "volume" and self.start == "small patch")
 
-    def derived(self) -> Iterator[str]:
+    def quantities(self) -> Iterator[str]:
         """Yield the system, its invariant density and the change of volumes."""
         course = self.clouds.history
         yield f"System: {'Chaplygin ball, b = 0' if self.D else 'free Suslov problem'}"

@@ -50,14 +50,14 @@ class Study(State):
         """Return the sliders of the other scene."""
         return self.shown.limits()
 
-    def derived(self) -> Iterator[str]:
+    def quantities(self) -> Iterator[str]:
         """Yield the results for the visible pictures, and the motion or the kinds of computation."""
         if self.precision is None:
             yield f"Computed: {', '.join(str(trial.kind) for trial in self.trials)}"
         if "trade" in self.seen:
             yield from self.costs.rows()
         if self.precision is not None:
-            yield from self.precision.derived()
+            yield from self.precision.quantities()
 
     def status(self) -> Iterator[str]:
         """Yield the chosen level and the cost of every level."""

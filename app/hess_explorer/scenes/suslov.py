@@ -10,7 +10,7 @@ from functools import cached_property
 import numpy as np
 
 from hess_explorer.compute.cache import Task
-from hess_explorer.scenes.framework.charted import Charted, Charts, of_motion, parameters_of
+from hess_explorer.scenes.framework.charted import Charts, ChartSource, of_motion, parameters_of
 from hess_explorer.scenes.framework.part import part
 from hess_explorer.scenes.framework.scene import Preset, Scene
 from hess_explorer.scenes.framework.sliders import TURN, choice, parameter, places, time_span
@@ -111,9 +111,9 @@ class Suslov(FilledState):
     starts: str = places("The places of the chosen orbits", 12, *_BOUNDS, "1,1")
     window: str = places("The window of the section", 2, *_BOUNDS)
 
-    def admitted(self, notes: list[str]) -> Suslov:
+    def valid_state(self, notes: list[str]) -> Suslov:
         """Return a state with a valid window, at least one start, and an energy that reaches the plane."""
-        state = super().admitted(notes)
+        state = super().valid_state(notes)
         bottom = self.poincare.lowest_energy + math.hypot(self.b1, self.b2, self.b3)
         if self.h <= bottom * (1.0 + 1e-9):
             state = replace(state, h=bottom * 1.01 + 1e-6)
@@ -193,10 +193,10 @@ class Suslov(FilledState):
         cells = occupied_cells(later, self.poincare.window, _CELLS)
         return Caption(numbers=f"{counted}late forward points occupy {cells} of {_CELLS**2} cells.")
 
-    def derived(self) -> Iterator[str]:
+    def quantities(self) -> Iterator[str]:
         """Yield the energy, the start of the orbit on show and the check of the body."""
         yield f"E = {digits(self.E)}"
-        yield from super().derived()
+        yield from super().quantities()
         yield check_body(self.I11, self.I22, self.I13, self.I23).sentence
 
 
@@ -209,14 +209,14 @@ SCENE = Scene(
     charts=Charts(
         (
             *of_motion(SYSTEM, lambda s: start_on(s.poincare, s.starts), time=lambda s: s.long),
-            Charted(
+            ChartSource(
                 "basins suslov-section",
                 # Attractors belong to the whole section: one cell is enough.
                 lambda s: {**parameters_of(s.body), "h": s.h, "k": s.poincare.k, "across": 1.0, "up": 1.0},
             ),
         ),
         over=_NAMES,
-        placed=("starts", _NAMES),
+        place=("starts", _NAMES),
     ),
     group="Heavy body",
     essential=("h", "I13", "I23", "b3"),
@@ -238,7 +238,7 @@ SCENE = Scene(
         along_the_orbit(lambda s: centre_of_mass((s.b1, s.b2, s.b3)), lambda s: s.proof.around),
         replace(
             orbit_alone(lambda s: s.half_width, energy=lambda s: s.E, proved=lambda s: s.proof.band),
-            folded="Show the angular velocity",
+            button="Show the angular velocity",
         ),
         conformal_time.picture(lambda s: s._conformal[0], lambda s: s._conformal[1], lambda s: s.duration),
     ),

@@ -12,14 +12,21 @@ import numpy as np
 from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework import hess_case
 from hess_explorer.scenes.framework.charted import Charts, of_torus
-from hess_explorer.scenes.framework.hess_case import Proved, limit_cycles, map_or_none, possible_f, possible_I23, proved
+from hess_explorer.scenes.framework.hess_case import (
+    ProvedStatement,
+    limit_cycles,
+    map_or_none,
+    possible_f,
+    possible_I23,
+    proved_statement,
+)
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
 from hess_explorer.scenes.framework.sliders import Slider, accuracy_level, number, parameter, slider_within
 from hess_explorer.scenes.framework.solid_body import Solid, hess_solid, solid_body
 from hess_explorer.scenes.framework.trial import COLOUR_UNIT, Trial, boundary_error, colour_error, curve_error
 from hess_explorer.scenes.framework.work import orbit_status
 from hess_explorer.scenes.parts.orbits.hess_surface import INVARIANT, HessSurface, shaded_by, surface_picture
-from hess_explorer.scenes.parts.orbits.proof import OrbitProof, proved_error_shown
+from hess_explorer.scenes.parts.orbits.proof import OrbitProof, show_proved_error
 from hess_explorer.views.layers import CellGrid, Columns
 from hess_explorer.views.maps import bifurcation_diagram as diagram
 from hess_explorer.views.maps import circle_map as circle
@@ -77,11 +84,11 @@ class SuslovHess(State):
         label="Time span",
         doc="Duration of the orbit, in the time of the body (at most 100 returns).",
     )
-    certain: str = proved_error_shown()
+    certain: str = show_proved_error()
     shade: str = shaded_by()
     accuracy: str = accuracy_level()
 
-    def admitted(self, notes: list[str]) -> SuslovHess:
+    def valid_state(self, notes: list[str]) -> SuslovHess:
         """Clamp |a| to 100 and f to the region of this h."""
         return replace(self, I23=possible_I23(self.I22, self.I23, notes), f=possible_f(self.h, self.f, notes))
 
@@ -95,7 +102,7 @@ class SuslovHess(State):
         return HessBody(self.I22, self.I23, self.b3)
 
     @cached_property
-    def turning(self) -> TurningPoints | None:
+    def turning_points(self) -> TurningPoints | None:
         """The turning points of n3; None on the separatrix."""
         try:
             return turning_points(self.h, self.f)
@@ -105,7 +112,7 @@ class SuslovHess(State):
     @cached_property
     def map(self) -> CircleMap | None:
         """The circle map; None on the separatrix."""
-        return None if self.turning is None else map_or_none(self.work, self.body.a, self.h, self.f, self.level)
+        return None if self.turning_points is None else map_or_none(self.work, self.body.a, self.h, self.f, self.level)
 
     @cached_property
     def locked(self) -> Array:
@@ -158,7 +165,7 @@ class SuslovHess(State):
     @cached_property
     def density(self) -> tuple[Array | None, str]:
         """The invariant density on the torus relative to the uniform one, or None and the reason."""
-        reason = torus_density.reason_for_no_density(self.map, self.turning)
+        reason = torus_density.reason_for_no_density(self.map, self.turning_points)
         if reason or self.map is None:
             return None, reason
         try:
@@ -183,13 +190,13 @@ class SuslovHess(State):
         return Motion(SYSTEM, tuple(state), (self.body.a, 1.0), length, tuple(weights), 1.0 / self.body.frequency_unit)
 
     @cached_property
-    def proof(self) -> Proved | None:
+    def proof(self) -> ProvedStatement | None:
         """Proved statements on this torus; None until known and while a slider is dragged."""
         if self.dragging or self.map is None:
             return None
         if not has_flint():
-            return Proved("", "Proofs need python-flint: pip install 'hess-explorer[prove]'")
-        return self.work.need(Task(proved, self.I22, self.I23, self.h, self.f), preview=None)
+            return ProvedStatement("", "Proofs need python-flint: pip install 'hess-explorer[prove]'")
+        return self.work.need(Task(proved_statement, self.I22, self.I23, self.h, self.f), preview=None)
 
     # ---- what the pictures show --------------------------------------------------------------------------------
 
@@ -208,7 +215,7 @@ class SuslovHess(State):
 
     def heights(self) -> list[Circle]:
         """Return the circles that bound n3, and the proved enclosure of γ."""
-        ends = (-1.0, 1.0) if self.turning is None else self.turning.roots[1:]
+        ends = (-1.0, 1.0) if self.turning_points is None else self.turning_points.roots[1:]
         return [*parallels(self.body.n3, ends), *self.orbit_proof.around]
 
     def colours(self, cells: tuple[int, int], level: Level) -> Task[Array]:
@@ -225,7 +232,7 @@ class SuslovHess(State):
 
     # ---- words --------------------------------------------------------------------------------------------------
 
-    def derived(self) -> Iterator[str]:
+    def quantities(self) -> Iterator[str]:
         """Yield a, b, the derived data of the body, the integrals in its units and the period."""
         body = self.body
         yield f"a = I₂₃/I₂₂ = {digits(body.a)}"
@@ -239,14 +246,14 @@ class SuslovHess(State):
             yield f"I₃₃ from {digits(body.check.I33[0])} to {digits(body.check.I33[1])}"
         if self.map is not None:
             yield f"Period of n₃ = {digits(self.map.period / body.frequency_unit)}"
-            if self.known("proof") and self.proof is not None:
+            if self.peek("proof") and self.proof is not None:
                 yield self.proof.sentence
             if self.map.kind == "elliptic":
                 yield f"ζ of the invariant density = {digits(invariant_measure(self.map).zeta)}"
 
     def status(self) -> Iterator[str]:
         """Yield the status of the orbit and of the circle map."""
-        if self.known("track"):
+        if self.peek("track"):
             yield from orbit_status(self.track.orbit)
             yield from self.orbit_proof.status()
         if self.map is None:
@@ -258,7 +265,7 @@ class SuslovHess(State):
         """Yield warnings: not a rigid body, a truncated orbit, an angle that jumps."""
         if not self.body.check.is_body:
             yield self.body.check.sentence
-        shown = float(self.track.times[-1]) if self.known("track") else math.inf
+        shown = float(self.track.times[-1]) if self.peek("track") else math.inf
         if shown < self.span * (1 - 1e-9):
             reason = "after that it is visibly at rest" if self.map is None else f"{MAX_RETURNS} returns"
             yield f"The orbit is shown up to t = {digits(shown)}: {reason}."
@@ -307,14 +314,16 @@ SCENE = Scene(
     views=(
         solid_body(section=True),
         picture(
-            lambda s: torus_plane.about(s.map, s.turning),
+            lambda s: torus_plane.about(s.map, s.turning_points),
             lambda s: s.half_width,
             torus_plane.layers(
-                lambda s: annulus(s.body, s.h, s.turning), lambda s: s.half_width, proved=lambda s: s.orbit_proof.band
+                lambda s: annulus(s.body, s.h, s.turning_points),
+                lambda s: s.half_width,
+                proved=lambda s: s.orbit_proof.band,
             ),
         ),
         Sphere(
-            caption=lambda s: torus_plane.about_heights(s.turning),
+            caption=lambda s: torus_plane.about_heights(s.turning_points),
             circles=SuslovHess.heights,
             axis=lambda s: Direction(s.body.n3, "n₃"),
             looks={one: one for one in ("orbit", "stable", "unstable")},

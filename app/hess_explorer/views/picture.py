@@ -33,7 +33,7 @@ class Picture(ABC, Generic[S]):
     on_hover(state, x, y) : tooltip for the place under the mouse.  Raises `ModelError`.
     signs : legend entries in addition to those of its layers.
     drawn_from : names of other pictures whose sources it draws.
-    folded : label of the button that shows the picture, if it is hidden at first.
+    button : label of the button that shows the picture, if it is hidden at first.
     """
 
     name: str
@@ -46,7 +46,7 @@ class Picture(ABC, Generic[S]):
     on_hover: Callable[[S, float, float], str] | None = None
     signs: tuple[Sign, ...] = ()
     drawn_from: tuple[str, ...] = ()
-    folded: str = ""
+    button: str = ""
 
     kind: ClassVar[str]
     """Renderer in the browser: "plot" is Bokeh, the others draw on their own canvases."""

@@ -11,7 +11,7 @@ from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.work import Work
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["CELLS", "COARSE", "DENSITY", "Arguments", "changed", "found_by_rows"]
+__all__ = ["CELLS", "COARSE", "DENSITY", "Arguments", "cells_by_rows", "change_percentage"]
 
 CELLS = (36, 24)
 """Cells across and up a section at the level `standard`."""
@@ -24,7 +24,7 @@ DENSITY = "density"
 Arguments = tuple[Any, ...]
 
 
-def found_by_rows(
+def cells_by_rows(
     work: Work,
     row_of: Callable[..., Array],
     stages: Sequence[Sequence[Arguments]],
@@ -61,7 +61,7 @@ def found_by_rows(
     return None if cells is None else (cells, left)
 
 
-def changed(cells: Array, truth: Array) -> float:
+def change_percentage(cells: Array, truth: Array) -> float:
     """Return the percentage of cells (n, m) that differ at the points of the truth, in as many cells or finer ones."""
     rows, columns = (np.arange(fine) * coarse // fine for coarse, fine in zip(cells.shape, truth.shape, strict=True))
     return 100.0 * float(np.mean(cells[np.ix_(rows, columns)] != truth))

@@ -17,13 +17,13 @@ import numpy as np
 from hess_explorer.compute.cache import Task
 from hess_explorer.compute.cells import Outcome
 from hess_explorer.protocol.specs import ChoiceSpec, NumberSpec, Places, Spec, Values
-from hess_explorer.scenes.framework.cells import COARSE, found_by_rows
+from hess_explorer.scenes.framework.cells import COARSE, cells_by_rows
 from hess_explorer.scenes.framework.chart_cells import STORED, Cells, Side, chart_row
 from hess_explorer.scenes.framework.charted import Charts, Numbers
 from hess_explorer.scenes.framework.part import Part, part
-from hess_explorer.scenes.framework.sliders import declared, specs_of
+from hess_explorer.scenes.framework.sliders import declare, specs_of
 from hess_explorer.scenes.framework.trial import bare
-from hess_explorer.scenes.framework.windows import Window, boxed, inside, tidy_window, window_of
+from hess_explorer.scenes.framework.windows import Window, box_window, inside, tidy_window, window_of
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import CellGrid, Positions
 from hess_explorer.views.picture import Corners
@@ -32,7 +32,7 @@ from hess_mechanics import catalogue
 from hess_mechanics.numerics.accuracy import level
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["charting"]
+__all__ = ["with_chart"]
 
 _FIRST, _STAGES = 8, 3
 """Cells along a side of the first stage, and the number of stages; one more where many cells are computed at once."""
@@ -59,15 +59,15 @@ class _Chart(Part[Any]):
         """The place of this state."""
         return self.axes[0].of(self.host), self.axes[1].of(self.host)
 
-    def carried(self, before: Self) -> Values:
+    def adjustments(self, before: Self) -> Values:
         """Return the whole window after a change of an axis."""
         return {} if self.axes == before.axes else {"chart_window": ""}
 
     @property
     def number(self) -> catalogue.Number:
         """The number on show."""
-        charted, number = self.numbers[self.host.chart]
-        return charted.computation.number(number)
+        source, number = self.numbers[self.host.chart]
+        return source.computation.number(number)
 
     @cached_property
     def key(self) -> Cells:
@@ -91,10 +91,10 @@ class _Chart(Part[Any]):
             return cells, 0, window
         # The number of this state comes first.
         _ = self.own
-        more = self.key.charted.computation.many is not None
+        more = self.key.source.computation.many is not None
         counts = [_FIRST * COARSE**stage for stage in range(_STAGES + more)]
         rows = [[(self.key, self.window, count, row) for row in range(count)] for count in counts]
-        found = found_by_rows(self.work, chart_row, rows)
+        found = cells_by_rows(self.work, chart_row, rows)
         return None if found is None else (*found, self.window)
 
     @cached_property
@@ -126,13 +126,13 @@ class _Chart(Part[Any]):
         """Return the parameters at a place.  Raises `ModelError` if no number is possible there."""
         across, up = self.axes
         state = up.put(across.put(self.host, x), y)
-        self.key.charted.values(state)
+        self.key.source.values(state)
         return {one.name: getattr(state, one.name) for one in (across, up)}
 
     def look_closer(self, corners: Corners) -> Values:
         """Return the window of a box."""
         (x0, x1), (y0, y1) = (one.ends for one in self.axes)
-        return boxed(corners, ((x0, y0), (x1, y1)), "chart_window")
+        return box_window(corners, ((x0, y0), (x1, y1)), "chart_window")
 
     def _says(self, value: float, error: float, status: float) -> str:
         outcome, number = Outcome(int(status)), self.number
@@ -157,7 +157,7 @@ class _Chart(Part[Any]):
         """The number in this state, and what is known of the cells."""
         verdict = "" if self.own is None else self._says(*self.own[:, 0])
         if self._found is None or self.cells is None:
-            return Caption(verdict, self.work.awaited("The chart is"))
+            return Caption(verdict, self.work.pending_caption("The chart is"))
         cells, coarse, _ = self._found
         rows, _, columns = cells.shape
         said = [f"{columns} × {rows} cells" + f", {rows - coarse} rows known" * (coarse > 0)]
@@ -171,13 +171,13 @@ def _sides(charts: Charts, state: type[Any]) -> Mapping[str, Side]:
     for spec in specs_of(state):
         if isinstance(spec, NumberSpec):
             found.append(Side(spec.symbol, spec.name, spec.softbounds))
-        elif isinstance(spec, Places) and spec.name == charts.placed[0]:
+        elif isinstance(spec, Places) and spec.name == charts.place[0]:
             ends = zip(spec.low, spec.high, strict=True)
-            found += [Side(charts.placed[1][i], spec.name, both, i) for i, both in enumerate(ends)]
+            found += [Side(charts.place[1][i], spec.name, both, i) for i, both in enumerate(ends)]
     return {one.symbol: one for one in found}
 
 
-def charting(state: type[Any], charts: Charts) -> type[Any]:
+def with_chart(state: type[Any], charts: Charts) -> type[Any]:
     """Return the class of states with the choices of a chart, which do not change other results."""
     numbers, sides = charts.numbers, _sides(charts, state)
     x, y = (next(symbol for symbol, side in sides.items() if one in (symbol, side.name)) for one in charts.over)
@@ -191,8 +191,8 @@ def charting(state: type[Any], charts: Charts) -> type[Any]:
 
     return make_dataclass(
         state.__name__,
-        [(spec.name, str, declared(spec, compare=False)) for spec in specs],
+        [(spec.name, str, declare(spec, compare=False)) for spec in specs],
         bases=(state,),
         frozen=True,
-        namespace={"__module__": state.__module__, "charting": part(lambda s: _Chart(s, numbers, sides))},
+        namespace={"__module__": state.__module__, "chart_part": part(lambda s: _Chart(s, numbers, sides))},
     )

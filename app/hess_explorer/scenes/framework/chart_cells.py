@@ -11,7 +11,7 @@ import numpy as np
 from hess_explorer.compute.cache import Task
 from hess_explorer.compute.cells import evaluate, failure
 from hess_explorer.protocol.specs import places, places_text
-from hess_explorer.scenes.framework.charted import Charted
+from hess_explorer.scenes.framework.charted import ChartSource
 from hess_explorer.scenes.framework.windows import Window
 from hess_explorer.views.layers import Range
 from hess_mechanics.dynamics.cells import centres
@@ -46,17 +46,17 @@ class Side:
     def put(self, state: Any, value: float) -> Any:
         """Return the state with another value; of several places only the last one is kept."""
         if self.axis is None:
-            return state.changed({self.name: value})
+            return state.with_values({self.name: value})
         place = [*places(getattr(state, self.name))[-1]]
         place[self.axis] = value
-        return state.changed({self.name: places_text([tuple(place)])})
+        return state.with_values({self.name: places_text([tuple(place)])})
 
 
 @dataclass(frozen=True)
 class Cells:
     """A number over two parameters, the others as in a state: the cache key of its cells."""
 
-    charted: Charted
+    source: ChartSource
     number: str
     x: Side
     y: Side
@@ -65,13 +65,13 @@ class Cells:
 
     def arguments(self, x: float, y: float) -> Mapping[str, Any]:
         """Return the arguments at a place.  Raises `ModelError`."""
-        return self.charted.values(self.y.put(self.x.put(self.state, x), y))
+        return self.source.values(self.y.put(self.x.put(self.state, x), y))
 
 
-def _evaluated(charted: Charted, number: str, chosen: Level, cells: tuple[Any, ...]) -> Array:
-    names = [one.name for one in charted.computation.parameters]
+def _evaluate_cells(source: ChartSource, number: str, chosen: Level, cells: tuple[Any, ...]) -> Array:
+    names = [one.name for one in source.computation.parameters]
     columns = dict(zip(names, np.array(cells, float).T, strict=True))
-    found = evaluate(charted.computation, (number,), columns, chosen)
+    found = evaluate(source.computation, (number,), columns, chosen)
     errors = found.errors.get(number, np.full(len(cells), np.nan))
     return frozen(np.stack([found.values[number], errors, found.status]))
 
@@ -89,7 +89,7 @@ def chart_row(cells: Cells, window: Window, count: int, row: int) -> Array:
             found[2, i], _ = failure(error, {cells.x.name: x, cells.y.name: y})
     if known:
         # By the arguments, which not every parameter of the scene changes.
-        found[:, [*known]] = Task(_evaluated, cells.charted, cells.number, cells.level, tuple(known.values())).get()
+        found[:, [*known]] = Task(_evaluate_cells, cells.source, cells.number, cells.level, tuple(known.values())).get()
     return frozen(found)
 
 

@@ -14,15 +14,15 @@ from hess_mechanics.catalogue import Computation
 from hess_mechanics.dynamics.system import Body, System
 from hess_mechanics.numerics.accuracy import DRAFT
 
-__all__ = ["Arguments", "Charted", "Charts", "Numbers", "of_motion", "of_torus", "parameters_of", "tensor_of"]
+__all__ = ["Arguments", "ChartSource", "Charts", "Numbers", "of_motion", "of_torus", "parameters_of", "tensor_of"]
 
 Arguments = Mapping[str, float]
-Numbers = Mapping[str, tuple["Charted", str]]
+Numbers = Mapping[str, tuple["ChartSource", str]]
 """Computation and name of each number, by the option of the menu."""
 
 
 @dataclass(frozen=True, eq=False)
-class Charted:
+class ChartSource:
     """A computation whose numbers a scene charts.
 
     Attributes
@@ -55,35 +55,35 @@ class Charts:
 
     Attributes
     ----------
-    charted : tuple of Charted
+    sources : tuple of ChartSource
         The computations.
     over : tuple
         The first two sides, parameters by name and coordinates by symbol.
-    placed : tuple
+    place : tuple
         A parameter of places and the symbols of their coordinates, which are sides as well.
     """
 
-    charted: tuple[Charted, ...]
+    sources: tuple[ChartSource, ...]
     over: tuple[str, str]
-    placed: tuple[str, tuple[str, str]] = ("", ("", ""))
+    place: tuple[str, tuple[str, str]] = ("", ("", ""))
 
     @property
     def numbers(self) -> Numbers:
         """The numbers of all computations by name; of equal names the last."""
-        return {name: (one, name) for one in self.charted for name in one.computation.numbers}
+        return {name: (one, name) for one in self.sources for name in one.computation.numbers}
 
     def load(self, state: Any) -> None:
         """Compute every number once, which compiles or loads its kernels.  Raises `ModelError`."""
-        for one in self.charted:
+        for one in self.sources:
             columns = {name: np.array([value]) for name, value in one.values(state).items()}
             evaluate(one.computation, (*one.computation.numbers,), columns, DRAFT)
 
 
-def of_torus(torus: Callable[[Any], tuple[float, float, float]]) -> tuple[Charted, ...]:
+def of_torus(torus: Callable[[Any], tuple[float, float, float]]) -> tuple[ChartSource, ...]:
     """Return what is charted of a Suslov–Hess torus (a, h, f)."""
     return (
-        Charted("circle-map", lambda s: dict(zip("ahf", torus(s), strict=True))),
-        Charted("critical-a", lambda s: dict(zip("hf", torus(s)[1:], strict=True))),
+        ChartSource("circle-map", lambda s: dict(zip("ahf", torus(s), strict=True))),
+        ChartSource("critical-a", lambda s: dict(zip("hf", torus(s)[1:], strict=True))),
     )
 
 
@@ -102,7 +102,7 @@ def of_motion(
     start: Callable[[Any], tuple[float, ...]],
     time: Callable[[Any], float] | None = None,
     known: Mapping[str, Computation] | None = None,
-) -> tuple[Charted, ...]:
+) -> tuple[ChartSource, ...]:
     """Return MEGNO, exponents and crossings of the chosen motion of a system.
 
     Parameters
@@ -112,7 +112,7 @@ def of_motion(
     time : callable or None
         `time(state)` returns the averaging time.
     known : mapping of str to Computation or None
-        As in `Charted`.
+        As in `ChartSource`.
     """
     known = known or {}
 
@@ -123,8 +123,8 @@ def of_motion(
         return motion(s) if time is None else {**motion(s), "duration": time(s)}
 
     return (
-        Charted(f"megno {system.name}", motion, known),
-        Charted(f"lyapunov {system.name}", averaged, known),
-        Charted(f"spectrum {system.name}", averaged, known),
-        Charted(f"crossings {system.name}", motion, known),
+        ChartSource(f"megno {system.name}", motion, known),
+        ChartSource(f"lyapunov {system.name}", averaged, known),
+        ChartSource(f"spectrum {system.name}", averaged, known),
+        ChartSource(f"crossings {system.name}", motion, known),
     )

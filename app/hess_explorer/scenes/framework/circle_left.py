@@ -77,7 +77,7 @@ def Gamma_picture(
         title="Γ = (ξ, γ) against time",
         caption=caption,
         axes=("t", "Γ"),
-        folded="Show Γ against time",
+        button="Show Γ against time",
         x=lambda s: (0.0, s.span),
         y=(-1.05, 1.05),
         dot=("t", "Gamma"),

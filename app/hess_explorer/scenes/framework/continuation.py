@@ -15,7 +15,7 @@ import numpy as np
 from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.families import Begin
 from hess_explorer.scenes.framework.part import Part, Sectioned
-from hess_explorer.scenes.framework.periodic_search import Closed, NotFound, Place
+from hess_explorer.scenes.framework.periodic_search import ClosedOrbit, NotFound, Place
 from hess_explorer.scenes.framework.windows import Window
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.maps.branch import bifurcations
@@ -76,23 +76,23 @@ class Continuation(Part[H_co]):
         return self.host.poincare.turns[self.side]
 
     @cached_property
-    def _found(self) -> Closed | NotFound | None:
+    def _found(self) -> ClosedOrbit | NotFound | None:
         """The orbit that is continued, or why there is none; None until known."""
         return None if self.begin is None else self.work.need(self.begin.search, preview=None)
 
     @property
-    def closed(self) -> Closed | None:
+    def closed_orbit(self) -> ClosedOrbit | None:
         """The orbit that is continued, if there is one."""
-        return self._found if isinstance(self._found, Closed) else None
+        return self._found if isinstance(self._found, ClosedOrbit) else None
 
     @cached_property
-    def _known(self) -> tuple[list[mechanics.Branch], list[str], bool]:
+    def _search_state(self) -> tuple[list[mechanics.Branch], list[str], bool]:
         """The known pieces of the branch, the reasons for missing ones, and whether none is pending."""
         found: list[mechanics.Branch] = []
         failed: list[str] = []
         whole = True
         begin = self.begin
-        if begin is None or self.closed is None:
+        if begin is None or self.closed_orbit is None:
             return found, failed, False
         low, high = begin.ends
         for upwards in (True, False):
@@ -114,7 +114,7 @@ class Continuation(Part[H_co]):
     @property
     def branches(self) -> list[mechanics.Branch]:
         """The known pieces of the branch."""
-        return self._known[0]
+        return self._search_state[0]
 
     # ---- the mouse ----------------------------------------------------------------------------------------------
 
@@ -192,17 +192,17 @@ class Continuation(Part[H_co]):
         """The caption of the branch."""
         if self.begin is None or isinstance(self._found, NotFound):
             return Caption("No periodic orbit found from here.")
-        if self.closed is None:
-            return Caption(self.work.awaited("A periodic orbit is"))
-        found, _, whole = self._known
-        orbit = self.closed.orbit
+        if self.closed_orbit is None:
+            return Caption(self.work.pending_caption("A periodic orbit is"))
+        found, _, whole = self._search_state
+        orbit = self.closed_orbit.orbit
         known = bifurcations(found)
         some = f"{len(known)} bifurcation{'s' * (len(known) != 1)}" if known else "No bifurcation"
         return Caption(
             f"Period {orbit.period}, {orbit.kind} here.", f"{some} on its branch{'' if whole else ' so far'}."
         )
 
-    def derived(self) -> Iterator[str]:
+    def quantities(self) -> Iterator[str]:
         """Yield the bifurcations."""
         found = bifurcations(self.branches) if self.has_result("_known") else []
         yield from map(self._named, found[:_SAID])
@@ -223,9 +223,9 @@ class Continuation(Part[H_co]):
             return
         if isinstance(self._found, NotFound):
             yield self._found.reason
-        if self.begin is None or self.closed is None:
+        if self.begin is None or self.closed_orbit is None:
             return
-        found, failed, whole = self._known
+        found, failed, whole = self._search_state
         yield from failed
         open_ends = 2 - (self.begin.value in self.begin.ends)
         if whole and not failed and sum(one.heading is None for one in found) < open_ends:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.specs import Value
 from hess_explorer.scenes.framework.part import Sectioned
-from hess_explorer.scenes.framework.periodic_search import Closed, NotFound, Place, sought
+from hess_explorer.scenes.framework.periodic_search import ClosedOrbit, NotFound, Place, find_orbit
 from hess_mechanics.dynamics.return_map import PoincareSection, ReturnMap
 from hess_mechanics.numerics.accuracy import PRECISE
 
@@ -65,6 +65,6 @@ class Begin:
     ends: tuple[float, float]
 
     @property
-    def search(self) -> Task[Closed | NotFound]:
+    def search(self) -> Task[ClosedOrbit | NotFound]:
         """The computation that searches for the orbit at the start.  Raises `ModelError`."""
-        return Task(sought, self.family.map_at(self.value), self.place, self.period, False)
+        return Task(find_orbit, self.family.map_at(self.value), self.place, self.period, False)

@@ -44,12 +44,12 @@ __all__ = [
     "RIS",
     "UNSURE",
     "HeavyHess",
-    "Proved",
+    "ProvedStatement",
     "limit_cycles",
     "map_or_none",
     "possible_I23",
     "possible_f",
-    "proved",
+    "proved_statement",
     "reduced_motion",
 ]
 
@@ -94,10 +94,10 @@ RIS = {"I1": 1.0, "I2": 1.5, "I3": 2.0, "m": math.sqrt(0.5)}
 """The body of figures 13 and 14, turned by π about its middle axis."""
 
 
-def reduced_motion(hess: HessBody, turning: TurningPoints, phi0: float, length: float) -> Motion:
+def reduced_motion(hess: HessBody, turning_points: TurningPoints, phi0: float, length: float) -> Motion:
     """Return the motion of a torus from phase φ0, over a time span in units b = 1, for "Speed and accuracy"."""
-    start = tuple(turning.state_at_lower_turn(phi0).tolist())
-    weights = pixels_per_unit(math.sqrt(2.0 * (turning.h + 1.0)))
+    start = tuple(turning_points.state_at_lower_turn(phi0).tolist())
+    weights = pixels_per_unit(math.sqrt(2.0 * (turning_points.h + 1.0)))
     return Motion(SYSTEM, start, (hess.a, 1.0), length, weights, 1.0 / hess.frequency_unit)
 
 
@@ -138,33 +138,35 @@ def limit_cycles(
 
 
 @dataclass(frozen=True)
-class Proved:
+class ProvedStatement:
     """The proved statement on a torus: a short sentence for the caption of its map, and one with more digits."""
 
     badge: str
     sentence: str
 
 
-def proved(I22: float, I23: float, h: float, f: float) -> Proved:
+def proved_statement(I22: float, I23: float, h: float, f: float) -> ProvedStatement:
     """Return the proved statement on a torus; each double stands for exactly the decimal number that its box shows."""
     try:
         found = prove(exact("I23", I23) / exact("I22", I22), h, f, _MOST_BITS, _MOST_WORK)
     except ModelError as error:
-        return Proved("Not proved.", f"Not proved: {error}")
+        return ProvedStatement("Not proved.", f"Not proved: {error}")
     if isinstance(found, EdgeProof):
         moves = "two equilibria" if found.statement == TWO_EQUILIBRIA else "one periodic orbit"
-        return Proved(f"Proved: no torus, but a circle with n₃ constant: {moves}.", claim(found))
+        return ProvedStatement(f"Proved: no torus, but a circle with n₃ constant: {moves}.", claim(found))
     if found.statement == NO_CYCLE:
         # With enough digits to show that it is less than 2.
         least = next(count for count in itertools.count(4) if Fraction(found.trace.decimals(count)[1]) < 2)
-        return Proved(
+        return ProvedStatement(
             f"Proved: no cycle, |trace| in {_within(found.trace, least)}.",
             f"Proved: no cycle, |trace| in {_within(found.trace, least + 7)}{_costs(found)}",
         )
     if found.statement != TWO_CYCLES:
-        return Proved(f"Undecided at {found.bits} bits.", f"Undecided at {found.bits} bits: |trace| is too close to 2")
+        return ProvedStatement(
+            f"Undecided at {found.bits} bits.", f"Undecided at {found.bits} bits: |trace| is too close to 2"
+        )
     less, more = found.multipliers
-    return Proved(
+    return ProvedStatement(
         f"Proved: exactly two cycles, multipliers in {_within(less, 4)}, {_within(more, 4)}.",
         f"Proved: exactly two cycles, multipliers in {_within(less, 11)}, {_within(more, 11)}{_costs(found)}",
     )
@@ -195,7 +197,7 @@ class HeavyHess:
     def _largest_f(self, h: float) -> float:
         return largest_area_integral(self.m, self.moments[1], h) * _INSIDE
 
-    def admitted(self, notes: list[str]) -> Values:
+    def corrections(self, notes: list[str]) -> Values:
         """Clamp h to values above its minimum and f to the region of this h; append a note for each change."""
         if abs(self.m) < self._least_weight:
             return {}
@@ -231,7 +233,7 @@ class HeavyHess:
         return Bridge.of_heavy(HeavyBody.hess(self.moments, self.m))
 
     @cached_property
-    def turning(self) -> TurningPoints:
+    def turning_points(self) -> TurningPoints:
         """(h, f) in units b = 1, with the turning points of n3.  Raises `Separatrix`, `OutsideRegion`."""
         try:
             return turning_points(*self.bridge.in_units_of_b(self.h, self.f))

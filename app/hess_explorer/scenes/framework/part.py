@@ -58,7 +58,7 @@ class Part(Generic[H_co]):
         """Return whether a picture in sight has computed this cached property; texts never compute one."""
         return name in vars(self)
 
-    def admitted(self, notes: list[str]) -> Values:
+    def corrections(self, notes: list[str]) -> Values:
         """Return the parameters that have to change for a valid state; append a note for each change."""
         return {}
 
@@ -70,11 +70,11 @@ class Part(Generic[H_co]):
         """Return the meanings, as `Number.means`, of the numbers whose meaning depends on a choice."""
         return {}
 
-    def carried(self, before: Self) -> Values:
+    def adjustments(self, before: Self) -> Values:
         """Return the parameter changes that keep the motion continuous after a different choice."""
         return {}
 
-    def derived(self) -> Iterable[str]:
+    def quantities(self) -> Iterable[str]:
         """Return quantities that follow from the parameters, a line each."""
         return ()
 

@@ -21,7 +21,7 @@ __all__ = [
     "NONE",
     "PERIODS",
     "BranchChoice",
-    "Closed",
+    "ClosedOrbit",
     "NotFound",
     "NotPeriodic",
     "Periodic",
@@ -29,7 +29,7 @@ __all__ = [
     "Search",
     "branch_of",
     "crossings_between",
-    "sought",
+    "find_orbit",
 ]
 
 Place = tuple[float, ...]
@@ -54,7 +54,7 @@ _UNKNOWN = "What follows is not known to half a pixel: a more exact level may sh
 
 
 @dataclass(frozen=True)
-class Closed:
+class ClosedOrbit:
     """A periodic orbit, the state at its first place, and the time after which it closes."""
 
     orbit: PeriodicOrbit
@@ -73,11 +73,11 @@ class Periodic(Protocol):
     """The periodic orbit shown in place of the chosen one."""
 
     @property
-    def closed(self) -> Closed | None:
+    def closed_orbit(self) -> ClosedOrbit | None:
         """The orbit; None if none is requested or known."""
 
     @property
-    def looking(self) -> bool:
+    def is_searching(self) -> bool:
         """True while a requested orbit is not known yet."""
 
     @property
@@ -95,17 +95,17 @@ class NotPeriodic:
         True while the exponent has to wait for something else.
     """
 
-    looking: bool = False
-    closed: Closed | None = None
+    is_searching: bool = False
+    closed_orbit: ClosedOrbit | None = None
     growth: tuple[float, float] | None = None
 
 
-def sought(map_: ReturnMap, aim: Place, period: int | None, near: bool) -> Closed | NotFound:
+def find_orbit(map_: ReturnMap, aim: Place, period: int | None, near: bool) -> ClosedOrbit | NotFound:
     """Search for a periodic orbit; return it, or the reason why none was found."""
     try:
         orbit = find_periodic(map_, aim, period, _MOST, near)
         first = orbit.places[0]
-        return Closed(
+        return ClosedOrbit(
             replace(orbit, symmetric=tuple(map_.symmetries_of(orbit.places))),
             tuple(map(float, map_.state_at(first))),
             map_.time_of(first, orbit.period),
@@ -118,8 +118,8 @@ def sought(map_: ReturnMap, aim: Place, period: int | None, near: bool) -> Close
 
 def branch_of(search: Search, branch: BranchChoice, length: float, pixel: float) -> Manifold | NotFound:
     """Return one branch of a manifold, as far as it is right to half a pixel."""
-    found = Task(sought, *search).get()
-    assert isinstance(found, Closed), "only a closed orbit has branches"
+    found = Task(find_orbit, *search).get()
+    assert isinstance(found, ClosedOrbit), "only a closed orbit has branches"
     place, stable, side = branch
     for part in _PARTS:
         try:

@@ -12,12 +12,12 @@ from typing import Any, ClassVar, Generic, Self, TypeVar, cast
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.specs import ChoiceSpec, NumberSpec, Spec, Value, Values
-from hess_explorer.scenes.framework.chart import charting
+from hess_explorer.scenes.framework.chart import with_chart
 from hess_explorer.scenes.framework.chart_picture import chart_picture
 from hess_explorer.scenes.framework.charted import Charts
 from hess_explorer.scenes.framework.part import Host, Part, part
 from hess_explorer.scenes.framework.sliders import Slider, specs_of
-from hess_explorer.scenes.framework.trial import Trial, bare, needed, orbit_trial
+from hess_explorer.scenes.framework.trial import Trial, bare, orbit_trial, sufficient_level
 from hess_explorer.scenes.framework.work import Work
 from hess_explorer.views.layers import Columns, Sign
 from hess_explorer.views.picture import Picture
@@ -65,7 +65,7 @@ class Motion:
     unit: float = 1.0
 
     @property
-    def named(self) -> tuple[str, tuple[float, ...], tuple[float, ...], float]:
+    def arguments(self) -> tuple[str, tuple[float, ...], tuple[float, ...], float]:
         """System by name, state, parameters and span: the arguments of `work_precision`."""
         return self.system.name, self.state, self.parameters, self.span
 
@@ -82,7 +82,7 @@ class Report:
         The number of its background computations.
     """
 
-    derived: Sequence[str]
+    quantities: Sequence[str]
     status: str
     notes: Sequence[str]
     todo: Sequence[Task[Any]]
@@ -129,13 +129,13 @@ class State:
         """
         return self.work.plan(kind, steady)
 
-    def known(self, name: str) -> Any | None:
+    def peek(self, name: str) -> Any | None:
         """Return a cached property if a picture in sight has computed it, else None."""
         return vars(self).get(name)
 
-    def awaited(self, what: str = "") -> str:
+    def pending_caption(self, what: str = "") -> str:
         """Return the caption of a result that is not known yet."""
-        return self.work.awaited(what)
+        return self.work.pending_caption(what)
 
     def parts(self) -> tuple[Part[Host], ...]:
         """Return the parts declared with `@part`, in the order of their declarations."""
@@ -143,14 +143,14 @@ class State:
         names = dict.fromkeys(name for base in bases for name, one in vars(base).items() if isinstance(one, part))
         return tuple(getattr(self, name) for name in names)
 
-    def changed(self, values: Values) -> Self:
+    def with_values(self, values: Values) -> Self:
         """Return the state with other values of some parameters."""
         typed: dict[str, Any] = dict(values)
         return replace(self, **typed)
 
-    def admitted(self, notes: list[str]) -> Self:
+    def valid_state(self, notes: list[str]) -> Self:
         """Clamp the parameters to a valid state; append a note for each change."""
-        return self.changed({name: value for one in self.parts() for name, value in one.admitted(notes).items()})
+        return self.with_values({name: value for one in self.parts() for name, value in one.corrections(notes).items()})
 
     def limits(self) -> Mapping[str, Slider]:
         """Return the ranges of sliders that depend on the state."""
@@ -167,7 +167,7 @@ class State:
         """Return the meanings, as `NumberSpec.means`, of the numbers whose meaning depends on a choice."""
         return {name: meaning for one in self.parts() for name, meaning in one.means().items()}
 
-    def carried(self, before: Self) -> Values:
+    def adjustments(self, before: Self) -> Values:
         """Return the parameter changes that keep the motion continuous after a different choice in the state before.
 
         Raises `ModelError` if they cannot be determined.
@@ -175,16 +175,16 @@ class State:
         return {
             name: value
             for one, other in zip(self.parts(), before.parts(), strict=True)
-            for name, value in one.carried(other).items()
+            for name, value in one.adjustments(other).items()
         }
 
     def motion(self) -> Motion | None:
         """Return the motion on show, for "Speed and accuracy"; None without one.  Raises `ModelError`."""
         return None
 
-    def derived(self) -> Iterable[str]:
+    def quantities(self) -> Iterable[str]:
         """Return quantities that follow from the parameters, a line each."""
-        return (line for one in self.parts() for line in one.derived())
+        return (line for one in self.parts() for line in one.quantities())
 
     def status(self) -> Iterable[str]:
         """Return entries of the status line: size, cost, errors of what was computed."""
@@ -231,13 +231,13 @@ class Scene(Generic[S]):
     essential: tuple[str, ...] = ()
     handle: str = ""
     opening: str = ""
-    charted: ClassVar[Charts | None] = None
+    chart_set: ClassVar[Charts | None] = None
 
     def __post_init__(self, charts: Charts | None) -> None:
         """Add the chart to states and pictures."""
-        object.__setattr__(self, "charted", charts)
+        object.__setattr__(self, "chart_set", charts)
         if charts is not None:
-            object.__setattr__(self, "state", charting(self.state, charts))
+            object.__setattr__(self, "state", with_chart(self.state, charts))
             object.__setattr__(self, "views", (*self.views, chart_picture(charts)))
 
     @cached_property
@@ -280,7 +280,7 @@ class Scene(Generic[S]):
         """The entries of the legend: the signs of all pictures, each once and with one label."""
         return tuple(dict.fromkeys(replace(sign, least=None) for view in self.views for sign in view.legend))
 
-    def shown_signs(self, there: Collection[Sign]) -> str:
+    def visible_signs(self, there: Collection[Sign]) -> str:
         """Return the indices of the legend entries with a visible sign, separated by commas."""
         known = {replace(sign, least=None) for sign in there}
         return ",".join(str(i) for i, sign in enumerate(self.signs) if sign in known)
@@ -305,14 +305,14 @@ class Scene(Generic[S]):
         return tuple(view.name for view in self.views)
 
     @property
-    def folded(self) -> Mapping[str, str]:
+    def buttons(self) -> Mapping[str, str]:
         """Pictures that open at the press of a button → the label of the button."""
-        return {view.name: view.folded for view in self.views if view.folded}
+        return {view.name: view.button for view in self.views if view.button}
 
     @property
     def open_pictures(self) -> tuple[str, ...]:
         """The names of the pictures that are open at first."""
-        return tuple(view.name for view in self.views if not view.folded)
+        return tuple(view.name for view in self.views if not view.button)
 
     @property
     def dots(self) -> dict[str, tuple[str, str]]:
@@ -356,7 +356,7 @@ class Scene(Generic[S]):
             within[spec.name], note = spec.read(values[spec.name])
             notes += [note] if note else []
         try:
-            state = self.of(within).admitted(notes)
+            state = self.of(within).valid_state(notes)
         except ModelError:
             # An impossible state raises its error when it is computed.
             return within, notes
@@ -370,9 +370,9 @@ class Scene(Generic[S]):
         """Return the numbers without effect in the state of admitted values, with what their controls show."""
         return _or_nothing(lambda: self.of(values).idle())
 
-    def carried(self, before: Values, values: Values) -> Values:
+    def adjustments(self, before: Values, values: Values) -> Values:
         """Return the parameter changes that keep the motion of the values before continuous after other choices."""
-        return _or_nothing(lambda: self.of(values).carried(self.of(self.admit(before)[0])))
+        return _or_nothing(lambda: self.of(values).adjustments(self.of(self.admit(before)[0])))
 
     def _meanings(self, values: Values) -> Mapping[str, str]:
         """Return the meaning of each number and choice of a state by name, without those that have no effect."""
@@ -384,7 +384,7 @@ class Scene(Generic[S]):
         idle = self.idle(values)
         return {name: meaning for name, meaning in {**labels, **self.of(values).means()}.items() if name not in idle}
 
-    def taken_over(self, there: Values, before: Scene[Any], left: Values) -> dict[str, Value]:
+    def transfer(self, there: Values, before: Scene[Any], left: Values) -> dict[str, Value]:
         """Return the values `there` of this scene, updated with changed values of the same meaning in the scene before.
 
         Parameters
@@ -432,7 +432,9 @@ class Scene(Generic[S]):
         """Set the level of "auto": the cheapest one whose error is invisible in every picture in sight."""
         if not state.work.auto or state.dragging:
             return
-        found = [state.work.need(Task(needed, trial, plain), preview=None) for trial, plain in self.in_sight(state)]
+        found = [
+            state.work.need(Task(sufficient_level, trial, plain), preview=None) for trial, plain in self.in_sight(state)
+        ]
         known = [name for name in found if name is not None]
         if known and len(known) == len(found):
             state.work.settle(max(known, key=[*LEVELS].index))

@@ -21,14 +21,14 @@ __all__ = [
     "Slider",
     "accuracy_level",
     "choice",
-    "declared",
+    "declare",
     "exponent_time",
     "formula",
     "like",
     "number",
     "parameter",
     "places",
-    "proved_error_shown",
+    "show_proved_error",
     "slider_within",
     "specs_of",
     "time_span",
@@ -46,7 +46,7 @@ _SPEC = "spec"
 HIDDEN, SHOWN = "not shown", "shown"
 
 
-def declared(spec: Spec, compare: bool = True) -> Any:
+def declare(spec: Spec, compare: bool = True) -> Any:
     """Return the field of a parameter.
 
     Parameters
@@ -66,7 +66,7 @@ def parameter(known: Parameter, default: float | None = None, **changes: Any) ->
     default : another default.
     changes : other fields of `Parameter`, such as softbounds, step or doc.  State a reason beside other bounds.
     """
-    return declared(NumberSpec(**known.changed(default=known.default if default is None else default, **changes)))
+    return declare(NumberSpec(**known.changed(default=known.default if default is None else default, **changes)))
 
 
 def number(
@@ -82,12 +82,12 @@ def number(
     means: str = "",
 ) -> Any:
     """Declare a number: its slider covers `softbounds` in steps; typed values and links are limited to `bounds`."""
-    return declared(NumberSpec("", symbol, label, default, softbounds, step, bounds, doc, group, means=means))
+    return declare(NumberSpec("", symbol, label, default, softbounds, step, bounds, doc, group, means=means))
 
 
 def choice(label: str, options: tuple[str, ...], default: str, *, doc: str, group: Group = "Computation") -> Any:
     """Declare a choice from a fixed list of names."""
-    return declared(ChoiceSpec("", label, options, default, doc, group))
+    return declare(ChoiceSpec("", label, options, default, doc, group))
 
 
 def formula(label: str, default: str, reads: Callable[[str], object], *, doc: str, group: Group = "Body") -> Any:
@@ -98,12 +98,12 @@ def formula(label: str, default: str, reads: Callable[[str], object], *, doc: st
     reads : callable
         Raises `InvalidParameter` for texts that are none.
     """
-    return declared(Formula("", label, default, doc, group, reads))
+    return declare(Formula("", label, default, doc, group, reads))
 
 
 def places(label: str, most: int, low: tuple[float, float], high: tuple[float, float], default: str = "") -> Any:
     """Declare points set with the mouse, at most `most`, between two corners; they have no control."""
-    return declared(Places("", label, most, low, high, default))
+    return declare(Places("", label, most, low, high, default))
 
 
 def accuracy_level() -> Any:
@@ -121,7 +121,7 @@ def accuracy_level() -> Any:
     )
 
 
-def proved_error_shown() -> Any:
+def show_proved_error() -> Any:
     """Declare whether the proved error of the orbit on show is computed."""
     return choice(
         "Proved error",
@@ -163,7 +163,7 @@ def time_span(default: float, longest: float, *, step: float = 1.0, most: float 
 def like(state: type[Any], name: str, default: Value | None = None, **changes: Any) -> Any:
     """Declare a parameter like that of another state, with another default or other arguments of `number` if given."""
     spec: Any = next(one for one in specs_of(state) if one.name == name)
-    return declared(replace(spec, default=spec.default if default is None else default, **changes))
+    return declare(replace(spec, default=spec.default if default is None else default, **changes))
 
 
 def slider_within(largest: float) -> Slider:
@@ -180,6 +180,6 @@ def specs_of(state: type[Any]) -> tuple[Spec, ...]:
     A parameter that is declared again keeps its place.
     """
     level = {name: i for i, one in enumerate(state.__mro__) for name in get_annotations(one)}
-    declared = [one for one in fields(state) if _SPEC in one.metadata]
-    declared.sort(key=lambda one: (not one.compare, level[one.name]))
-    return tuple(replace(one.metadata[_SPEC], name=one.name) for one in declared)
+    own = [one for one in fields(state) if _SPEC in one.metadata]
+    own.sort(key=lambda one: (not one.compare, level[one.name]))
+    return tuple(replace(one.metadata[_SPEC], name=one.name) for one in own)

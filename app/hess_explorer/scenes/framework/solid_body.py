@@ -80,16 +80,16 @@ class Solid:
     drawn: bool = True
 
     @cached_property
-    def lying(self) -> Attitude:
+    def attitude(self) -> Attitude:
         """The attitude along the orbit."""
         omega = self.omega if self.omega.shape[1] == 3 else np.column_stack([self.omega, np.zeros(len(self.times))])
         return attitude_along(self.times, omega, self.gamma)
 
     def in_space(self, held: bool = False) -> tuple[Attitude, Array] | None:
         """Return attitude and times, every second sample while a slider is held; None if nothing is drawn."""
-        if not self.drawn or self.lying.defect > _LOST:
+        if not self.drawn or self.attitude.defect > _LOST:
             return None
-        found = self.lying.every_second() if held else self.lying
+        found = self.attitude.every_second() if held else self.attitude
         return found, found.times
 
     @property

@@ -42,7 +42,7 @@ class Stage(Generic[S]):
         for view in views:
             for source, columns in view.framed(state, axes[view.name], drawn).items():
                 drawn[source] = {**drawn.get(source, {}), **columns}
-        derived, notes = [*state.derived()], [*dict.fromkeys(state.notes())]
+        quantities, notes = [*state.quantities()], [*dict.fromkeys(state.notes())]
         status = re.sub(r"(?<=\d)e-(?=\d)", "e−", " · ".join([*state.status(), state.work.ended()]))
         self._state = state
         for view in views:
@@ -51,11 +51,11 @@ class Stage(Generic[S]):
         for source, columns in drawn.items():
             self._put(source, columns)
         self._name_signs(views, drawn)
-        return Report(derived, status, notes, tuple(state.work.todo), state.work.pieces, state.work.summary())
+        return Report(quantities, status, notes, tuple(state.work.todo), state.work.pieces, state.work.summary())
 
     def _name_signs(self, views: Sequence[Picture[S]], drawn: Mapping[str, Columns]) -> None:
         """Send the visible entries of the legend."""
-        self.wire.say("signs", self.scene.shown_signs({sign for view in views for sign in view.there(drawn)}))
+        self.wire.say("signs", self.scene.visible_signs({sign for view in views for sign in view.there(drawn)}))
 
     def fail(self, sentence: str, hold_axes: bool = False) -> None:
         """Clear all pictures and show the sentence in their captions; reset the axes unless `hold_axes`."""

@@ -27,16 +27,16 @@ if TYPE_CHECKING:
 
 __all__ = [
     "COLOUR_UNIT",
-    "Refused",
+    "Refusal",
     "Trial",
     "bare",
     "boundary_error",
     "colour_error",
     "curve_error",
-    "measured",
-    "needed",
+    "level_costs",
     "orbit_trial",
     "section_error",
+    "sufficient_level",
 ]
 
 S = TypeVar("S", bound="State")
@@ -86,11 +86,11 @@ class Trial(Generic[S]):
     def small(self, state: S) -> S:
         """Return the state with parameters limited to `most`, so that it is computed in about a second."""
         less = {name: min(float(getattr(state, name)), most) for name, most in self.most}
-        return state.changed(less) if less else state
+        return state.with_values(less) if less else state
 
 
 @dataclass(frozen=True)
-class Refused:
+class Refusal:
     """The reason why something could not be measured: a sentence, cached like a result."""
 
     reason: str
@@ -104,7 +104,7 @@ def bare(state: S) -> S:
     return found
 
 
-def measured(trial: Trial[S], state: S) -> tuple[LevelCost, ...] | Refused:
+def level_costs(trial: Trial[S], state: S) -> tuple[LevelCost, ...] | Refusal:
     """Return time and error of each level, for a `bare` state.  Raises `OverBudget`."""
     try:
         return tuple(measure(*_of(trial, state), alike=trial.alike))
@@ -112,10 +112,10 @@ def measured(trial: Trial[S], state: S) -> tuple[LevelCost, ...] | Refused:
         # A later attempt may succeed.
         raise
     except ModelError as error:
-        return Refused(str(error))
+        return Refusal(str(error))
 
 
-def needed(trial: Trial[S], state: S) -> str:
+def sufficient_level(trial: Trial[S], state: S) -> str:
     """Return the cheapest level with an invisible error; `standard` if it cannot be computed.  Raises `OverBudget`."""
     try:
         return enough(measure(*_of(trial, state), alike=trial.alike), trial.seen)
@@ -132,7 +132,7 @@ def _of(trial: Trial[S], state: S) -> tuple[Kind, Callable[[Plan], Any], Callabl
 
 
 def _measured_span(motion: Motion) -> float:
-    return min(motion.span, longest_span(*motion.named[:3]))
+    return min(motion.span, longest_span(*motion.arguments[:3]))
 
 
 def _orbit(state: State, plan: Plan) -> Array:
@@ -146,7 +146,7 @@ def _orbit_error(state: State, states: Array, truth: object) -> float:
     motion = state.motion()
     assert motion is not None
     # The reference has more digits than any level.
-    exact = exactly(*motion.named[:3], _measured_span(motion), _SAMPLES)
+    exact = exactly(*motion.arguments[:3], _measured_span(motion), _SAMPLES)
     away, first = exact.away(states) * np.asarray(motion.weights), motion.system.angular_velocities
     return float(max(np.linalg.norm(part, axis=1).max() for part in (away[:, :first], away[:, first:])))
 

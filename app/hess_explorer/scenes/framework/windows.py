@@ -8,7 +8,7 @@ from hess_explorer.protocol.specs import Value, Values, places, places_text
 from hess_mechanics.dynamics.cells import Window
 from hess_mechanics.dynamics.sampling import PIXELS
 
-__all__ = ["Window", "boxed", "inside", "pixels_in", "tidy_window", "window_of"]
+__all__ = ["Window", "box_window", "inside", "pixels_in", "tidy_window", "window_of"]
 
 
 def tidy_window(text: Value) -> str:
@@ -37,7 +37,7 @@ def inside(points: Sequence[tuple[float, float]], window: Window) -> list[tuple[
     return [(x, y) for x, y in points if x0 <= x <= x1 and y0 <= y <= y1]
 
 
-def boxed(corners: tuple[float, float, float, float], bounds: Window, name: str = "window") -> Values:
+def box_window(corners: tuple[float, float, float, float], bounds: Window, name: str = "window") -> Values:
     """Return the window parameter `name` for a box, clipped to the bounds; an empty mapping if it has no area."""
     (x0, y0), (x1, y1) = bounds
     left, right = max(x0, min(corners[0], corners[2])), min(x1, max(corners[0], corners[2]))

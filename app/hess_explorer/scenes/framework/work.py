@@ -76,7 +76,7 @@ class Work:
         found = plan(kind, self.level.name)
         return replace(found, share=1.0, cells=1.0) if self.dragging else found
 
-    def awaited(self, what: str = "") -> str:
+    def pending_caption(self, what: str = "") -> str:
         """Return the caption of a result that is not known yet.
 
         Parameters

@@ -83,5 +83,5 @@ def picture(motion_of: Found[S], reason: Callable[[S], str], span: Callable[[S],
         x=lambda s: (0.0, span(s)),
         y=mapped(motion_of, lambda motion: about_0(motion.tau, _LEAST)),
         layers=layers,
-        folded="Show the conformal time",
+        button="Show the conformal time",
     )

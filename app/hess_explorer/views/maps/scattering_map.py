@@ -120,7 +120,7 @@ def over_orders(
         title="cos χ against k",
         caption=about,
         axes=("k", "cos χ"),
-        folded="Show cos χ against k",
+        button="Show cos χ against k",
         x=ends,
         y=lambda s: cosine_axis(orders(s)[:, 1].max(initial=here(s)[1])),
         on_click=lambda s, x, y: {"k": x},

@@ -109,7 +109,7 @@ def momentum_picture(
         title="q₁p₂ − q₂p₁ against time",
         caption=about,
         axes=("t", "q₁p₂ − q₂p₁"),
-        folded="Show q₁p₂ − q₂p₁ against time",
+        button="Show q₁p₂ − q₂p₁ against time",
         x=lambda s: (0.0, float(momentum(s)[0][-1])),
         dot=("t", "momentum"),
         y=lambda s: about_0(momentum(s)[1], least(s)),

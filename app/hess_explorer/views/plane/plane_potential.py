@@ -90,7 +90,7 @@ def picture(
         axes=("q₁", "q₂"),
         x=about_origin(half_width),
         y=about_origin(half_width),
-        folded="Show another potential",
+        button="Show another potential",
         layers=(
             *ground(edge, too_high, levels),
             curves("border", lambda s: [edge(s)], color=theme.MUTED, width=1),

@@ -34,11 +34,11 @@ def phases(track: Track, theta: CircleMap | None) -> Array:
     return np.asarray(2.0 * np.pi * (turns - np.floor(turns + 0.5)))
 
 
-def reason_for_no_density(theta: CircleMap | None, turning: TurningPoints | None) -> str:
+def reason_for_no_density(theta: CircleMap | None, turning_points: TurningPoints | None) -> str:
     """Return the reason for a missing density, "" if it exists; both arguments are None on the separatrix."""
-    if theta is None or turning is None:
+    if theta is None or turning_points is None:
         return "On the separatrix no motion returns."
-    if turning.roots[2] - turning.roots[1] < 1e-6:
+    if turning_points.roots[2] - turning_points.roots[1] < 1e-6:
         return "On the bifurcation curve the torus is a circle."
     if theta.kind == "hyperbolic":
         return "|trace| > 2: all motions but one tend to the stable limit cycle."
@@ -86,6 +86,6 @@ def picture(density: Callable[[S], tuple[Array | None, str]]) -> Plot[S]:
         y=ANGLE,
         ticks=ANGLE_TICKS,
         dot=("sigma", "phi"),
-        folded="Show the density on the torus",
+        button="Show the density on the torus",
         layers=layers,
     )

@@ -80,25 +80,25 @@ def cycle_columns(cycles: tuple[Track, Track] | None, i: int) -> Columns | None:
     return None if cycles is None else velocity_columns(None, cycles[i].omega, cycles[i].gamma)
 
 
-def about(theta: CircleMap | None, turning: TurningPoints | None) -> Caption:
+def about(theta: CircleMap | None, turning_points: TurningPoints | None) -> Caption:
     """Return the fate of the orbit on its torus; both None on the separatrix."""
-    if theta is None or turning is None:
+    if theta is None or turning_points is None:
         return Caption("The orbit comes to rest in infinite time.")
-    n1, n2 = turning.roots[1:]
+    n1, n2 = turning_points.roots[1:]
     orbit = {
         "hyperbolic": "The orbit tends to the stable limit cycle.",
         "parabolic": f"{cycles(theta).capitalize()}.",
     }.get(theta.kind, "No limit cycle: the orbit winds for ever.")
     if n2 - n1 < 1e-6:
         orbit = "Bifurcation curve: the torus is a circle."
-    return Caption(orbit, f"|w| {ranging(turning.initial_rho, turning.final_rho)}.")
+    return Caption(orbit, f"|w| {ranging(turning_points.initial_rho, turning_points.final_rho)}.")
 
 
-def about_heights(turning: TurningPoints | None) -> Caption:
+def about_heights(turning_points: TurningPoints | None) -> Caption:
     """Return the range of heights of the vertical; None on the separatrix."""
-    if turning is None:
+    if turning_points is None:
         return Caption("The vertical tends to n₃ = −1.", "The upper equilibrium.")
-    n1, n2 = turning.roots[1:]
+    n1, n2 = turning_points.roots[1:]
     if digits(n1) == digits(n2):
         return Caption("The vertical γ has constant height.", f"n₃ = {digits(n1)}.")
     return Caption("The vertical γ between two heights.", f"n₃ = {digits(n1)} and {digits(n2)}.")

@@ -16,7 +16,7 @@ from hess_explorer.scenes.framework.sliders import (
     exponent_time,
     number,
     places,
-    proved_error_shown,
+    show_proved_error,
     time_span,
 )
 from hess_mechanics.chaplygin_ball.ball_section import BallSection
@@ -130,7 +130,7 @@ class DiagramControls(State, ABC):
     )
     span: float = time_span(60.0, 400.0, what="the chosen orbit")
     long: float = exponent_time(4000.0, 5000.0, 2e4, "the mean divergence is")
-    certain: str = proved_error_shown()
+    certain: str = show_proved_error()
     accuracy: str = accuracy_level()
     chosen: str = places("The place of the chosen orbit", 1, *BOUNDS)
 

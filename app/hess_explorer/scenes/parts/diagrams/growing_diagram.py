@@ -51,7 +51,7 @@ _GLANCES = 12
 class OrbitDiagram(Part[DiagramControls]):
     """The points to which the orbits of a section settle, over one of its parameters."""
 
-    def admitted(self, notes: list[str]) -> Values:
+    def corrections(self, notes: list[str]) -> Values:
         """Return a valid window within the diagram, a place, and the edges in order."""
         first, last = sorted((self.host.first, self.host.last))
         if first == last:
@@ -228,7 +228,7 @@ class OrbitDiagram(Part[DiagramControls]):
         """
         known, asked = sum(self.progress.values()), self.along_values.size * len(self._courses)
         if known < asked:
-            return Caption(self.work.awaited(), f"{known} of {asked} values are known.")
+            return Caption(self.work.pending_caption(), f"{known} of {asked} values are known.")
         if all(one.conservative.all() for one in self.pieces[RISING]):
             return Caption("Volume is preserved: no attractors.", f"{points}One orbit for each value.")
         found = self.cascade

@@ -92,7 +92,7 @@ class HessSplit(Part[Host]):
     def caption(self) -> Caption:
         """Return the caption of the picture."""
         if self._found is None:
-            return Caption(self.work.awaited())
+            return Caption(self.work.pending_caption())
         if self.split is None or self.slope is None:
             return Caption("No separatrices are found here.")
         value, error = self.split.value, self.split.error
@@ -108,7 +108,7 @@ class HessSplit(Part[Host]):
         """The reason why the graph is empty; an empty string if it is not."""
         return "" if self.splits else next(iter(self._reasons), "")
 
-    def derived(self) -> Iterator[str]:
+    def quantities(self) -> Iterator[str]:
         """Yield the slope of the split at ε = 0."""
         if self.has_result("_found") and self.slope is not None:
             yield f"split/ε → {with_error(*self.slope)}"
@@ -139,7 +139,7 @@ split_picture = Plot[HessSplit](
     name="split",
     title="Split of the separatrices",
     caption=HessSplit.caption,
-    folded="Show the split of the separatrices",
+    button="Show the split of the separatrices",
     axes=("ε", "split in L/G"),
     first=Axes((-_WIDE, _WIDE), (-1.0, 1.0)),
     message=lambda s: s.message,

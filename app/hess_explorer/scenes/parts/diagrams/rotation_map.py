@@ -13,7 +13,7 @@ from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.specs import Values
 from hess_explorer.scenes.framework.part import Host, Part
 from hess_explorer.scenes.framework.sliders import places
-from hess_explorer.scenes.framework.windows import Window, boxed, inside, window_of
+from hess_explorer.scenes.framework.windows import Window, box_window, inside, window_of
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import (
@@ -193,9 +193,9 @@ class RotationMap(Part[Host]):
         """Return the parameters of the torus at a place of the map."""
         return dict(zip(self.sides, (x, y), strict=True))
 
-    def boxed(self, corners: Corners) -> Values:
+    def box_window(self, corners: Corners) -> Values:
         """Return the window that a box selects."""
-        return boxed(corners, _corners(self.plane, BOUNDS), "part_" + "".join(self.sides))
+        return box_window(corners, _corners(self.plane, BOUNDS), "part_" + "".join(self.sides))
 
     def status(self) -> Iterator[str]:
         """Yield the size and the error of the map."""
@@ -214,7 +214,7 @@ rotation_map = Plot[RotationMap](
     x=lambda s: s.window[0],
     y=lambda s: s.window[1],
     on_click=RotationMap.choose,
-    on_box=RotationMap.boxed,
+    on_box=RotationMap.box_window,
     layers=(
         image("rho", lambda s: s._grids[0], palette=theme.TURN_MAP, low=-0.5, high=0.5, cyclic=True, legend=(TURNS,)),
         image(

@@ -11,7 +11,7 @@ import numpy as np
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.scene import State
-from hess_explorer.scenes.framework.trial import Refused, Trial, measured
+from hess_explorer.scenes.framework.trial import Refusal, Trial, level_costs
 from hess_explorer.scenes.framework.work import Work
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
@@ -47,9 +47,9 @@ class Costs:
     trials: tuple[Trial[Any], ...]
 
     @cached_property
-    def results(self) -> dict[Trial[Any], tuple[LevelCost, ...] | Refused | None]:
+    def results(self) -> dict[Trial[Any], tuple[LevelCost, ...] | Refusal | None]:
         """The samples of each trial, one per level, or the reason why there are none; None until known."""
-        return {trial: self.work.need(Task(measured, trial, self.shown), preview=None) for trial in self.trials}
+        return {trial: self.work.need(Task(level_costs, trial, self.shown), preview=None) for trial in self.trials}
 
     @cached_property
     def samples(self) -> dict[Trial[Any], tuple[LevelCost, ...]]:
@@ -102,7 +102,7 @@ class Costs:
             return Caption("Being measured.", f"{len(known)} of {len(self.results)} so far.")
         sentences = []
         for trial, found in self.results.items():
-            if isinstance(found, Refused):
+            if isinstance(found, Refusal):
                 sentences.append(f"{trial.kind} cannot be measured: {found.reason}")
             elif trial not in self.samples:
                 sentences.append(f"{trial.kind} has no error to measure: all of it is chaotic, or there is nothing.")
@@ -144,7 +144,7 @@ def costs_picture(trials: Sequence[Trial[Any]], folded: bool) -> Plot[Costs]:
         y=_MS,
         x_ticks=_TICKS,
         y_tick_count=5,
-        folded="Measure all that is computed" if folded else "",
+        button="Measure all that is computed" if folded else "",
         layers=(
             line("visible", lambda s: ((1.0, 1.0), _MS), color=theme.MUTED, dash="dotted", width=1.0),
             *(kind(trial, *look) for trial, look in zip(trials, _LINES, strict=False)),

@@ -62,7 +62,7 @@ class OrbitExponent(Part[_Host]):
     @property
     def later(self) -> bool:
         """True if nothing is computed now: a slider is held, or a periodic orbit is shown or searched for."""
-        return self.work.dragging or self.host.periodic_orbit.looking or self.growth is not None
+        return self.work.dragging or self.host.periodic_orbit.is_searching or self.growth is not None
 
     @cached_property
     def _answer(self) -> spectrum.Exponent | NotFound | None:
@@ -106,7 +106,7 @@ class OrbitExponent(Part[_Host]):
             return Caption("From the multipliers of the periodic orbit.", f"ln|μ₁|/T = {digits(self.growth[0])}.")
         found = self._answer
         if found is None:
-            return Caption(self.work.awaited())
+            return Caption(self.work.pending_caption())
         if isinstance(found, NotFound):
             return Caption("No exponent: the motion ends early.")
         end = float(found.times[-1])
@@ -128,14 +128,14 @@ def _exponent(body: Body, start: Start, duration: float, level: Level) -> spectr
         return NotFound(str(error))
 
 
-def exponent_picture(folded: str = "") -> Plot[Any]:
+def exponent_picture(button: str = "") -> Plot[Any]:
     """Return the picture of the mean growth rate over time."""
     return Plot(
         name="exponent",
         title="Largest Lyapunov exponent",
         caption=lambda s: s.exponent.caption,
         axes=("t", "λ"),
-        folded=folded,
+        button=button,
         first=Axes((0.0, 200.0), (0.0, 1.0)),
         x=lambda s: (0.0, s.exponent.host.long),
         y=lambda s: s.exponent.axis,

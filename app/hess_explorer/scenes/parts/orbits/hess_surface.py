@@ -50,7 +50,7 @@ class OnTorus(Host, Protocol):
         """The energy.  Raises `ModelError`."""
 
     @property
-    def turning(self) -> TurningPoints | None:
+    def turning_points(self) -> TurningPoints | None:
         """The turning points of n3; None on the separatrix.  Raises `ModelError`."""
 
     @property
@@ -79,10 +79,10 @@ class HeavyTorus(Part[Host]):
         return self.heavy.bridge.in_units_of_b(self.heavy.h, self.heavy.f)[0]
 
     @cached_property
-    def turning(self) -> TurningPoints | None:
+    def turning_points(self) -> TurningPoints | None:
         """The turning points of n3; None on the separatrix."""
         try:
-            return self.heavy.turning
+            return self.heavy.turning_points
         except Separatrix:
             return None
 
@@ -123,7 +123,7 @@ class HessSurface(Part[OnTorus]):
     def section(self) -> CrossSection | None:
         """The cross-section of the surface; None if no motion has these integrals."""
         try:
-            return cross_section(self.host.h, self.host.turning, POINTS)
+            return cross_section(self.host.h, self.host.turning_points, POINTS)
         except ModelError:
             return None
 
@@ -134,7 +134,7 @@ class HessSurface(Part[OnTorus]):
             return None, ""
         map_ = self.host.map
         # The verdict says why.
-        if map_ is None or torus_density.reason_for_no_density(map_, self.host.turning):
+        if map_ is None or torus_density.reason_for_no_density(map_, self.host.turning_points):
             return None, "No density."
         try:
             return self.work.need(Task(density_along, map_, POINTS, self.host.level)), ""
@@ -155,7 +155,7 @@ class HessSurface(Part[OnTorus]):
         """Return the caption: what the surface is, its formula, and why it has no density."""
         if self.section is None:
             return Caption("No torus.", "The Hess manifold has no motion with these h and f.")
-        return about(self.host.map, self.host.turning, self.says(), self.density[1])
+        return about(self.host.map, self.host.turning_points, self.says(), self.density[1])
 
 
 surface_picture = TorusInSpace[HessSurface](

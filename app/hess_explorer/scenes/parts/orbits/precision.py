@@ -40,22 +40,22 @@ class Precision:
     @cached_property
     def followed(self) -> Motion:
         """The measured motion: its span is limited."""
-        return replace(self.motion, span=min(self.motion.span, mechanics.longest_span(*self.motion.named[:3])))
+        return replace(self.motion, span=min(self.motion.span, mechanics.longest_span(*self.motion.arguments[:3])))
 
     @cached_property
-    def measured(self) -> tuple[mechanics.WorkPoint, ...]:
+    def work_points(self) -> tuple[mechanics.WorkPoint, ...]:
         """Error and cost of every level, and of SciPy's methods unless they take long."""
         others = (
             ()
-            if self.work.dragging or mechanics.others_take_long(*self.followed.named)
-            else self.work.need(Task(mechanics.measure_others, *self.followed.named, SAMPLES))
+            if self.work.dragging or mechanics.others_take_long(*self.followed.arguments)
+            else self.work.need(Task(mechanics.measure_others, *self.followed.arguments, SAMPLES))
         )
-        return self.work.need(Task(mechanics.measure_levels, *self.followed.named, SAMPLES)) + others
+        return self.work.need(Task(mechanics.measure_levels, *self.followed.arguments, SAMPLES)) + others
 
     @cached_property
     def growing(self) -> mechanics.ErrorGrowth:
         """Errors and drifts over time."""
-        return self.work.need(Task(mechanics.growth, *self.followed.named, self.followed.weights, SAMPLES))
+        return self.work.need(Task(mechanics.growth, *self.followed.arguments, self.followed.weights, SAMPLES))
 
     @cached_property
     def times(self) -> Array:
@@ -64,7 +64,7 @@ class Precision:
 
     @property
     def _taylor(self) -> list[mechanics.WorkPoint]:
-        return [point for point in self.measured if point.method == "Taylor"]
+        return [point for point in self.work_points if point.method == "Taylor"]
 
     @property
     def _here(self) -> mechanics.WorkPoint:
@@ -77,7 +77,7 @@ class Precision:
     # ---- pictures -----------------------------------------------------------------------------------------------
 
     def _of_method(self, method: str) -> Curve:
-        own = [point for point in self.measured if point.method == method]
+        own = [point for point in self.work_points if point.method == method]
         return clipped(np.array([point.error for point in own]), _FLOOR), np.array([point.ms for point in own])
 
     def _at_level(self, name: str) -> Curve:
@@ -118,7 +118,7 @@ class Precision:
     def _about_cost(self) -> Caption:
         here = self._here
         numbers_text = f"{self.work.chosen}: {digits(here.ms, 2)} ms, error {digits(here.error, 2)}"
-        other = mechanics.quickest_other(self.measured, 10.0 * here.error)
+        other = mechanics.quickest_other(self.work_points, 10.0 * here.error)
         if other is not None:
             numbers_text += f"; {other.method}: {digits(other.ms / here.ms, 2)} × as long, {digits(other.error, 2)}"
         return Caption(numbers=f"{numbers_text}.")
@@ -144,7 +144,7 @@ class Precision:
             f"Error below one pixel until t = {digits(float(t[-1]))} (at most {digits(pixels.max(), 2)}).",
         )
 
-    def derived(self) -> Iterator[str]:
+    def quantities(self) -> Iterator[str]:
         """Yield the system, its parameters and the initial state."""
         motion, system = self.followed, self.followed.system
         yield f"System: {system.title}"
@@ -155,7 +155,7 @@ class Precision:
 
     def status(self) -> Iterator[str]:
         """Yield the cost and error of every level, if they have been measured."""
-        for point in self._taylor if "measured" in vars(self) else ():
+        for point in self._taylor if "work_points" in vars(self) else ():
             yield f"{point.setting} {digits(point.ms, 2)} ms, error {digits(point.error, 2)}"
 
     def notes(self) -> Iterator[str]:
@@ -163,7 +163,7 @@ class Precision:
         motion = self.followed
         if motion.span < self.motion.span:
             yield f"Measured up to t = {digits(motion.span * motion.unit)}: a longer span takes seconds."
-        if "measured" in vars(self) and mechanics.others_take_long(*motion.named):
+        if "work_points" in vars(self) and mechanics.others_take_long(*motion.arguments):
             yield "SciPy's methods are left out, as they are slow over this time span: choose a shorter one."
 
 

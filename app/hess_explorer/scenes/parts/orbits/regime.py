@@ -72,7 +72,7 @@ class OrbitRegime(Part[_Host]):
         """The caption: the kind of motion, conservative or dissipative."""
         found = self.kind
         if found is None:
-            return Caption(self.work.awaited())
+            return Caption(self.work.pending_caption())
         motion = found.motion
         kind = f"Period {motion.period}" if motion.period else motion.kind.words.capitalize()
         if not found.comparisons:

@@ -11,7 +11,7 @@ import numpy as np
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.part import Host, Part
-from hess_explorer.scenes.framework.periodic_search import Closed, Search, branch_of, sought
+from hess_explorer.scenes.framework.periodic_search import ClosedOrbit, Search, branch_of, find_orbit
 from hess_explorer.scenes.framework.trial import Trial
 from hess_explorer.scenes.framework.windows import Window, pixels_in
 from hess_explorer.scenes.parts.sections.section import Section
@@ -64,7 +64,7 @@ class _Host(Host, Protocol):
 
 
 @dataclass(frozen=True)
-class _Sought:
+class _BasinGrid:
     """Basins on a window of a section, with (m, n) pixels; the divergence is averaged over the time `long`."""
 
     section: SuslovSection
@@ -111,15 +111,15 @@ class SectionBasins(Part[_Host]):
         """True if they are shown: the section is not alone then."""
         return not self.section.alone
 
-    def sought(self, plan: Plan) -> _Sought:
+    def target(self, plan: Plan) -> _BasinGrid:
         """Return the basins to compute at a level."""
         long = self.work.plan(Kind.EXPONENT).share * self.host.long
-        return _Sought(self.host.poincare, self.section.frame, plan.grid(_PIXELS), long, plan.level)
+        return _BasinGrid(self.host.poincare, self.section.frame, plan.grid(_PIXELS), long, plan.level)
 
     @cached_property
-    def _what(self) -> _Sought | None:
+    def _what(self) -> _BasinGrid | None:
         """The basins to compute; None if none are shown, and while a slider is held."""
-        return self.sought(self.work.plan(Kind.BASINS)) if self.is_on and not self.work.dragging else None
+        return self.target(self.work.plan(Kind.BASINS)) if self.is_on and not self.work.dragging else None
 
     @cached_property
     def stage(self) -> int:
@@ -159,8 +159,8 @@ class SectionBasins(Part[_Host]):
     @cached_property
     def saddles(self) -> list[PeriodicOrbit]:
         """The saddles on the boundaries."""
-        found = [self.work.need(Task(sought, *search), preview=None) for search in self._searches]
-        return [one.orbit for one in found if isinstance(one, Closed)]
+        found = [self.work.need(Task(find_orbit, *search), preview=None) for search in self._searches]
+        return [one.orbit for one in found if isinstance(one, ClosedOrbit)]
 
     @cached_property
     def manifolds(self) -> list[Manifold]:
@@ -184,7 +184,7 @@ class SectionBasins(Part[_Host]):
         if self._what is None:
             return None
         if self.attractors is None:
-            return Caption(self.work.awaited(), "Basins: attractors of 256 orbits first.")
+            return Caption(self.work.pending_caption(), "Basins: attractors of 256 orbits first.")
         largest, count = self.attractors.largest, self.attractors.count
         if largest is None:
             return Caption("No motion returns to the section.")
@@ -222,25 +222,25 @@ class SectionBasins(Part[_Host]):
             )
 
 
-def _piece(what: _Sought, stage: int, i: int) -> _Piece:
+def _piece(what: _BasinGrid, stage: int, i: int) -> _Piece:
     """Return the arrivals from one part of the new cells of a stage."""
     mask = what.divided(stage, _before(what, stage))
     return _Piece(stage, what.arrivals(what.attractors(), mask, i))
 
 
-def _before(what: _Sought, stage: int) -> Arrivals | None:
+def _before(what: _BasinGrid, stage: int) -> Arrivals | None:
     found: Arrivals | None = None if stage == 0 else Task(_cells, what, stage - 1).get()
     return found
 
 
-def _cells(what: _Sought, stage: int) -> Arrivals:
+def _cells(what: _BasinGrid, stage: int) -> Arrivals:
     """Return the arrivals from all cells (n, m) of a stage."""
     before = _before(what, stage)
     pieces = [(slice(i, None, _PARTS), Task(_piece, what, stage, i).get().arrivals) for i in range(_PARTS)]
     return joined(before, what.divided(stage, before), pieces)
 
 
-def _at_once(what: _Sought) -> Arrivals:
+def _at_once(what: _BasinGrid) -> Arrivals:
     """Return the arrivals from the pixels (n, m), all computed now."""
     there, cells = attractors(what.section, what.long, what.level), None
     for stage in range(_STAGES):
@@ -250,7 +250,7 @@ def _at_once(what: _Sought) -> Arrivals:
     return cells
 
 
-def _sampled(what: _Sought) -> Arrivals:
+def _sampled(what: _BasinGrid) -> Arrivals:
     """Return the arrivals from points spread over the window, the truth for cells of every size."""
     low, high = np.array(what.window)
     there = attractors(what.section, what.long, what.level)
@@ -263,7 +263,7 @@ def _error(cells: Array, truth: Array) -> float:
     return 100.0 * float(np.mean(cells[rows, columns] != truth))
 
 
-def _saddles(what: _Sought) -> tuple[Search, ...]:
+def _saddles(what: _BasinGrid) -> tuple[Search, ...]:
     """Return searches, each of which finds a saddle on a boundary: none is found twice."""
     number = Task(_cells, what, _STAGES - 1).get().number
     left, right = number[:, :-1], number[:, 1:]
@@ -295,7 +295,7 @@ def basins_trial() -> Trial[Any]:
     return Trial(
         Kind.BASINS,
         ("section",),
-        lambda s, plan: (_sampled if plan.level.aside else _at_once)(s.basins.sought(plan)).number.astype(float),
+        lambda s, plan: (_sampled if plan.level.aside else _at_once)(s.basins.target(plan)).number.astype(float),
         lambda s, cells, truth: _error(cells, truth),
         unit="% of the cells that change",
         seen=3.0,

@@ -91,7 +91,7 @@ class _Section(Sectioned, Protocol):
 
     def limits(self) -> Mapping[str, Slider]: ...
 
-    def changed(self, values: Values) -> Self: ...
+    def with_values(self, values: Values) -> Self: ...
 
     def start_at(self, x: float, y: float) -> Values:
         """Return the values with which the chosen orbit starts at a place of the section."""
@@ -146,7 +146,7 @@ class SectionBranch(Continuation[_Section]):
     @cached_property
     def begin(self) -> Begin | None:
         """The start of the branch; None without a periodic orbit."""
-        if self.orbit.host.aim is None or self.orbit.closed is None:
+        if self.orbit.host.aim is None or self.orbit.closed_orbit is None:
             return None
         low, high = self.ends
         family = Family.of(self.host, self.name, self.host.over, (*self.along.values(), *self.besides))
@@ -157,7 +157,7 @@ class SectionBranch(Continuation[_Section]):
     @property
     def here(self) -> Array | None:
         """The places (2, m) of the orbit on show in the picture; None without one."""
-        closed = self.orbit.closed
+        closed = self.orbit.closed_orbit
         return None if closed is None else np.array([(self.at, place[self.side]) for place in closed.orbit.places]).T
 
     @property
@@ -192,7 +192,7 @@ class SectionBranch(Continuation[_Section]):
         if found is None:
             return {}
         value, place, period = found
-        there = self.host.changed({self.name: value})
+        there = self.host.with_values({self.name: value})
         low, high = self.ends
         return {
             self.name: value,
@@ -202,7 +202,7 @@ class SectionBranch(Continuation[_Section]):
             "high": high,
         }
 
-    def boxed(self, corners: Corners) -> Values:
+    def box_window(self, corners: Corners) -> Values:
         """Return the range that a box selects."""
         x0, _, x1, _ = corners
         return {} if x0 == x1 or not self.branches else {"low": min(x0, x1), "high": max(x0, x1)}
@@ -214,14 +214,14 @@ class SectionBranch(Continuation[_Section]):
         """The caption of the picture."""
         if not self.orbit.is_on:
             return Caption("No periodic orbit is chosen.", "Choose one; then a click on its branch shows that orbit.")
-        return Caption(self.work.awaited("A periodic orbit is")) if self.orbit.looking else super().caption
+        return Caption(self.work.pending_caption("A periodic orbit is")) if self.orbit.is_searching else super().caption
 
     @property
     def message(self) -> str:
         """The reason why the picture is empty; an empty string if it is not."""
         if not self.orbit.is_on:
             return "Choose a Periodic orbit, and its branch is continued here"
-        found = self.orbit.looking or self.orbit.closed is not None
+        found = self.orbit.is_searching or self.orbit.closed_orbit is not None
         return "" if found else "No periodic orbit is found from here"
 
     def means(self) -> Mapping[str, str]:
@@ -232,7 +232,7 @@ class SectionBranch(Continuation[_Section]):
         """Return the ends of the range if there is no branch."""
         return {} if self.orbit.is_on else {"low": self.host.low, "high": self.host.high}
 
-    def carried(self, before: Self) -> Mapping[str, float]:
+    def adjustments(self, before: Self) -> Mapping[str, float]:
         """Return the default range after a change of the parameter."""
         return {} if self.host.over == before.host.over else {"low": 0.0, "high": 0.0}
 
@@ -254,11 +254,11 @@ def branch_picture() -> Picture[Any]:
         name="branch",
         title="Branch of the periodic orbit",
         caption=lambda s: s.caption,
-        folded="Show the branch of the periodic orbit",
+        button="Show the branch of the periodic orbit",
         axes=lambda s: (s.host.over, s.host.upwards),
         message=lambda s: s.message,
         on_click=SectionBranch.choose,
-        on_box=SectionBranch.boxed,
+        on_box=SectionBranch.box_window,
         on_hover=SectionBranch.about,
         x=lambda s: s.ends,
         y=lambda s: s.upwards_range,

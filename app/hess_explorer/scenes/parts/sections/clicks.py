@@ -13,9 +13,9 @@ from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.specs import Places, Values, places, places_text
 from hess_explorer.scenes.framework.orbit_batches import in_batches
 from hess_explorer.scenes.framework.part import Host, Part, Start
-from hess_explorer.scenes.framework.periodic_search import Closed
+from hess_explorer.scenes.framework.periodic_search import ClosedOrbit
 from hess_explorer.scenes.framework.sliders import number, specs_of
-from hess_explorer.scenes.framework.windows import Window, boxed
+from hess_explorer.scenes.framework.windows import Window, box_window
 from hess_explorer.scenes.parts.sections.section import Section
 from hess_explorer.views.text import digits
 from hess_mechanics.dynamics.return_map import PoincareSection
@@ -74,7 +74,7 @@ class _Host(Host, Protocol):
         """The places of the chosen orbits."""
 
     @property
-    def closed(self) -> Closed | None:
+    def closed_orbit(self) -> ClosedOrbit | None:
         """The periodic orbit, if known."""
 
 
@@ -113,7 +113,7 @@ class Clicks(Part[_Host]):
         """The parameter of the places."""
         return next(one for one in specs_of(type(self.host)) if isinstance(one, Places) and one.name == "starts")
 
-    def admitted(self, notes: list[str]) -> Values:
+    def corrections(self, notes: list[str]) -> Values:
         """Return at least one start."""
         return {"starts": self.host.starts or self._spec.default}
 
@@ -139,7 +139,7 @@ class Clicks(Part[_Host]):
     @property
     def rings(self) -> list[Place]:
         """The places where the orbits on show start."""
-        closed = self.host.closed
+        closed = self.host.closed_orbit
         return [*self.picked.places] if closed is None else [*self.picked.places[:-1], _place(closed.orbit.places[0])]
 
     @cached_property
@@ -157,7 +157,7 @@ class Clicks(Part[_Host]):
 
     def look_closer(self, corners: tuple[float, float, float, float]) -> Values:
         """Return the window that a box selects."""
-        return boxed(corners, (self._spec.low, self._spec.high))
+        return box_window(corners, (self._spec.low, self._spec.high))
 
     def _inside(self, x: float, y: float) -> Place:
         (x0, y0), (x1, y1) = self._spec.low, self._spec.high
@@ -167,7 +167,7 @@ class Clicks(Part[_Host]):
         names = self.host.poincare.names
         return ", ".join(f"{name} = {digits(value)}" for name, value in zip(names, place, strict=True))
 
-    def derived(self) -> Iterator[str]:
+    def quantities(self) -> Iterator[str]:
         """Yield the place where the orbit on show starts."""
         yield f"chosen: {self._at(self.rings[-1])}"
 

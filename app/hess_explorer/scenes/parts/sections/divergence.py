@@ -62,7 +62,7 @@ class Divergence(OrbitExponent):
             )
         found, course = self.result, self.divergence
         if found is None or course is None:
-            return Caption(self.work.awaited())
+            return Caption(self.work.pending_caption())
         return Caption(
             numbers=f"λ = {with_error(found.value, found.spread)}, "
             f"div = {digits(float(course.mean[-1]), 3)} after t = {digits(float(course.times[-1]))}."

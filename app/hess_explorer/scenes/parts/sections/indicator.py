@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from hess_explorer.compute.cache import Task
-from hess_explorer.scenes.framework.cells import CELLS, COARSE, DENSITY, Arguments, changed, found_by_rows
+from hess_explorer.scenes.framework.cells import CELLS, COARSE, DENSITY, Arguments, cells_by_rows, change_percentage
 from hess_explorer.scenes.framework.part import Part
 from hess_explorer.scenes.framework.sliders import choice
 from hess_explorer.scenes.framework.trial import Trial
@@ -78,7 +78,7 @@ class Indicator(Part[Section]):
         if not self.is_on or self.work.dragging:
             return None
         plan = self.work.plan(Kind.INDICATOR)
-        return found_by_rows(
+        return cells_by_rows(
             self.work, row_of_cells, (self.rows(plan, COARSE), self.rows(plan)), lambda: self.host.known
         )
 
@@ -93,7 +93,7 @@ class Indicator(Part[Section]):
         if not self.is_on or self.work.dragging:
             return None
         if self._cells is None or self._cells[1]:
-            return Caption(self.work.awaited(), f"MEGNO after t = {digits(self.time)}: first coarse cells.")
+            return Caption(self.work.pending_caption(), f"MEGNO after t = {digits(self.time)}: first coarse cells.")
         kinds = self._cells[0][:, 1]
         there = kinds[kinds >= 0.0]
         if not there.size:
@@ -141,7 +141,7 @@ def indicator_trial() -> Trial[Any]:
         Kind.INDICATOR,
         ("section",),
         lambda s, plan: np.stack([row_of_cells(*row)[1] for row in s.megno.rows(plan)]),
-        lambda s, cells, truth: changed(cells, truth),
+        lambda s, cells, truth: change_percentage(cells, truth),
         unit="% of the cells that change",
         seen=3.0,
         shown=lambda s: s.megno.is_on,

@@ -157,7 +157,7 @@ class RotationAcross(Part[_Host]):
     def caption(self) -> Caption:
         """Return the caption of the picture."""
         if not self.profile.numbers.size:
-            return Caption(self.message() + "." if self._complete else self.work.awaited())
+            return Caption(self.message() + "." if self._complete else self.work.pending_caption())
         rho = self.profile.numbers
         # A line across the whole section meets orbits of many kinds: ρ is no single function of the place.
         turning = self.profile.extremum if self.about_middle else None

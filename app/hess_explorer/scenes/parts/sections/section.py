@@ -179,7 +179,7 @@ class Section(Part[_Host]):
         (x0, x1), (y0, y1) = self.poincare.window
         return window_of(self.host.window, ((x0, y0), (x1, y1)) if self.whole is None else self.whole())
 
-    def admitted(self, notes: list[str]) -> Values:
+    def corrections(self, notes: list[str]) -> Values:
         """Return a valid window."""
         return {"window": tidy_window(self.host.window)} if self.host.window else {}
 
@@ -219,7 +219,7 @@ class Section(Part[_Host]):
     @cached_property
     def known(self) -> Known:
         """The orbits as far as they are known."""
-        states = self.starts if self.host.periodic_orbit.closed is None else self.starts[:-1]
+        states = self.starts if self.host.periodic_orbit.closed_orbit is None else self.starts[:-1]
         held = self.work.dragging
         try:
             own = [self.batch((state,)) for state in states]
@@ -278,7 +278,7 @@ class Section(Part[_Host]):
         Compares with a second run at a hundredth of the tolerance; None until it is known, and while a slider is held.
         """
         periodic, own = self.host.periodic_orbit, self.known.own
-        if self.work.dragging or periodic.looking or periodic.closed is not None or not own:
+        if self.work.dragging or periodic.is_searching or periodic.closed_orbit is not None or not own:
             return None
         level, step = self.work.plan(Kind.SECTION).level.tighter(), len(self.ways)
         tasks = [self.batch((self.starts[-1],), level=level), *self._filling(level=level)[::step][:_COMPARED]]

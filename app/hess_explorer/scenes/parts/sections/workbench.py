@@ -9,9 +9,9 @@ from functools import cached_property
 from hess_explorer.protocol.specs import Value, Values, places_text
 from hess_explorer.scenes.framework.cells import DENSITY
 from hess_explorer.scenes.framework.part import Start, part
-from hess_explorer.scenes.framework.periodic_search import Closed
+from hess_explorer.scenes.framework.periodic_search import ClosedOrbit
 from hess_explorer.scenes.framework.scene import Motion, State
-from hess_explorer.scenes.framework.sliders import accuracy_level, exponent_time, proved_error_shown, time_span
+from hess_explorer.scenes.framework.sliders import accuracy_level, exponent_time, show_proved_error, time_span
 from hess_explorer.scenes.framework.solid_body import Solid, constrained_solid
 from hess_explorer.scenes.parts.orbits.exponent import OrbitExponent
 from hess_explorer.scenes.parts.orbits.proof import OrbitProof
@@ -44,7 +44,7 @@ class SectionState(State, ABC):
     count: float = crossings_of_each()
     reach: float = length_of_manifolds()
     span: float = time_span(40.0, 200.0, what="the chosen orbit")
-    certain: str = proved_error_shown()
+    certain: str = show_proved_error()
     accuracy: str = accuracy_level()
     place: str = ""
     window: str = ""
@@ -77,19 +77,19 @@ class SectionState(State, ABC):
         return self.indicator == DENSITY and self.section.alone
 
     @property
-    def closed(self) -> Closed | None:
+    def closed_orbit(self) -> ClosedOrbit | None:
         """The periodic orbit, if known."""
-        return self.periodic_orbit.closed
+        return self.periodic_orbit.closed_orbit
 
     @property
     def start(self) -> Start:
         """The initial state of the orbit on show."""
-        return self.given if self.closed is None else self.closed.state
+        return self.given if self.closed_orbit is None else self.closed_orbit.state
 
     @property
     def duration(self) -> float:
         """The length of the orbit in time."""
-        return self.span if self.closed is None else self.closed.time
+        return self.span if self.closed_orbit is None else self.closed_orbit.time
 
     @cached_property
     def solid(self) -> Solid:
