@@ -177,7 +177,7 @@ def test_where_the_energy_forbids_a_place_the_start_moves_to_the_edge_and_it_is_
 def test_a_section_that_takes_long_is_left_out_and_the_page_says_so(monkeypatch):
     monkeypatch.setattr("hess_explorer.scenes.ball_section._MOST_STEPS", 100)
     view = View(SECTION, {"psi": 1.2345, "count": 300.0})
-    reason = "The section is left out: 300 crossings take an orbit more than 100 steps here: choose fewer of them."
+    reason = "The section is omitted: 300 crossings take an orbit more than 100 steps here: choose fewer crossings."
     assert view.report.notes == [reason]
     for picture in ("section", "returns"):
         assert view.text[picture].endswith("Left out: too many steps.")

@@ -150,4 +150,4 @@ def test_where_a_branch_hardly_gets_on_no_more_of_it_is_computed():
     downwards = [part for part in view.result.branch.branches if part.values[-1] < 2.0]
     assert len(downwards) == 2
     assert downwards[-1].values[-1] == approx(1.44351, abs=1e-5)
-    assert "The branch goes on: no more of it is computed." in view.report.notes
+    assert "The branch continues, but is not computed further." in view.report.notes

@@ -149,7 +149,7 @@ def test_where_there_is_no_second_sheet_that_is_said():
 
 def test_curves_that_do_not_go_round_have_no_rotation_number():
     view = EulerPoisson({**values_of(EP, "Figure 13 b"), "orbits": 0.0}, seen={"rotation"})
-    assert "No closed curve here makes a turn." in view.text["rotation"]
+    assert "No closed curve on the line rotates." in view.text["rotation"]
     assert len(view.data["rotation-orbits"]["x"]) == 0
 
 
@@ -245,4 +245,4 @@ def test_where_there_are_no_separatrices_the_picture_says_why():
     assert "splits" not in " ".join(view.report.notes)
     # A split that is smaller than its error is not denied.
     view = View(EP, {"orbits": 0.0, "count": 20.0, "away": 1e-12}, seen=["split"])
-    assert view.text["split"].split("\n")[1].startswith("No split is seen. Less than ")
+    assert view.text["split"].split("\n")[1].startswith("No split is visible. Less than ")

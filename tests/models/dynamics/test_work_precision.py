@@ -176,8 +176,8 @@ def test_a_click_chooses_the_nearest_level_and_none_in_another_chart():
 def test_a_span_that_would_take_seconds_is_cut_with_a_note():
     free = scenes()["free-suslov"].defaults()
     long = scenes()["free-suslov-accuracy"].compute({**free, "w1": 1e3, "span": 1e5}, {"growth"}, False)
-    motion = long.precision.followed
+    motion = long.precision.limited_motion
     assert motion.span * Problem.of(motion, motion.state).nu == approx(5000.0)
-    assert long.precision.growing.times[-1] == approx(motion.span)
+    assert long.precision.growth.times[-1] == approx(motion.span)
     (note,) = long.notes()
     assert note.startswith("Measured up to t = ")

@@ -1,7 +1,7 @@
 """The chart of a scene: a number of the catalogue over two of the scene's parameters, as one of its pictures.
 
-A scene declares the computations and their arguments in a state (`Charts`).  From them come the choices of a chart, as
-parameters of its states, and the picture.
+A scene declares the computations and their arguments (`Charts`).  The choices of the chart, which are parameters of the
+state, and the picture follow from them.
 """
 
 from __future__ import annotations
@@ -51,16 +51,16 @@ class _Chart(Part[Any]):
 
     @property
     def axes(self) -> tuple[Side, Side]:
-        """Both sides."""
+        """The horizontal and the vertical side."""
         return self.sides[self.host.chart_x], self.sides[self.host.chart_y]
 
     @property
     def place(self) -> tuple[float, float]:
-        """The place of this state."""
+        """The place of this state in the chart."""
         return self.axes[0].of(self.host), self.axes[1].of(self.host)
 
     def adjustments(self, before: Self) -> Values:
-        """Return the whole window after a change of an axis."""
+        """Return an empty window after a change of an axis, which shows the whole chart."""
         return {} if self.axes == before.axes else {"chart_window": ""}
 
     @property
@@ -71,7 +71,7 @@ class _Chart(Part[Any]):
 
     @cached_property
     def key(self) -> Cells:
-        """The cells; the values of both sides in this state belong to the ring and not to them."""
+        """Cache key of the cells, which do not depend on the values of both sides in this state."""
         x, y = self.axes
         state = y.put(x.put(bare(self.host), x.ends[0]), y.ends[0])
         return Cells(*self.numbers[self.host.chart], x, y, state, level(self.work.chosen))
@@ -85,7 +85,7 @@ class _Chart(Part[Any]):
 
     @cached_property
     def _found(self) -> tuple[Array, int, Window] | None:
-        """Rows (n, 3, m), the number of those that are still coarse, and the window of the cells."""
+        """Rows (n, 3, m) of cells, the number of rows that are still coarse, and the window of the cells."""
         if self.key in STORED:
             cells, window = STORED[self.key]
             return cells, 0, window
@@ -99,12 +99,12 @@ class _Chart(Part[Any]):
 
     @cached_property
     def own(self) -> Array | None:
-        """Value, error and status (3, 1) in this state; None until known."""
+        """Value, error and status (3, 1) of this state; None until known."""
         return self.work.need(Task(chart_row, self.key, (self.place, self.place), 1, 0), preview=None)
 
     @cached_property
     def cells(self) -> CellGrid | None:
-        """The cells; their ends are one turn, all numbers but outliers, or None for categories."""
+        """The cells; the ends of their colours are one turn, the range without outliers, or None for categories."""
         if self._found is None:
             return None
         values, _, ((x0, y0), (x1, y1)) = self._found
@@ -119,7 +119,7 @@ class _Chart(Part[Any]):
         return CellGrid(values, (x0, x1), (y0, y1), ends)
 
     def here(self) -> Positions:
-        """Return the place of the state, if it is in sight."""
+        """Return the place of the state if the window contains it."""
         return inside([self.place], self.window)
 
     def choose(self, x: float, y: float) -> Values:
@@ -154,7 +154,7 @@ class _Chart(Part[Any]):
 
     @property
     def caption(self) -> Caption:
-        """The number in this state, and what is known of the cells."""
+        """The caption: the number in this state, and the progress of the cells."""
         verdict = "" if self.own is None else self._says(*self.own[:, 0])
         if self._found is None or self.cells is None:
             return Caption(verdict, self.work.pending_caption("The chart is"))
@@ -178,7 +178,7 @@ def _sides(charts: Charts, state: type[Any]) -> Mapping[str, Side]:
 
 
 def with_chart(state: type[Any], charts: Charts) -> type[Any]:
-    """Return the class of states with the choices of a chart, which do not change other results."""
+    """Return a class of states with the additional choices of a chart, which do not change other results."""
     numbers, sides = charts.numbers, _sides(charts, state)
     x, y = (next(symbol for symbol, side in sides.items() if one in (symbol, side.name)) for one in charts.over)
     along = "Parameter along this axis."

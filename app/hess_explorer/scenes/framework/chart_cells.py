@@ -23,14 +23,18 @@ __all__ = ["STORED", "Cells", "Side", "chart_row"]
 
 @dataclass(frozen=True)
 class Side:
-    """A parameter of the scene as a side of a chart, or a coordinate of its last place.
+    """A side of a chart: a parameter of the scene, or a coordinate of its last place.
 
     Attributes
     ----------
-    ends : Range
-        The usual range.
+    symbol : str
+        Symbol on the axis.
+    name : str
+        Name of the parameter.
+    ends : tuple of float
+        Default range.
     axis : int or None
-        Index of the coordinate.
+        Index of the coordinate of a place; None for a number.
     """
 
     symbol: str
@@ -44,7 +48,7 @@ class Side:
         return float(value) if self.axis is None else places(value)[-1][self.axis]
 
     def put(self, state: Any, value: float) -> Any:
-        """Return the state with another value; of several places only the last one is kept."""
+        """Return the state with another value; only the last of several places is kept."""
         if self.axis is None:
             return state.with_values({self.name: value})
         place = [*places(getattr(state, self.name))[-1]]
@@ -54,7 +58,7 @@ class Side:
 
 @dataclass(frozen=True)
 class Cells:
-    """A number over two parameters, the others as in a state: the cache key of its cells."""
+    """Cache key of the cells of a chart: a number over two parameters, with all others from a state."""
 
     source: ChartSource
     number: str

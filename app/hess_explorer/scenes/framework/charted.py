@@ -1,4 +1,4 @@
-"""Numbers of the catalogue that a scene charts, and their arguments in a state."""
+"""Numbers of the catalogue for the charts of a scene, with their arguments in a state."""
 
 from __future__ import annotations
 
@@ -23,16 +23,16 @@ Numbers = Mapping[str, tuple["ChartSource", str]]
 
 @dataclass(frozen=True, eq=False)
 class ChartSource:
-    """A computation whose numbers a scene charts.
+    """A computation whose numbers can be charted.
 
     Attributes
     ----------
     key : str
-        Of the computation.
+        Key of the computation.
     arguments : callable
-        `arguments(state)` returns its arguments other than the defaults, raises `ModelError`.
+        `arguments(state)` returns the arguments that differ from the defaults; it raises `ModelError`.
     known : mapping of str to Computation
-        The computations by key, empty for the catalogue.
+        The computations by key; empty for the catalogue.
     """
 
     key: str
@@ -45,22 +45,22 @@ class ChartSource:
         return (self.known or catalogue.catalogue())[self.key]
 
     def values(self, state: Any) -> Mapping[str, Any]:
-        """Return all arguments of a state, within their bounds.  Raises `ModelError`."""
+        """Return all arguments of a state, clamped to their bounds.  Raises `ModelError`."""
         return self.computation.values(self.arguments(state))
 
 
 @dataclass(frozen=True)
 class Charts:
-    """The numbers that a scene charts, and over which parameters.
+    """The numbers of a chart, and its initial sides.
 
     Attributes
     ----------
     sources : tuple of ChartSource
         The computations.
-    over : tuple
-        The first two sides, parameters by name and coordinates by symbol.
+    over : tuple of str
+        The initial sides: parameters by name, coordinates by symbol.
     place : tuple
-        A parameter of places and the symbols of their coordinates, which are sides as well.
+        A parameter of places and the symbols of their coordinates, which are possible sides.
     """
 
     sources: tuple[ChartSource, ...]
@@ -69,18 +69,18 @@ class Charts:
 
     @property
     def numbers(self) -> Numbers:
-        """The numbers of all computations by name; of equal names the last."""
+        """The numbers of all computations by name; the last one has precedence."""
         return {name: (one, name) for one in self.sources for name in one.computation.numbers}
 
     def load(self, state: Any) -> None:
-        """Compute every number once, which compiles or loads its kernels.  Raises `ModelError`."""
+        """Compute every number once to compile or load its kernels.  Raises `ModelError`."""
         for one in self.sources:
             columns = {name: np.array([value]) for name, value in one.values(state).items()}
             evaluate(one.computation, (*one.computation.numbers,), columns, DRAFT)
 
 
 def of_torus(torus: Callable[[Any], tuple[float, float, float]]) -> tuple[ChartSource, ...]:
-    """Return what is charted of a Suslov–Hess torus (a, h, f)."""
+    """Return the charted computations of a Suslov–Hess torus; `torus(state)` returns (a, h, f)."""
     return (
         ChartSource("circle-map", lambda s: dict(zip("ahf", torus(s), strict=True))),
         ChartSource("critical-a", lambda s: dict(zip("hf", torus(s)[1:], strict=True))),
@@ -88,12 +88,12 @@ def of_torus(torus: Callable[[Any], tuple[float, float, float]]) -> tuple[ChartS
 
 
 def tensor_of(body: Any) -> Arguments:
-    """Return the inertia tensor of a body."""
+    """Return the inertia tensor of a body as arguments I11, I22, I13 and I23."""
     return {name: getattr(body, name) for name in ("I11", "I22", "I13", "I23")}
 
 
 def parameters_of(body: Body) -> Arguments:
-    """Return the parameters of a body."""
+    """Return the parameters of a body by name."""
     return dict(zip(body.system.parameters, body.parameters, strict=True))
 
 
@@ -107,12 +107,14 @@ def of_motion(
 
     Parameters
     ----------
+    system : System
+        The system.
     start : callable
-        `start(state)` returns its initial state, raises `ModelError`.
-    time : callable or None
+        `start(state)` returns the initial state (d,); it raises `ModelError`.
+    time : callable, optional
         `time(state)` returns the averaging time.
-    known : mapping of str to Computation or None
-        As in `ChartSource`.
+    known : mapping of str to Computation, optional
+        The computations by key; by default the catalogue.
     """
     known = known or {}
 

@@ -1,4 +1,4 @@
-"""The start of an orbit near the unstable half of the line of equilibria: phase of γ on a circle, distance of ω."""
+"""Start of an orbit near the unstable half of the line of equilibria: phase of γ on a circle, distance of ω."""
 
 from __future__ import annotations
 
@@ -70,7 +70,7 @@ def Gamma_picture(
     Parameters
     ----------
     orbit : callable
-        `orbit(state)` returns times and Γ of the chosen orbit.
+        `orbit(state)` returns the times (n,) and Γ (n,) of the chosen orbit.
     """
     return Plot(
         name="Gamma",

@@ -24,9 +24,9 @@ class Family:
     state : callable
         Class of the scene's states.
     name, symbol : str
-        Of the parameter.
+        Name and symbol of the parameter.
     others : tuple
-        All other parameters of the section.
+        Names and values of all other parameters of the section.
     """
 
     state: Callable[..., Sectioned]
@@ -36,10 +36,14 @@ class Family:
 
     @classmethod
     def of(cls, state: Sectioned, name: str, symbol: str, names: tuple[str, ...]) -> Family:
-        """Return the family through a state.
+        """Return the family that contains a state.
 
         Parameters
         ----------
+        state : Sectioned
+            The state.
+        name, symbol : str
+            Name and symbol of the parameter.
         names : tuple of str
             Names of all parameters of the section.
         """
@@ -56,7 +60,21 @@ class Family:
 
 @dataclass(frozen=True)
 class Begin:
-    """The start of a branch: value of the parameter, place, period, and ends of the range."""
+    """Start of a branch.
+
+    Attributes
+    ----------
+    family : Family
+        The section over the parameter.
+    value : float
+        Value of the parameter.
+    place : tuple of float
+        Place in the section near the periodic orbit.
+    period : int or None
+        Period of the orbit; None for any.
+    ends : tuple of float
+        Range of the parameter.
+    """
 
     family: Family
     value: float
@@ -66,5 +84,5 @@ class Begin:
 
     @property
     def search(self) -> Task[ClosedOrbit | NotFound]:
-        """The computation that searches for the orbit at the start.  Raises `ModelError`."""
+        """The task that searches for the orbit at the start.  Raises `ModelError`."""
         return Task(find_orbit, self.family.map_at(self.value), self.place, self.period, False)

@@ -1,4 +1,4 @@
-"""Background computations of a periodic orbit: the orbit, its manifolds and their crossings, as separate pieces."""
+"""Background computations for a periodic orbit: the orbit, its manifolds and their crossings."""
 
 from __future__ import annotations
 
@@ -55,7 +55,17 @@ _UNKNOWN = "What follows is not known to half a pixel: a more exact level may sh
 
 @dataclass(frozen=True)
 class ClosedOrbit:
-    """A periodic orbit, the state at its first place, and the time after which it closes."""
+    """A periodic orbit of a section.
+
+    Attributes
+    ----------
+    orbit : PeriodicOrbit
+        The orbit of the return map.
+    state : tuple of float
+        State (d,) at its first place.
+    time : float
+        Period in time.
+    """
 
     orbit: PeriodicOrbit
     state: tuple[float, ...]
@@ -64,7 +74,7 @@ class ClosedOrbit:
 
 @dataclass(frozen=True)
 class NotFound:
-    """The reason why no result was found."""
+    """The reason why there is no result."""
 
     reason: str
 
@@ -78,7 +88,7 @@ class Periodic(Protocol):
 
     @property
     def is_searching(self) -> bool:
-        """True while a requested orbit is not known yet."""
+        """True until the requested orbit is known."""
 
     @property
     def growth(self) -> tuple[float, float] | None:
@@ -87,7 +97,7 @@ class Periodic(Protocol):
 
 @dataclass(frozen=True)
 class NotPeriodic:
-    """For scenes without a search for periodic orbits.
+    """Stands for a periodic orbit in scenes without a search.
 
     Attributes
     ----------
@@ -101,7 +111,7 @@ class NotPeriodic:
 
 
 def find_orbit(map_: ReturnMap, aim: Place, period: int | None, near: bool) -> ClosedOrbit | NotFound:
-    """Search for a periodic orbit; return it, or the reason why none was found."""
+    """Search for a periodic orbit near a place; return the orbit, or the reason why none was found."""
     try:
         orbit = find_periodic(map_, aim, period, _MOST, near)
         first = orbit.places[0]
@@ -117,7 +127,7 @@ def find_orbit(map_: ReturnMap, aim: Place, period: int | None, near: bool) -> C
 
 
 def branch_of(search: Search, branch: BranchChoice, length: float, pixel: float) -> Manifold | NotFound:
-    """Return one branch of a manifold, as far as it is right to half a pixel."""
+    """Return one branch of a manifold, up to the length at which its error reaches half a pixel."""
     found = Task(find_orbit, *search).get()
     assert isinstance(found, ClosedOrbit), "only a closed orbit has branches"
     place, stable, side = branch
@@ -146,7 +156,7 @@ def branch_of(search: Search, branch: BranchChoice, length: float, pixel: float)
 def crossings_between(
     search: Search, unstable: BranchChoice, stable: BranchChoice, length: float, pixel: float
 ) -> tuple[Intersection, ...]:
-    """Return the crossings of two branches, as far as they are drawn."""
+    """Return the crossings of the drawn parts of two branches."""
     one, other = (Task(branch_of, search, branch, length, pixel).get() for branch in (unstable, stable))
     if isinstance(one, NotFound) or isinstance(other, NotFound):
         return ()

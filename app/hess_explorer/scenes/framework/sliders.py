@@ -47,24 +47,29 @@ HIDDEN, SHOWN = "not shown", "shown"
 
 
 def declare(spec: Spec, compare: bool = True) -> Any:
-    """Return the field of a parameter.
+    """Return the dataclass field of a parameter.
 
     Parameters
     ----------
+    spec : Spec
+        The specification.
     compare : bool
-        Whether results of the state can depend on it.
+        True if results of the state can depend on the parameter.
     """
     return field(default=spec.default, metadata={_SPEC: spec}, compare=compare)
 
 
 def parameter(known: Parameter, default: float | None = None, **changes: Any) -> Any:
-    """Return the field of a parameter from `hess_mechanics.parameters`.
+    """Declare a parameter of `hess_mechanics.parameters`.
 
     Parameters
     ----------
-    known : its description there.
-    default : another default.
-    changes : other fields of `Parameter`, such as softbounds, step or doc.  State a reason beside other bounds.
+    known : Parameter
+        Its description.
+    default : float, optional
+        Another default.
+    **changes
+        Other fields of `Parameter`, such as softbounds, step or doc.  Give a reason for other bounds in a comment.
     """
     return declare(NumberSpec(**known.changed(default=known.default if default is None else default, **changes)))
 
@@ -95,19 +100,27 @@ def formula(label: str, default: str, reads: Callable[[str], object], *, doc: st
 
     Parameters
     ----------
+    label : str
+        Label of the control.
+    default : str
+        Default formula.
     reads : callable
-        Raises `InvalidParameter` for texts that are none.
+        Parses the formula; raises `InvalidParameter` for an invalid text.
+    doc : str
+        Tooltip of the control.
+    group : str
+        Group of the control.
     """
     return declare(Formula("", label, default, doc, group, reads))
 
 
 def places(label: str, most: int, low: tuple[float, float], high: tuple[float, float], default: str = "") -> Any:
-    """Declare points set with the mouse, at most `most`, between two corners; they have no control."""
+    """Declare at most `most` points set with the mouse, within a rectangle; they have no control."""
     return declare(Places("", label, most, low, high, default))
 
 
 def accuracy_level() -> Any:
-    """Declare the level of accuracy, with the same description in every scene."""
+    """Declare the level of accuracy, with one description for all scenes."""
     return choice(
         "Accuracy",
         (*LEVELS, AUTO),
@@ -122,7 +135,7 @@ def accuracy_level() -> Any:
 
 
 def show_proved_error() -> Any:
-    """Declare whether the proved error of the orbit on show is computed."""
+    """Declare the choice whether the proved error of the orbit is computed."""
     return choice(
         "Proved error",
         (HIDDEN, SHOWN),
@@ -133,7 +146,7 @@ def show_proved_error() -> Any:
 
 
 def exponent_time(default: float, longest: float, most: float, what: str) -> Any:
-    """Declare the averaging time along the orbit on show."""
+    """Declare the averaging time along the orbit."""
     return number(
         "T",
         default,
@@ -161,13 +174,13 @@ def time_span(default: float, longest: float, *, step: float = 1.0, most: float 
 
 
 def like(state: type[Any], name: str, default: Value | None = None, **changes: Any) -> Any:
-    """Declare a parameter like that of another state, with another default or other arguments of `number` if given."""
+    """Declare a parameter of another state again, with another default or other arguments of `number` if given."""
     spec: Any = next(one for one in specs_of(state) if one.name == name)
     return declare(replace(spec, default=spec.default if default is None else default, **changes))
 
 
 def slider_within(largest: float) -> Slider:
-    """Return a slider from −largest to largest, with round ends and some hundreds of round steps."""
+    """Return a slider from −largest to largest, with round ends and a few hundred round steps."""
     digits = 2 - math.floor(math.log10(largest))
     step = float(f"1e{-digits}")
     end = round(math.floor(largest / step) * step, digits)
@@ -175,7 +188,7 @@ def slider_within(largest: float) -> Slider:
 
 
 def specs_of(state: type[Any]) -> tuple[Spec, ...]:
-    """Return the specifications of all parameters of a state: its own, those of its bases, the choices of a chart.
+    """Return the specifications of all parameters of a class of states, including its bases and the chart.
 
     A parameter that is declared again keeps its place.
     """

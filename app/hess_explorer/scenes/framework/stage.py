@@ -32,8 +32,8 @@ class Stage(Generic[S]):
         self._state: S | None = None
 
     def show(self, state: S, hold_axes: bool) -> Report:
-        """Draw a state from `Scene.compute`; `hold_axes` keeps the axes, for a held slider.  Raises `ModelError`."""
-        # Everything that can fail comes first, so that a refused state is not drawn in part.
+        """Draw a state of `Scene.compute`; `hold_axes` keeps the axes during a drag.  Raises `ModelError`."""
+        # Everything that can fail comes first, so that a failing state is not partly drawn.
         views = [view for view in self.scene.views if view.name in state.seen]
         captions = {view.name: view.full_caption(state) for view in views}
         held = {view.name: self._axes[view.name] for view in views}
@@ -84,7 +84,7 @@ class Stage(Generic[S]):
         return "" if state is None or view is None or view.on_hover is None else view.on_hover(state, x, y)
 
     def _seen(self, picture: str) -> tuple[S, Picture[S]] | tuple[None, None]:
-        """Return the state on show and a picture, if it is in sight: hidden pictures compute nothing."""
+        """Return the current state and a picture; None if the picture is hidden, because it has no results."""
         state = self._state
         return (None, None) if state is None or picture not in state.seen else (state, self._views[picture])
 
@@ -106,7 +106,7 @@ class Stage(Generic[S]):
 
 
 def _same(left: Any, right: Any) -> bool:
-    """Return whether two columns, or mappings and lists of them, have equal numbers."""
+    """Return whether two columns, or mappings and lists of columns, contain equal numbers."""
     if left is right:
         return True
     if isinstance(left, np.ndarray) or isinstance(right, np.ndarray):

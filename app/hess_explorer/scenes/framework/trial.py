@@ -1,4 +1,4 @@
-"""Trials: the computations of a scene by kind, to measure their cost and error at each level of accuracy."""
+"""Trials: measure the cost and error of a scene's computations at each level of accuracy."""
 
 from __future__ import annotations
 
@@ -57,20 +57,24 @@ class Trial(Generic[S]):
 
     Attributes
     ----------
-    kind, pictures : Kind
-        The kind, and the pictures that show it; empty means all pictures.
+    kind : Kind
+        The kind of computation.
+    pictures : tuple of str
+        Names of the pictures that show it; empty for all pictures.
     run : callable
-        `run(state, plan)` returns computes it as the scene does.
+        `run(state, plan)` computes it as the scene does.
     error : callable
-        `error(state, result, truth)` returns its error in `unit`, NaN if there is nothing to compare.
-    alike : Alike
-        Part of a plan in which the truth is computed as the measured level, because other points are not compared.
+        `error(state, result, truth)` returns the error in `unit`; NaN if there is nothing to compare.
+    unit : str
+        Unit of the error.
+    alike : str
+        Setting of a plan that the reference shares with the measured level, because only equal points are compared.
     seen : float
-        The largest invisible error.
+        Largest invisible error, in `unit`.
     shown : callable
-        `shown(state)` returns true if the pictures show it in this state.
-    most : tuple
-        Limits of parameters for which it takes about a second.
+        `shown(state)` returns True if the pictures show it in this state.
+    most : tuple of (str, float)
+        Upper limits of parameters with which it takes about a second.
     """
 
     kind: Kind
@@ -91,7 +95,7 @@ class Trial(Generic[S]):
 
 @dataclass(frozen=True)
 class Refusal:
-    """The reason why something could not be measured: a sentence, cached like a result."""
+    """The reason why a trial could not be measured, as a sentence; it is cached like a result."""
 
     reason: str
 
@@ -105,7 +109,7 @@ def bare(state: S) -> S:
 
 
 def level_costs(trial: Trial[S], state: S) -> tuple[LevelCost, ...] | Refusal:
-    """Return time and error of each level, for a `bare` state.  Raises `OverBudget`."""
+    """Measure the time and error of each level for a `bare` state.  Raises `OverBudget`."""
     try:
         return tuple(measure(*_of(trial, state), alike=trial.alike))
     except OverBudget:
@@ -116,7 +120,7 @@ def level_costs(trial: Trial[S], state: S) -> tuple[LevelCost, ...] | Refusal:
 
 
 def sufficient_level(trial: Trial[S], state: S) -> str:
-    """Return the cheapest level with an invisible error; `standard` if it cannot be computed.  Raises `OverBudget`."""
+    """Return the cheapest level with an invisible error; `standard` if none can be measured.  Raises `OverBudget`."""
     try:
         return enough(measure(*_of(trial, state), alike=trial.alike), trial.seen)
     except OverBudget:
@@ -126,7 +130,7 @@ def sufficient_level(trial: Trial[S], state: S) -> str:
 
 
 def _of(trial: Trial[S], state: S) -> tuple[Kind, Callable[[Plan], Any], Callable[[Any, Any], float]]:
-    """Return the kind, the run and the error of a trial, as `measure` takes them."""
+    """Return kind, run and error of a trial as arguments of `measure`."""
     less = trial.small(state)
     return trial.kind, lambda plan: trial.run(less, plan), lambda *both: trial.error(less, *both)
 
@@ -161,8 +165,12 @@ def curve_error(values: Array, exact: Array, height: float, period: float = math
 
     Parameters
     ----------
+    values, exact : array (n,)
+        The curve and its reference.
+    height : float
+        Length of the axis, in units of the curve.
     period : float
-        ∞ if not an angle.
+        Period of an angle; ∞ for other values.
     """
     away = values - exact
     if math.isfinite(period):
@@ -171,9 +179,9 @@ def curve_error(values: Array, exact: Array, height: float, period: float = math
 
 
 def boundary_error(curve: Array, exact: Array, axes: Axes) -> float:
-    """Return the largest distance in pixels of the points (n, 2) of a curve within the axes from another polyline.
+    """Return the largest distance in pixels from the visible points (n, 2) of a curve to the polyline `exact`.
 
-    NaN without a point or a polyline.
+    NaN if either is empty.
     """
     (x, y), (low, high) = exact.T, np.array([axes.x, axes.y]).T
     there = exact[(x >= low[0]) & (x <= high[0]) & (y >= low[1]) & (y <= high[1])]
@@ -189,9 +197,9 @@ def colour_error(values: Array, exact: Array) -> float:
 def section_error(
     orbits: Sequence[Array], truth: Sequence[Array], pixels: Sequence[float], periods: Sequence[float] = (math.inf,) * 2
 ) -> float:
-    """Return the largest error of orbits (n, 2) in pixels, without chaotic ones: no level is right to their end.
+    """Return the largest error in pixels of regular orbits (n, 2); no level follows a chaotic orbit to its end.
 
-    NaN if all of them are chaotic.
+    NaN if all orbits are chaotic.
     """
     aways = [errors_in_pixels(one, other, pixels, periods) for one, other in zip(orbits, truth, strict=True)]
     return max((float(away.max()) for away in aways if away.size and not torn_away(away)), default=math.nan)

@@ -12,7 +12,7 @@ __all__ = ["Window", "box_window", "inside", "pixels_in", "tidy_window", "window
 
 
 def tidy_window(text: Value) -> str:
-    """Return the text of a window with its corners in order; an empty string if it is invalid."""
+    """Return the text of a window with sorted corners; an empty string for an invalid window."""
     corners = places(text)
     if len(corners) != 2 or corners[0][0] == corners[1][0] or corners[0][1] == corners[1][1]:
         return ""
@@ -21,13 +21,13 @@ def tidy_window(text: Value) -> str:
 
 
 def window_of(text: Value, full: Window) -> Window:
-    """Return the window of an admitted text; `full` if the text is empty."""
+    """Return the window of a valid text; `full` if the text is empty."""
     corners = places(text)
     return (corners[0], corners[1]) if len(corners) == 2 else full
 
 
 def pixels_in(window: Window) -> tuple[float, ...]:
-    """Return the pixels per unit of each coordinate in a picture of the window."""
+    """Return the pixels per unit of each coordinate of a window that fills a picture."""
     return tuple(PIXELS / (high - low) for low, high in zip(*window, strict=True))
 
 
@@ -38,7 +38,7 @@ def inside(points: Sequence[tuple[float, float]], window: Window) -> list[tuple[
 
 
 def box_window(corners: tuple[float, float, float, float], bounds: Window, name: str = "window") -> Values:
-    """Return the window parameter `name` for a box, clipped to the bounds; an empty mapping if it has no area."""
+    """Return the window parameter `name` for a box, clipped to the bounds; empty if it has no area."""
     (x0, y0), (x1, y1) = bounds
     left, right = max(x0, min(corners[0], corners[2])), min(x1, max(corners[0], corners[2]))
     low, high = max(y0, min(corners[1], corners[3])), min(y1, max(corners[1], corners[3]))

@@ -60,12 +60,12 @@ def parameter_of_diagram(symbols: tuple[str, ...], default: str) -> str:
 
 @dataclass(frozen=True)
 class DiagramControls(State, ABC):
-    """The parameters of a diagram; a scene declares those of its body and the parameter of the diagram.
+    """The parameters of a diagram; a scene adds those of its body and the parameter of the diagram.
 
     Attributes
     ----------
     symbols : mapping of str to str
-        Symbol of each parameter of the section → its name.
+        Names of the section's parameters by symbol.
     """
 
     h: float
@@ -125,7 +125,7 @@ class DiagramControls(State, ABC):
         (NONE, *PERIODS),
         NONE,
         group="State",
-        doc="Over the diagram: the periodic orbit that Newton's method finds from the chosen place, "
+        doc="Over the diagram: the periodic orbit that Newton's method finds near the chosen place, "
         "continued in the parameter, through folds. A click on it shows that orbit.",
     )
     span: float = time_span(60.0, 400.0, what="the chosen orbit")

@@ -61,14 +61,18 @@ def window_over(plane: str) -> Any:
 
 @dataclass(frozen=True, eq=False)
 class RotationMap(Part[Host]):
-    """The rotation number over a plane of `PLANES`, coarse first, and a line through the torus on show.
+    """The rotation number over two parameters of a torus, with coarse cells first.
 
     Attributes
     ----------
+    plane : str
+        The two parameters, one of `PLANES`.
+    torus : Torus
+        The current torus.
     line : str
-        The parameter that changes along the line.
+        Parameter that changes along the line through the torus.
     text : str
-        The window in a link.
+        The window as text of a link.
     """
 
     plane: str
@@ -90,11 +94,11 @@ class RotationMap(Part[Host]):
 
     @property
     def _beside(self) -> Torus:
-        """The torus with the map's own parameters set to 0: a cache key that is constant within the plane."""
+        """The torus with both parameters of the map set to 0, as a cache key."""
         return self.torus.at(**dict.fromkeys(self.sides, 0.0))
 
     def rows(self, plan: Plan, part: slice = slice(None)) -> Task[TorusValues]:
-        """Return the computation of some rows of the fine map."""
+        """Return the task of some rows of the fine map."""
         cells = plan.grid(_FINE)
         first, last, _ = part.indices(cells[1])
         return Task(mechanics.rows, self.plane, self._beside, self.window, cells, first, last, plan.level)
@@ -117,9 +121,9 @@ class RotationMap(Part[Host]):
 
     @cached_property
     def _grids(self) -> tuple[CellGrid, CellGrid]:
-        """ρ and ln(|t|/2), positive in lock zones, over the window; cells without a torus continue the nearest one.
+        """ρ and ln(|t|/2) over the window; the latter is positive in Arnold tongues.
 
-        So both can be interpolated up to the edge.
+        Cells without a torus repeat the nearest one, so that both can be interpolated up to the edge.
         """
         from scipy.ndimage import distance_transform_edt  # slow import
 
@@ -135,12 +139,12 @@ class RotationMap(Part[Host]):
         return rho, zones
 
     def lock(self, plan: Plan) -> Task[Array]:
-        """Return the computation of |t| = 2 in the map, (n, 2)."""
+        """Return the task of the curve |t| = 2 in the map, with points (n, 2)."""
         window = *self.window[0], *self.window[1]
         return Task(mechanics.lock_curve, self.plane, self._beside, window, plan.level, plan.side(_ON_CURVE))
 
     def _boundary(self) -> list[Array]:
-        """Return |t| = 2 in the map, once known."""
+        """Return the curve |t| = 2 in the map; empty until known."""
         found = None if self.work.dragging else self.work.need(self.lock(self.work.plan(Kind.CURVE)), preview=None)
         if found is None or not len(found):
             return []
@@ -153,12 +157,12 @@ class RotationMap(Part[Host]):
         return across, up
 
     def _here(self) -> list[tuple[float, float]]:
-        """Return the torus on show if the window contains it."""
+        """Return the place of the current torus if the window contains it."""
         (x0, x1), (y0, y1) = self.window
         return inside([self._place], ((x0, y0), (x1, y1)))
 
     def _across(self) -> list[Array]:
-        """Return the line within the window, if it lies in the plane."""
+        """Return the part of the line in the window, if it lies in the plane."""
         if self.line not in self.sides:
             return []
         fixed = 1 - self.sides.index(self.line)
@@ -181,7 +185,7 @@ class RotationMap(Part[Host]):
         return [np.array([[end, one] for one in y]) for end in self.torus.range_of(self.plane[0]) if x0 < end < x1]
 
     def _impossible(self) -> Regions:
-        """Return the part of the window without tori."""
+        """Return the forbidden region of the window."""
         (x0, x1), (y0, y1) = x, y = self.window
         if self.plane == "h, f":
             return impossible(self._upper, Axes(x, (min(y0, -y1), max(y1, -y0)))) if x1 > -1.0 else [[rectangle(x, y)]]

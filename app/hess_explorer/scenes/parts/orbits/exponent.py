@@ -1,4 +1,4 @@
-"""The largest Lyapunov exponent of the orbit on show."""
+"""The largest Lyapunov exponent of the orbit."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ class OrbitExponent(Part[_Host]):
 
     @property
     def later(self) -> bool:
-        """True if nothing is computed now: a slider is held, or a periodic orbit is shown or searched for."""
+        """True if the exponent has to wait: during a drag, or if a periodic orbit is shown or searched for."""
         return self.work.dragging or self.host.periodic_orbit.is_searching or self.growth is not None
 
     @cached_property
@@ -75,7 +75,7 @@ class OrbitExponent(Part[_Host]):
 
     @property
     def result(self) -> spectrum.Exponent | None:
-        """The exponent of an orbit that is not periodic; None until known, and if the motion ends early."""
+        """The exponent of a non-periodic orbit; None until known, and if the motion ends early."""
         return None if isinstance(self._answer, NotFound) else self._answer
 
     def at(self, plan: Plan) -> spectrum.Exponent:
@@ -121,7 +121,7 @@ class OrbitExponent(Part[_Host]):
 
 
 def _exponent(body: Body, start: Start, duration: float, level: Level) -> spectrum.Exponent | NotFound:
-    """Return the exponent, or the reason why the motion ends early: other tasks go on."""
+    """Return the exponent, or the reason why the motion ends early, so that other tasks continue."""
     try:
         return spectrum.lyapunov_exponent(body, start, duration, level)
     except MotionEnds as error:

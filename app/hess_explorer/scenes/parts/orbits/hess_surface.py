@@ -1,4 +1,4 @@
-"""The torus of a motion of the Hess case as a surface in three dimensions, with its density if that is asked for."""
+"""The torus of a motion of the Hess case as a surface in space, optionally shaded by its invariant density."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def shaded_by() -> Any:
         "Torus in space",
         (PLAIN, INVARIANT),
         PLAIN,
-        doc="The torus is greener where its invariant density is larger. There is one where no limit cycle exists.",
+        doc="Greener where the invariant density is larger. It exists only without limit cycles.",
     )
 
 
@@ -64,7 +64,7 @@ class OnTorus(Host, Protocol):
 
 @dataclass(frozen=True, eq=False)
 class HeavyTorus(Part[Host]):
-    """The torus of the Hess manifold with the integrals of a heavy body."""
+    """The torus of the Hess manifold at the integrals of a heavy body."""
 
     heavy: HeavyHess
 
@@ -108,9 +108,9 @@ class HessSurface(Part[OnTorus]):
     Attributes
     ----------
     shaded : bool
-        Whether by its invariant density.
+        True to shade it by its invariant density.
     orbit : callable
-        `orbit()` returns the orbit on show as reduced states (n, 5) in units b = 1, and its times (n,).
+        `orbit()` returns the orbit as reduced states (n, 5) in units b = 1, and its times (n,).
     says : callable
         `says()` returns the second part of the caption.
     """
@@ -129,7 +129,7 @@ class HessSurface(Part[OnTorus]):
 
     @cached_property
     def density(self) -> tuple[Complex | None, str]:
-        """The points ζ_s of the invariant density along the cross-section, or None and the reason."""
+        """The points ζ of the invariant density along the cross-section, or None; and the reason for None."""
         if not self.shaded or self.section is None:
             return None, ""
         map_ = self.host.map
@@ -142,7 +142,7 @@ class HessSurface(Part[OnTorus]):
             return None, str(error)
 
     def curves(self) -> dict[str, Curve]:
-        """Return the orbit and the limit cycles, by their looks."""
+        """Return the orbit and the limit cycles by style."""
         if self.section is None:
             return {}
         states, times = self.orbit()
@@ -152,7 +152,7 @@ class HessSurface(Part[OnTorus]):
         return found
 
     def caption(self) -> Caption:
-        """Return the caption: what the surface is, its formula, and why it has no density."""
+        """Return the caption: kind and formula of the surface, or the reason why it has no density."""
         if self.section is None:
             return Caption("No torus.", "The Hess manifold has no motion with these h and f.")
         return about(self.host.map, self.host.turning_points, self.says(), self.density[1])

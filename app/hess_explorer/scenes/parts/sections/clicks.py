@@ -1,4 +1,4 @@
-"""The starts of orbits chosen by clicks in a section whose window is filled with others."""
+"""Starts of orbits chosen by clicks, in a section whose window is filled with other orbits."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ def points_of_each(default: float) -> Any:
 
 class _Filled(PoincareSection, Protocol):
     def impossible(self, window: Window) -> Array:
-        """Return cells (m, n) over the window: 1 if no motion is possible."""
+        """Return cells (m, n) over the window: 1 in the forbidden region."""
 
 
 class _Host(Host, Protocol):
@@ -75,17 +75,21 @@ class _Host(Host, Protocol):
 
     @property
     def closed_orbit(self) -> ClosedOrbit | None:
-        """The periodic orbit, if known."""
+        """The periodic orbit; None if unknown."""
 
 
 @dataclass(frozen=True)
 class _Chosen:
-    """The starts of the orbits chosen by clicks; the last orbit is on show.
+    """The starts of the orbits chosen by clicks; the last one is the current orbit.
 
     Attributes
     ----------
-    refused : Place or None
-        The place chosen for the orbit on show, if no motion is possible there.
+    places : sequence of tuple
+        Places in the section.
+    states : sequence of tuple
+        States (d,) at these places.
+    refused : tuple or None
+        Chosen place of the current orbit, if no motion is possible there.
     """
 
     places: Sequence[Place]
@@ -95,14 +99,14 @@ class _Chosen:
 
 @dataclass(frozen=True, eq=False)
 class Clicks(Part[_Host]):
-    """The places at which clicks in a section start orbits.
+    """Orbits that start where the user has clicked in a section.
 
     Attributes
     ----------
     excuse : str
-        The reason why some places have no orbit.
+        Reason why some places have no orbit.
     remedy : str
-        The choices that give all of them one.
+        Choices with which all places have an orbit.
     """
 
     excuse: str
@@ -119,7 +123,7 @@ class Clicks(Part[_Host]):
 
     @cached_property
     def picked(self) -> _Chosen:
-        """The chosen starts with a motion; if the last one has none, a single other start replaces them all.
+        """The chosen starts with a motion; if the last one has none, another start replaces all of them.
 
         Raises `InvalidParameter` if no motion is possible in the window.
         """
@@ -138,13 +142,13 @@ class Clicks(Part[_Host]):
 
     @property
     def rings(self) -> list[Place]:
-        """The places where the orbits on show start."""
+        """The places where the chosen orbits start."""
         closed = self.host.closed_orbit
         return [*self.picked.places] if closed is None else [*self.picked.places[:-1], _place(closed.orbit.places[0])]
 
     @cached_property
     def impossible(self) -> Array:
-        """Cells (m, n) over the window: 1 if no motion is possible."""
+        """Cells (m, n) over the window: 1 in the forbidden region."""
         return self.work.need(Task(type(self.host.poincare).impossible, self.host.poincare, self.host.section.frame))
 
     def add(self, x: float, y: float) -> Values:
@@ -152,7 +156,7 @@ class Clicks(Part[_Host]):
         return {"starts": places_text([*self.picked.places, self._inside(x, y)])}
 
     def move(self, x: float, y: float) -> Values:
-        """Return the starts with the orbit on show moved to (x, y)."""
+        """Return the starts with the current orbit moved to (x, y)."""
         return {"starts": places_text([*places(self.host.starts)[:-1], self._inside(x, y)])}
 
     def look_closer(self, corners: tuple[float, float, float, float]) -> Values:
@@ -168,7 +172,7 @@ class Clicks(Part[_Host]):
         return ", ".join(f"{name} = {digits(value)}" for name, value in zip(names, place, strict=True))
 
     def quantities(self) -> Iterator[str]:
-        """Yield the place where the orbit on show starts."""
+        """Yield the start of the current orbit."""
         yield f"chosen: {self._at(self.rings[-1])}"
 
     def notes(self) -> Iterator[str]:
@@ -181,14 +185,16 @@ class Clicks(Part[_Host]):
 
 
 def filled(state: Any, held: int, **more: Any) -> Section:
-    """Return the section of a state whose `orbits` fill its `window`, among those of its `clicks`.
+    """Return the section of a state, with the orbits of its `clicks` and `orbits` others that fill the window.
 
     Parameters
     ----------
+    state : FilledState
+        The state.
     held : int
-        The largest number of orbits while a slider is held.
-    more
-        As of `Section`.
+        Largest number of orbits during a drag.
+    **more
+        Other arguments of `Section`.
     """
 
     def seeds(section: Section) -> list[tuple[Start, ...]]:

@@ -33,8 +33,8 @@ _TURNS = 300.0
 
 
 def colouring(has_density: bool = True) -> Any:
-    """Declare the colouring under the points of a section."""
-    dense = "Density: a million crossings in place of the points. " if has_density else ""
+    """Declare the choice of colours under the points of a section."""
+    dense = "Density: a million crossings instead of the points. " if has_density else ""
     return choice(
         "Under the points",
         (DENSITY, MEGNO, "nothing") if has_density else ("nothing", MEGNO),
@@ -54,7 +54,7 @@ class Indicator(Part[Section]):
     Attributes
     ----------
     is_on : bool
-        Show them.
+        True to show the cells.
     """
 
     is_on: bool
@@ -65,7 +65,7 @@ class Indicator(Part[Section]):
         return self.work.need(Task(time_of, self.host.poincare, _TURNS))
 
     def rows(self, plan: Plan, coarse: int = 1) -> list[Arguments]:
-        """Return the arguments of `row_of_cells` for each row of cells as wide as `coarse` of the finest."""
+        """Return the arguments of `row_of_cells` for each row; cells are as wide as `coarse` of the finest ones."""
         m, n = plan.grid(CELLS)
         cells = m // coarse, n // coarse
         frame = self.host.frame
@@ -74,7 +74,7 @@ class Indicator(Part[Section]):
 
     @cached_property
     def _cells(self) -> tuple[Array, int] | None:
-        """The rows (3, m) of `row_of_cells`, and the number of rows still coarse; None until coarse ones are known."""
+        """The rows (3, m) of `row_of_cells`, and the number of coarse rows; None until all coarse rows are known."""
         if not self.is_on or self.work.dragging:
             return None
         plan = self.work.plan(Kind.INDICATOR)
@@ -84,7 +84,7 @@ class Indicator(Part[Section]):
 
     @property
     def kinds(self) -> Array | None:
-        """Cells (n, m) of the kinds of `megno_map`."""
+        """Kinds of the cells (n, m), as in `megno_map`."""
         return None if self._cells is None else self._cells[0][:, 1]
 
     @property
@@ -97,7 +97,7 @@ class Indicator(Part[Section]):
         kinds = self._cells[0][:, 1]
         there = kinds[kinds >= 0.0]
         if not there.size:
-            return Caption("Nothing moves in this window.")
+            return Caption("No motion is possible in this window.")
         ended = there == ENDED
         chaotic, shrinks, ends = (
             100.0 * float(np.mean(one)) for one in (there % 2.0 == 1.0, (there >= 2.0) & ~ended, ended)
@@ -118,10 +118,10 @@ class Indicator(Part[Section]):
 
 
 def _aside(frame: Window, cells: tuple[int, int], row: int) -> Window:
-    """Return the window in which the centres of a row of cells (m, n) lie a quarter of a cell aside.
+    """Return the window in which the centres of a row of cells (m, n) are shifted by a quarter of a cell.
 
-    A truth at the centres themselves would not see the size of the cells.  These are centres of a grid twice as fine,
-    one of four in each cell, in another direction from row to row.
+    A reference at the centres themselves would not depend on the size of the cells.  The shifted centres belong to a
+    grid twice as fine; the direction of the shift changes from row to row.
     """
     (x0, y0), (x1, y1) = frame
     right, up = (

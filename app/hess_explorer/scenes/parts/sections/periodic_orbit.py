@@ -1,4 +1,4 @@
-"""The periodic orbit found by Newton's method from the chosen place, and the manifolds of a saddle."""
+"""The periodic orbit that Newton's method finds near the chosen place, and the manifolds of a saddle."""
 
 from __future__ import annotations
 
@@ -47,13 +47,13 @@ _WHOLE = 3
 
 
 def which() -> Any:
-    """Declare the choice of a periodic orbit in place of the chosen one, with its period."""
+    """Declare the choice of a periodic orbit, by its period, in place of the chosen orbit."""
     return choice(
         "Periodic orbit",
         (NONE, *PERIODS),
         NONE,
         group="State",
-        doc="Replaces the chosen orbit by the periodic one that Newton's method finds from there. The period is "
+        doc="Replaces the chosen orbit by a periodic one that Newton's method finds near it. The period is "
         "its number of points in the section. A saddle shows its manifolds.",
     )
 
@@ -74,14 +74,14 @@ def length_of_manifolds() -> Any:
 
 @dataclass(frozen=True, eq=False)
 class SectionPeriodicOrbit(Part[Section]):
-    """A periodic orbit shown in place of the chosen orbit of a section.
+    """A periodic orbit in place of the chosen orbit of a section.
 
     Attributes
     ----------
     period : str
         One of `PERIODS`, or `NONE`.
     reach : float
-        The length of the manifolds of a saddle.
+        Length of the manifolds of a saddle, in units of the axes.
     """
 
     period: str
@@ -111,7 +111,7 @@ class SectionPeriodicOrbit(Part[Section]):
 
     @property
     def is_searching(self) -> bool:
-        """True while a requested periodic orbit is not known yet."""
+        """True until the requested periodic orbit is known."""
         return self._search is not None and self._result is None
 
     @property
@@ -121,7 +121,7 @@ class SectionPeriodicOrbit(Part[Section]):
 
     @property
     def _drawn(self) -> tuple[Search, list[BranchChoice], float] | None:
-        """Cache key of a saddle's manifolds: the search, the branches, a pixel; None for any other orbit."""
+        """Cache key of a saddle's manifolds: search, branches, size of a pixel; None for any other orbit."""
         orbit = self._saddle
         if orbit is None or self._search is None:
             return None
@@ -165,7 +165,7 @@ class SectionPeriodicOrbit(Part[Section]):
 
     @property
     def homoclinic(self) -> list[Intersection]:
-        """The certain crossings of the drawn manifolds of a saddle."""
+        """The reliable crossings of the drawn manifolds of a saddle."""
         return [one for some in self._met or () for one in some if one.certain]
 
     @property
@@ -178,7 +178,7 @@ class SectionPeriodicOrbit(Part[Section]):
 
     @property
     def growth(self) -> tuple[float, float] | None:
-        """ln|μ₁|/T and ln|μ₁μ₂|/T of the periodic orbit, its growth rate and mean divergence; None without one."""
+        """Growth rate ln|μ₁|/T and mean divergence ln|μ₁μ₂|/T of the periodic orbit; None without one."""
         if self.closed_orbit is None:
             return None
         sizes = np.abs(self.closed_orbit.orbit.multipliers)
@@ -190,19 +190,19 @@ class SectionPeriodicOrbit(Part[Section]):
     # ---- words --------------------------------------------------------------------------------------------------
 
     def idle(self) -> Mapping[str, float]:
-        """Return the length of the manifolds if none are requested."""
+        """Return the length of the manifolds if it has no effect."""
         return {} if self.is_on or not self.host.alone else {"reach": self.reach}
 
     @property
     def caption(self) -> Caption | None:
-        """The caption of the section if a periodic orbit is requested, else None."""
+        """The caption of the section if a periodic orbit is requested; otherwise None."""
         if not self.is_on or self.host.aim is None:
             return None
         if self.is_searching:
             return Caption("Searching for a periodic orbit.")
         if self.closed_orbit is None:
             which = "No periodic orbit" if self.period == ANY else f"No orbit of {self.period}"
-            return Caption(f"{which} found from here.", "The chosen orbit is shown.")
+            return Caption(f"{which} found near this point.", "The chosen orbit is shown.")
         orbit = self.closed_orbit.orbit
         # An imaginary part within the error counts as 0: at a double multiplier 1 its sign depends on round-off.
         first = complex(orbit.multipliers[0])
@@ -265,12 +265,12 @@ class SectionPeriodicOrbit(Part[Section]):
             yield f"The manifolds are drawn for one of its {orbit.period} points; those of the others are their images."
 
     def _about_crossings(self) -> str:
-        """Return the number of homoclinic points and their error, in words."""
+        """Return a sentence on the number of homoclinic points and their error."""
         if self._met is None:
             return self.work.pending_caption("Where they cross is")
         found = self.homoclinic
         if not found:
-            return "No homoclinic point is seen on the drawn parts of the manifolds"
+            return "No homoclinic point is visible on the drawn parts of the manifolds"
         least = "at least " if any(len(some) == MOST_CROSSINGS for some in self._met) else ""
         return (
             f"{least}{len(found)} homoclinic point{'s' * (len(found) > 1)} on the drawn parts of the manifolds, to "
@@ -299,7 +299,7 @@ class _Bounds(Protocol):
 
 
 def periodic_layers(bounds: Callable[[Any], _Bounds | None] = lambda s: None) -> Layers[Any]:
-    """Return the layers of the periodic orbit in a section, and of what bounds the basins there."""
+    """Return the layers of the periodic orbit in a section, and of the saddles and manifolds of basin boundaries."""
 
     def orbits(s: Any) -> list[mechanics.PeriodicOrbit]:
         closed, bounding = s.periodic_orbit.closed_orbit, bounds(s)

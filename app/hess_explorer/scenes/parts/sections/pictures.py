@@ -1,4 +1,4 @@
-"""The pictures of a section, of a state with the parts `section`, `density`, `megno`, `periodic_orbit` and `clicks`."""
+"""Pictures of a section, for a state with the parts `section`, `density`, `megno`, `periodic_orbit` and `clicks`."""
 
 from __future__ import annotations
 
@@ -34,9 +34,9 @@ def section_layers(*parts: str, **more: Any) -> Layers[Any]:
 
     Parameters
     ----------
-    parts
-        Names of the parts of the state that it shows besides, by default all.
-    more
+    *parts : str
+        Names of the other parts of the state to show; by default all.
+    **more
         Other arguments of `section_plane.layers`.
     """
     parts = parts or ("megno", "density", "periodic_orbit")
@@ -53,13 +53,7 @@ def section_layers(*parts: str, **more: Any) -> Layers[Any]:
 
 
 def section_picture(**more: Any) -> Plot[Any]:
-    """Return the picture of a section, in which a click starts the orbit.
-
-    Parameters
-    ----------
-    more
-        Other arguments of `Plot`.
-    """
+    """Return the picture of a section, in which a click starts the orbit; further arguments as of `Plot`."""
 
     def side(axis: int) -> Callable[[Any], tuple[float, float]]:
         return lambda s: tuple(corner[axis] for corner in s.section.frame)
@@ -78,7 +72,7 @@ def section_picture(**more: Any) -> Plot[Any]:
 
 
 def _unseen(s: Any) -> str:
-    """Return the message for a window without points, once all are computed; else an empty string."""
+    """Return the message for a window without points when all are computed; otherwise an empty string."""
     low, high = np.array(s.section.frame)
     drawn = s.section.own, s.section.points(), s.section.points(False)
     if (
@@ -104,17 +98,17 @@ def filled_picture(
 
     Parameters
     ----------
-    full : Window
-        The whole section.
-    labels : tuple
+    full : tuple
+        Window of the whole section.
+    labels : tuple of str
         Labels of the two kinds.
-    under : Layers
+    under : sequence of Layer
         Layers below all others.
-    over : Layers or None
-        Those of the periodic orbit.
-    between : Layers
-        As in `layered_section.layers`.
-    more
+    between : sequence of Layer
+        Layers between the two kinds, as in `layered_section.layers`.
+    over : sequence of Layer, optional
+        Layers of the periodic orbit.
+    **more
         Other arguments of `Plot`.
     """
     (x0, y0), (x1, y1) = full
@@ -148,12 +142,12 @@ def filled_picture(
 
 
 def section_trials(**most: float) -> tuple[Trial[Any], Trial[Any]]:
-    """Return the trials of a section and of its cells of MEGNO, `section` and `megno` of a state.
+    """Return the trials of a section and of its cells of MEGNO.
 
     Parameters
     ----------
-    most
-        Limits of further parameters for which levels are compared.
+    **most : float
+        Upper limits of further parameters in the comparison of levels.
     """
     return (
         Trial(
