@@ -33,9 +33,9 @@ def _with_negative_values(words: list[str]) -> list[str]:
 
 
 def parse(words: Sequence[str]) -> Options:
-    """Return the options of a command line, with the function `run` that carries it out.
+    """Parse a command line; the result contains the function `run` of the command.
 
-    Only the module of its command is imported.  Raises `CommandError`.
+    Only the module of the command is imported.  Raises `CommandError` for invalid arguments.
     """
     name, *rest = _with_negative_values(_with_command(list(words)))
     if name in COMMANDS:
@@ -88,7 +88,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         print(f"hess-explorer: {error}", file=sys.stderr)
         return 2
     except OSError as error:
-        # Commands say what they read or write; here a name that is too long, or a disk that fails.
+        # Commands report expected errors of files; this one is unexpected, such as a failing disk.
         named = "" if error.filename is None else f"{error.filename!r} cannot be used: "
         print(f"hess-explorer: {named}{error.strerror or error}.", file=sys.stderr)
         return 2

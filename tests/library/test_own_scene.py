@@ -173,7 +173,7 @@ def test_a_name_that_cannot_stand_in_a_link_is_refused():
 
 
 def test_an_added_scene_comes_first_and_its_name_must_be_new():
-    with raises(InvalidParameter, match=r"mine.py is 3 and no scene: make one with hess.scene"):
+    with raises(InvalidParameter, match=r"mine.py is 3, not a scene: create one with hess.scene"):
         add(3, "mine.py")
     with raises(InvalidParameter, match="same name"):
         add(hess.scene(System("suslov", lambda y, p: (y[0],), variables="x")), "mine.py")
@@ -184,9 +184,9 @@ def test_an_added_scene_comes_first_and_its_name_must_be_new():
     ("text", "message"),
     [
         (None, "No such file"),
-        ("SCENE = 3", "is 3 and no scene"),
+        ("SCENE = 3", "is 3, not a scene"),
         ("x =", "invalid syntax"),
-        ("", "is None and no scene"),
+        ("", "is None, not a scene"),
     ],
 )
 def test_a_file_without_a_scene_is_refused(tmp_path, capsys, text, message):

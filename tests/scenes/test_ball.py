@@ -82,7 +82,7 @@ def test_theta_plus_over_the_phases_goes_through_the_orbit_and_its_range_is_that
 def test_a_map_that_takes_long_is_left_out_and_the_page_says_so(values):
     view = View(BALL, values, refusing=True)
     if view.result.map is None:
-        assert view.text["curve"].endswith("Left out: too many steps.")
+        assert view.text["curve"].endswith("Omitted: too many steps.")
         (note,) = view.report.notes
         assert note.endswith("choose larger I13 or I23, or a smaller 𝒟.")
         assert " ".join(view.data["curve-message"]["text"][0].split()) == note
@@ -180,7 +180,7 @@ def test_a_section_that_takes_long_is_left_out_and_the_page_says_so(monkeypatch)
     reason = "The section is omitted: 300 crossings take an orbit more than 100 steps here: choose fewer crossings."
     assert view.report.notes == [reason]
     for picture in ("section", "returns"):
-        assert view.text[picture].endswith("Left out: too many steps.")
+        assert view.text[picture].endswith("Omitted: too many steps.")
         assert " ".join(view.data[f"{picture}-message"]["text"][0].split()) == reason
         assert not len(view.data.get(f"{picture}-own", {}).get("x", ()))
     assert len(view.data["data-orbit"]["t"]) > 10

@@ -73,12 +73,12 @@ class OwnState(State):
 
     @property
     def start(self) -> Start:
-        """The initial state of the orbit on show."""
+        """The initial state of the current orbit."""
         return self.given
 
     @property
     def duration(self) -> float:
-        """The time span of the orbit on show."""
+        """The time span of the current orbit."""
         return self.span
 
     @cached_property
@@ -143,12 +143,12 @@ class LevelState(OwnState):
 
     @property
     def start(self) -> Start:
-        """The initial state of the orbit on show."""
+        """The initial state of the current orbit."""
         return self.given if self.closed_orbit is None else self.closed_orbit.state
 
     @property
     def duration(self) -> float:
-        """The time span of the orbit on show."""
+        """The time span of the current orbit."""
         return self.span if self.closed_orbit is None else self.closed_orbit.time
 
     @property

@@ -1,4 +1,4 @@
-"""The background tasks of the state on show."""
+"""The background tasks of the current state."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ __all__ = ["BackgroundTasks"]
 
 
 class BackgroundTasks:
-    """Starts, stops and reports the background tasks of the state on show.
+    """Starts, stops and reports the background tasks of the current state.
 
     Attributes
     ----------
@@ -36,7 +36,7 @@ class BackgroundTasks:
             self.background.stop()
 
     def drop(self) -> None:
-        """Discard the tasks of the state on show."""
+        """Discard the tasks of the current state."""
         self.progress = None
         self._next = None
         self.background.stop()

@@ -71,7 +71,7 @@ class Session:
         self._in_sight = pictures
         self._held = False
         self._number = 0
-        # True if the last request asked for another state, False if it asked again for the one on show.
+        # True if the last request asked for another state, False if it asked again for the current one.
         self.is_new = False
         self.values: Values = {}
         # Scene, requested values and notes of the drawn state, and its pictures; None if nothing valid is drawn.
@@ -82,19 +82,19 @@ class Session:
 
     @property
     def scene(self) -> Scene[Any]:
-        """The scene on show."""
+        """The current scene."""
         return self.requested.scene
 
     @property
     def stage(self) -> Stage[Any]:
-        """The pictures of the scene on show."""
+        """The pictures of the current scene."""
         if self.scene.name not in self._stages:
             self._stages[self.scene.name] = Stage(self.scene, self.wire)
         return self._stages[self.scene.name]
 
     @property
     def background(self) -> Background:
-        """The background work of the state on show."""
+        """The background work of the current state."""
         return self._tasks.background
 
     def answer(self, request: Request) -> Answer:
@@ -142,7 +142,7 @@ class Session:
         self._tasks.start()
 
     def _description(self, near: str | None) -> str:
-        """Return the description of the scene on show, or of the scene `near`, unless it was sent before."""
+        """Return the description of the current scene, or of the scene `near`, unless it was sent before."""
         for name in (self.scene.name, near):
             if name is not None and name not in self._described and (name == self.scene.name or name in scenes()):
                 self._described.add(name)
@@ -150,7 +150,7 @@ class Session:
         return ""
 
     def _apply(self, request: Request) -> None:
-        """Update the requested state; clicks refer to the state on show."""
+        """Update the requested state; clicks refer to the current state."""
         wanted, scene = self.requested, self.scene
         if request.restore is not None:
             wanted.restore(request.restore)

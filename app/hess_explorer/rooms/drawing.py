@@ -60,7 +60,7 @@ class Drawing:
         self._lessons = lessons
         self._queue = RequestQueue()
         self._show: Show | None = None
-        # Computes what is missing in the state on show.
+        # Computes what is missing in the current state.
         self._session: Session | None = None
         self._left = 0
         self._progress: tuple[int, int] | None = None

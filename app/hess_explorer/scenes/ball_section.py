@@ -128,7 +128,7 @@ class BallSectionState(SectionState):
         return self.h - math.hypot(self.b1, self.b2)
 
     def valid_state(self, notes: list[str]) -> BallSectionState:
-        """Move ψ out of the band that the energy forbids."""
+        """Return the state with ψ moved out of the forbidden band; append a note."""
         psi = self.psi if self.band is None else outside_band(self.band, self.psi)
         if psi != self.psi:
             notes.append(
@@ -153,7 +153,7 @@ class BallSectionState(SectionState):
 
     @cached_property
     def weights(self) -> tuple[float, ...]:
-        """Scale of each variable in pixels per unit, fitted to the orbit."""
+        """Pixels per unit of each variable, fitted to the orbit."""
         return pixels_per_unit(room_for(self.work.need(Task(fastest, self.body, self.start, self.duration))))
 
     # ---- the parts ----------------------------------------------------------------------------------------------
@@ -175,7 +175,7 @@ class BallSectionState(SectionState):
         return centre_of_mass((self.b1, self.b2, self.b3))
 
     def start_at(self, x: float, y: float) -> Values:
-        """Return the parameters of an orbit that starts at (ψ, δ)."""
+        """Return the parameter values of an orbit that starts at (ψ, δ)."""
         return {"psi": x, "delta": y}
 
     def half_width(self) -> float:
@@ -183,7 +183,7 @@ class BallSectionState(SectionState):
         return room_for(float(np.hypot(*self.orbit.path.states[:, :2].T).max()))
 
     def forbidden(self, axes: Axes) -> list[list[Array]]:
-        """Return the band of ψ that the energy forbids."""
+        """Return the forbidden band of ψ as rectangles."""
         if self.band is None or self.section.known.reason:
             return []
         return section_plane.band(*self.band, 2.0 * math.pi, axes)
@@ -203,7 +203,7 @@ class BallSectionState(SectionState):
         if self.special is not None:
             return self.special
         if self.section.known.reason:
-            return Caption("Left out: too many steps.")
+            return Caption("Omitted: too many steps.")
         volume = "The flow preserves volume." if self.I13 == self.I23 == 0.0 else "The flow does not preserve volume."
         visited = occupied_cells(self.section.own, self.poincare.window, _CELLS)
         counted = self.density.said or f"{len(self.section.own)} points of the "
@@ -211,7 +211,7 @@ class BallSectionState(SectionState):
 
     def _about_returns(self) -> Caption:
         if self.section.known.reason:
-            return Caption("Left out: too many steps.")
+            return Caption("Omitted: too many steps.")
         if is_reversible(self.body):
             return Caption("One point: every orbit that returns closes.", "Proved by the symmetry γ₃ → −γ₃, t → −t.")
         if self.closed_orbit is not None:

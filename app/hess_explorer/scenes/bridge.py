@@ -67,14 +67,14 @@ PRESETS = (
 
 
 def _without_round_off(value: float) -> float:
-    """Remove round-off of a translation there and back: 5.000000000000001 becomes 5."""
+    """Round a number that was translated there and back: 5.000000000000001 becomes 5."""
     short = float(f"{value:.12g}")
     return short if math.isclose(short, value, rel_tol=1e-14) else value
 
 
 @dataclass(frozen=True)
 class BothSides(State):
-    """One motion in both descriptions."""
+    """A motion of the Suslov–Hess case and the same motion of Euler–Poisson."""
 
     given: str = choice(
         "Given in",
@@ -112,7 +112,7 @@ class BothSides(State):
 
     @cached_property
     def heavy(self) -> HeavyHess:
-        """The Euler–Poisson motion from the parameters, if that side is given."""
+        """The Euler–Poisson motion of the parameters, used if that side is given."""
         return HeavyHess((self.I1, self.I2, self.I3), self.m, self.h, self.f)
 
     def valid_state(self, notes: list[str]) -> BothSides:
@@ -127,7 +127,7 @@ class BothSides(State):
         )
 
     def limits(self) -> Mapping[str, Slider]:
-        """Return the sliders of the given side."""
+        """Return the slider ranges of the given side."""
         if self.given == HEAVY:
             return self.heavy.limits()
         f = {"f": slider_within(f_max(self.h))} if self.h > -1.0 else {}
@@ -160,14 +160,14 @@ class BothSides(State):
 
     @cached_property
     def bridge(self) -> Bridge:
-        """Both bodies.  Raises `ModelError`."""
+        """The Suslov body and the equivalent heavy body.  Raises `ModelError`."""
         if self.given == HEAVY:
             return self.heavy.bridge
         return Bridge.of_suslov(HessBody(self.I22, self.I23, self.b3), self.share)
 
     @cached_property
     def turning_points(self) -> TurningPoints:
-        """(h, f) in units b = 1, with the turning points of n3.  Raises `ModelError`."""
+        """The turning points of n3, with h and f in units b = 1.  Raises `ModelError`."""
         return self.heavy.turning_points if self.given == HEAVY else turning_points(self.h, self.f)
 
     @cached_property
@@ -188,7 +188,7 @@ class BothSides(State):
 
     @cached_property
     def half_width(self) -> float:
-        """Half width of the (ω1, ω2)-plane: a little more than the ring and than the error of a draft."""
+        """Half width of the (ω1, ω2)-plane, with room for the ring and for the error at the level `draft`."""
         ring = 1.1 * float(np.max(np.abs(self.ring()[1])))
         return nice_above(max(ring, 2.0 * DRAFT.promise * self.bridge.hess.frequency_unit))
 
@@ -215,18 +215,18 @@ class BothSides(State):
 
     @cached_property
     def iterates(self) -> Array:
-        """φ0 and its images under the circle map, up to the end of the orbit."""
+        """φ0 and its iterates under the circle map, up to the end of the orbit."""
         returns = max(1, math.ceil(self.span * self.bridge.hess.frequency_unit / self.map.period))
         return self.map.iterate(self.phi0, min(returns, MAX_RETURNS))
 
     @cached_property
     def heavy_states(self) -> Array:
-        """The same motion in the variables of Euler–Poisson, (n, 6)."""
+        """The states (n, 6) of the same motion in Euler–Poisson variables."""
         return self.bridge.from_suslov(np.hstack([self.track.omega, self.track.gamma]))
 
     @cached_property
     def andoyer(self) -> Array:
-        """(l, L/G) along the motion."""
+        """The Andoyer–Deprit variables (l, L/G) along the motion."""
         return coordinates(self.heavy_states)
 
     @cached_property
@@ -311,7 +311,7 @@ class BothSides(State):
             yield f"difference at reference, error of the Suslov side ≤ {digits(self.difference.error, 2)}"
 
     def notes(self) -> Iterator[str]:
-        """Yield warnings: not a rigid body, a truncated orbit, round-off that grows within the torus."""
+        """Yield warnings: not a rigid body, a truncated orbit, growing round-off on the torus."""
         if not self.bridge.hess.check.is_body:
             yield self.bridge.hess.check.sentence
         shown = float(self.track.times[-1]) if self.peek("track") else math.inf

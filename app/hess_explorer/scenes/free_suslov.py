@@ -47,7 +47,7 @@ _SLANTING: Values = {"I13": 0.2, "I23": 0.3, "k": 1.2, "w1": 3.0, "w2": -2.001}
 
 
 def _portrait(I13: float, I23: float) -> Values:
-    """Return a start near the unstable half line, whose direction is (I23, −I13)."""
+    """Return a start near the unstable half line with direction (I23, −I13)."""
     return {
         "I13": I13,
         "I23": I23,
@@ -86,7 +86,7 @@ PRESETS = (
 
 @dataclass(frozen=True)
 class FreeSuslov(State):
-    """Two orbits from one circle of γ."""
+    """Two orbits that start on the same circle of γ."""
 
     I22: float = parameter(free_body.I22)
     I13: float = parameter(free_body.I13)
@@ -109,7 +109,7 @@ class FreeSuslov(State):
     accuracy: str = accuracy_level()
 
     def limits(self) -> Mapping[str, Slider]:
-        """Return the slider of k, limited to I11 > 0."""
+        """Return the slider range of k, with I11 > 0."""
         return free_body.limits_of_k(self.I22, self.I13, self.I23)
 
     @cached_property
@@ -129,10 +129,10 @@ class FreeSuslov(State):
 
     @cached_property
     def h(self) -> float:
-        """The energy.  Raises like `passage`, in terms of ω, as the energy is not a control."""
+        """The energy.  Raises as `passage`, with messages about ω, because the energy has no control."""
         h = 0.5 * (self.body.I11 * self.w1**2 + self.body.I22 * self.w2**2) if self.passage.rate else 0.0
         if h == 0.0:
-            raise InvalidParameter("The energy of so small an ω is 0 in double precision: choose a larger one.")
+            raise InvalidParameter("|ω| is so small that the energy is 0 in double precision: choose a larger ω.")
         return h
 
     @cached_property
@@ -142,7 +142,7 @@ class FreeSuslov(State):
 
     @cached_property
     def arcs(self) -> tuple[Array, Array]:
-        """Both arcs from the unstable to the stable equilibrium."""
+        """The two arcs from the unstable to the stable equilibrium."""
         return free.arcs(self.body, self.h)
 
     @cached_property
@@ -185,7 +185,7 @@ class FreeSuslov(State):
 
     @cached_property
     def F2(self) -> tuple[AdditionalIntegral, float] | None:
-        """The additional integral, where it exists, and its value on the orbit."""
+        """The additional integral and its value on the orbit; None if it does not exist."""
         found = of_body(self.body)
         return None if found is None else (found, float(found(np.array(self.omega), np.array(self.gamma))))
 
@@ -200,7 +200,7 @@ class FreeSuslov(State):
         """The body along the orbit."""
         return constrained_solid(self.work, self.body, self.orbit)
 
-    # ---- what the pictures show --------------------------------------------------------------------------------
+    # ---- the pictures ------------------------------------------------------------------------------------------
 
     def orbit_columns(self) -> Columns:
         """Return the columns of the orbit and of the moving points in the other pictures."""
@@ -214,7 +214,7 @@ class FreeSuslov(State):
         )
 
     def ellipses(self) -> list[Array]:
-        """Return both arcs of some other energies."""
+        """Return the arcs at some other energies."""
         return [math.sqrt(share) * arc for share in _LEVELS for arc in self.arcs]
 
     def circles(self) -> list[Circle]:
@@ -233,7 +233,7 @@ class FreeSuslov(State):
         return found
 
     def gamma1(self, one: free.FreeMotion) -> list[Array]:
-        """Return γ1 of an orbit against time or phase."""
+        """Return γ1 of an orbit over time or phase."""
         if self.across == "phase":
             return branches(one.phase, one.gamma[:, 0], 2.0 * math.pi)
         return [np.column_stack([one.times, one.gamma[:, 0]])]
@@ -283,9 +283,9 @@ class FreeSuslov(State):
             yield from orbit_status(self.orbit)
 
     def notes(self) -> Iterator[str]:
-        """Yield warnings: a thinned curve, a passage beyond the time span."""
+        """Yield warnings: a curve with too few points, a passage after the time span."""
         if self.peek("orbit") and self.orbit.times.size >= MOST_SAMPLES:
-            yield f"This long motion is drawn with {MOST_SAMPLES} points, so its uniform rotation is thinned out."
+            yield f"This long motion is drawn with only {MOST_SAMPLES} points: choose a shorter time span for details."
         needed = -self.passage.u0 / self.points.rate
         if needed > self.span:
             yield f"The passage comes at t = {digits(needed)}: choose a longer time span to see it."

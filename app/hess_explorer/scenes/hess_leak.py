@@ -47,9 +47,9 @@ PRESETS = (
 
 @dataclass(frozen=True)
 class HessLeak(State):
-    """One motion, integrated freely at the chosen and at the reference accuracy, and the exact motion.
+    """A motion integrated without correction, at the chosen and the reference level, and the exact motion.
 
-    The accuracy stays the same while a slider is held, as the leak depends on it.
+    A drag does not change the level of accuracy, because the leak depends on it.
     """
 
     I1: float = parameter(known.I1)
@@ -79,11 +79,11 @@ class HessLeak(State):
         return HeavyHess((self.I1, self.I2, self.I3), self.m, self.h, self.f)
 
     def valid_state(self, notes: list[str]) -> HessLeak:
-        """Clamp h to its minimum and f to the region of this h."""
+        """Return the state with h clamped to its minimum and f to the region of this h; append notes."""
         return self.with_values(self.hess.corrections(notes))
 
     def limits(self) -> Mapping[str, Slider]:
-        """Return sliders over the possible values."""
+        """Return slider ranges over the possible values."""
         return self.hess.limits()
 
     @property
@@ -109,7 +109,7 @@ class HessLeak(State):
 
     @cached_property
     def exact(self) -> Orbit:
-        """The motion of the reduced system, in units b = 1."""
+        """The orbit of the reduced system, in units b = 1."""
         start = tuple(self.hess.turning_points.state_at_lower_turn(self.phi0).tolist())
         return self.work.need(
             Task(
@@ -123,12 +123,12 @@ class HessLeak(State):
 
     @cached_property
     def states(self) -> Array:
-        """The exact motion in the variables of Euler–Poisson, (n, 6)."""
+        """The states (n, 6) of the exact motion in Euler–Poisson variables."""
         return self.bridge.from_reduced(self.bridge.hess.from_units_of_b(self.exact.states))
 
     @cached_property
     def leaks(self) -> dict[str, mechanics.Leak]:
-        """The freely integrated orbit: "own" at the chosen accuracy, and "reference"."""
+        """The orbits without correction: "own" at the chosen level, and "reference"."""
         end = float(self.exact.times[-1]) / self.bridge.hess.frequency_unit
         asked = (self.bridge.heavy, tuple(self.states[0].tolist()), end, self.exact.times.size)
         runs = {
@@ -139,7 +139,7 @@ class HessLeak(State):
 
     @property
     def run(self) -> mechanics.FreeRun:
-        """The orbit at the chosen accuracy."""
+        """The orbit without correction at the chosen level."""
         return self.leaks["own"].run
 
     def motion(self) -> Motion:
@@ -150,17 +150,17 @@ class HessLeak(State):
 
     @cached_property
     def solid(self) -> Solid:
-        """The body in its exact motion."""
+        """The body along the exact motion."""
         return heavy_solid(self.bridge.heavy, self.run.times, self.states)
 
-    # ---- what the pictures show --------------------------------------------------------------------------------
+    # ---- the pictures ------------------------------------------------------------------------------------------
 
     def times(self) -> Range:
-        """Return the axis of time."""
+        """Return the range of the time axis."""
         return 0.0, float(self.run.times[-1])
 
-    def leaking(self) -> Columns:
-        """Return the columns of the chosen orbit."""
+    def run_columns(self) -> Columns:
+        """Return the columns of the orbit without correction."""
         apart = lg(self.leaks["own"].apart)
         return {"t": column(self.run.times), "apart": column(apart), **gamma_columns(self.run.states[:, 3:])}
 
@@ -168,7 +168,7 @@ class HessLeak(State):
         """Return the columns of the exact motion and of the moving points in the graphs."""
         l, x = self.run.andoyer.T
         return {
-            **self.leaking(),
+            **self.run_columns(),
             "lg": column(lg(np.abs(self.run.off))),
             "l": column(l),
             "x": column(x),
@@ -240,7 +240,7 @@ class HessLeak(State):
             yield f"exact motion error ≤ {digits(exact.error_estimate, 2)} ({exact.status})"
 
     def notes(self) -> Iterator[str]:
-        """Yield warnings: not a rigid body, a motion that round-off perturbs within the torus."""
+        """Yield warnings: not a rigid body, growing round-off on the torus."""
         if not self.bridge.heavy.check.is_body:
             yield self.bridge.heavy.check.sentence
         if self.peek("exact") and self.exact.error_estimate > UNSURE:
@@ -259,7 +259,7 @@ SCENE = Scene(
     essential=("h", "f", "phi0", "returns"),
     title="Leak off the Hess manifold",
     summary="An orbit on the Hess manifold of Euler–Poisson leaves it by round-off alone, at the rate of the cycle.",
-    tracks={"orbit": HessLeak.exact_columns, "second": HessLeak.leaking},
+    tracks={"orbit": HessLeak.exact_columns, "second": HessLeak.run_columns},
     angles=("l",),
     views=(
         solid_body(wheels=False, section=True),

@@ -1,4 +1,4 @@
-"""e on a principal axis, b3 = 0 (Kharlamova's case): parabolas in an ellipse, and the role of the equator."""
+"""Constraint axis e on a principal axis, b3 = 0 (Kharlamova's case): parabolas in an ellipse, and the equator."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ PRESETS = (
 
 @dataclass(frozen=True)
 class Kharlamova(State):
-    """One orbit on its arc of a parabola, and the periods in all directions from its start."""
+    """An orbit on its arc of a parabola, and the periods in all directions from its start."""
 
     # These bounds are narrower than in other scenes.
     I11: float = parameter(known.I11, bounds=(1e-2, 1e2))
@@ -120,7 +120,7 @@ class Kharlamova(State):
     accuracy: str = accuracy_level()
 
     def valid_state(self, notes: list[str]) -> Kharlamova:
-        """Move a start outside the domain to its edge."""
+        """Return the state with a start outside the domain moved to its edge; append a note."""
         r1, r2 = self.body.axes
         size = math.hypot(self.q1 / r1, self.q2 / r2)
         if size <= 1.0 + 1e-13:
@@ -132,7 +132,7 @@ class Kharlamova(State):
         return state
 
     def limits(self) -> Mapping[str, Slider]:
-        """Return the sliders of q over the ellipse."""
+        """Return slider ranges of q over the ellipse."""
         return dict(zip(("q1", "q2"), map(slider_within, self.body.axes), strict=True))
 
     @cached_property
@@ -142,7 +142,7 @@ class Kharlamova(State):
 
     @cached_property
     def start(self) -> tuple[float, ...]:
-        """ω and γ at the start.  Raises `InvalidParameter`."""
+        """The initial state (ω, γ).  Raises `InvalidParameter`."""
         p = (self.p * math.cos(self.alpha), self.p * math.sin(self.alpha))
         return mechanics.state_at(self.body, (self.q1, self.q2), p)
 
@@ -163,7 +163,7 @@ class Kharlamova(State):
 
     @property
     def orbit(self) -> Orbit:
-        """The orbit on show."""
+        """The orbit."""
         return self.sampled[0]
 
     @cached_property
@@ -173,7 +173,7 @@ class Kharlamova(State):
 
     @cached_property
     def periods(self) -> Array:
-        """The initial directions α and the periods T, (n, 2)."""
+        """Initial directions α in radians and periods T, (n, 2)."""
         return self.work.need(Task(mechanics.periods_all_round, self.body, (self.q1, self.q2), self.p))
 
     @cached_property
@@ -192,13 +192,13 @@ class Kharlamova(State):
         return constrained_solid(self.work, self.body, self.orbit)
 
     def motion(self) -> Motion:
-        """Return the orbit on show."""
+        """Return the motion of the orbit."""
         return Motion(SYSTEM, self.start, self.body.parameters, self.span, self.body.pixels_per_unit(self.h))
 
-    # ---- what the pictures show --------------------------------------------------------------------------------
+    # ---- the pictures ------------------------------------------------------------------------------------------
 
     def orbit_columns(self) -> Columns:
-        """Return the columns of the orbit and of its mirror image, the second moving point."""
+        """Return the columns of the orbit and of its mirror image, which the second moving point follows."""
         orbit, mirror = self.sampled
         q, mirror_q = (self.body.to_plane(states)[0] for states in (orbit.states, mirror))
         tau, mirror_tau = (mechanics.rescaled_time(self.arc, states) for states in (orbit.states, mirror))
@@ -213,11 +213,11 @@ class Kharlamova(State):
         )
 
     def half_width(self) -> float:
-        """Return half the width of the frame of the domain."""
+        """Return the half width of the picture of the domain."""
         return nice_above(1.08 * max(self.body.axes))
 
     def fixed_points(self, kind: float) -> list[Array]:
-        """Return the parts of the domain's edge with fixed points: stable for kind 1, unstable for −1."""
+        """Return the parts of the domain's edge with fixed points, stable (kind 1) or unstable (kind −1)."""
         boundary, kinds = self.work.need(Task(mechanics.fixed_point_kinds, self.body, self.h))
         return pieces(boundary, kinds == kind)
 
@@ -234,7 +234,7 @@ class Kharlamova(State):
         return centre_of_mass((self.b1, self.b2, 0.0))
 
     def marks(self) -> list[Mark]:
-        """Return marks where the orbit crosses the equator, touches it or stays on it."""
+        """Return the points at which the orbit crosses the equator, touches it or stays on it."""
         if self.arc.kind != "fixed":
             return [
                 Mark((*u, 0.0), "unstable" if tau == self.arc.touch else "muted")
@@ -342,7 +342,7 @@ SCENE = Scene(
     handle="alpha",
     opening="period",
     title="Principal axis, b₃ = 0",
-    summary="Parabolas in an ellipse, run to and fro: every orbit closes but those that touch the equator from inside.",
+    summary="Parabolas in an ellipse: all orbits are periodic, except those that touch the equator from inside.",
     tracks={"orbit": Kharlamova.orbit_columns},
     views=(
         solid_body(),
@@ -396,7 +396,7 @@ SCENE = Scene(
             y=lambda s: period_axis(s.periods, s.arc.period),
             on_click=lambda s, x, y: {"alpha": x},
             on_drag="chosen",
-            message=lambda s: "" if has_periods(s.periods) else "Nothing moves: no period.",
+            message=lambda s: "" if has_periods(s.periods) else "No motion, so no period.",
             layers=period_graph.layers(
                 lambda s: s.periods, here=lambda s: None if s.arc.kind == "fixed" else (s.alpha, s.arc.period)
             ),

@@ -1,4 +1,4 @@
-"""A body of one's own: inertia, potential, constraint, gyrostatic momentum and drive."""
+"""A user-defined body: inertia, potential, constraint, gyrostatic momentum and drive."""
 
 from __future__ import annotations
 
@@ -148,7 +148,7 @@ class OwnBodyState(State):
 
     @property
     def duration(self) -> float:
-        """The length of the orbit in time."""
+        """The duration of the orbit."""
         return self.lasts
 
     @cached_property
@@ -181,13 +181,13 @@ class OwnBodyState(State):
 
     @cached_property
     def is_compiled(self) -> bool:
-        """True once the equations of this form are compiled."""
+        """True if equations of this form are compiled."""
         # A chain, because a drag must not end the compilation.
         return self.work.newest([[Task(_compiled, self.body.system)]])[0] is not None
 
     @property
     def periodic_orbit(self) -> NotPeriodic:
-        """None; the exponent, which needs another kernel, waits for the orbit's."""
+        """No periodic orbit; the exponent, which needs another kernel, waits until the orbit is compiled."""
         return NotPeriodic(is_searching=not self.is_compiled)
 
     orbit = part(lambda s: BodyOrbit(s, max_step=s.max_step))
@@ -213,7 +213,7 @@ class OwnBodyState(State):
 
     @cached_property
     def crossings(self) -> SectionCrossings | None:
-        """The section of the motion up to the time of the exponent; None until it is known."""
+        """The crossings of the motion with the section, up to the averaging time; None until known."""
         if not self.is_compiled or self.dragging:
             return None
         return self.work.need(
@@ -222,25 +222,25 @@ class OwnBodyState(State):
         )
 
     def idle(self) -> Mapping[str, float]:
-        """Return the numbers without effect: the constraint of a free body, the frequency of no drive."""
+        """Return the parameters without effect: the constraint of a free body, the frequency without a drive."""
         found = {} if self.constraint == _CONSTRAINED else {"a1": 0.0, "a2": 0.0, "a3": 0.0}
         return found if any((self.d1, self.d2, self.d3)) else {**found, "frequency": self.frequency}
 
     def quantities(self) -> Iterator[str]:
-        """Yield what is conserved, and whether it is a rigid body."""
+        """Yield the conserved quantities, and whether this is a rigid body."""
         yield f"conserved: {', '.join(self.body.system.integrals(*self.body.system.example))}"
         yield self.body.check.sentence
 
 
 def _compiled(system: System) -> bool:
-    """Compile the equations by following their example."""
+    """Compile the equations by integrating the example of the system."""
     solve(*system.example_motion, [0.1], "draft")
     return True
 
 
 def _caption(s: OwnBodyState) -> Caption:
     if not s.is_compiled:
-        return Caption("The equations are being compiled.", "Some seconds; numbers then change at once.")
+        return Caption("Compiling the equations.", "This takes some seconds, once.")
     return Caption(numbers=f"From t = 0 to t = {digits(s.lasts)}.")
 
 

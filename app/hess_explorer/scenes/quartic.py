@@ -1,4 +1,4 @@
-"""The constraint axis on a principal axis, b1 = b2 = 0: a point in a quartic potential, its section, and the body."""
+"""Constraint axis on a principal axis, b1 = b2 = 0: a point in a quartic potential, its section, and the body."""
 
 from __future__ import annotations
 
@@ -104,14 +104,14 @@ class Quartic(SectionState):
     span: float = time_span(40.0, 200.0, most=1e3, what="the chosen orbit")
 
     def valid_state(self, notes: list[str]) -> Quartic:
-        """Move a start that the energy forbids to the edge of the region."""
+        """Return the state with a forbidden start moved to the edge of the region; append a note."""
         q = self.body.inside((self.Q1, self.Q2))
         if q != (self.Q1, self.Q2):
             notes.append(f"With this energy the start is impossible: it was moved to the edge, q = {vector(q)}.")
         return self.with_values({"Q1": q[0], "Q2": q[1]})
 
     def limits(self) -> Mapping[str, Slider]:
-        """Return the sliders: h above −|b3|, q over the region."""
+        """Return slider ranges: h above −|b3|, q over the region."""
         low, top, step = slider_within(abs(self.body.b3))
         return {
             "h": (0.9 * low, 4.0 * top, step),
@@ -130,17 +130,17 @@ class Quartic(SectionState):
 
     @cached_property
     def given(self) -> Start:
-        """The state at q with the direction β."""
+        """The state (d,) at q with direction β."""
         return model.state_at(self.body, (self.Q1, self.Q2), self.beta)
 
     @property
     def half_width(self) -> float:
-        """Half width of the plane of the point."""
+        """Half width of the plane of q."""
         return nice_above(1.05 * max(self.body.axes))
 
     @property
     def weights(self) -> tuple[float, ...]:
-        """Scale of each variable in pixels per unit."""
+        """Pixels per unit of each variable."""
         return self.body.pixels_per_unit(self.half_width)
 
     # ---- the parts ----------------------------------------------------------------------------------------------
@@ -157,7 +157,7 @@ class Quartic(SectionState):
     # ---- the pictures -------------------------------------------------------------------------------------------
 
     def section_window(self) -> Window:
-        """Return the window with room for all q and p."""
+        """Return the window of the section, with room for all q and p."""
         (q0, q1), (p0, p1) = centred(nice_above(1.05 * self.body.longest)), _P_AXIS
         return (q0, p0), (q1, p1)
 
@@ -167,19 +167,19 @@ class Quartic(SectionState):
         return model.angular_momentum(self.body, self.orbit.path.states)
 
     def first(self) -> tuple[float, float]:
-        """Return the q from which the orbit on show starts."""
+        """Return the q at which the orbit starts."""
         if self.closed_orbit is None:
             return self.Q1, self.Q2
         (q,), _ = self.body.to_plane(np.array([self.start]))
         return float(q[0]), float(q[1])
 
     def impossible(self, axes: Axes) -> list[list[Array]]:
-        """Return the part of the section outside its boundary."""
+        """Return the forbidden region of the section."""
         reach = 4.0 * max(axes.x[1], self.body.longest)
         return [] if self.section.known.reason else section_plane.outside(self.body.section_boundaries(), reach, 4.0)
 
     def start_at(self, x: float, y: float) -> Values:
-        """Return the start and direction at a place of the section; nothing if no motion passes there."""
+        """Return the start and direction at a place of the section; empty if no motion crosses it there."""
         try:
             return dict(zip(("Q1", "Q2", "beta"), model.start_on_section(self.body, x, y), strict=True))
         except ModelError:

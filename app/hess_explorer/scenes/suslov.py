@@ -87,7 +87,7 @@ PRESETS = (
 
 @dataclass(frozen=True)
 class Suslov(FilledState):
-    """A section of one body at one energy, filled with orbits forward and backward in time."""
+    """A section of a body at one energy, with orbits forward and backward in time."""
 
     I11: float = parameter(I11)
     I22: float = parameter(I22, 3.0)
@@ -142,11 +142,11 @@ class Suslov(FilledState):
 
     @property
     def weights(self) -> tuple[float, ...]:
-        """Scale of each variable in pixels per unit."""
+        """Pixels per unit of each variable."""
         return pixels_per_unit(self.half_width)
 
     def orbit_level(self) -> Level:
-        """Return the level of the orbit on show.
+        """Return the level of accuracy of the orbit.
 
         Near the lowest energy the motion is small compared with the velocity scale of a level's promise.
         """
@@ -168,7 +168,7 @@ class Suslov(FilledState):
 
     @cached_property
     def _conformal(self) -> tuple[Conformal | None, str]:
-        """The orbit on show in both times, or None and the reason."""
+        """The orbit in real and in conformal time and an empty string; or None and the reason."""
         if self.I13 != 0.0 or self.I23 != 0.0:
             return None, "Only for I₁₃ = I₂₃ = 0, as in the example “On a principal axis”."
         try:
@@ -194,7 +194,7 @@ class Suslov(FilledState):
         return Caption(numbers=f"{counted}late forward points occupy {cells} of {_CELLS**2} cells.")
 
     def quantities(self) -> Iterator[str]:
-        """Yield the energy, the start of the orbit on show and the check of the body."""
+        """Yield the energy, the start of the orbit and the check of the body."""
         yield f"E = {digits(self.E)}"
         yield from super().quantities()
         yield check_body(self.I11, self.I22, self.I13, self.I23).sentence

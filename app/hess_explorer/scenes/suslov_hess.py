@@ -66,7 +66,7 @@ PRESETS = (
 
 @dataclass(frozen=True)
 class SuslovHess(State):
-    """One orbit on one torus M²(h, f), and the diagram of all tori."""
+    """An orbit on a torus M²(h, f), and the bifurcation diagram of all tori."""
 
     I22: float = parameter(hess_case.I22)
     I23: float = parameter(hess_case.I23)
@@ -89,11 +89,11 @@ class SuslovHess(State):
     accuracy: str = accuracy_level()
 
     def valid_state(self, notes: list[str]) -> SuslovHess:
-        """Clamp |a| to 100 and f to the region of this h."""
+        """Return the state with |a| clamped to 100 and f to the region of this h; append notes."""
         return replace(self, I23=possible_I23(self.I22, self.I23, notes), f=possible_f(self.h, self.f, notes))
 
     def limits(self) -> Mapping[str, Slider]:
-        """Return the slider of f over the region of this h, in round steps."""
+        """Return the slider range of f over the region of this h, with round steps."""
         return {"f": slider_within(f_max(self.h))}
 
     @cached_property
@@ -115,8 +115,8 @@ class SuslovHess(State):
         return None if self.turning_points is None else map_or_none(self.work, self.body.a, self.h, self.f, self.level)
 
     @cached_property
-    def locked(self) -> Array:
-        """The boundary of the lock zone, |t| = 2, (n, 2)."""
+    def lock_boundary(self) -> Array:
+        """The boundary |t| = 2 of the Arnold tongue, with points (n, 2)."""
         plan = self.plan(Kind.CURVE, steady=True)
         return self.work.need(Task(lock_boundary, self.body.a, plan.level, plan.side(_ON_BOUNDARY)))
 
@@ -127,7 +127,7 @@ class SuslovHess(State):
 
     @cached_property
     def half_width(self) -> float:
-        """Half width of the (ω1, ω2)-plane; it follows the largest ring of this h in factors of 2."""
+        """Half width of the (ω1, ω2)-plane, a power of 2 with room for the largest ring of this h."""
         largest = math.sqrt(2.0 * (diagram.window(self.h).x[1] + 1.0))
         halvings = math.floor(math.log2(largest / math.sqrt(2.0 * (self.h + 1.0))))
         ring = 1.02 * math.hypot(1.0, self.body.a) * largest * 0.5**halvings
@@ -135,12 +135,12 @@ class SuslovHess(State):
 
     @cached_property
     def track(self) -> Track:
-        """The orbit on show."""
+        """The orbit."""
         return self.work.need(self.finding)
 
     @property
     def finding(self) -> Task[Track]:
-        """The task that computes the orbit on show."""
+        """The task of the orbit."""
         return Task(track, self.body, self.h, self.f, self.phi0, self.span, self.level, self.half_width)
 
     @cached_property
@@ -156,7 +156,7 @@ class SuslovHess(State):
 
     @cached_property
     def iterates(self) -> Array | None:
-        """φ0 and its images under the circle map, up to the end of the orbit."""
+        """φ0 and its iterates under the circle map, up to the end of the orbit."""
         if self.map is None:
             return None
         returns = math.ceil(self.track.orbit.times[-1] / self.map.period)
@@ -164,7 +164,7 @@ class SuslovHess(State):
 
     @cached_property
     def density(self) -> tuple[Array | None, str]:
-        """The invariant density on the torus relative to the uniform one, or None and the reason."""
+        """The invariant density on the torus, relative to the uniform one, or None; and the reason for None."""
         reason = torus_density.reason_for_no_density(self.map, self.turning_points)
         if reason or self.map is None:
             return None, reason
@@ -180,25 +180,25 @@ class SuslovHess(State):
 
     @cached_property
     def solid(self) -> Solid:
-        """The body along the orbit on show."""
+        """The body along the orbit."""
         return hess_solid(self.body, self.track)
 
     def motion(self) -> Motion:
-        """Return the orbit on show in units b = 1."""
+        """Return the motion of the orbit in units b = 1."""
         state, length = start_of_track(self.body, self.h, self.f, self.phi0, self.span)
         weights = pixels_per_unit(self.body, self.half_width)
         return Motion(SYSTEM, tuple(state), (self.body.a, 1.0), length, tuple(weights), 1.0 / self.body.frequency_unit)
 
     @cached_property
     def proof(self) -> ProvedStatement | None:
-        """Proved statements on this torus; None until known and while a slider is dragged."""
+        """The proved statement on this torus; None until known and during a drag."""
         if self.dragging or self.map is None:
             return None
         if not has_flint():
             return ProvedStatement("", "Proofs need python-flint: pip install 'hess-explorer[prove]'")
         return self.work.need(Task(proved_statement, self.I22, self.I23, self.h, self.f), preview=None)
 
-    # ---- what the pictures show --------------------------------------------------------------------------------
+    # ---- the pictures ------------------------------------------------------------------------------------------
 
     def orbit_columns(self) -> Columns:
         """Return the columns of the orbit and of the moving points in the other pictures."""
@@ -233,7 +233,7 @@ class SuslovHess(State):
     # ---- words --------------------------------------------------------------------------------------------------
 
     def quantities(self) -> Iterator[str]:
-        """Yield a, b, the derived data of the body, the integrals in its units and the period."""
+        """Yield a, b, derived data of the body, the integrals in its units, and the period."""
         body = self.body
         yield f"a = I₂₃/I₂₂ = {digits(body.a)}"
         yield f"b = {digits(body.b)}"
@@ -342,7 +342,7 @@ SCENE = Scene(
             on_hover=lambda s, h, f: diagram.about_torus(s.body.a, h, f),
             layers=diagram.layers(
                 rotation=lambda s: s.rotation,
-                boundary=lambda s: s.locked,
+                boundary=lambda s: s.lock_boundary,
                 curve=lambda s: s.edge,
                 here=lambda s: [(s.h, s.f)],
                 axes=lambda s: diagram.window(s.h),

@@ -65,7 +65,7 @@ class _Chart(Part[Any]):
 
     @property
     def number(self) -> catalogue.Number:
-        """The number on show."""
+        """The current number."""
         source, number = self.numbers[self.host.chart]
         return source.computation.number(number)
 
@@ -183,7 +183,9 @@ def with_chart(state: type[Any], charts: Charts) -> type[Any]:
     x, y = (next(symbol for symbol, side in sides.items() if one in (symbol, side.name)) for one in charts.over)
     along = "Parameter along this axis."
     specs: tuple[Spec, ...] = (
-        ChoiceSpec("chart", "Number", (*numbers,), next(iter(numbers)), "Number on show, as in commands.", "Chart"),
+        ChoiceSpec(
+            "chart", "Number", (*numbers,), next(iter(numbers)), "Displayed number, named as in commands.", "Chart"
+        ),
         ChoiceSpec("chart_x", "Across", (*sides,), x, along, "Chart"),
         ChoiceSpec("chart_y", "Up", (*sides,), y, along, "Chart"),
         Places("chart_window", "The window of the chart", 2, (-_FAR, -_FAR), (_FAR, _FAR)),

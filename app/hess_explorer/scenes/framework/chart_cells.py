@@ -98,4 +98,4 @@ def chart_row(cells: Cells, window: Window, count: int, row: int) -> Array:
 
 
 STORED: dict[Cells, tuple[Array, Window]] = {}
-"""Values, errors and status (n, 3, m) of stored sweeps on show, and their windows."""
+"""Values, errors and status (n, 3, m) of displayed stored sweeps, and their windows."""

@@ -22,7 +22,7 @@ class Host(Protocol):
 
     @property
     def work(self) -> Work:
-        """The computation of the state on show."""
+        """The computation of the current state."""
 
 
 class Sectioned(Host, Protocol):
@@ -53,7 +53,7 @@ class Part(Generic[H_co]):
 
     @property
     def work(self) -> Work:
-        """The computation of the state on show."""
+        """The computation of the current state."""
         return self.host.work
 
     def has_result(self, name: str) -> bool:

@@ -197,7 +197,7 @@ class State:
         }
 
     def motion(self) -> Motion | None:
-        """Return the motion on show, for "Speed and accuracy"; None without one.  Raises `ModelError`."""
+        """Return the current motion, for "Speed and accuracy"; None without one.  Raises `ModelError`."""
         return None
 
     def quantities(self) -> Iterable[str]:

@@ -156,7 +156,7 @@ def _orbit_error(state: State, states: Array, truth: object) -> float:
 
 
 def orbit_trial() -> Trial[Any]:
-    """Return the trial of the motion on show."""
+    """Return the trial of the current motion."""
     return Trial(Kind.ORBIT, (), _orbit, _orbit_error)
 
 

@@ -73,7 +73,7 @@ def layers(
     here: Callable[[S], Positions],
     axes: Callable[[S], Axes],
 ) -> Layers[S]:
-    """Return the layers: rotation number ρ, lock zone in one tone, no motion in grey, a ring at the torus on show.
+    """Return the layers: rotation number ρ, lock zone in one tone, no motion in grey, a ring at the current torus.
 
     Parameters
     ----------

@@ -37,7 +37,7 @@ class Tori:
     values : TorusValues
         ρ and trace of each torus.
     here : float
-        The parameter of the torus on show.
+        The parameter of the current torus.
     """
 
     x: Array
@@ -54,7 +54,7 @@ class Tori:
         return np.minimum(self.values.trace, _DRAWN_TRACE)
 
     def ring(self, y: Array, axes: Axes) -> list[tuple[float, float]]:
-        """Return the place of the torus on show on a graph, if it is in the frame."""
+        """Return the place of the current torus on a graph, if it is in the frame."""
         there = np.isfinite(y)
         if not there.any():
             return []

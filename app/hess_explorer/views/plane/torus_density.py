@@ -1,4 +1,4 @@
-"""The unrolled torus of the Hess case: invariant density and the orbit on show."""
+"""The unrolled torus of the Hess case: invariant density and the current orbit."""
 
 from __future__ import annotations
 

@@ -88,7 +88,7 @@ class OrbitDiagram(Part[DiagramControls]):
 
     @property
     def start(self) -> Start:
-        """The initial state of the orbit on show."""
+        """The initial state of the current orbit."""
         return tuple(map(float, self.poincare.states_at(*np.array(self.place)[:, None])[0][0]))
 
     @cached_property

@@ -47,7 +47,7 @@ class _Host(Host, Protocol):
 
     @property
     def periodic_orbit(self) -> Periodic:
-        """The periodic orbit on show, if any."""
+        """The current periodic orbit, if any."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,7 +56,7 @@ class OrbitExponent(Part[_Host]):
 
     @property
     def growth(self) -> tuple[float, float] | None:
-        """ln|μ₁|/T and ln|μ₁μ₂|/T of the periodic orbit on show; None without one."""
+        """ln|μ₁|/T and ln|μ₁μ₂|/T of the current periodic orbit; None without one."""
         return self.host.periodic_orbit.growth
 
     @property

@@ -266,7 +266,7 @@ def branch_picture() -> Picture[Any]:
         y=lambda s: s.upwards_range,
         layers=(
             curves(
-                "value", within=at_the_value, color=theme.INK, width=1.5, label="state on show", tag="state on show"
+                "value", within=at_the_value, color=theme.INK, width=1.5, label="current state", tag="current state"
             ),
             *view.layers(itself),
             points(
@@ -276,7 +276,7 @@ def branch_picture() -> Picture[Any]:
                 color=theme.INK,
                 hollow=True,
                 edge_width=2.0,
-                label="the periodic orbit on show",
+                label="current periodic orbit",
             ),
         ),
     ).of(lambda s: s.branch)

@@ -34,7 +34,7 @@ _ON = 1e-9
 _ORBITS, _MOST_STEPS = 20, 100_000
 """Defaults: number of other orbits, and largest number of Taylor steps of each."""
 _COMPARED = 3
-"""Batches that are computed twice for an error estimate, in addition to the orbit on show."""
+"""Batches that are computed twice for an error estimate, in addition to the current orbit."""
 
 
 def crossings_of_each() -> Any:
