@@ -202,9 +202,9 @@ def test_its_chart_is_a_number_of_the_motion_over_two_sliders():
     scene = hess.scene(HENON, ["x y", "chart"])
     assert scene.pictures == ("x-y", "chart")
     values = {**scene.defaults(), "chart": "lyapunov", "long": 20.0, "chart_window": "0.5,0;1,0.1"}
-    state = complete(scene, values, ["chart"], lambda s: s.charting.caption)[0]
-    assert [side.name for side in state.charting.axes] == ["p_lam", "y_x"]
-    cells = state.charting.cells.cells
+    state = complete(scene, values, ["chart"], lambda s: s.chart_part.caption)[0]
+    assert [side.name for side in state.chart_part.axes] == ["p_lam", "y_x"]
+    cells = state.chart_part.cells.cells
     lam, x = (0.5 + 0.5 * 10.5 / 72, 0.1 * 20.5 / 72)
     own = lyapunov_exponent(HENON.at([lam]), (x, *HENON.example[0][1:]), 20.0, "standard")
     assert cells.shape == (72, 72)

@@ -32,12 +32,12 @@ class Tori:
 
     Attributes
     ----------
-    x : array
-        (n,) the parameter.
+    x : array (n,)
+        Values of the parameter.
     values : TorusValues
         ρ and trace of each torus.
     here : float
-        The parameter of the current torus.
+        Parameter of the current torus.
     """
 
     x: Array
@@ -45,7 +45,7 @@ class Tori:
     here: float
 
     def curve(self, y: Array, jump: float = math.inf) -> list[Array]:
-        """Return the parts of a graph over the possible tori, cut at jumps."""
+        """Return the parts of the graph of y (n,) over the existing tori, cut at jumps."""
         return pieces(np.column_stack([self.x, y]), self.values.possible, jump)
 
     @property
@@ -54,7 +54,7 @@ class Tori:
         return np.minimum(self.values.trace, _DRAWN_TRACE)
 
     def ring(self, y: Array, axes: Axes) -> list[tuple[float, float]]:
-        """Return the place of the current torus on a graph, if it is in the frame."""
+        """Return the place of the current torus on the graph of y, if the frame contains it."""
         there = np.isfinite(y)
         if not there.any():
             return []
@@ -66,7 +66,7 @@ class Tori:
 def rho_layers(
     tori: Callable[[S], Tori], perturbed: Callable[[S], Array | None], rational: Callable[[S], Sequence[float]]
 ) -> Layers[S]:
-    """Return the layers: ρ along a line, ρ of another family if known, and the rational ρ that a torus has."""
+    """Return the layers: ρ along a line, ρ of another family if known, and the torus with the rational ρ."""
 
     def other(state: S) -> list[Array]:
         found = perturbed(state)
@@ -81,7 +81,7 @@ def rho_layers(
 
 
 def trace_layers(tori: Callable[[S], Tori]) -> Layers[S]:
-    """Return the layers of |t| along a line; tori with |t| > 2 are locked."""
+    """Return the layers of |t| along a line; tori with |t| > 2 have limit cycles."""
     return (
         levels("levels", lambda s: [2.0]),
         curves("t", lambda s: tori(s).curve(tori(s).trace), color=theme.ORBIT),

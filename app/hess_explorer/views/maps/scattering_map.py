@@ -37,7 +37,7 @@ POLAR_TICKS = ((0.0, "0"), (math.pi / 4, "π/4"), (math.pi / 2, "π/2"), (3 * ma
 def over_square(
     caption: Callable[[S], Caption], theta_plus: Callable[[S], Array], here: Callable[[S], tuple[float, float]]
 ) -> Plot[S]:
-    """Return the plot of θ⁺ over (φ, θ⁻); a click or drag sets both."""
+    """Return the plot of θ⁺ over (φ, θ⁻); a click or drag sets both parameters."""
     return Plot(
         name="map",
         title="θ⁺ over (φ, θ⁻)",
@@ -101,12 +101,14 @@ def over_orders(
 
     Parameters
     ----------
+    ends : callable
+        `ends(state)` returns the range of k.
     orders : callable
-        The closed form, rows (k, cos χ).
-    closed : callable
-        Its value for the body.
+        `orders(state)` returns rows (k, cos χ) of the closed form.
     here : callable
-        The body's k and computed cos χ.
+        `here(state)` returns k of the body and the computed cos χ.
+    closed : callable
+        `closed(state)` returns the closed form for the body.
     """
 
     def about(state: S) -> Caption:
@@ -135,6 +137,6 @@ def over_orders(
 
 
 def cosine_axis(largest: float) -> Range:
-    """Return an axis from −1, the least cosine, to above the largest one."""
+    """Return an axis from −1 to slightly above the largest cosine."""
     reach = nice_above(max(1e-3, 1.0 + float(largest)))
     return -1.0 - 0.05 * reach, -1.0 + 1.05 * reach

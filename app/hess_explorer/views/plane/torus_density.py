@@ -35,7 +35,7 @@ def phases(track: Track, theta: CircleMap | None) -> Array:
 
 
 def reason_for_no_density(theta: CircleMap | None, turning_points: TurningPoints | None) -> str:
-    """Return the reason for a missing density, "" if it exists; both arguments are None on the separatrix."""
+    """Return the reason for a missing density, "" if it exists; the arguments are None on the separatrix."""
     if theta is None or turning_points is None:
         return "On the separatrix no motion returns."
     if turning_points.roots[2] - turning_points.roots[1] < 1e-6:
@@ -56,7 +56,7 @@ def about(density: Array) -> Caption:
 
 
 def picture(density: Callable[[S], tuple[Array | None, str]]) -> Plot[S]:
-    """Return the plot of the density (n, m) relative to the uniform one, or of the reason for none, and the orbit."""
+    """Return the plot of the density (n, m) relative to the uniform one, or of the reason for None, and the orbit."""
 
     def caption(state: S) -> Caption:
         found, reason = density(state)

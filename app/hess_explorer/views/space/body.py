@@ -1,4 +1,4 @@
-"""The solid body in space, and the curves that its points draw on a fixed sphere; rendered by "body.js"."""
+"""The body in space, and the curves that its points trace on a fixed sphere; rendered by "body.js"."""
 
 from __future__ import annotations
 
@@ -37,19 +37,19 @@ _THINNEST = 0.12
 
 @dataclass(frozen=True)
 class Shape:
-    """Ellipsoid of a body with a fixed point, in the coordinates of its attitude.
+    """Ellipsoid of a body with a fixed point, in the axes of its attitude.
 
     Attributes
     ----------
-    axes : array
-        (3, 3), principal axes in rows.
-    moments : array
-        (3,).
-    names : tuple
+    axes : array (3, 3)
+        Principal axes in rows.
+    moments : array (3,)
+        Principal moments of inertia.
+    names : tuple of str
         Names of the axes.
-    section : array or None
-        (3,), normal of a circular section of the gyration ellipsoid, with the radius of the middle moment; selects the
-        gyration ellipsoid (M, I⁻¹M) = const.  None selects the ellipsoid of inertia (ω, Iω) = const.
+    section : array (3,) or None
+        Normal of a circular section of the gyration ellipsoid (M, I⁻¹M) = const, which is then drawn.  None draws the
+        ellipsoid of inertia (ω, Iω) = const.
     """
 
     axes: Array
@@ -67,19 +67,21 @@ class Shape:
 
     @property
     def semi_axes(self) -> Array:
-        """Semi-axes of the ellipsoid, proportional to √I1 : √I2 : √I3 or to their inverses; shape (3,)."""
+        """Semi-axes (3,) of the ellipsoid, proportional to √I1 : √I2 : √I3 or to their inverses."""
         lengths = np.sqrt(self.moments) if self.section is not None else 1.0 / np.sqrt(self.moments)
         return LARGEST * np.maximum(lengths / np.max(lengths), _THINNEST)
 
     def weights(self, centre: Array | None, hollow: bool) -> Array:
-        """Return six weights with these moments and their centre of mass along `centre`, (n, 4) as x, y, z, radius.
+        """Return weights (n, 4) as x, y, z, radius, with the moments of inertia of the body.
 
-        Their volumes are proportional to their masses.  Empty if there are none.
+        Their volumes are proportional to their masses.  Empty if no weights have these moments.
 
         Parameters
         ----------
+        centre : array (3,) or None
+            Direction of their centre of mass.
         hollow : bool
-            They lie in a ball's wall.
+            True for weights in the wall of a hollow ball.
         """
         arms = np.full(3, _WALL) if hollow else self.semi_axes + _WEIGHT
         masses = paired_weights(self.moments, arms, None if centre is None else self.axes @ centre)
@@ -99,12 +101,12 @@ class Wheels:
 
     Attributes
     ----------
-    at : Sequence
-        Unit vector of the body orthogonal to e.
-    e : Sequence
-        Unit vector of the constraint.
+    at : sequence of float
+        Unit vector (3,) of the body orthogonal to e.
+    e : sequence of float
+        Unit vector (3,) of the constraint.
     look : str
-        Of the trace, as in `Rod`.
+        Style of the trace, as in `Rod`.
     """
 
     at: Sequence[float] | Array
@@ -129,7 +131,10 @@ class Rod:
 
 @dataclass(frozen=True)
 class Curve:
-    """A curve in space, components (n, 3) along (γ, e, γ × e); look as in `Rod`, or "limit"; width in pixels."""
+    """A curve in space, in components (n, 3) along (γ, e, γ × e).
+
+    Its `look` is a style of `Rod` or "limit"; the width is in pixels.
+    """
 
     points: Array
     look: str
@@ -137,7 +142,7 @@ class Curve:
 
 
 def seen_in_space(points: Array) -> Array:
-    """Convert components along (γ, e, γ × e) to the axes of the picture: e, γ × −e and, upwards, −γ."""
+    """Convert components along (γ, e, γ × e) to the axes of the picture: e, −γ × e and −γ (upwards)."""
     return np.stack([points[..., 1], -points[..., 2], -points[..., 0]], axis=-1)
 
 
@@ -152,7 +157,7 @@ _WEIGHTS = Sign("weights with the body's moments of inertia", "dot", "background
 
 @dataclass(frozen=True, kw_only=True)
 class BodyInSpace(Picture[S]):
-    """The sphere fixed in space, with γ downwards like gravity, and the body inside at the player's time.
+    """A sphere fixed in space, with γ pointing down, and the body inside at the time of the player.
 
     Attributes
     ----------
@@ -165,21 +170,21 @@ class BodyInSpace(Picture[S]):
     trail : callable or None
         `trail(state)` returns the direction whose trace is drawn, or None.
     mass : callable or None
-        `mass(state)` returns direction of the centre of mass of its weights, or None.
+        `mass(state)` returns the direction of the centre of mass of the weights, or None.
     hollow : bool
-        Draw a glass ball rolling on an inner ball instead of the ellipsoid.
+        True to draw a glass ball rolling on an inner ball instead of the ellipsoid.
     heavy : callable
-        `heavy(state)` returns whether γ is gravity.
+        `heavy(state)` returns whether γ is the direction of gravity.
     attitude : str
-        The picture whose attitude it follows, if it has none of its own.
+        Name of the picture whose attitude it follows; empty if it has its own.
     rods : callable
-        Fixed to the body.
+        `rods(state)` returns rods fixed to the body.
     curves : callable
-        In space.
-    circles, marks : sequence of Circle
-        Fixed in the space of the picture.
+        `curves(state)` returns curves in space.
+    circles, marks : sequence
+        Circles and marks fixed in the space of the picture.
     bare : bool
-        Omit the lines of the sphere.
+        True to omit the lines of the sphere.
     """
 
     shape: Callable[[S], Shape | None] = lambda state: None
@@ -200,7 +205,7 @@ class BodyInSpace(Picture[S]):
 
     @property
     def needs(self) -> frozenset[str]:
-        """The pictures whose data must be there for it."""
+        """Names of the pictures whose data the picture requires."""
         return super().needs | ({self.attitude} if self.attitude else set())
 
     @property
