@@ -11,5 +11,5 @@ builds and opens the documentation.
 
 import lazy_loader
 
-# The names of the stub beside this file, each imported on first use: who only computes loads no plotting library.
+# The names of the stub file are imported on first use, so that computations load no plotting library.
 __getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -11,7 +11,7 @@ from importlib import import_module, metadata
 from hess_explorer.commands import COMMANDS, HEADINGS, CommandError
 from hess_explorer.commands.command import Command, Options
 
-__all__ = ["main", "parsed"]
+__all__ = ["main", "parse"]
 
 
 def _with_command(words: list[str]) -> list[str]:
@@ -32,19 +32,19 @@ def _with_negative_values(words: list[str]) -> list[str]:
     return joined
 
 
-def parsed(words: Sequence[str]) -> Options:
-    """Return the options of a command line, with the function `run` that carries it out.
+def parse(words: Sequence[str]) -> Options:
+    """Parse a command line; the result contains the function `run` of the command.
 
-    Only the module of its command is imported.  Raises `CommandError`.
+    Only the module of the command is imported.  Raises `CommandError` for invalid arguments.
     """
     name, *rest = _with_negative_values(_with_command(list(words)))
     if name in COMMANDS:
         command: Command = import_module(f"hess_explorer.commands.{name}").COMMAND
-        return command.parsed(f"hess-explorer {name}", rest)
+        return command.parse(f"hess-explorer {name}", rest)
     from hess_explorer.commands import compute
 
     if not name.startswith("-"):
-        return compute.parsed(name, rest)
+        return compute.parse(name, rest)
     parser = Command(
         "An interactive explorer of the Suslov problem, its Hess case and their relatives.  Without a command: serve.  "
         "COMMAND --help shows the options of a command.",
@@ -53,7 +53,7 @@ def parsed(words: Sequence[str]) -> Options:
     for heading in HEADINGS:
         by_hand = {name: purpose for name, (of, purpose) in COMMANDS.items() if of == heading}
         parser.list_words(heading, {**by_hand, **compute.titles(heading)})
-    return parser.parsed("hess-explorer [COMMAND]", [name])
+    return parser.parse("hess-explorer [COMMAND]", [name])
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -75,7 +75,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     if isinstance(sys.stdout, io.TextIOWrapper):
         sys.stdout.reconfigure(errors="backslashreplace")
     try:
-        options = parsed(words)
+        options = parse(words)
         options.run(options)
     except CommandError as error:
         print(f"hess-explorer: {error}", file=sys.stderr)
@@ -88,7 +88,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         print(f"hess-explorer: {error}", file=sys.stderr)
         return 2
     except OSError as error:
-        # Commands say what they read or write; here a name that is too long, or a disk that fails.
+        # Commands report expected errors of files; this one is unexpected, such as a failing disk.
         named = "" if error.filename is None else f"{error.filename!r} cannot be used: "
         print(f"hess-explorer: {named}{error.strerror or error}.", file=sys.stderr)
         return 2

@@ -10,16 +10,16 @@ from hess_explorer.assets import STATIC
 
 __all__ = ["bundle"]
 
-# All forms that the modules use: with any other one the bundle is a syntax error, and no page starts.
+# The only forms that the modules use; any other one makes the bundle a syntax error.
 _IMPORT = re.compile(r'^import \{([^}]*)\} from "(\.{1,2}/[\w./]+\.js)"$', re.MULTILINE)
 _EXPORT = re.compile(r"^export ((?:async )?(?:function|const|class)) (\w+)", re.MULTILINE)
 
 
 @cache
 def bundle(entry: str) -> str:
-    """Return a module that contains the module `entry` and all that it imports.
+    """Bundle a module with all modules that it imports.
 
-    Each becomes a function that is called once, after those of the modules that it imports, and returns its exports.
+    Each module becomes a function that is called once, after those of its imports, and returns its exports.
 
     Parameters
     ----------

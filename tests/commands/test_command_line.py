@@ -46,7 +46,7 @@ def test_version_and_patience(monkeypatch, capsys):
         main(["--version"])
     assert (end.value.code, capsys.readouterr().out.split()[0]) == (0, "hess-explorer")
     monkeypatch.setattr(output, "LONG", 0.01)
-    with output.computing():
+    with output.long_computation():
         time.sleep(0.2)
     assert capsys.readouterr().err == f"{output.PATIENCE}\n"
 
@@ -141,7 +141,7 @@ def test_a_server_answers_at_the_address_it_prints_and_ends_silently(free_port):
 def test_shot(tmp_path, browser, server, monkeypatch, capsys):
     # A server and a browser are running: starting others is what these two did.
     monkeypatch.setattr(screenshot, "server_process", lambda log: nullcontext((None, server)))
-    monkeypatch.setattr(screenshot, "launched", lambda: nullcontext(browser))
+    monkeypatch.setattr(screenshot, "headless_browser", lambda: nullcontext(browser))
     before, file = set(browser.contexts), tmp_path / "page.png"
     assert main(["shot", "--state", "h=1.2&f=0.3&theme=dark", "--size", "900", "700", str(file)]) == 0
     for context in set(browser.contexts) - before:

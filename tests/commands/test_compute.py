@@ -114,7 +114,7 @@ def test_a_system_of_ones_own(answer, refusal, tmp_path):
     [
         "import hess_mechanics; assert not unused('numba', 'hess_mechanics.catalogue'); "
         "assert not hasattr(hess_mechanics, 'nothing'); from hess_mechanics import *; circle_map; proved_orbit",
-        "parsed(['serve']); assert not unused('numpy', 'hess_mechanics')",
+        "parse(['serve']); assert not unused('numpy', 'hess_mechanics')",
         f"main({CIRCLE_MAP}); assert not unused('panel', 'bokeh', 'holoviews', 'playwright')",
         "import hess_explorer.server.serving; "
         "assert not unused('holoviews', 'matplotlib', 'panel_material_ui', 'hess_explorer.sweep')",
@@ -123,7 +123,7 @@ def test_a_system_of_ones_own(answer, refusal, tmp_path):
 )
 def test_nothing_is_imported_that_is_not_used(script):
     first = (
-        "import sys; from hess_explorer.__main__ import main, parsed; unused = lambda *names: {*names} & {*sys.modules}"
+        "import sys; from hess_explorer.__main__ import main, parse; unused = lambda *names: {*names} & {*sys.modules}"
     )
     code = [sys.executable, "-c", f"{first}\n{script}"]
     done = subprocess.run(code, cwd=ROOT, capture_output=True, timeout=120, check=False)
@@ -139,7 +139,7 @@ def test_nothing_is_imported_that_is_not_used(script):
         (["orbti"], "There is no command 'orbti': did you mean orbit?"),
         (["xyzzy"], "There is no command 'xyzzy': choose from serve, shot, "),
         (["orbit", "sulsov"], "There is no system 'sulsov': did you mean suslov"),
-        (["orbit"], "Name a system after orbit: ball, "),
+        (["orbit"], "Add a system after orbit: ball, "),
         (replaced(CIRCLE_MAP, "--h", "nan"), "h is not a finite number"),
         (replaced(CIRCLE_MAP, "--h", "x"), "--h: invalid float value: 'x'"),
         (replaced(CIRCLE_MAP, "--f", "9"), "choose |f| ≤ 1.81"),

@@ -51,7 +51,7 @@ def test_a_function_of_a_file_is_swept_and_written_as_a_table(answer, refusal, t
     assert "defines no function 'neither'" in refusal("sweep", f"{file}:neither", "--over", "x=1,3")
     assert "no parameter 'store' that --set can give" in refusal(*replaced(words, "--set", "store=1"))
     file.write_text("1 / 0")
-    assert "stops with ZeroDivisionError" in refusal(*words)
+    assert "failed with ZeroDivisionError" in refusal(*words)
 
 
 FAILING = "def wanting(x, y=1.0):\n    return {1.0: 1.0, 2.0: 2.0}[x]\n"

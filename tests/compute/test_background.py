@@ -12,7 +12,7 @@ from hess_explorer.compute.background import Background
 from hess_explorer.compute.cache import ResultCache, Task
 from hess_explorer.page.connection import Connection
 from hess_explorer.page.session import Session
-from hess_explorer.protocol.specs import places, written
+from hess_explorer.protocol.specs import places, places_text
 from hess_explorer.scenes.framework.scene import Scene
 from hess_explorer.scenes.framework.work import Work
 from hess_mechanics.errors import InvalidParameter
@@ -24,7 +24,7 @@ from support.wire import read_frame
 
 # With the exponent in sight, which is folded at first.
 EP = SCENES["euler-poisson"]
-EP = replace(EP, views=tuple(replace(view, folded="") if view.name == "exponent" else view for view in EP.views))
+EP = replace(EP, views=tuple(replace(view, button="") if view.name == "exponent" else view for view in EP.views))
 STARTS = next(spec for spec in EP.specs if spec.name == "starts")
 SMALL = {**EP.defaults(), "orbits": 12.0, "count": 20.0, "long": 5.0, "span": 1.0, "indicator": "nothing"}
 """1 piece for the start, 3 for the orbits, 12 for the line, 1 for the exponent; 4 that are computed twice."""
@@ -69,7 +69,7 @@ def gate(monkeypatch):
     for work in begun:
         work.stop()
     closed.let(10_000)
-    wait_until(lambda: all(work.left == 0 for work in begun))
+    wait_until(lambda: all(work.backlog == 0 for work in begun))
 
 
 @pytest.fixture
@@ -111,12 +111,12 @@ def test_pieces_are_begun_in_their_order_on_all_threads_and_added_ones_follow(ga
     time.sleep(0.02)
     assert numbers(gate) == [*range(THREADS)]
     work.add(tasks(1, first=5))
-    assert work.left == 6
+    assert work.backlog == 6
     gate.let()
     wait_until(lambda: len(gate.calls) == THREADS + 1)
     assert numbers(gate) == [*range(THREADS + 1)]
     gate.let(5)
-    wait_until(lambda: work.left == 0)
+    wait_until(lambda: work.backlog == 0)
     # Also when nothing is under way any more.
     work.add(tasks(1, first=9))
     gate.let()
@@ -142,7 +142,7 @@ def test_a_newer_choice_ends_the_older_work(gate):
     work.follow(tasks(3, first=100))
     # No other old work is started.
     gate.let(THREADS + 3)
-    wait_until(lambda: work.left == 0)
+    wait_until(lambda: work.backlog == 0)
     time.sleep(0.02)
     assert numbers(gate) == [*range(THREADS), 100, 101, 102]
 
@@ -176,7 +176,7 @@ def test_a_piece_that_has_begun_ends_when_nobody_wants_it_any_more(endless):
         assert not ended.is_set()
     work.follow(tasks(1, first=60))
     assert ended.wait(60.0)
-    wait_until(lambda: work.left == 0)
+    wait_until(lambda: work.backlog == 0)
     assert work.error == ""
 
 
@@ -186,7 +186,7 @@ def test_a_piece_that_takes_too_long_ends_with_a_sentence(endless, monkeypatch):
     work = Background()
     work.follow([piece])
     assert ended.wait(60.0)
-    wait_until(lambda: work.left == 0)
+    wait_until(lambda: work.backlog == 0)
     assert work.error.startswith("A part of this state takes more than 0.02 s to compute")
     assert "choose a shorter time span" in work.error
 
@@ -198,12 +198,12 @@ def test_what_is_refused_or_fails_ends_the_work_with_a_sentence(free_gate, caplo
         (fail, "A part of this state could not be computed. Please report the link."),
     ):
         work.follow([*tasks(2), Task(function, 7), *tasks(500, first=10)])
-        wait_until(lambda: work.left == 0)
+        wait_until(lambda: work.backlog == 0)
         assert work.error == sentence
         assert len(free_gate.calls) < 200
         # The threads live on.
         work.follow(tasks(4, first=900))
-        wait_until(lambda: work.left == 0)
+        wait_until(lambda: work.backlog == 0)
         assert work.error == ""
     assert "ZeroDivisionError" in caplog.text
 
@@ -214,8 +214,8 @@ def test_sessions_take_turns(gate):
     wait_until(lambda: len(gate.calls) == THREADS)
     short.follow(tasks(2, first=1000))
     gate.let(12)
-    wait_until(lambda: short.left == 0)
-    assert long.left > 20
+    wait_until(lambda: short.backlog == 0)
+    assert long.backlog > 20
 
 
 # ---- Places in the link -----------------------------------------------------------------------------------------
@@ -223,7 +223,7 @@ def test_sessions_take_turns(gate):
 
 def test_of_too_many_places_the_last_ones_are_kept():
     pairs = [(0.01 * n, 0.0) for n in range(20)]
-    assert places(STARTS.read(written(pairs))[0]) == pairs[-12:]
+    assert places(STARTS.read(places_text(pairs))[0]) == pairs[-12:]
 
 
 def test_a_window_is_two_corners_in_their_order():
@@ -242,7 +242,7 @@ def drawn_points(browser):
 
 def completed(browser, requested=1):
     """Return the state after all missing results have been computed."""
-    wait_until(lambda: browser.session.background.left == 0, seconds=60.0)
+    wait_until(lambda: browser.session.background.backlog == 0, seconds=60.0)
     browser.ask(requested)
     return browser.ask(requested)
 
@@ -255,7 +255,7 @@ def test_what_is_found_may_ask_for_more(free_gate):
     wait_until(lambda: completed(browser, 2)["progress"] is None)
     assert "being computed" not in browser.texts["section"]
     assert "mean div = " in browser.texts["section"]
-    assert browser.session.background.left == 0
+    assert browser.session.background.backlog == 0
 
 
 def test_a_section_fills_while_one_asks_for_more(gate):
@@ -266,7 +266,7 @@ def test_a_section_fills_while_one_asks_for_more(gate):
     seen = []
     for done in range(1, 6):
         gate.let()
-        wait_until(lambda done=done: browser.session.background.left == PIECES - done)
+        wait_until(lambda done=done: browser.session.background.backlog == PIECES - done)
         state = browser.ask(1)
         assert state["progress"] == [done, PIECES]
         assert state["answers"] == 1
@@ -290,7 +290,7 @@ def test_stop_leaves_what_is_drawn_says_how_much_and_begins_nothing_again(gate):
     browser = Browser(EP, SMALL)
     wait_until(lambda: len(gate.calls) == THREADS)
     gate.let(3)
-    wait_until(lambda: browser.session.background.left == PIECES - 3)
+    wait_until(lambda: browser.session.background.backlog == PIECES - 3)
     browser.ask(1, hidden=["sphere", "split", "chart"])
     browser.ask(1, stop=True)
     gate.let(1000)
@@ -299,12 +299,12 @@ def test_stop_leaves_what_is_drawn_says_how_much_and_begins_nothing_again(gate):
     begun = len(gate.calls)
     # Nor does a picture that comes into sight.
     assert browser.ask(2, hidden=["split", "chart"])["progress"] is None
-    assert browser.session.background.left == 0
+    assert browser.session.background.backlog == 0
     assert len(gate.calls) == begun
     # Stop cancels the work of the new value, which is on its way.
     browser.ask(3, values={"h": 45.0})
     browser.ask(4, values={"h": 46.0}, stop=True)
-    wait_until(lambda: browser.session.background.left == 0)
+    wait_until(lambda: browser.session.background.backlog == 0)
     assert 46.0 not in {arguments[1] for _, arguments in gate.calls if len(arguments) > 3}
     assert browser.texts["notes"].startswith("Stopped: ")
     # Another state is computed as ever, and the note goes.
@@ -341,13 +341,13 @@ def test_the_last_piece_may_come_while_its_picture_is_drawn(gate):
     browser = Browser(EP, {**SMALL, "orbits": 0.0})
     total = browser.state["progress"][1]
     gate.let(total - 1)
-    wait_until(lambda: browser.session.background.left == 1)
+    wait_until(lambda: browser.session.background.backlog == 1)
     show, drawn = browser.session.stage.show, []
 
     def slowly(result, hold_axes):
         drawn.append(result)
         gate.let(1000)
-        wait_until(lambda: browser.session.background.left == 0)
+        wait_until(lambda: browser.session.background.backlog == 0)
         return show(result, hold_axes)
 
     browser.session.stage.show = slowly

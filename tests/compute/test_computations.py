@@ -251,7 +251,7 @@ def test_what_was_hidden_is_of_the_present_state_when_it_is_seen_again(scene, va
         hidden = board.show(compute(scene, values, seen))
         assert hidden.status
         # Results derived from unused results are not computed either.
-        assert set(hidden.derived) <= set(report.derived)
+        assert set(hidden.quantities) <= set(report.quantities)
         # A picture alone in sight is drawn as among the others.
         if len(seen) == 1:
             (name,) = seen

@@ -10,7 +10,7 @@ import numba
 import pytest
 
 from hess_explorer.compute import pool
-from hess_explorer.compute.budget import Abandoned, OverBudget, check, limited
+from hess_explorer.compute.budget import ClientGone, OverBudget, check, time_budget
 from hess_explorer.compute.cache import ResultCache
 from hess_explorer.compute.pool import MOST, Pool, RequestQueue
 from hess_mechanics.dynamics.trade import measure
@@ -152,14 +152,14 @@ def test_what_nobody_waits_for_is_not_begun_and_what_runs_ends_at_its_next_compu
 def test_what_costs_more_than_its_budget_is_refused_with_a_sentence():
     nobody = threading.Event()
     check()
-    with limited(nobody, seconds=0.02), pytest.raises(OverBudget, match=r"more than 0\.02 s to compute"):
+    with time_budget(nobody, seconds=0.02), pytest.raises(OverBudget, match=r"more than 0\.02 s to compute"):
         busy(0.05)
         check()
-    with limited(nobody, wait=0.0), pytest.raises(OverBudget, match="too busy"):
+    with time_budget(nobody, wait=0.0), pytest.raises(OverBudget, match="too busy"):
         time.sleep(0.001)
         check()
     nobody.set()
-    with limited(nobody), pytest.raises(Abandoned):
+    with time_budget(nobody), pytest.raises(ClientGone):
         check()
     check()
 
@@ -177,7 +177,7 @@ def test_what_other_threads_work_for_an_answer_counts_and_ends_between_two_parts
         busy(0.02)
         done.append(i)
 
-    with limited(threading.Event(), seconds=0.05), pytest.raises(OverBudget):
+    with time_budget(threading.Event(), seconds=0.05), pytest.raises(OverBudget):
         share(part, 40, threads=2)
     # Those of two threads that had begun, and no others.
     assert 2 <= len(done) <= 6
@@ -192,14 +192,14 @@ def test_a_long_computation_ends_between_its_parts_when_nobody_waits():
         left.set()
         return 0.0
 
-    with limited(left), pytest.raises(Abandoned):
+    with time_budget(left), pytest.raises(ClientGone):
         list(measure(Kind.ORBIT, one, lambda found, truth: 0.0))
     assert len(run) == 1
 
 
 def test_what_is_compiled_meanwhile_is_no_part_of_the_budget():
     compiled = numba.njit(lambda x: x + 1.0)
-    with limited(threading.Event(), seconds=0.02):
+    with time_budget(threading.Event(), seconds=0.02):
         begun = time.thread_time()
         assert compiled(1.0) == 2.0
         assert time.thread_time() - begun > 0.02
@@ -218,7 +218,7 @@ def test_the_end_of_one_budget_is_not_that_of_others_who_wait_for_the_same():
         return n
 
     def first():
-        with limited(gone), pytest.raises(Abandoned):
+        with time_budget(gone), pytest.raises(ClientGone):
             cache.get(dear, 5)
 
     with ThreadPoolExecutor(2) as threads:

@@ -6,7 +6,7 @@ import pytest
 from playwright.sync_api import Error
 
 from hess_explorer.headless import browser
-from hess_explorer.headless.browser import VARIABLE, BrowserError, find_browser, launched
+from hess_explorer.headless.browser import VARIABLE, BrowserError, find_browser, headless_browser
 
 
 @pytest.fixture
@@ -53,7 +53,10 @@ class NoChromium:
 
 def test_no_browser_is_loud(machine, monkeypatch):
     monkeypatch.setattr("playwright.sync_api.sync_playwright", NoChromium)
-    with pytest.raises(BrowserError, match="No Chromium was found: run `playwright install chromium`"), launched():
+    with (
+        pytest.raises(BrowserError, match="No Chromium was found: run `playwright install chromium`"),
+        headless_browser(),
+    ):
         pass
 
 
@@ -66,7 +69,7 @@ def test_missing_playwright_says_how_to_install_it(monkeypatch):
         return real(name, *rest)
 
     monkeypatch.setattr(builtins, "__import__", without_playwright)
-    with pytest.raises(BrowserError, match="pip install playwright"), launched():
+    with pytest.raises(BrowserError, match="pip install playwright"), headless_browser():
         pass
 
 
@@ -97,12 +100,12 @@ def test_the_sandbox_is_left_out_only_as_root_or_where_there_is_none(machine, mo
     playwright = Playwright("No usable sandbox!")
     monkeypatch.setattr("playwright.sync_api.sync_playwright", playwright)
     monkeypatch.setattr(browser, "is_root", lambda: root)
-    with launched():
+    with headless_browser():
         assert playwright.sandboxed == tried
 
 
 def test_a_browser_that_does_not_start_is_loud(machine, monkeypatch):
     machine.add("chromium")
     monkeypatch.setattr("playwright.sync_api.sync_playwright", Playwright("Crashed\nlong log"))
-    with pytest.raises(BrowserError, match=rf"/bin/chromium did not start \(Crashed\).*{VARIABLE}"), launched():
+    with pytest.raises(BrowserError, match=rf"/bin/chromium did not start \(Crashed\).*{VARIABLE}"), headless_browser():
         pass

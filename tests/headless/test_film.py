@@ -11,7 +11,7 @@ from PIL import Image
 from pytest import approx
 from scipy import ndimage
 
-from hess_explorer.export.formats import FileRequest, Loop, holding
+from hess_explorer.export.formats import FileRequest, Loop, formats_of
 from hess_explorer.export.motion import film_times, loop_lines, loop_times, period
 from hess_explorer.export.picture_data import picture_data
 from hess_explorer.headless.film import as_film, frames
@@ -51,7 +51,7 @@ def point_in(picture):
     return np.median(columns), np.median(rows)
 
 
-@pytest.mark.parametrize("kind", holding("film"))
+@pytest.mark.parametrize("kind", formats_of("film"))
 def test_the_moving_point_is_where_the_orbit_is_and_a_film_is_the_same_every_time(found, kind, tmp_path):
     told = []
     path, request = tmp_path / f"film.{kind}", FileRequest(kind, 60.0, seconds=1.0)

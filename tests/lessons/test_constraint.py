@@ -52,7 +52,7 @@ def test_a_cloud_gathers_at_one_half_of_the_line_in_each_direction_of_time(title
 
 def test_the_patch_grows_then_shrinks_to_about_a_thousandth():
     found, values = cloud("How fast volume is lost")
-    [left] = [float(text.split("= ")[1]) for text in found.derived() if text.startswith("V(t)/V(0)")]
+    [left] = [float(text.split("= ")[1]) for text in found.quantities() if text.startswith("V(t)/V(0)")]
     assert 0.0009 < left < 0.0014
     # From the middle of the patch: the integral of the divergence along its motion.
     body, r, times = cloud_body(values), math.sqrt(2.0 * values["h"]), np.linspace(0.0, 14.0, 281)

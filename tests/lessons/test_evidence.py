@@ -17,7 +17,7 @@ def test_a_thousand_times_smaller_error_costs_hardly_more_and_errors_do_not_expl
     errors = growth(values).errors
     assert errors["precise"].max() < 1e-2 * errors["standard"].max() < 1e-4 * errors["draft"].max()
     # Terms of a step, each as dear as the terms before it: an upper bound on the work of a step.
-    motion = scenes()["suslov-hess-accuracy"].of(values).precision.followed
+    motion = scenes()["suslov-hess-accuracy"].of(values).precision.limited_motion
     times = np.linspace(0.0, motion.span, 400)
     body = motion.system.at(motion.parameters)
     work = [

@@ -137,7 +137,7 @@ def test_it_has_a_slider_for_each_parameter_and_initial_value_and_the_presets_as
     ("given", "message"),
     [
         ({"pictures": ["x q"]}, "has no 'q': choose among x, y, px, py"),
-        ({"pictures": ["x"]}, "'x' is no picture. Write two names"),
+        ({"pictures": ["x"]}, "'x' is not a picture. Write the names of two"),
         ({"pictures": ["x y", "x y"]}, "each picture may occur once"),
         ({"pictures": ["section at x = a"]}, "not a valid expression"),
         ({"pictures": ["section y q"]}, "coordinates among y, px, py"),
@@ -168,12 +168,12 @@ def test_what_is_no_system_or_too_small_for_a_section_is_refused():
 
 
 def test_a_name_that_cannot_stand_in_a_link_is_refused():
-    with raises(InvalidParameter, match="'x-y' cannot stand in a link"):
+    with raises(InvalidParameter, match="'x-y' cannot be used in a link"):
         hess.scene(System("s", lambda y, p: (y[0],), variables=["x-y"]))
 
 
 def test_an_added_scene_comes_first_and_its_name_must_be_new():
-    with raises(InvalidParameter, match=r"mine.py is 3 and no scene: make one with hess.scene"):
+    with raises(InvalidParameter, match=r"mine.py is 3, not a scene: create one with hess.scene"):
         add(3, "mine.py")
     with raises(InvalidParameter, match="same name"):
         add(hess.scene(System("suslov", lambda y, p: (y[0],), variables="x")), "mine.py")
@@ -184,9 +184,9 @@ def test_an_added_scene_comes_first_and_its_name_must_be_new():
     ("text", "message"),
     [
         (None, "No such file"),
-        ("SCENE = 3", "is 3 and no scene"),
+        ("SCENE = 3", "is 3, not a scene"),
         ("x =", "invalid syntax"),
-        ("", "is None and no scene"),
+        ("", "is None, not a scene"),
     ],
 )
 def test_a_file_without_a_scene_is_refused(tmp_path, capsys, text, message):
@@ -202,9 +202,9 @@ def test_its_chart_is_a_number_of_the_motion_over_two_sliders():
     scene = hess.scene(HENON, ["x y", "chart"])
     assert scene.pictures == ("x-y", "chart")
     values = {**scene.defaults(), "chart": "lyapunov", "long": 20.0, "chart_window": "0.5,0;1,0.1"}
-    state = complete(scene, values, ["chart"], lambda s: s.charting.caption)[0]
-    assert [side.name for side in state.charting.axes] == ["p_lam", "y_x"]
-    cells = state.charting.cells.cells
+    state = complete(scene, values, ["chart"], lambda s: s.chart_part.caption)[0]
+    assert [side.name for side in state.chart_part.axes] == ["p_lam", "y_x"]
+    cells = state.chart_part.cells.cells
     lam, x = (0.5 + 0.5 * 10.5 / 72, 0.1 * 20.5 / 72)
     own = lyapunov_exponent(HENON.at([lam]), (x, *HENON.example[0][1:]), 20.0, "standard")
     assert cells.shape == (72, 72)

@@ -11,7 +11,7 @@ from pathlib import Path
 if __name__ == "__main__":
     sys.path[:0] = [str(Path(__file__).parents[1])]
 
-from hess_explorer.headless.browser import launched
+from hess_explorer.headless.browser import headless_browser
 from hess_explorer.lessons import shipped
 from hess_explorer.offline.pages import lesson_page, state_page
 from manual.timing import report
@@ -73,7 +73,7 @@ def pages():
 def main():
     """Measure for some minutes."""
     rows = []
-    with launched() as browser, tempfile.TemporaryDirectory() as folder:
+    with headless_browser() as browser, tempfile.TemporaryDirectory() as folder:
         for i, (name, content) in enumerate(pages()):
             path = Path(folder) / f"{i}.html"
             path.write_bytes(content)

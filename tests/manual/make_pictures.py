@@ -16,7 +16,7 @@ from PIL import Image
 from hess_explorer.assets import STATIC
 from hess_explorer.export.formats import FileRequest
 from hess_explorer.export.picture_data import picture_data
-from hess_explorer.headless.browser import launched, wait_ready
+from hess_explorer.headless.browser import headless_browser, wait_ready
 from hess_explorer.headless.film import frames
 from hess_explorer.headless.screenshot import screenshot, server_process
 from hess_explorer.scenes import scenes
@@ -102,7 +102,7 @@ def main(names):
     if not names or "motion" in names:
         motion(README / "motion.webp")
     with (
-        launched() as browser,
+        headless_browser() as browser,
         tempfile.TemporaryDirectory() as folder,
         server_process(Path(folder) / "server.log") as (_, base),
     ):

@@ -6,11 +6,13 @@ import inspect
 import pytest
 
 import hess_explorer
+import hess_explorer.sweep
 import hess_mechanics
 from hess_explorer.export import columns
 
 FLAGS = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE | doctest.IGNORE_EXCEPTION_DETAIL
-NAMES = [(package, name) for package in (hess_mechanics, hess_explorer) for name in package.__all__]
+PACKAGES = {package.__name__: package for package in (hess_mechanics, hess_explorer, hess_explorer.sweep)}
+NAMES = [(package, name) for package in PACKAGES.values() for name in package.__all__]
 FUNCTIONS = [(package.__name__, name) for package, name in NAMES if inspect.isfunction(getattr(package, name))]
 BODIES = [name for name in hess_mechanics.__all__ if name.endswith("Body")]
 
@@ -28,7 +30,7 @@ def ran(thing, name):
 
 @pytest.mark.parametrize(("package", "name"), FUNCTIONS)
 def test_every_function_has_an_example_that_is_right(package, name):
-    assert ran(getattr({"hess_mechanics": hess_mechanics, "hess_explorer": hess_explorer}[package], name), name) > 1
+    assert ran(getattr(PACKAGES[package], name), name) > 1
 
 
 @pytest.mark.parametrize("name", BODIES)

@@ -7,7 +7,7 @@ import tomllib
 
 import pytest
 
-from hess_explorer.__main__ import main, parsed
+from hess_explorer.__main__ import main, parse
 from hess_explorer.commands.output import PATIENCE
 from support.measured import write_measured
 from support.mechanics import ROOT
@@ -89,7 +89,7 @@ def test_the_commands_of_the_readme_work(words, capsys, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     if words[0] in ("shot", "serve", "site") or "--lesson" in words:
         # They take long, and have tests of their own: here, that they are understood.
-        parsed(words)
+        parse(words)
         return
     assert main(words) == 0
     out, err = capsys.readouterr()

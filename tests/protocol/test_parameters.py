@@ -19,7 +19,7 @@ from hess_explorer.protocol.specs import (
     Places,
     decode,
     encode,
-    written,
+    places_text,
 )
 from hess_explorer.scenes import scenes
 from support.thorough import examples
@@ -46,7 +46,7 @@ def texts_of(places):
     pair = st.tuples(
         *(st.floats(low, high, allow_subnormal=False) for low, high in zip(places.low, places.high, strict=True))
     )
-    return st.lists(pair, max_size=places.most).map(written)
+    return st.lists(pair, max_size=places.most).map(places_text)
 
 
 def states(specs):

@@ -81,7 +81,7 @@ def test_theta_plus_over_the_phases_goes_through_the_orbit_and_its_range_is_that
 def test_a_map_that_takes_long_is_left_out_and_the_page_says_so(values):
     view = View(BALL, values, refusing=True)
     if view.result.map is None:
-        assert view.text["curve"].endswith("Left out: too many steps.")
+        assert view.text["curve"].endswith("Omitted: too many steps.")
         (note,) = view.report.notes
         assert note.endswith("choose larger I13 or I23, or a smaller 𝒟.")
         assert " ".join(view.data["curve-message"]["text"][0].split()) == note
@@ -151,7 +151,7 @@ def test_the_numbers_in_the_caption_of_the_section_are_those_of_its_points(name)
     assert ("A curve: there is another integral. ω₁γ₁ + ω₂γ₂ is constant." in said) == symmetric
     if symmetric:
         w1, w2, g1, g2, _ = view.result.orbit.path.states[0]
-        assert view.derived("ω₁γ₁ + ω₂γ₂ = #, an integral") == approx([w1 * g1 + w2 * g2], rel=6e-4)
+        assert view.quantities("ω₁γ₁ + ω₂γ₂ = #, an integral") == approx([w1 * g1 + w2 * g2], rel=6e-4)
 
 
 @pytest.mark.parametrize("start", [0.05, 1.0, -2.0])
@@ -176,10 +176,10 @@ def test_where_the_energy_forbids_a_place_the_start_moves_to_the_edge_and_it_is_
 def test_a_section_that_takes_long_is_left_out_and_the_page_says_so(monkeypatch):
     monkeypatch.setattr("hess_explorer.scenes.ball_section._MOST_STEPS", 100)
     view = View(SECTION, {"psi": 1.2345, "count": 300.0})
-    reason = "The section is left out: 300 crossings take an orbit more than 100 steps here: choose fewer of them."
+    reason = "The section is omitted: 300 crossings take an orbit more than 100 steps here: choose fewer crossings."
     assert view.report.notes == [reason]
     for picture in ("section", "returns"):
-        assert view.text[picture].endswith("Left out: too many steps.")
+        assert view.text[picture].endswith("Omitted: too many steps.")
         assert " ".join(view.data[f"{picture}-message"]["text"][0].split()) == reason
         assert not len(view.data.get(f"{picture}-own", {}).get("x", ()))
     assert len(view.data["data-orbit"]["t"]) > 10

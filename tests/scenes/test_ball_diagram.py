@@ -29,7 +29,7 @@ def test_a_ball_that_turns_the_wrong_way_turns_round_to_a_permanent_rotation():
     state = view.result
     assert "The rotation reverses once. First at t = 80.7" in view.text["reversal"]
     assert f"{state.reversals.times[0]:.1f}" == "80.7"
-    assert state.turning[0] > 0.0 > state.turning[-1]
+    assert state.vertical_rate[0] > 0.0 > state.vertical_rate[-1]
     body, E = state.body, state.h - hypot(state.body.b1, state.body.b2)
     # Limits forward and backward in time: γ3 = 0, ω = wγ, w²(I13γ1 + I23γ2) = b3, of this energy.
     for places, sense in zip(state.regime.sets, (-1.0, 1.0), strict=True):

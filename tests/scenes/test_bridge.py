@@ -122,13 +122,13 @@ def test_figure_gess1_in_both_systems_of_units():
     view = bridge("Figure 11, given in Euler–Poisson")
     assert view.numbers("omega", "h = #, f = # in units b = 1") == [5.013, -2.003]
     assert view.numbers("andoyer", "H = #, F₁ = #.") == [50.0, 5.0]
-    assert view.derived("E = H = #") == [50.0]
-    assert view.derived("−F₂ = F₁ = #") == [5.0]
+    assert view.quantities("E = H = #") == [50.0]
+    assert view.quantities("−F₂ = F₁ = #") == [5.0]
     # I11 = I2, I22 = I11/(1 + a²), I23 = a I22, b3 = −b I22 √(1 + a²).
-    assert view.derived("I₁₁ = #, I₂₂ = #, I₂₃ = #") == [0.625, 0.5, -0.25]
-    assert view.derived("b₃ = #") == [approx(-15.96 * 0.5 * sqrt(1.25), rel=6e-4)]
+    assert view.quantities("I₁₁ = #, I₂₂ = #, I₂₃ = #") == [0.625, 0.5, -0.25]
+    assert view.quantities("b₃ = #") == [approx(-15.96 * 0.5 * sqrt(1.25), rel=6e-4)]
     assert view.numbers("circle", "|trace| = #,") == [approx(2.0 * cosh(3.09107 / 2.0), rel=6e-4)]
-    assert view.derived("Period of n₃ = #") == [approx(view.result.turning.period / sqrt(15.96), rel=6e-4)]
+    assert view.quantities("Period of n₃ = #") == [approx(view.result.turning_points.period / sqrt(15.96), rel=6e-4)]
 
 
 @pytest.mark.parametrize(

@@ -29,7 +29,7 @@ def state_of(scene=TORI, *, known=True, **values):
     """Return the state with the chart in sight, complete if `known`."""
     admitted, _ = scene.admit({**scene.defaults(), **(OWN if scene is TORI else {}), **values})
     if known:
-        return complete(scene, admitted, ["chart"], lambda state: state.charting.caption)[0]
+        return complete(scene, admitted, ["chart"], lambda state: state.chart_part.caption)[0]
     return scene.compute(admitted, ["chart"], False)
 
 
@@ -41,8 +41,8 @@ def trace(**torus):
 
 def cells_of(state):
     """Return the centres (m,) and (n,) of the cells, and their values (n, m)."""
-    (x0, y0), (x1, y1) = state.charting.window
-    values = state.charting.cells.cells
+    (x0, y0), (x1, y1) = state.chart_part.window
+    values = state.chart_part.cells.cells
     n, m = values.shape
     return centres(x0, x1, m), centres(y0, y1, n), values
 
@@ -52,7 +52,7 @@ def test_each_cell_is_the_number_at_its_centre(window):
     state = state_of(chart_window=window)
     x, y, values = cells_of(state)
     if window:
-        assert state.charting.window == ((0.5, -0.5), (1.5, 0.25))
+        assert state.chart_part.window == ((0.5, -0.5), (1.5, 0.25))
     for i, j in [(0, 0), (40, 150), (108, 108), (107, 10), (215, 215)]:
         try:
             expected = trace(a=0.3, h=x[j], f=y[i])
@@ -63,13 +63,13 @@ def test_each_cell_is_the_number_at_its_centre(window):
 
 def test_the_own_number_and_coarse_cells_come_first_and_are_the_middle_ones_of_the_finer():
     state = state_of(known=False, a=0.35)
-    assert state.charting.cells is None
+    assert state.chart_part.cells is None
     for task in state.work.todo[:9]:
         state.work.need(task)
-    coarse = state_of(known=False, a=0.35).charting.cells.cells
-    assert ", 0 rows known" in state_of(known=False, a=0.35).charting.caption.numbers
-    assert state_of(known=False, a=0.35).charting.own is not None
-    fine = state_of(a=0.35).charting.cells.cells
+    coarse = state_of(known=False, a=0.35).chart_part.cells.cells
+    assert ", 0 rows known" in state_of(known=False, a=0.35).chart_part.caption.numbers
+    assert state_of(known=False, a=0.35).chart_part.own is not None
+    fine = state_of(a=0.35).chart_part.cells.cells
     step = COARSE**3
     middle = step // 2
     assert len(fine) == 8 * step
@@ -79,36 +79,36 @@ def test_the_own_number_and_coarse_cells_come_first_and_are_the_middle_ones_of_t
 
 def test_a_click_or_drag_sets_both_parameters_and_computes_no_cell_again():
     state = state_of()
-    moved = TORI.admit({**TORI.defaults(), **OWN, **state.charting.choose(1.25, 0.5)})[0]
+    moved = TORI.admit({**TORI.defaults(), **OWN, **state.chart_part.choose(1.25, 0.5)})[0]
     assert (moved["h"], moved["f"]) == (1.25, 0.5)
     other = TORI.compute(moved, ["chart"], True)
-    assert "rows known" not in other.charting.caption.numbers
-    assert other.charting.here() == [(1.25, 0.5)]
+    assert "rows known" not in other.chart_part.caption.numbers
+    assert other.chart_part.here() == [(1.25, 0.5)]
     # Another slider shows what is known, and plans nothing while it is held.
     held = TORI.compute({**moved, "a": 0.77}, ["chart"], True)
-    assert (held.charting.cells, held.work.todo) == (None, [])
+    assert (held.chart_part.cells, held.work.todo) == (None, [])
 
 
-@pytest.mark.parametrize("key", [key for key, scene in SCENES.items() if scene.charted is not None])
+@pytest.mark.parametrize("key", [key for key, scene in SCENES.items() if scene.chart_set is not None])
 def test_the_menu_offers_every_number_of_the_computations(key):
-    charts = SCENES[key].charted
-    offered = {name for one in charts.charted for name in find(one.key).numbers}
+    charts = SCENES[key].chart_set
+    offered = {name for one in charts.sources for name in find(one.key).numbers}
     assert {*charts.numbers} == offered
     assert {*next(spec for spec in SCENES[key].specs if spec.name == "chart").options} == offered
 
 
 def test_the_start_of_a_motion_in_a_section_is_a_place_of_the_chart():
     state = state_of(SUSLOV, known=False)
-    assert [side.symbol for side in state.charting.axes] == ["ψ", "δ"]
-    assert state.charting.here() == [(1.0, 1.0)]
-    assert state.charting.choose(0.5, 1.5) == {"starts": "0.5,1.5"}
+    assert [side.symbol for side in state.chart_part.axes] == ["ψ", "δ"]
+    assert state.chart_part.here() == [(1.0, 1.0)]
+    assert state.chart_part.choose(0.5, 1.5) == {"starts": "0.5,1.5"}
     with pytest.raises(ModelError, match="No motion crosses the section"):
-        state.charting.choose(-2.5, 1.0)
+        state.chart_part.choose(-2.5, 1.0)
 
 
 def test_a_box_zooms_in_and_other_sides_show_the_whole_range_again():
     state = state_of(known=False)
-    assert state.charting.look_closer((1.0, 0.5, 0.0, -0.5)) == {"chart_window": "0,-0.5;1,0.5"}
+    assert state.chart_part.look_closer((1.0, 0.5, 0.0, -0.5)) == {"chart_window": "0,-0.5;1,0.5"}
     requested = RequestedState(TORI, {**TORI.defaults(), "chart_window": "0,-0.5;1,0.5"}, [])
     requested.change({"chart_x": "a"})
     assert requested.values["chart_window"] == ""
@@ -117,11 +117,11 @@ def test_a_box_zooms_in_and_other_sides_show_the_whole_range_again():
 def test_the_caption_says_the_own_number_and_why_cells_have_none():
     state = state_of(h=1.5, f=0.6)
     own = trace(a=0.3, h=1.5, f=0.6)
-    caption = state.charting.caption
+    caption = state.chart_part.caption
     assert caption.verdict == f"|t| = {own:.4g}."
     assert "216 × 216 cells; colours from" in caption.numbers
-    assert state.charting.about(-0.9, 2.9) == "h = −0.9, f = 2.9: No number: no such motion."
-    assert state.charting.about(1.5, 0.6).startswith("h = 1.5, f = 0.6: |t| = 2.")
+    assert state.chart_part.about(-0.9, 2.9) == "h = −0.9, f = 2.9: No number: no such motion."
+    assert state.chart_part.about(1.5, 0.6).startswith("h = 1.5, f = 0.6: |t| = 2.")
 
 
 def test_an_error_belongs_to_its_number():
@@ -130,14 +130,14 @@ def test_an_error_belongs_to_its_number():
     own = next(task for task in state.work.todo if task.arguments[2] == 1)
     state.work.need(own)
     state = state_of(SUSLOV, known=False, **values)
-    found = find("lyapunov suslov").compute(SUSLOV.charted.numbers["lyapunov"][0].arguments(state), STANDARD)
-    assert state.charting.own[:2, 0] == approx([found.value, found.spread], rel=1e-9)
-    assert " ± " in state.charting.caption.verdict
+    found = find("lyapunov suslov").compute(SUSLOV.chart_set.numbers["lyapunov"][0].arguments(state), STANDARD)
+    assert state.chart_part.own[:2, 0] == approx([found.value, found.spread], rel=1e-9)
+    assert " ± " in state.chart_part.caption.verdict
 
 
 def test_a_periodic_number_and_categories_have_their_own_colours():
     turns = state_of(chart="rotation-number")
-    assert turns.charting.cells.ends == (-0.5, 0.5)
+    assert turns.chart_part.cells.ends == (-0.5, 0.5)
     assert np.nanmax(np.abs(turns.drawn["chart-turns"]["image"][0])) <= 0.5
     assert not turns.drawn["chart-numbers"]
     kinds = state_of(chart="locked", h=1.5, f=0.6)
@@ -145,17 +145,17 @@ def test_a_periodic_number_and_categories_have_their_own_colours():
     assert name.startswith("chart-kinds")
     values = kinds.drawn[name]["image"][0]
     assert {*values[np.isfinite(values)]} == {0.0, 1.0}
-    assert kinds.charting.caption.verdict == "locked = two limit cycles."
+    assert kinds.chart_part.caption.verdict == "locked = two limit cycles."
 
 
 def test_a_folded_chart_computes_nothing():
     state = TORI.compute(TORI.defaults(), TORI.open_pictures, False)
-    assert "charting" not in vars(state)
+    assert "chart_part" not in vars(state)
 
 
-@pytest.mark.parametrize("scene", [one for one in SCENES.values() if one.charted], ids=lambda one: one.name)
+@pytest.mark.parametrize("scene", [one for one in SCENES.values() if one.chart_set], ids=lambda one: one.name)
 def test_every_number_of_a_scene_exists(scene):
-    for option, (charted, number) in scene.charted.numbers.items():
+    for option, (charted, number) in scene.chart_set.numbers.items():
         find(charted.key).number(number)
         state = scene.of({**scene.defaults(), "chart": option})
         assert charted.values(state)
@@ -185,11 +185,11 @@ def test_a_stored_sweep_is_shown_in_the_chart_of_a_scene():
         values, _ = decode(_shown(stored()), TORI.specs)
         state = TORI.compute(values, ["chart"], False)
         assert (values["accuracy"], values["a"]) == ("precise", 0.3)
-        assert state.charting.window == ((-0.25, -0.75), (2.25, 0.75))
+        assert state.chart_part.window == ((-0.25, -0.75), (2.25, 0.75))
         assert np.array_equal(state.drawn["chart-numbers"]["image"][0], stored().trace.values.T)
-        assert state.charting.about(2.0, 0.5).endswith("|t| = 7.")
+        assert state.chart_part.about(2.0, 0.5).endswith("|t| = 7.")
         # Another state has no such sweep.
-        assert TORI.of({**values, "a": 0.31}).charting.key not in STORED
+        assert TORI.of({**values, "a": 0.31}).chart_part.key not in STORED
     finally:
         STORED.clear()
     for found, said in (

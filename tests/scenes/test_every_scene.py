@@ -18,7 +18,7 @@ from hess_explorer.assets import STATIC
 from hess_explorer.compute.background import Background
 from hess_explorer.compute.cache import CACHE
 from hess_explorer.page import session
-from hess_explorer.protocol.specs import ChoiceSpec, Formula, NumberSpec, Places, written
+from hess_explorer.protocol.specs import ChoiceSpec, Formula, NumberSpec, Places, places_text
 from hess_explorer.scenes.parts.orbits import precision
 from hess_explorer.views import theme
 from hess_explorer.views.layers import Axes
@@ -224,8 +224,8 @@ def test_a_preset_is_possible_as_it_stands_and_is_drawn(scene, preset):
     assert set(preset.values) <= set(scene.defaults())
     assert scene.admit(values) == (values, [])
     board, report = shown(scene, values)
-    assert report.derived
-    assert all(re.search(r"\w", text) for text in (report.status, *report.derived, *report.notes))
+    assert report.quantities
+    assert all(re.search(r"\w", text) for text in (report.status, *report.quantities, *report.notes))
     for name, caption in board.captions.items():
         title, sentence = caption.split("\n")
         assert re.search(r"\w", title), name
@@ -306,7 +306,7 @@ def test_a_state_looks_the_same_whatever_was_shown_before(scene, preset):
     assert len(known) > at_once(scene)
     if scene.origin is None:
         assert board.captions == first.captions
-    assert again.derived == report.derived
+    assert again.quantities == report.quantities
     assert len(first.fresh) > 3 * at_once(scene)
 
 
@@ -361,7 +361,7 @@ def somewhere(spec):
     if isinstance(spec, Places):
         # No windows: of what is computed for one, some lies outside.
         place = st.tuples(*(st.floats(low, high) for low, high in zip(spec.low, spec.high, strict=True)))
-        return st.lists(place, max_size=3 if spec.most > 2 else 0).map(written)
+        return st.lists(place, max_size=3 if spec.most > 2 else 0).map(places_text)
     if isinstance(spec, Formula):
         return st.sampled_from(["", "g3 - 0.5*g1", "g1^4 + g2^4 - g3^2"])
     if not isinstance(spec, NumberSpec):
@@ -424,7 +424,7 @@ def assert_drawn(scene, values, seen, dragging):
     assert board.fresh or not seen or dragging or report.todo
     said = dict(board.texts)
     assert re.fullmatch(r"[\d,]*", said.pop("signs", ""))
-    for words in (*said.values(), report.status, report.summary, *report.derived, *report.notes):
+    for words in (*said.values(), report.status, report.summary, *report.quantities, *report.notes):
         assert re.search(r"\w", words)
         assert not re.search(r"\bnan\b|\binf\b", words, re.IGNORECASE), words
     assert set(seen) <= set(board.texts) <= {*scene.pictures, "signs"}
@@ -434,7 +434,7 @@ def assert_drawn(scene, values, seen, dragging):
         assert np.all(np.diff(orbit["t"]) >= 0.0)
         # A periodic orbit is followed once round, however long that takes.
         shown = state.shown if scene.origin else state
-        closed = admitted.get("periodic", "none") != "none" and shown.periodic_orbit.closed
+        closed = admitted.get("periodic", "none") != "none" and shown.periodic_orbit.closed_orbit
         assert 0.0 < orbit["t"][-1] <= (closed.time if closed else admitted.get("span", inf)) * (1.0 + 1e-6)
 
 
@@ -489,7 +489,7 @@ REFUSED = [
     ("free-suslov", {"k": -3.0}, "k = −3 would make I₁₁ = −1.25; a moment of inertia is positive. Choose a larger k"),
     ("free-suslov", {"I23": 1e-5}, r"γ turns too often.*\(about \d00000 radians.*choose larger I13, I23"),
     ("free-suslov", {"I23": 1e-320}, r"γ turns too often.*\(more than 1e308 radians"),
-    ("free-suslov", {"w1": 1e-200, "w2": 1e-205}, "so small an ω.*choose a larger one"),
+    ("free-suslov", {"w1": 1e-200, "w2": 1e-205}, "so small that the energy is 0.*choose a larger ω"),
     ("scattering", {"digits": 0.5, "k": -1.2, "I22": 0.5, "I23": 0.4}, "distance 0.316.*up to 0.28"),
     (
         "suslov",
@@ -531,10 +531,10 @@ def test_at_the_separatrix_and_far_from_it_the_slow_methods_run_without_a_warnin
 def test_a_body_that_is_none_is_shown_and_said():
     _, report = shown(HESS, {**HESS.defaults(), **values_of(HESS, "Strong contraction")})
     assert any("Not a rigid body" in note for note in report.notes)
-    assert any(re.search(r"rigid body\? no", row) for row in report.derived)
+    assert any(re.search(r"rigid body\? no", row) for row in report.quantities)
     _, report = shown(HESS, HESS.defaults())
     assert not any("Not a rigid body" in note for note in report.notes)
-    assert any(re.search(r"rigid body\? yes", row) for row in report.derived)
+    assert any(re.search(r"rigid body\? yes", row) for row in report.quantities)
 
 
 # --- Sessions: what the browser may send -------------------------------------------------------------
@@ -611,7 +611,7 @@ def quick(monkeypatch):
 
 def unfolded(scene, sources):
     """Return the contents of the sources, except those of pictures that start collapsed."""
-    return {name: columns for name, columns in contents(sources).items() if name.split("-")[0] not in scene.folded}
+    return {name: columns for name, columns in contents(sources).items() if name.split("-")[0] not in scene.buttons}
 
 
 @pytest.mark.usefixtures("quick")
@@ -789,7 +789,7 @@ def test_what_is_computed_behind_an_answer_begins_when_that_is_made(monkeypatch)
     "where, opening",
     [
         *((where, True) for where in ("limits", "compute", "idle")),
-        *((where, False) for where in ("admit", "carried", "limits", "compute")),
+        *((where, False) for where in ("admit", "adjustments", "limits", "compute")),
     ],
 )
 def test_whatever_is_raised_the_page_gets_a_state(where, opening, caplog):

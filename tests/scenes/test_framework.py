@@ -57,7 +57,7 @@ class Shown(Mixed):
         """Override the member."""
         return "mine"
 
-    def derived(self) -> list[str]:
+    def quantities(self) -> list[str]:
         """Override the member."""
         return ["mine"]
 
@@ -78,7 +78,7 @@ def test_no_name_of_a_scene_hides_one_of_the_scene_that_looks_into_it():
     state = looking.of(values, seen=["a"], dragging=True)
     assert [*state.status()] == ["precise chosen"]
     assert state.precision.motion.span == 1.5
-    assert (state.shown.chosen, state.shown.derived()) == ("mine", ["mine"])
+    assert (state.shown.chosen, state.shown.quantities()) == ("mine", ["mine"])
     assert state.work is state.shown.work
     assert (state.dragging, state.seen) == (True, frozenset({"a"}))
     assert looking.admit({**values, "first": 20.0}) == shown.admit({**values, "first": 20.0})
@@ -105,7 +105,7 @@ def test_the_ring_of_the_suslov_hess_case_fills_its_frame(I22, I23, h):
     scene = SCENES["suslov-hess"]
     state = scene.of(scene.admit({**scene.defaults(), "I22": I22, "I23": I23, "h": h, "f": 0.1})[0])
     # |w| = √2(h + n3), n3 < 1, and ω2 = w2 √(1 + a²); to a tenth below the least frame, and less than half beyond.
-    assert 0.15 < np.max(np.abs(annulus(state.body, state.h, state.turning)[1])) / state.half_width <= 1.0
+    assert 0.15 < np.max(np.abs(annulus(state.body, state.h, state.turning_points)[1])) / state.half_width <= 1.0
 
 
 @pytest.mark.parametrize("name", SCENES)

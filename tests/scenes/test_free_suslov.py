@@ -39,7 +39,7 @@ def test_captions_circles_and_points_are_those_of_the_model(preset):
     state, points = view.result, view.result.points
     assert view.numbers("omega", "Rate ω₀ = #, E = #.") == shown([points.rate, energy(view.values)])
     assert view.numbers("gamma1", "By # radians per unit of time") == shown([points.speed])
-    assert view.derived("I₁₁ = #") == shown([tensor_of(view.values)[0]])
+    assert view.quantities("I₁₁ = #") == shown([tensor_of(view.values)[0]])
     for name, point in (("stable", points.stable), ("unstable", points.unstable)):
         assert view.columns(f"omega-{name}-point", "x", "y")[0] == approx(point, rel=1e-6)
     # Both leave one circle, where they turn alike, φ′ − φ apart.
@@ -148,7 +148,7 @@ def test_a_passage_beyond_the_time_span_is_announced_where_it_comes():
 def test_captions_and_pictures_are_those_of_the_rotation(preset):
     view = View(SCATTERING, preset.values)
     values, exact, joined = view.values, cos_chi(view.result.body), view.result.map.theta_plus
-    assert view.derived("cos χ = #") == approx([exact], rel=6e-6)
+    assert view.quantities("cos χ = #") == approx([exact], rel=6e-6)
     said, difference = view.numbers("chi", "cos χ = #; the closed form differs by #.")
     assert said == approx(exact, rel=6e-4)
     assert difference < 1e-6

@@ -125,7 +125,7 @@ def test_the_density_counts_all_points_and_a_window_counts_them_in_its_own_pixel
     assert half.counts("rising").sum() > 0
     # The branch of the orbit that doubles goes through the picture, though none is chosen.
     (flip,) = (one for part in state.continuation.branches for one in part.bifurcations)
-    assert (flip.value, state.closed) == (approx(state.diagram.flips[0], abs=1e-8), None)
+    assert (flip.value, state.closed_orbit) == (approx(state.diagram.flips[0], abs=1e-8), None)
     # A held slider shows the points themselves.
     held = View(SCENE, LIGHT, True, ["diagram"])
     assert held.result.density.tones == ()
@@ -136,7 +136,7 @@ def test_the_branch_of_a_periodic_orbit_goes_on_as_a_saddle_where_the_diagram_do
     view = View(SCENE, {**LIGHT, "branch": "period 1"}, seen=SEEN)
     state = view.result
     (flip,) = (one for part in state.continuation.branches for one in part.bifurcations)
-    assert view.derived("flip of period # at I₂₂ = # ± ") == [1.0, approx(flip.value, abs=1e-7)]
+    assert view.quantities("flip of period # at I₂₂ = # ± ") == [1.0, approx(flip.value, abs=1e-7)]
     said = r"Period 1, saddle with reflection here. [\d,]+ points. 1 bifurcation on its branch."
     assert re.fullmatch(said, view.text["diagram"].split("\n")[1])
     attracts, repels = (view.curve(f"diagram-branch-{sign}") for sign in ("attracts", "repels"))

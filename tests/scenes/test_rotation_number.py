@@ -43,7 +43,7 @@ def test_the_circle_map_of_an_example_is_as_its_caption_says(name):
 def test_the_rational_number_of_an_example_is_where_its_caption_says(name):
     view = example(name)
     line, rational = view.values["line"], Fraction(view.values["rational"].replace("−", "-"))
-    if f"No torus with ρ = {view.values['rational']} is seen here." in view.text["line"]:
+    if f"No torus with ρ = {view.values['rational']} found here." in view.text["line"]:
         assert name == "Euler–Poisson, figure 11"
         return
     # The dotted line in the graph.

@@ -10,7 +10,7 @@ import pytest
 from pytest import approx
 
 from hess_explorer.scenes import scenes
-from hess_explorer.scenes.framework.hess_case import proved
+from hess_explorer.scenes.framework.hess_case import proved_statement
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.maps.circle_map import EVENLY, about
 from hess_mechanics import circle_map, f_max
@@ -30,7 +30,7 @@ def test_the_curve_over_the_bottom_is_the_invariant_density(I23, h, f):
     density = (height + pi) / (SIDE * EVENLY * SIDE)
     measure = invariant_measure(circle_map(I23, h, f, REFERENCE))
     assert density == approx(measure.density(phi), rel=1e-4)
-    assert view.derived("ζ of the invariant density = #") == approx([measure.zeta], rel=1e-3)
+    assert view.quantities("ζ of the invariant density = #") == approx([measure.zeta], rel=1e-3)
 
 
 def test_the_shade_of_the_torus_is_the_density_of_its_caption():
@@ -101,9 +101,9 @@ def test_the_caption_of_the_circle_map_says_what_is_proved_when_it_is_found(I23,
     # A body of its own with this a, of which nothing is known yet.
     values = {"I22": 2.0, "I23": 2.0 * I23, "h": h, "f": f}
     view = View(SCENE, values, seen={"circle"})
-    assert any(task.function is proved for task in view.first.todo)
+    assert any(task.function is proved_statement for task in view.first.todo)
     said = view.text["circle"]
-    (sentence,) = (line for line in view.report.derived if line.startswith("Proved"))
+    (sentence,) = (line for line in view.report.quantities if line.startswith("Proved"))
     theta = circle_map(I23, h, f, REFERENCE)
     for text, share in ((said, 2e-3), (sentence, 1e-8)):
         if theta.kind == "hyperbolic":
@@ -118,7 +118,7 @@ def test_the_caption_of_the_circle_map_says_what_is_proved_when_it_is_found(I23,
             assert high - low <= share * high
     # While a slider is held nothing is proved.
     held = View(SCENE, values, seen={"circle"}, dragging=True)
-    assert not any(task.function is proved for task in held.report.todo)
+    assert not any(task.function is proved_statement for task in held.report.todo)
     assert "Proved" not in held.text["circle"]
 
 
@@ -129,14 +129,14 @@ def test_what_is_not_proved_is_said():
         ({"I22": 1.0, "I23": 0.5, "h": 0.5, "f": f_max(0.5)}, "Not proved: No motion has exactly"),
     ):
         view = View(SCENE, values, seen={"circle"})
-        assert any(line.startswith(words) for line in view.report.derived), view.report.derived
+        assert any(line.startswith(words) for line in view.report.quantities), view.report.quantities
 
 
 def test_without_the_library_one_quiet_sentence_says_so(monkeypatch):
     monkeypatch.setitem(sys.modules, "flint", None)
     view = View(SCENE, {"h": 1.45}, seen={"circle"})
     assert view.first.todo == ()
-    assert [line for line in view.report.derived if "python-flint" in line] == [
+    assert [line for line in view.report.quantities if "python-flint" in line] == [
         "Proofs need python-flint: pip install 'hess-explorer[prove]'"
     ]
     assert "roved" not in view.text["circle"]
@@ -146,8 +146,8 @@ def test_on_the_edge_the_caption_says_that_there_is_no_torus_and_names_no_cycle(
     """h = 13/8, f = 15/8 are decimals, and exactly on the edge; doubles alone find two fixed points of a map there."""
     theta = circle_map(0.5, 1.625, 1.875, REFERENCE)
     assert theta.kind == "hyperbolic"
-    found = proved(1.0, 0.5, 1.625, 1.875)
+    found = proved_statement(1.0, 0.5, 1.625, 1.875)
     assert about(theta, found.badge) == Caption(numbers=found.badge)
     assert found.badge == "Proved: no torus, but a circle with n₃ constant: two equilibria."
     assert "exactly two equilibria" in found.sentence
-    assert "one periodic orbit" in proved(1.0, 0.1, 1.625, 1.875).badge
+    assert "one periodic orbit" in proved_statement(1.0, 0.1, 1.625, 1.875).badge

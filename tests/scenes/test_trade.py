@@ -12,7 +12,7 @@ from pytest import approx
 from hess_explorer.protocol.wire import Wire
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.stage import Stage
-from hess_explorer.scenes.framework.trial import Trial, bare, measured, needed, section_error
+from hess_explorer.scenes.framework.trial import Trial, bare, level_costs, section_error, sufficient_level
 from hess_explorer.scenes.framework.work import AUTO
 from hess_explorer.scenes.parts.orbits.costs import Costs
 from hess_mechanics.dynamics.trade import LevelCost, beyond
@@ -40,7 +40,7 @@ CHEAP = [
 @pytest.mark.parametrize("name, trial", sample(CHEAP, 6), ids=lambda one: getattr(one, "kind", one))
 def test_a_finer_level_has_a_smaller_error(name, trial):
     state = bare(SCENES[name].of(SCENES[name].defaults()))
-    errors = [one.error for one in measured(trial, state)]
+    errors = [one.error for one in level_costs(trial, state)]
     # The truth of an unstable motion is not known to more than 1e-4 pixels.
     assert errors[0] > 30.0 * errors[2] > 0.0
     # For colours `standard` has the tolerance of `draft`, and smaller cells.
@@ -107,7 +107,7 @@ def test_auto_is_the_cheapest_level_that_is_right_to_half_a_pixel():
     scene = SCENES["suslov-hess"]
     view = View(scene, {"accuracy": AUTO}, seen=("omega",))
     (orbit,) = [trial for trial in scene.trials if not trial.pictures]
-    assert needed(orbit, bare(view.result)) == "draft"
+    assert sufficient_level(orbit, bare(view.result)) == "draft"
     assert view.report.status.startswith("draft: orbit")
     assert "auto: draft · " in view.report.status
     # Half as many cells in the diagram are seen, so that is not enough for it.
@@ -130,7 +130,7 @@ def test_what_cannot_be_computed_is_measured_as_standard():
     def refuse(state, plan):
         raise InvalidParameter("No.")
 
-    assert needed(Trial(Kind.MAP, (), refuse, lambda *_: 0.0), None) == "standard"
+    assert sufficient_level(Trial(Kind.MAP, (), refuse, lambda *_: 0.0), None) == "standard"
 
 
 # ---- the cost of all --------------------------------------------------------------------------------------------
@@ -138,7 +138,7 @@ def test_what_cannot_be_computed_is_measured_as_standard():
 
 def test_the_cost_of_all_is_measured_when_its_picture_is_unfolded():
     scene = scenes()["scattering-accuracy"]
-    assert scene.folded == {"trade": "Measure all that is computed"}
+    assert scene.buttons == {"trade": "Measure all that is computed"}
     # A scene that computes only its motion has no such picture.
     assert "trade" not in scenes()["kharlamova-accuracy"].pictures
     view = View(scene, {}, seen=("trade",))
@@ -147,7 +147,7 @@ def test_the_cost_of_all_is_measured_when_its_picture_is_unfolded():
     errors, ms = view.result.costs.curves[trial]
     assert errors == approx([max(2.0 * one.error, 1e-9) for one in samples])
     assert ms == approx([one.ms for one in samples])
-    assert any(row.startswith("map: ") and row.endswith(" pixels") for row in view.report.derived)
+    assert any(row.startswith("map: ") and row.endswith(" pixels") for row in view.report.quantities)
     # A draft of the map has a quarter of the cells: it is right, but not all.
     assert samples[0].error < 0.5
     assert view.result.costs.about().numbers == "Cheapest levels without a visible error: orbit draft, map standard."

@@ -5,7 +5,7 @@ import subprocess
 import sys
 from contextlib import ExitStack, contextmanager
 
-from hess_explorer.headless.browser import VARIABLE, BrowserError, is_root, launched
+from hess_explorer.headless.browser import VARIABLE, BrowserError, headless_browser, is_root
 
 _INSTALL_SECONDS = 900
 
@@ -15,10 +15,10 @@ def launched_or_installed():
     """Return a running headless browser; one is installed if there is none.  Raises `BrowserError`."""
     with ExitStack() as stack:
         try:
-            running = stack.enter_context(launched())
+            running = stack.enter_context(headless_browser())
         except BrowserError:
             install_browser()
-            running = stack.enter_context(launched())
+            running = stack.enter_context(headless_browser())
         yield running
 
 

@@ -29,8 +29,8 @@ def moved_growth(values, of):
 def growth(values):
     """Errors and drifts of the motion of a state of "Speed and accuracy", at every level."""
     scene = next(one for one in scenes().values() if one.origin and set(values) == {spec.name for spec in one.specs})
-    motion = scene.of(values).precision.followed
-    return work_precision.growth(*motion.named, motion.weights, 400)
+    motion = scene.of(values).precision.limited_motion
+    return work_precision.growth(*motion.arguments, motion.weights, 400)
 
 
 def bought_by_a_digit(_step):

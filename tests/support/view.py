@@ -81,9 +81,9 @@ class View:
         """Return the numbers in a caption at the places of # in the pattern."""
         return numbers_in(self.text[picture], pattern)
 
-    def derived(self, pattern):
+    def quantities(self, pattern):
         """Return the numbers in the derived quantities at the places of # in the pattern."""
-        return numbers_in("\n".join(self.report.derived), pattern)
+        return numbers_in("\n".join(self.report.quantities), pattern)
 
     def curve(self, source):
         """Return xs and ys of the joined parts of a graph's series."""
@@ -108,7 +108,7 @@ class View:
                     numbers = [x for x in part if not isinstance(x, str)] if isinstance(part, list) else part
                     if not isinstance(part, str):
                         assert np.all(np.isfinite(np.asarray(numbers, float))), name
-        for text in [*self.text.values(), self.report.status, *self.report.derived]:
+        for text in [*self.text.values(), self.report.status, *self.report.quantities]:
             assert not re.search(r"nan|inf\b|None", text), text
 
 

@@ -72,7 +72,7 @@ def test_a_cell_without_a_number_has_a_status():
     words = ["BEYOND_RANGE", "NO_FIELD", "FAILED", "NO_VALUE", "BEYOND_RANGE", "OK"]
     assert [Outcome(code).name for code in found.status.values] == words
     assert found.partial.values[-1] == 0.2
-    with pytest.raises(InvalidParameter, match="a function of your own: call it"):
+    with pytest.raises(InvalidParameter, match="your own function: call it"):
         explain(found, x=1.0)
 
 
@@ -99,7 +99,7 @@ def refuses(function, over, said, **fixed):
 @pytest.mark.parametrize(
     ("function", "over", "said"),
     [
-        (math.hypot, {"x": [1.0]}, "hypot.. takes no keyword arguments.*let it take its parameters by name"),
+        (math.hypot, {"x": [1.0]}, "hypot.. takes no keyword arguments.*it must accept its parameters by name"),
         (product_of, {"x": [1.0]}, "missing 1 required positional argument: 'y'"),
         (product_of, {"z": [1.0]}, "unexpected keyword argument 'z'"),
         (lambda x: "many", {"x": [1.0]}, "'many'.*return a number or a named tuple of numbers"),

@@ -1,8 +1,8 @@
 """The commands of `hess-explorer`.
 
-A command that is written by hand is a module with a `COMMAND`: its description, options and function as data
-(`command.py`).  The others are the computations of the catalogue (`compute.py`).  Only the module of the given command
-is imported, so that `serve` does not wait for the mechanics, nor a computation for the web libraries.
+A command written by hand is a module with a `COMMAND`: its description, options and function as data (`command.py`).
+All others are computations of the catalogue (`compute.py`).  Only the module of the given command is imported, so that
+`serve` does not wait for the mechanics, nor a computation for the web libraries.
 """
 
 from __future__ import annotations
@@ -31,7 +31,10 @@ COMMANDS: Mapping[str, tuple[str, str]] = {
 class CommandError(Exception):
     """A command cannot be carried out; the message is one sentence that names the problem and a remedy.
 
-    status : exit status of the program.
+    Attributes
+    ----------
+    status : int
+        Exit status of the program.
     """
 
     def __init__(self, message: str, status: int = 2) -> None:

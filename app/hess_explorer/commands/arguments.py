@@ -11,24 +11,36 @@ from urllib.parse import parse_qsl, urlencode
 
 from . import CommandError
 
-__all__ = ["assigned", "defined", "integer", "run_file", "state"]
+__all__ = ["assignment_of", "integer", "run_file", "state", "user_object"]
 
 T = TypeVar("T")
 
 
 def run_file(path: str | Path) -> dict[str, Any]:
-    """Return the names that a Python file of the user defines.  Raises `CommandError` if it stops."""
+    """Run a Python file of the user and return its names.  Raises `CommandError` if the file raises an exception."""
     try:
         return runpy.run_path(str(path))
     # Whatever the user's code raises.
     except Exception as error:
-        raise CommandError(f"{str(path)!r} stops with {type(error).__name__}: {error}.") from error
+        raise CommandError(f"{str(path)!r} failed with {type(error).__name__}: {error}.") from error
 
 
-def defined(text: str, kind: str, fits: Callable[[Any], bool]) -> Any:
+def user_object(text: str, kind: str, fits: Callable[[Any], bool]) -> Any:
     """Return the object FILE.py:NAME of a Python file of the user.
 
-    kind : its kind in words; fits(object) : whether it is one.  Raises `CommandError`.
+    Parameters
+    ----------
+    text : str
+        File and name.
+    kind : str
+        Kind of the object, for the error message.
+    fits : callable
+        `fits(object)` returns whether the object is of this kind.
+
+    Raises
+    ------
+    CommandError
+        If the file defines no such object.
     """
     path, _, name = text.rpartition(":")
     found = run_file(path).get(name)
@@ -49,8 +61,8 @@ def integer(low: int, high: int) -> Callable[[str], int]:
     return integer
 
 
-def assigned(value: Callable[[str], T]) -> Callable[[str], tuple[str, T]]:
-    """Return the argument type of NAME=VALUE; value : type of the value."""
+def assignment_of(value: Callable[[str], T]) -> Callable[[str], tuple[str, T]]:
+    """Return the argument type of NAME=VALUE, where `value` converts the text of the value."""
 
     def assignment(text: str) -> tuple[str, T]:
         name, given = text.split("=", 1)

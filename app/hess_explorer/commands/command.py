@@ -9,7 +9,7 @@ from typing import Any, NoReturn
 
 from hess_explorer.commands import CommandError, arguments
 
-__all__ = ["OUT", "OUTPUT", "STATE", "Command", "Option", "Options", "flag", "option", "picture", "whole"]
+__all__ = ["OUT", "OUTPUT", "STATE", "Command", "Option", "Options", "flag", "integer_option", "option", "picture"]
 
 Options = argparse.Namespace
 """The parsed options of a command."""
@@ -28,10 +28,18 @@ Option = tuple[str, str, Mapping[str, Any]]
 
 
 class Command(argparse.ArgumentParser):
-    """A command, which reports an error in one sentence, without the usage text, and knows no abbreviations.
+    """A command that reports errors in one sentence, without the usage text, and accepts no abbreviations.
 
-    description, options : its help text and its options.  run : runs the command with the parsed options; raises
-    `CommandError`.  example : arguments of an example.
+    Parameters
+    ----------
+    description : str
+        Help text.
+    options : sequence of Option
+        Options and positional arguments.
+    run : callable or None
+        Runs the command with the parsed options; raises `CommandError`.
+    example : str
+        Arguments of an example.
     """
 
     def __init__(
@@ -54,8 +62,21 @@ class Command(argparse.ArgumentParser):
             except argparse.ArgumentError as error:
                 raise CommandError(f"There are two options {name}: rename one of them.") from error
 
-    def parsed(self, prog: str, words: Sequence[str] | None = None) -> Options:
-        """Return the options of a command line; prog : how the command is typed.  Raises `CommandError`."""
+    def parse(self, prog: str, words: Sequence[str] | None = None) -> Options:
+        """Parse the arguments of a command line.
+
+        Parameters
+        ----------
+        prog : str
+            Name of the program in messages.
+        words : sequence of str, optional
+            The arguments, by default those of this process.
+
+        Raises
+        ------
+        CommandError
+            If the arguments are invalid.
+        """
         self.prog, self.usage = prog, " ".join([prog, "[OPTIONS]", *self.places])
         self.epilog = f"Example: {prog} {self.example}" if self.example else ""
         return self.parse_args(words)
@@ -72,7 +93,7 @@ class Command(argparse.ArgumentParser):
 
 
 def option(name: str, help: str, group: str = "", **settings: Any) -> Option:
-    """Return an option; settings : arguments of `ArgumentParser.add_argument`."""
+    """Return an option with further arguments of `ArgumentParser.add_argument`."""
     return name, group, {"help": help, **settings}
 
 
@@ -81,7 +102,7 @@ def flag(name: str, help: str) -> Option:
     return option(name, help, action="store_true")
 
 
-def whole(name: str, low: int, high: int, help: str, default: int) -> Option:
+def integer_option(name: str, low: int, high: int, help: str, default: int) -> Option:
     """Return the option of an integer from `low` to `high`."""
     return option(name, f"{help} (default {default})", type=arguments.integer(low, high), metavar="N", default=default)
 
@@ -111,7 +132,7 @@ STATE = (
 
 
 def picture(more: str = "") -> tuple[Option, ...]:
-    """Return the options of a state, a picture and an output file; more : help text on several pictures."""
+    """Return the options of a state, a picture and an output file; `more` is help text on several pictures."""
     return (
         *STATE,
         option(

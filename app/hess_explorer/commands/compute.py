@@ -14,40 +14,50 @@ from hess_mechanics.dynamics.system import System
 from hess_mechanics.parameters import Parameter, plain
 
 from . import COMMANDS, CommandError
-from .arguments import defined
+from .arguments import user_object
 from .command import OUTPUT, Command, Option, Options, option
-from .output import computing, write
+from .output import long_computation, write
 
-__all__ = ["command_of", "parsed", "titles"]
+__all__ = ["command_of", "parse", "titles"]
 
 
 def titles(group: str) -> dict[str, str]:
-    """Return the computations under a heading: names and titles."""
+    """Return the titles of the computations under a heading, by name."""
     return {one.name: one.title for one in catalogue().values() if one.group == group}
 
 
-def parsed(name: str, rest: list[str]) -> Options:
-    """Return the options of a computation; rest : the words after its name.
+def parse(name: str, rest: list[str]) -> Options:
+    """Parse the arguments of a computation.
 
-    Raises `CommandError` if there is no such computation or system.
+    Parameters
+    ----------
+    name : str
+        Name of the computation.
+    rest : list of str
+        The arguments after its name.
+
+    Raises
+    ------
+    CommandError
+        If there is no such computation or system.
     """
     of = {one.system: one for one in catalogue().values() if one.name == name}
     if not of:
         raise _unknown("command", name, [*COMMANDS, *titles("compute"), *titles("prove")])
     prog = f"hess-explorer {name}"
     if "" in of:
-        return command_of(of[""]).parsed(prog, rest)
+        return command_of(of[""]).parse(prog, rest)
     if rest and not rest[0].startswith("-"):
         what = _own(name, rest[0]) if ":" in rest[0] else of.get(rest[0])
         if what is None:
             raise _unknown("system", rest[0], [*of])
-        return command_of(what).parsed(f"{prog} {rest[0]}", rest[1:])
+        return command_of(what).parse(f"{prog} {rest[0]}", rest[1:])
     if not {"-h", "--help"} & {*rest}:
-        raise CommandError(f"Name a system after {name}: {', '.join(of)}.")
+        raise CommandError(f"Add a system after {name}: {', '.join(of)}.")
     overview = Command(f"{next(iter(of.values())).title}.  SYSTEM --help shows the options.")
     own = {"FILE.py:NAME": "a System that a Python file of yours defines"}
     overview.list_words("systems", {system: motions()[system].title for system in of} | own)
-    return overview.parsed(f"{prog} SYSTEM", ["--help"])
+    return overview.parse(f"{prog} SYSTEM", ["--help"])
 
 
 def _unknown(kind: str, name: str, known: list[str]) -> CommandError:
@@ -58,7 +68,7 @@ def _unknown(kind: str, name: str, known: list[str]) -> CommandError:
 
 def _own(name: str, text: str) -> Computation:
     """Return the computation of the system FILE.py:NAME."""
-    system = defined(text, "System", lambda found: isinstance(found, (System, Motions)))
+    system = user_object(text, "System", lambda found: isinstance(found, (System, Motions)))
     of = [one for one in computations_of(system).values() if one.name == name]
     if not of:
         raise CommandError(f"The system {system.name} has no section, which {name} needs: choose another computation.")
@@ -66,7 +76,7 @@ def _own(name: str, text: str) -> Computation:
 
 
 def command_of(what: Computation) -> Command:
-    """Return the command of a computation."""
+    """Return the command of a computation, with an option for each parameter."""
     numbers = (f"  {name:<18} {one.title} ({one.symbol}{_unit(one.unit)})" for name, one in what.numbers.items())
     description = [
         f"{what.title}.",
@@ -99,7 +109,7 @@ def _option(of: Parameter) -> Option:
 
 
 def _run(what: Computation, options: Options) -> None:
-    with computing():
+    with long_computation():
         given = what.values({name: vars(options)[_typed(name)] for name in what.values()})
         result = what.compute(given, options.accuracy)
         notes = _notes_on_body(given)

@@ -5,11 +5,11 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-from hess_explorer.export.formats import FILM_WIDTHS, FORMATS, SECONDS, WIDTHS, FileRequest, Loop, holding
+from hess_explorer.export.formats import FILM_WIDTHS, FORMATS, SECONDS, WIDTHS, FileRequest, Loop, formats_of
 
 from . import CommandError
-from .command import Command, Options, flag, option, picture, whole
-from .output import computing, show
+from .command import Command, Options, flag, integer_option, option, picture
+from .output import long_computation, show
 
 __all__ = ["COMMAND"]
 
@@ -68,14 +68,14 @@ def _picture(options: Options) -> bytes:
 
 
 def _run(options: Options) -> None:
-    is_page = options.format in holding("state")
+    is_page = options.format in formats_of("state")
     if (options.vary or options.lesson) and not is_page:
         raise CommandError("Sliders and lessons need a page: add --format html.")
-    with computing(own_progress=options.progress):
+    with long_computation(own_progress=options.progress):
         if is_page:
             data = (_lesson if options.lesson else _page)(options)
         else:
-            data = (_program if options.format in holding("program") else _picture)(options)
+            data = (_program if options.format in formats_of("program") else _picture)(options)
     show(data, options.out)
 
 
@@ -126,7 +126,7 @@ COMMAND = Command(
         ),
         flag("--grid", "HTML: all combinations of the sliders; by default each has its own line through the state"),
         option("--lesson", "HTML: a lesson, by its name or its Markdown file", default="", metavar="LESSON"),
-        whole("--values", 2, 400, "HTML: number of values of each slider of a lesson", default=40),
+        integer_option("--values", 2, 400, "HTML: number of values of each slider of a lesson", default=40),
         option("--page", "address of the explorer, for the links in a loop or a page", default="", metavar="URL"),
         flag("--black", "draw in black on white instead of the colours of the page"),
         flag("--progress", "print the progress of a film or page to stderr, one line per frame or state"),

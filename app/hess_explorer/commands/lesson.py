@@ -35,7 +35,7 @@ def _new(files: list[Path]) -> None:
         if file.exists():
             raise CommandError(f"{str(file)!r} exists: choose another name.")
         write_file(file, EXAMPLE.encode())
-        print(f"Wrote {file}.  Look at it: hess-explorer serve --lesson {file}")
+        print(f"Wrote {file}.  Open it with: hess-explorer serve --lesson {file}")
 
 
 COMMAND = Command(

@@ -1,4 +1,4 @@
-"""`hess-explorer levels`: what each level of accuracy means."""
+"""`hess-explorer levels`: print the levels of accuracy."""
 
 from __future__ import annotations
 

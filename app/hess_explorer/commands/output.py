@@ -15,7 +15,7 @@ from typing import Any
 
 from hess_explorer.commands import CommandError
 
-__all__ = ["LONG", "PATIENCE", "computing", "show", "write", "write_file"]
+__all__ = ["LONG", "PATIENCE", "long_computation", "show", "write", "write_file"]
 
 LONG = 2.0
 """Seconds after which a command reports that it is still running."""
@@ -26,10 +26,13 @@ _LOST = "null stands for a number that is missing or exceeds the range of double
 
 
 @contextmanager
-def computing(own_progress: bool = False) -> Iterator[None]:
-    """Report on stderr a computation that takes long, and convert an overflow to `CommandError`.
+def long_computation(own_progress: bool = False) -> Iterator[None]:
+    """Print a message to stderr if the block takes long, and convert an overflow to `CommandError`.
 
-    own_progress : True if the command prints its own progress.
+    Parameters
+    ----------
+    own_progress : bool
+        True if the command prints its own progress.
     """
     import numpy as np
 
@@ -57,8 +60,23 @@ def write(
 ) -> None:
     """Write a result in the chosen format.
 
-    table : DataFrame of its columns.  facts : all other results.  data : returns a Dataset of the columns.  notes :
-    remarks in full sentences.  Raises `CommandError` if the file cannot be written.
+    Parameters
+    ----------
+    options : argparse.Namespace
+        Options `format` and `out` of the command.
+    table : pandas.DataFrame
+        The columns.
+    facts : mapping of str
+        All other results.
+    data : callable
+        Returns the columns as an xarray.Dataset.
+    notes : sequence of str
+        Remarks in full sentences.
+
+    Raises
+    ------
+    CommandError
+        If the file cannot be written.
     """
     lost: list[str] = []
     known = _strict(facts, lost)
@@ -80,18 +98,18 @@ def write(
 
 
 def _plain(value: Any) -> Any:
-    """Return numbers and arrays of NumPy, and complex numbers, as JSON has them."""
+    """Convert NumPy numbers, arrays and complex numbers to types of JSON."""
     return [value.real, value.imag] if isinstance(value, complex) else value.tolist()
 
 
 def _strict(named: Mapping[str, Any], lost: list[str]) -> dict[str, Any]:
-    """Return values that JSON has, with null for numbers that are not finite, which are appended to `lost`."""
+    """Replace numbers that are not finite by null, and append their names to `lost`."""
     known: dict[str, Any] = json.loads(json.dumps(named, default=_plain), parse_constant=lost.append)
     return known
 
 
 def _netcdf(data: Any, attributes: Mapping[str, str]) -> bytes:
-    """Return a file of NetCDF 3, which SciPy writes; its names are ASCII, `long_name` has the symbols."""
+    """Return a NetCDF 3 file, written by SciPy; its names are ASCII, `long_name` has the symbols."""
     for name, one in data.variables.items():
         one.attrs["long_name"] = name
     data.attrs = attributes
@@ -100,7 +118,7 @@ def _netcdf(data: Any, attributes: Mapping[str, str]) -> bytes:
 
 
 def _ascii(name: str) -> str:
-    """Return the name with Greek letters written out: omega1 for ω₁."""
+    """Spell out Greek letters in a name: omega1 for ω₁."""
     return "".join(
         char if char.isascii() else unicodedata.name(char).rpartition(" ")[2].lower()
         for char in unicodedata.normalize("NFKD", name).replace("−", "-").replace("/", "_")

@@ -7,8 +7,8 @@ import json
 from hess_mechanics import certificate, prove
 from hess_mechanics.suslov_hess.certificate import claim
 
-from .command import OUT, Command, Options, option, whole
-from .output import computing, show
+from .command import OUT, Command, Options, integer_option, option
+from .output import long_computation, show
 
 __all__ = ["COMMAND"]
 
@@ -16,7 +16,7 @@ _SHOWN = ("trace", "rotation_number", "period", "fixed_points", "multipliers", "
 
 
 def _run(options: Options) -> None:
-    with computing():
+    with long_computation():
         proof = prove(options.a, options.h, options.f, options.bits)
         found = certificate(proof)
     if options.format == "json":
@@ -51,7 +51,7 @@ COMMAND = Command(
                 ("f", "area integral, |f| ≤ f_max(h)"),
             )
         ),
-        whole("--bits", 64, 4096, "maximum precision; it doubles from 64 bits until the proof succeeds", 512),
+        integer_option("--bits", 64, 4096, "maximum precision; it doubles from 64 bits until the proof succeeds", 512),
         option(
             "--format",
             "text (default): the statement in words; json: the complete certificate",

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any
 
 from . import CommandError
 from .arguments import run_file
-from .command import Command, Options, option, whole
+from .command import Command, Options, integer_option, option
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -83,9 +83,9 @@ def _run(options: Options) -> None:
 
 
 def _shown(found: xr.Dataset) -> str:
-    """Put a sweep over two evenly spaced parameters into the chart of a scene, and return the link of its state.
+    """Show a sweep over two evenly spaced parameters in the chart of a scene, and return the link of the state.
 
-    Raises `InvalidParameter`.
+    Raises `InvalidParameter` if no scene has such a chart.
     """
     import numpy as np
 
@@ -109,16 +109,16 @@ def _shown(found: xr.Dataset) -> str:
     fixed = json.loads(found.attrs["parameters"])
     for scene in scenes().values():
         symbols = {one.name: one.symbol for one in scene.specs if isinstance(one, NumberSpec)}
-        numbers = {} if scene.charted is None or not {*names} <= {*symbols} else scene.charted.numbers
-        for chart, (charted, name) in numbers.items():
+        numbers = {} if scene.chart_set is None or not {*names} <= {*symbols} else scene.chart_set.numbers
+        for chart, (source, name) in numbers.items():
             variable = name.replace("-", "_")
-            if charted.key != found.attrs["computation"] or variable not in found:
+            if source.key != found.attrs["computation"] or variable not in found:
                 continue
             x, y = names
             chosen = {"chart": chart, "chart_x": symbols[x], "chart_y": symbols[y]}
             own = {name: value for name, value in fixed.items() if name in symbols}
             values, _ = scene.admit({**scene.defaults(), **own, **chosen, "accuracy": found.attrs["accuracy"]})
-            key = scene.of(values).charting.key
+            key = scene.of(values).chart_part.key
             corners = ({**fixed, **{name: float(found[name][i]) for name in names}} for i in (0, -1))
             if all(_same(key.arguments(one[x], one[y]), one) for one in corners):
                 errors = cells.get(f"{variable}_error", np.full(cells.status.shape, np.nan))
@@ -144,12 +144,12 @@ def _lessons(paths: Sequence[Path]) -> tuple[Lesson, ...]:
     if not lessons:
         raise CommandError("\n".join(map(str, mistakes)))
     for mistake in mistakes:
-        print(f"{mistake}  Its lesson is left out.", file=sys.stderr)
+        print(f"{mistake}  The lesson is omitted.", file=sys.stderr)
     return lessons
 
 
 def _first_words() -> str:
-    """Return the first message, which says how long the start takes."""
+    """Return the first message, with the expected duration of the start."""
     from hess_explorer.server.compiled import KEEPS_KERNELS, all_compiled
 
     if not KEEPS_KERNELS:
@@ -161,9 +161,9 @@ def _first_words() -> str:
 
 
 def _second_compiler() -> AbstractContextManager[object]:
-    """Start to compile the circle map of the first scene at a first start, while this process starts.
+    """Compile the circle map of the first scene in a second process, at the first start.
 
-    This process then compiles labels and the orbit, which takes as long.
+    Meanwhile this process compiles labels and the orbit, which takes as long.
     """
     from hess_explorer.server.compiled import KEEPS_KERNELS, all_compiled, compiler
 
@@ -177,7 +177,7 @@ circle_map(0.5, 1.5, 0.6, "draft").theta([0.0])
 
 
 def _require_free(address: str, port: int) -> None:
-    """Raise `CommandError` unless the port can be listened on."""
+    """Raise `CommandError` if the port is in use or cannot be opened."""
     try:
         socket.create_server((address, port), family=socket.AF_INET6 if ":" in address else socket.AF_INET).close()
     except (OSError, UnicodeError) as error:
@@ -200,7 +200,7 @@ _SEVERAL = {"nargs": "+", "action": "extend"}
 COMMAND = Command(
     "Serve the explorer on this machine and open it in the browser.",
     (
-        whole("--port", 1, 65535, "port to listen on", 5006),
+        integer_option("--port", 1, 65535, "port to listen on", 5006),
         option(
             "--address",
             "address to listen on (default 127.0.0.1, this machine only; 0.0.0.0 for all networks)",
@@ -225,8 +225,8 @@ COMMAND = Command(
             metavar="HOST",
             **_SEVERAL,
         ),
-        whole("--workers", 1, 64, "number of worker processes; for a class, about the number of cores", 1),
-        whole("--sessions", 1, 100_000, "maximum number of open pages per worker; 1000 need about 3 GB", 1000),
+        integer_option("--workers", 1, 64, "number of worker processes; for a class, about the number of cores", 1),
+        integer_option("--sessions", 1, 100_000, "maximum number of open pages per worker; 1000 need about 3 GB", 1000),
         option(
             "--chart",
             "store of a sweep over two parameters of a scene, which opens as a chart",

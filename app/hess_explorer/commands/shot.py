@@ -15,7 +15,7 @@ def _run(options: Options) -> None:
     from hess_explorer.headless.screenshot import screenshot
 
     if not options.lenient:
-        # A state that the page would have to correct is an error.
+        # An invalid state is an error here, whereas the page corrects it.
         from hess_explorer.export.picture_data import address
         from hess_explorer.page.opening import opening
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-from .command import Command, Options, option, whole
-from .output import computing, show
+from .command import Command, Options, integer_option, option
+from .output import long_computation, show
 
 __all__ = ["COMMAND"]
 
@@ -18,7 +18,7 @@ def _run(options: Options) -> None:
     def report(name: str, done: int, of: int) -> None:
         print(f"{done}/{of} {name}", file=sys.stderr, flush=True)
 
-    with computing(own_progress=True):
+    with long_computation(own_progress=True):
         sizes = build(
             options.folder,
             options.names,
@@ -39,7 +39,7 @@ COMMAND = Command(
         option(
             "--pages", "only these lessons and scenes, by name", nargs="+", default=[], dest="names", metavar="NAME"
         ),
-        whole("--values", 2, 400, "number of values of a slider", default=40),
+        integer_option("--values", 2, 400, "number of values of a slider", default=40),
         option("--page", "address of the explorer, for the links in the pages", default="", metavar="URL"),
     ),
     _run,

@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from . import CommandError
-from .arguments import assigned, defined
+from .arguments import assignment_of, user_object
 from .command import OUTPUT, Command, Options, option
-from .output import computing, write
+from .output import long_computation, write
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -34,7 +34,7 @@ def _workers(text: str) -> str | int:
 
 def _run(options: Options) -> None:
     # A sweep prints its own progress.
-    with computing(own_progress=True):
+    with long_computation(own_progress=True):
         from hess_explorer.sweep import Outcome, read
 
         if options.computation:
@@ -60,7 +60,7 @@ def _swept(options: Options) -> xr.Dataset:
         raise CommandError(f"{name} has no parameter {min(wrong)!r} that --set can give: rename it.")
     try:
         return sweep(
-            defined(name, "function", callable) if ":" in name else name,
+            user_object(name, "function", callable) if ":" in name else name,
             dict(options.over),
             numbers=options.numbers and options.numbers.split(","),
             accuracy=options.accuracy,
@@ -113,7 +113,7 @@ COMMAND = Command(
             "--over",
             "parameter and its values, like h=0:2:30 (30 values from 0 to 2) or h=1,2,3; up to three times",
             action="append",
-            type=assigned(_values),
+            type=assignment_of(_values),
             default=[],
             metavar="NAME=VALUES",
         ),
@@ -121,7 +121,7 @@ COMMAND = Command(
             "--set",
             "value of a fixed parameter that differs from its default",
             action="append",
-            type=assigned(float),
+            type=assignment_of(float),
             default=[],
             metavar="NAME=NUMBER",
         ),

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from hess_explorer.compute.budget import Abandoned, limited
+from hess_explorer.compute.budget import ClientGone, time_budget
 from hess_explorer.compute.cache import CACHE, Task
 from hess_explorer.compute.pool import POOL
 from hess_mechanics.errors import ModelError
@@ -47,7 +47,7 @@ class Background:
         self._lock = threading.Lock()
         self._job = _Job()
         # The running tasks, including those of earlier states, each with the event that cancels it.
-        self._begun: list[tuple[Task[Any], threading.Event]] = []
+        self._running: list[tuple[Task[Any], threading.Event]] = []
 
     def follow(self, tasks: Collection[Task[Any]]) -> None:
         """Compute these tasks into the cache.  Earlier tasks are discarded, except running ones that are listed."""
@@ -70,23 +70,23 @@ class Background:
     def _discard(self, but: Collection[Task[Any]]) -> None:
         with self._lock:
             self._job.tasks.clear()
-            for task, left in self._begun:
+            for task, cancellation in self._running:
                 if task not in but:
-                    left.set()
+                    cancellation.set()
 
     def _step(self, job: _Job) -> None:
         """Run one task, and queue the next one behind those of other sessions."""
         with self._lock:
             if not job.tasks:
                 return
-            task, left = begun = job.tasks.popleft(), threading.Event()
+            task, cancellation = begun = job.tasks.popleft(), threading.Event()
             job.running += 1
-            self._begun.append(begun)
+            self._running.append(begun)
         try:
             # `hess_mechanics` checks its results for overflow itself.
-            with np.errstate(all="ignore"), limited(left, SECONDS, WAIT, "A part of this state"):
+            with np.errstate(all="ignore"), time_budget(cancellation, SECONDS, WAIT, "A part of this state"):
                 CACHE.get(task.function, *task.arguments)
-        except Abandoned:
+        except ClientGone:
             pass
         except ModelError as error:
             job.fail(str(error))
@@ -96,16 +96,16 @@ class Background:
             job.fail("A part of this state could not be computed. Please report the link.")
         with self._lock:
             job.running -= 1
-            self._begun.remove(begun)
+            self._running.remove(begun)
         POOL.fill(lambda: self._step(job))
 
     @property
-    def left(self) -> int:
+    def backlog(self) -> int:
         """The number of unfinished tasks."""
         with self._lock:
             return len(self._job.tasks) + self._job.running
 
     @property
     def error(self) -> str:
-        """The message of a failed task, which also discards the others; empty if no task failed."""
+        """The message of the task that failed and thereby discarded the others; empty if none failed."""
         return self._job.error

@@ -15,7 +15,7 @@ from hess_mechanics.errors import WorkLimit
 from hess_mechanics.numerics.jit import seconds_compiling
 from hess_mechanics.numerics.patience import work_limit
 
-__all__ = ["SECONDS", "WAIT", "Abandoned", "Budget", "OverBudget", "check", "limited"]
+__all__ = ["SECONDS", "WAIT", "Budget", "ClientGone", "OverBudget", "check", "time_budget"]
 
 SECONDS = 4.0
 """CPU time limit of one response in seconds, summed over all cores; compilation is not counted."""
@@ -24,8 +24,8 @@ WAIT = 60.0
 """Wall-clock limit of one response in seconds, for a busy machine."""
 
 
-class Abandoned(Exception):
-    """The client has gone, so the result is no longer needed."""
+class ClientGone(Exception):
+    """The client has disconnected, so the result is no longer needed."""
 
 
 class OverBudget(WorkLimit):
@@ -35,8 +35,8 @@ class OverBudget(WorkLimit):
 class Budget:
     """CPU budget of the answering thread; helpers charge it through `spend`."""
 
-    def __init__(self, left: threading.Event, seconds: float, wait: float, what: str) -> None:
-        self.left, self.seconds, self.wait, self.what = left, seconds, wait, what
+    def __init__(self, cancellation: threading.Event, seconds: float, wait: float, what: str) -> None:
+        self.cancellation, self.seconds, self.wait, self.what = cancellation, seconds, wait, what
         self._thread, self._began, self._compiled = threading.get_ident(), time.thread_time(), seconds_compiling()
         self.clock_ends = time.monotonic() + wait
         self._elsewhere, self._lock = 0.0, threading.Lock()
@@ -59,21 +59,21 @@ _budget: ContextVar[Budget | None] = ContextVar("budget", default=None)
 
 
 @contextmanager
-def limited(
-    left: threading.Event, seconds: float = SECONDS, wait: float = WAIT, what: str = "This state"
+def time_budget(
+    cancellation: threading.Event, seconds: float = SECONDS, wait: float = WAIT, what: str = "This state"
 ) -> Iterator[Budget]:
-    """Give this thread a time budget; `check` raises when it is used up or the client has gone.
+    """Give this thread a time budget; `check` raises when it is used up or the client has disconnected.
 
     Parameters
     ----------
     left : threading.Event
-        Set when the client has gone.
+        Set when the client has disconnected.
     seconds, wait : float
         Limits of CPU time and of wall-clock time, in seconds.
     what : str
         Subject of the error message.
     """
-    budget = Budget(left, seconds, wait, what)
+    budget = Budget(cancellation, seconds, wait, what)
     token = _budget.set(budget)
     try:
         with work_limit(check, budget.spend):
@@ -83,12 +83,12 @@ def limited(
 
 
 def check() -> None:
-    """Raise `OverBudget` if the time budget is used up, `Abandoned` if the client has gone."""
+    """Raise `OverBudget` if the time budget is used up, `ClientGone` if the client has disconnected."""
     budget = _budget.get()
     if budget is None:
         return
-    if budget.left.is_set():
-        raise Abandoned
+    if budget.cancellation.is_set():
+        raise ClientGone
     if budget.spent > budget.seconds:
         raise OverBudget(
             f"{budget.what} takes more than {budget.seconds:g} s to compute, which is the limit: "

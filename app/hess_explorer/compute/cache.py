@@ -13,7 +13,7 @@ from typing import Any, Generic, ParamSpec, TypeVar, cast
 import numpy as np
 from cachetools import LRUCache
 
-from hess_explorer.compute.budget import Abandoned, OverBudget, check
+from hess_explorer.compute.budget import ClientGone, OverBudget, check
 
 __all__ = ["CACHE", "ResultCache", "Task", "size_of"]
 
@@ -24,7 +24,7 @@ _OVERHEAD, _NUMBER = 512, 64
 
 
 def size_of(value: Any) -> int:
-    """Return the size of a result in bytes: its arrays, nested in dataclasses, mappings and tuples, plus overhead."""
+    """Return the size of a result in bytes: all arrays in dataclasses, mappings and tuples, plus overhead."""
     # The most frequent type first.
     if type(value) is float:
         return _NUMBER
@@ -55,7 +55,7 @@ class Task(Generic[T_co]):
         return self.function(*self.arguments)
 
     def get(self) -> T_co:
-        """Return the result, from the cache if it is known."""
+        """Return the result, computed at most once."""
         return cast(T_co, CACHE.get(self.function, *self.arguments)[0])
 
 
@@ -88,7 +88,7 @@ class ResultCache:
         if running is not own:
             try:
                 return running.result(), True
-            except (Abandoned, OverBudget):
+            except (ClientGone, OverBudget):
                 # Another session's budget ended, not this one's.
                 return self.get(function, *arguments)
         try:

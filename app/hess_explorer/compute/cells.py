@@ -1,4 +1,4 @@
-"""Numbers of a computation at many cells, for sweeps and charts: each cell has a status, or a reason for its lack."""
+"""Evaluate a computation at many cells, for sweeps and charts; each cell has a status."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from typing import Self, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from hess_explorer.compute.budget import Abandoned, OverBudget
+from hess_explorer.compute.budget import ClientGone, OverBudget
 from hess_mechanics.catalogue import Computation, NoValue
 from hess_mechanics.errors import (
     InvalidParameter,
@@ -26,7 +26,7 @@ from hess_mechanics.errors import (
 from hess_mechanics.numerics.accuracy import Level, Status
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["CellResults", "Outcome", "Outcomes", "UserError", "evaluate", "refused"]
+__all__ = ["CellResults", "Outcome", "Outcomes", "UserError", "evaluate", "failure"]
 
 logger = logging.getLogger("hess_explorer")
 
@@ -83,8 +83,16 @@ _OF_ERROR: tuple[tuple[type[Exception], Outcome], ...] = (
 class CellResults:
     """The results at n cells.
 
-    values, errors : by the name of the number, each (n,); errors only of numbers with an estimate.
-    status : (n,).  why : by cell, the reason why it has no number, or which of its numbers is missing.
+    Attributes
+    ----------
+    values : mapping of str to array (n,)
+        The numbers by name.
+    errors : mapping of str to array (n,)
+        Their estimated errors, where estimates exist.
+    status : array (n,) of Outcome
+        Status of each cell.
+    why : mapping of int to str
+        The reason why a cell has no number, or which of its numbers is missing, by index of the cell.
     """
 
     values: Mapping[str, Array]
@@ -93,12 +101,12 @@ class CellResults:
     why: Mapping[int, str] = field(default_factory=dict)
 
 
-def refused(error: Exception, cell: Mapping[str, object]) -> tuple[Outcome, str]:
-    """Return the status and message of a cell that raised an error; unexpected errors are logged.
+def failure(error: Exception, cell: Mapping[str, object]) -> tuple[Outcome, str]:
+    """Return the status and message of a cell that raised an error; log unexpected errors.
 
-    Raises `Abandoned` and `OverBudget` again, because they end the whole computation.
+    `ClientGone` and `OverBudget` are raised again, because they end the whole computation.
     """
-    if isinstance(error, (Abandoned, OverBudget)):
+    if isinstance(error, (ClientGone, OverBudget)):
         raise error
     for kind, outcome in _OF_ERROR:
         if isinstance(error, kind):
@@ -108,9 +116,20 @@ def refused(error: Exception, cell: Mapping[str, object]) -> tuple[Outcome, str]
 
 
 def evaluate(what: Computation, numbers: Sequence[str], columns: Mapping[str, Array], level: Level) -> CellResults:
-    """Return numbers of a computation at cells; columns : values (n,) of parameters, the others have their defaults.
+    """Evaluate numbers of a computation at n cells.
 
     Each cell without any finite number has a status and a message.
+
+    Parameters
+    ----------
+    what : Computation
+        The computation.
+    numbers : sequence of str
+        Names of its numbers.
+    columns : mapping of str to array (n,)
+        Values of parameters; all others have their defaults.
+    level : Level
+        Level of accuracy.
     """
     count = next(iter(columns.values())).size
     with np.errstate(all="ignore"):
@@ -122,7 +141,7 @@ def evaluate(what: Computation, numbers: Sequence[str], columns: Mapping[str, Ar
 def _at_once(
     what: Computation, numbers: Sequence[str], columns: Mapping[str, Array], level: Level, count: int
 ) -> CellResults | None:
-    """Return the numbers of all cells at once; None if some of them are computed one by one only, or one fails."""
+    """Evaluate all cells in one call; return None if a number has no such function, or if a cell fails."""
     assert what.many is not None
     every = {one.name: np.full(count, one.default) for one in what.parameters} | dict(columns)
     try:
@@ -158,7 +177,7 @@ def _one_by_one(
             found = what.compute(cell, level)
         # An error in one cell must not stop the others.
         except Exception as error:
-            status[i], why[i] = refused(error, cell)
+            status[i], why[i] = failure(error, cell)
             continue
         status[i] = Outcome[getattr(found, "status", Status.OK).name]
         outcomes = []
@@ -169,12 +188,12 @@ def _one_by_one(
                 if name in errors:
                     errors[name][i] = one.error(found)
             except Exception as error:
-                outcome, why[i] = refused(error, cell)
+                outcome, why[i] = failure(error, cell)
                 outcomes.append(outcome)
                 continue
             if not math.isfinite(values[name][i]):
                 outcomes.append(Outcome.BEYOND_RANGE)
-        # A cell with some of its numbers is not without a value.
+        # A cell with at least one number has a value.
         if len(outcomes) == len(numbers):
             status[i] = outcomes[0]
     return CellResults(values, errors, status, why)

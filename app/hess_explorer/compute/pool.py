@@ -10,7 +10,7 @@ from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 
-from hess_explorer.compute.budget import Abandoned, limited
+from hess_explorer.compute.budget import ClientGone, time_budget
 from hess_mechanics.numerics.parallel import THREADS
 
 __all__ = ["MOST", "POOL", "Pool", "RequestQueue"]
@@ -25,7 +25,7 @@ PATIENCE = 1.0
 
 
 class Pool:
-    """Runs requests, those of the sessions in rotation, and background tasks when a core is free."""
+    """Runs the requests of all sessions in rotation, and background tasks when a core is free."""
 
     def __init__(self, cores: int) -> None:
         # One thread more than cores, so that a slow request does not block the others.  Many more threads would delay
@@ -86,7 +86,8 @@ class RequestQueue:
 
     Attributes
     ----------
-    served : time of the end of the last request.
+    served : float
+        Time at which the last request ended, in seconds.
     """
 
     def __init__(self) -> None:
@@ -116,11 +117,11 @@ class RequestQueue:
         """Process one request; the next one waits for those of other sessions."""
         with self._lock:
             request = self._waiting.popleft() if self._waiting else None
-        with limited(self._left):
+        with time_budget(self._left):
             try:
                 if request is not None:
                     request()
-            except Abandoned:
+            except ClientGone:
                 pass
             # Log any error, and go on with the next request of the session.
             except Exception:

@@ -13,7 +13,7 @@ _WIDTH = 100
 
 
 def code(address: Address) -> str:
-    """Return a script that computes the data of a picture, identical to its CSV at the same accuracy, and draws it.
+    """Return a script that computes and draws a picture; its data are identical to the CSV file.
 
     The script names all parameters, so that it does not depend on defaults.
     """
@@ -36,7 +36,7 @@ def lines_of(address: Address) -> list[str]:
 
 
 def _filled(words: Sequence[str]) -> Iterator[str]:
-    """Yield lines filled with the arguments, up to the closing bracket."""
+    """Yield lines with the wrapped arguments and the closing bracket."""
     line = "   "
     for word in words[:-1]:
         if len(line) + len(word) > _WIDTH:
@@ -47,7 +47,7 @@ def _filled(words: Sequence[str]) -> Iterator[str]:
 
 
 def _value(spec: Spec, value: Value) -> str:
-    """Return a value as Python code; empty for an argument to omit."""
+    """Return a value as Python code; empty if the argument is omitted."""
     if isinstance(spec, NumberSpec):
         return repr(float(value))
     if isinstance(spec, Places):

@@ -43,8 +43,8 @@ class Table(Result):
     columns : mapping of str to ndarray
         The columns by the names of the CSV file, read-only.
     facts : mapping of str
-        Link, parameters, accuracy, errors and version, the same as in exported files; "angles" says of each column of
-        angles whether it counts on over full turns.
+        Link, parameters, accuracy, errors and version, as in exported files; "angles" tells for each column of angles
+        (in radians) whether it is continuous over full turns.
     axes : tuple of str
         Names of the axes of a plot, empty for other pictures.
 
@@ -156,7 +156,7 @@ class _Layer(Result):
     def labels(self) -> Labels:
         columns = {name: column for name, column in self.table.columns.items() if name != "layer"}
         axes = dict(zip("xy", self.table.axes, strict=False))
-        # Columns x and y are what the axes of the plot say.
+        # The axes of the plot name columns x and y.
         symbols = {name: axes.get(name, name) for name, column in columns.items() if column.dtype.kind == "f"}
         units = {name: _UNITS.get(symbol, "1") for name, symbol in symbols.items()}
         facts = {**self.table.facts, **{f"{name}_axis": symbol for name, symbol in axes.items()}}
@@ -182,7 +182,7 @@ _UNITS = {**dict.fromkeys(("t", "time", "tau", "τ"), "T"), **dict.fromkeys(ANGL
 
 
 def columns_of(data: PictureData) -> Table:
-    """Return the points of all layers in double precision; a grid has a value at the centre (x, y) of each cell."""
+    """Return the data of all layers as a table; a grid has one row for the centre (x, y) of each cell."""
     blocks = [
         {"layer": np.full(len(next(iter(block.values()))), layer), **block}
         for layer, columns in layers_of(data).items()
@@ -194,7 +194,7 @@ def columns_of(data: PictureData) -> Table:
 
 
 def angles_of(data: PictureData) -> dict[str, dict[str, str]]:
-    """Return the fact "angles": whether each column of angles, "layer.name", counts on over full turns."""
+    """Return for each column of angles, "layer.name", whether it is continuous over full turns."""
     axes = dict(zip("xy", data.names, strict=False))
     angles = {*ANGLES, *getattr(type(data.state), "angles", ())}
     found: dict[str, bool] = {}
@@ -238,7 +238,7 @@ def _is_list(column: Any) -> bool:
 
 
 def _clouds(columns: Columns, time: float) -> Sources:
-    """Return the points of the frame nearest to a time: u along the equilibria, ln|s|, sign of s, γ; or ω, γ."""
+    """Return the points of a cloud in the frame nearest to a time: u, ln|s|, sign of s and γ; or ω and γ."""
     frame = int(np.argmin(np.abs(columns["times"] - time)))
     at = float(columns["times"][frame])
 
@@ -276,7 +276,7 @@ def _blocks(columns: Columns) -> Iterator[Block]:
 
 
 def is_column(column: Any) -> bool:
-    """Return whether data are one number or word for each point."""
+    """Return whether the data contain one number or word for each point."""
     return isinstance(column, np.ndarray) and column.ndim == 1
 
 

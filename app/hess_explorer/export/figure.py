@@ -27,7 +27,7 @@ from hess_mechanics.numerics.results import Array
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-__all__ = ["Drawing", "as_figure", "as_file", "densities", "image_figure", "saved"]
+__all__ = ["PageImage", "as_figure", "as_file", "densities", "figure_bytes", "image_figure"]
 
 _DOTS_PER_INCH = 300
 _POINTS = 0.6
@@ -51,10 +51,17 @@ _ALIGNED = {"alphabetic": "baseline", "middle": "center"}
 
 
 @dataclass(frozen=True)
-class Drawing:
-    """A picture as the page draws it: PNG file without texts, the texts, and the edge in pixels of the page.
+class PageImage:
+    """A picture as the page draws it.
 
-    texts : text, x, y, turn, size, colour, alpha, align, baseline of each, see `LiftedText` in "types.d.ts".
+    Attributes
+    ----------
+    image : bytes
+        PNG file without the texts.
+    texts : sequence of mappings
+        Text, x, y, turn, size, colour, alpha, align and baseline of each text, see `LiftedText` in "types.d.ts".
+    edge : float
+        Width of the picture in pixels of the page.
     """
 
     image: bytes
@@ -84,7 +91,7 @@ def as_file(data: PictureData, request: FileRequest) -> bytes:
     """
     if request.kind in ("csv", "json"):
         return (as_csv if request.kind == "csv" else as_json)(data).encode()
-    return saved(as_figure(data, request.width, request.black), data, request.kind)
+    return figure_bytes(as_figure(data, request.width, request.black), data, request.kind)
 
 
 def as_figure(data: PictureData, width: float = 85.0, black: bool = False) -> Figure:
@@ -127,14 +134,14 @@ def as_figure(data: PictureData, width: float = 85.0, black: bool = False) -> Fi
     return figure
 
 
-def image_figure(data: PictureData, drawing: Drawing, width: float = 85.0) -> Figure:
+def image_figure(data: PictureData, drawing: PageImage, width: float = 85.0) -> Figure:
     """Return the image of a picture as a figure of Matplotlib, with title and caption below.
 
     Parameters
     ----------
     data : PictureData
         The picture and its data.
-    drawing : Drawing
+    drawing : PageImage
         The image and the texts in it.
     width : float
         Width in millimetres.
@@ -184,12 +191,12 @@ def image_figure(data: PictureData, drawing: Drawing, width: float = 85.0) -> Fi
 
 
 def _wrapped(text: str, side: float, size: float) -> list[str]:
-    """Return the lines of a text below an image; side : width in inches, size : of its letters in points."""
+    """Wrap a text below an image of a width of `side` inches, at a font size of `size` points."""
     return textwrap.wrap(text, max(10, int(72.0 * side / (_LETTER * size))))
 
 
 def _style() -> AbstractContextManager[None]:
-    """Return a context with the fonts of figures.  Raises `InvalidParameter` without Matplotlib."""
+    """Return a context with the style of figures.  Raises `InvalidParameter` without Matplotlib."""
     try:
         import matplotlib as mpl
     except ImportError as error:
@@ -199,8 +206,8 @@ def _style() -> AbstractContextManager[None]:
     return mpl.rc_context(dict(_STYLE))
 
 
-def saved(figure: Figure, data: PictureData, kind: str) -> bytes:
-    """Return a figure as a file whose metadata contain link, parameters and version."""
+def figure_bytes(figure: Figure, data: PictureData, kind: str) -> bytes:
+    """Return a figure as a file, with link, parameters and version in the metadata."""
     text = data.metadata_text
     metadata: dict[str, dict[str, Any]] = {
         "png": {**data.texts},
@@ -214,7 +221,7 @@ def saved(figure: Figure, data: PictureData, kind: str) -> bytes:
 
 
 def densities(data: PictureData) -> list[tuple[CloudPlane[Any], Layer[Any]]]:
-    """Return the layers that show the density of a cloud at the moving time, each with its cloud."""
+    """Return the layers that show the density of a cloud at the current time, each with its cloud."""
     plot = data.picture
     layers = {plot.source_of(layer): layer for layer in plot.layers} if isinstance(plot, Plot) else {}
     return [
@@ -225,7 +232,7 @@ def densities(data: PictureData) -> list[tuple[CloudPlane[Any], Layer[Any]]]:
 
 
 def _density(columns: Mapping[str, Any], t: float) -> tuple[Array, Array]:
-    """Return |s| and the density of the first cloud per unit of |s| at time t, in its bins of ln|s|."""
+    """Return |s| and the density per unit of |s| of the first cloud at time t, in bins of ln|s|."""
     if "signs0" not in columns:
         return np.empty(0), np.empty(0)
     times, (first, wide, count) = columns["times"], columns["bins"]
@@ -240,7 +247,7 @@ def _density(columns: Mapping[str, Any], t: float) -> tuple[Array, Array]:
 
 
 def _in_black(colour: str) -> str:
-    """Return the colour in black on white: areas keep their lightness, everything else is black."""
+    """Return the substitute of a colour in black on white: grey for areas, black for everything else."""
     if colour in (theme.PAPER, "white"):
         return colour
     return {theme.FORBIDDEN: "#E4E4E4", theme.LOCKED: "#BDBDBD"}.get(colour, "#000000")

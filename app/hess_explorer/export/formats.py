@@ -17,7 +17,7 @@ __all__ = [
     "FileRequest",
     "Format",
     "Loop",
-    "holding",
+    "formats_of",
 ]
 
 
@@ -39,7 +39,17 @@ class Bounds(NamedTuple):
 
 
 class Format(NamedTuple):
-    """A file format: category ("data", "figure", "film", "state", "program"), media type, label in the dialog."""
+    """A file format.
+
+    Attributes
+    ----------
+    holds : str
+        Category: "data", "figure", "film", "state" or "program".
+    media : str
+        Media type.
+    words : str
+        Label in the dialog; empty if the dialog does not offer it.
+    """
 
     holds: str
     media: str
@@ -67,7 +77,15 @@ SECONDS, SERVED_SECONDS = Bounds(1.0, 60.0), Bounds(1.0, 30.0)
 
 
 class Loop(NamedTuple):
-    """A film that repeats itself, 1080 pixels wide, light or dark; home : address of the page, for the link."""
+    """A film that repeats itself, 1080 pixels wide.
+
+    Attributes
+    ----------
+    dark : bool
+        True for the dark colours of the page.
+    home : str
+        Address of the page, for the link below the picture.
+    """
 
     dark: bool = False
     home: str = ""
@@ -75,7 +93,21 @@ class Loop(NamedTuple):
 
 @dataclass(frozen=True)
 class FileRequest:
-    """Requested file: suffix; width in mm and black on white, for figures and films; duration in s, loop, for films."""
+    """A requested file.
+
+    Attributes
+    ----------
+    kind : str
+        Suffix of the file, without the dot.
+    width : float
+        Width of a figure or film in millimetres.
+    black : bool
+        True for black on white.
+    seconds : float
+        Duration of a film in seconds.
+    loop : Loop or None
+        Settings of a film that repeats itself.
+    """
 
     kind: str = "csv"
     width: float = 85.0
@@ -84,6 +116,6 @@ class FileRequest:
     loop: Loop | None = None
 
 
-def holding(*what: str) -> tuple[str, ...]:
+def formats_of(*what: str) -> tuple[str, ...]:
     """Return the formats of the given categories."""
     return tuple(kind for kind, one in FORMATS.items() if one.holds in what)

@@ -21,14 +21,14 @@ _LETTERS, _LINES = 96, 3
 
 
 def _end(data: PictureData) -> float:
-    """Return the last time of the orbit or of the clouds; 0 if nothing moves."""
+    """Return the final time of the orbit or of the clouds; 0 if nothing moves."""
     clouds = (one["times"] for one in data.columns.values() if "frames0" in one)
     tracks = (data.columns.get("data-orbit", {}).get("t", ()), *clouds)
     return max((float(times[-1]) for times in tracks if len(times) > 1), default=0.0)
 
 
 def moves(data: PictureData) -> bool:
-    """Return True if the picture changes with time."""
+    """Return whether the picture changes with time."""
     picture = data.picture
     # A plot may show the track of a motion without a point that moves.
     follows = picture.followers or densities(data) if isinstance(picture, Plot) else "orbit" in picture.tracks
@@ -36,14 +36,14 @@ def moves(data: PictureData) -> bool:
 
 
 def film_times(data: PictureData, count: int) -> Array:
-    """Return the times of the frames (count,), evenly spread over the whole motion, both ends included."""
+    """Return evenly spaced times (count,) of the frames, from the start to the end of the motion."""
     return np.linspace(0.0, _end(data), count)
 
 
 def period(data: PictureData) -> float | None:
-    """Return the time after which a picture repeats itself, or None.
+    """Return the period of a picture, or None if it does not repeat itself.
 
-    Only a point on a still picture repeats itself: trails, clouds and bodies remember where they came from.
+    Only a point on a still picture repeats itself; trails, clouds and bodies also show the past.
     """
     picture, track = data.picture, data.columns.get("data-orbit", {})
     stands = isinstance(picture, Plot) or (isinstance(picture, Sphere) and not picture.clouds)
@@ -61,7 +61,7 @@ def period(data: PictureData) -> float | None:
 
 
 def _first_return(times: Array, states: Array) -> float | None:
-    """Return the time at which the polygon of states (n, k) first comes back to its start in the same direction."""
+    """Return the time at which an orbit first returns to its start in the same direction, from states (n, k)."""
     start, along = states[0], np.diff(states, axis=0)
     lengths = np.maximum(np.sum(along**2, axis=1), 1e-300)
     share = np.clip(np.sum((start - states[:-1]) * along, axis=1) / lengths, 0.0, 1.0)
@@ -80,14 +80,14 @@ def _first_return(times: Array, states: Array) -> float | None:
 
 
 def loop_times(data: PictureData, count: int) -> Array:
-    """Return the times of the frames (count,): over a period of the motion, or there and back, slower at both ends."""
+    """Return the times (count,) of the frames: one period of the motion, or there and back, slower at both ends."""
     phase = np.arange(count) / count
     lasts = period(data)
     return lasts * phase if lasts is not None else 0.5 * _end(data) * (1.0 - np.cos(2.0 * np.pi * phase))
 
 
 def loop_lines(data: PictureData, home: str) -> list[str]:
-    """Return one line of caption and the link; the tags of the file have a link that is too long to be shown."""
+    """Return the caption and the link, shortened to a few lines; the metadata contain the complete link."""
     link = f"{home}?{data.link}"
     lines = [link[i : i + _LETTERS] for i in range(0, len(link), _LETTERS)]
     shown = lines if len(lines) <= _LINES else [*lines[: _LINES - 1], f"{lines[_LINES - 1][:-1]}…"]

@@ -32,8 +32,16 @@ class Address:
 
     Attributes
     ----------
-    values : admitted values of the parameters; client : time and view of spheres, by key; notes : corrections of the
-    link.
+    scene : Scene
+        The scene.
+    picture : Picture
+        The picture.
+    values : mapping of str
+        Admitted values of the parameters.
+    client : mapping of str to float
+        Time and view of spheres, by key of the link.
+    notes : tuple of str
+        Corrections of the link.
     """
 
     scene: Scene[Any]
@@ -61,9 +69,18 @@ class PictureData(Address):
 
     Attributes
     ----------
-    columns : data by source; axes : axis ranges, None for a picture without axes; title, caption : texts above the
-    picture; status : accuracy, errors and drift, without run times; notes : corrections of the link, and notes on the
-    state.
+    state : State
+        The state of the scene.
+    columns : mapping of str
+        Columns of the picture by data source.
+    axes : Axes or None
+        Axis ranges; None for a picture without axes.
+    title, caption : str
+        Texts above the picture.
+    status : tuple of str
+        Accuracy, errors and drift, without run times.
+    notes : tuple of str
+        Corrections of the link, and notes on the state.
     """
 
     state: Any
@@ -183,11 +200,37 @@ def compute(address: Address) -> PictureData:
     return data
 
 
-def complete(scene: Scene[Any], values: Values, pictures: Collection[str], made: Callable[[Any], T]) -> tuple[Any, T]:
-    """Return the state with complete data for these pictures, and made(state).  Raises `ModelError`."""
+def complete(
+    scene: Scene[Any], values: Values, pictures: Collection[str], result_of: Callable[[Any], T]
+) -> tuple[Any, T]:
+    """Compute all data of some pictures of a state.
+
+    Parameters
+    ----------
+    scene : Scene
+        The scene.
+    values : mapping of str
+        Values of its parameters.
+    pictures : collection of str
+        Names of the pictures.
+    result_of : callable
+        Draws the pictures of a state and returns a result.
+
+    Returns
+    -------
+    state : State
+        The state.
+    result
+        The last result of `result_of`.
+
+    Raises
+    ------
+    ModelError
+        If the state cannot be computed.
+    """
     for _ in range(_ROUNDS):
         state = scene.compute(values, pictures, False)
-        found = made(state)
+        found = result_of(state)
         if not state.work.todo:
             break
         for task in state.work.todo:
@@ -196,7 +239,7 @@ def complete(scene: Scene[Any], values: Values, pictures: Collection[str], made:
 
 
 def _described(address: Address, state: Any) -> PictureData:
-    """Return a picture with the data that its state has so far."""
+    """Return a picture with the data computed so far."""
     view = address.picture
     caption = view.full_caption(state)
     axes = view.ranges(state, view.first_axes)

@@ -1,4 +1,4 @@
-"""Write the data of a picture as CSV, with one row for each point, or as JSON, by layer."""
+"""Format the data of a picture as CSV, with one row for each point, or as JSON, by layer."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ __all__ = ["as_csv", "as_json"]
 
 
 def as_csv(data: PictureData) -> str:
-    """Return the CSV text, with the metadata as # comments; a field is empty if the layer lacks the coordinate."""
+    """Return the data as CSV, with the metadata as # comments; coordinates that a layer lacks are empty."""
     table = columns_of(data)
     out = io.StringIO()
     for key, value in {**_facts(data), **_besides(data)}.items():
@@ -31,12 +31,12 @@ def as_csv(data: PictureData) -> str:
 
 
 def as_json(data: PictureData) -> str:
-    """Return the JSON text: metadata, axes, and the columns of each layer; null stands for a non-finite number."""
+    """Return the data as JSON: metadata, axes, and the columns of each layer, with null for a non-finite number."""
     return json.dumps({**_facts(data), "layers": _plain(layers_of(data))}, ensure_ascii=False, allow_nan=False) + "\n"
 
 
 def _facts(data: PictureData) -> dict[str, Any]:
-    """Return the metadata, the axes and the sense of the angles."""
+    """Return the metadata, the axes and the kinds of angles."""
     ends = () if data.axes is None else (data.axes.x, data.axes.y)
     axes = {side: [name, *map(float, range_)] for side, name, range_ in zip("xy", data.names, ends, strict=False)}
     return {**data.facts, **({"axes": axes} if axes else {}), **angles_of(data)}

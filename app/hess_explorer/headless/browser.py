@@ -14,7 +14,7 @@ from hess_mechanics.errors import ModelError
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, BrowserType, Page
 
-__all__ = ["BrowserError", "find_browser", "is_root", "launched", "wait_ready"]
+__all__ = ["BrowserError", "find_browser", "headless_browser", "is_root", "wait_ready"]
 
 VARIABLE = "HESS_EXPLORER_BROWSER"
 _COMMANDS = ("chromium", "chromium-headless-shell", "google-chrome")
@@ -24,7 +24,7 @@ _QUIET = ("--disable-background-networking", "--disable-component-update", "--di
 
 
 class BrowserError(ModelError):
-    """There is no usable browser; the message tells the user what to do."""
+    """No usable browser was found; the message contains a remedy."""
 
 
 def find_browser(playwright_own: str) -> str | None:
@@ -66,7 +66,7 @@ def is_root() -> bool:
 
 
 @contextmanager
-def launched() -> Iterator[Browser]:
+def headless_browser() -> Iterator[Browser]:
     """Yield a running headless browser.  Raises `BrowserError`."""
     try:
         from playwright.sync_api import sync_playwright
@@ -102,8 +102,8 @@ def _launch(chromium: BrowserType, path: str, *, sandbox: bool) -> Browser:
 def wait_ready(page: Page, after: int = -1, seconds: float = 120) -> None:
     """Wait until the page has drawn a state whose number exceeds `after`.
 
-    The root element of the page has data-ready="true" when all requested data are drawn, and data-state, the number
-    of states drawn so far.  Raises Playwright's TimeoutError after `seconds`.
+    The root element of the page has data-ready="true" when all requested data are drawn; data-state is the number of
+    states drawn so far.  Raises Playwright's TimeoutError after `seconds`.
     """
     page.wait_for_function(
         "after => { const d = document.documentElement.dataset;"

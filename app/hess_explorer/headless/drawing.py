@@ -1,4 +1,4 @@
-"""Draw pictures as the page does: in its offline form, opened in a headless browser."""
+"""Draw pictures with the offline page in a headless browser."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ from queue import SimpleQueue
 from threading import Thread
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from hess_explorer.export.figure import Drawing, densities
+from hess_explorer.export.figure import PageImage, densities
 from hess_explorer.export.formats import WIDTHS
 from hess_explorer.export.picture_data import PictureData
-from hess_explorer.headless.browser import BrowserError, launched, wait_ready
+from hess_explorer.headless.browser import BrowserError, headless_browser, wait_ready
 from hess_explorer.offline.html import module_address
 from hess_explorer.offline.pages import state_page
 from hess_explorer.scenes import add, scenes
@@ -25,7 +25,7 @@ from hess_explorer.scenes import add, scenes
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, BrowserContext, JSHandle
 
-__all__ = ["bytes_of", "drawing_of", "page_of", "png_of"]
+__all__ = ["bytes_of", "page_image", "page_of", "png_of"]
 
 T = TypeVar("T")
 
@@ -35,9 +35,9 @@ _SECONDS = 120
 
 
 class _Studio:
-    """The browser of this process, which starts with the first picture and serves all of them.
+    """The browser of this process, which starts with the first picture and draws all of them.
 
-    It has a thread of its own, because Playwright refuses to run in the event loop of a notebook.
+    It has its own thread, because Playwright refuses to run in the event loop of a notebook.
     """
 
     def __init__(self) -> None:
@@ -47,7 +47,7 @@ class _Studio:
         atexit.register(self._close)
 
     def run(self, act: Callable[[Browser], T]) -> T:
-        """Return act(browser).  Raises `BrowserError`."""
+        """Run `act(browser)` in the thread of the browser.  Raises `BrowserError`."""
         future: Future[T] = Future()
         self._jobs.put((future, act))
         return future.result()
@@ -64,7 +64,7 @@ class _Studio:
                 try:
                     if browser is None or not browser.is_connected():
                         running.close()
-                        browser = running.enter_context(launched())
+                        browser = running.enter_context(headless_browser())
                     future.set_result(act(browser))
                 except BaseException as error:
                     future.set_exception(error)
@@ -76,7 +76,7 @@ def _studio() -> _Studio:
 
 
 def _in_browser(act: Callable[[Browser], T]) -> T:
-    """Return act(browser).  Raises `BrowserError`."""
+    """Run `act(browser)` and convert errors of Playwright to `BrowserError`."""
 
     def act_or_say(browser: Browser) -> T:
         from playwright.sync_api import Error
@@ -91,7 +91,7 @@ def _in_browser(act: Callable[[Browser], T]) -> T:
 
 @contextmanager
 def page_of(data: PictureData) -> Iterator[Callable[[str, Any], Any]]:
-    """Yield a function that draws a picture in its page, at the time and view of its link.
+    """Open the page of a picture, and yield a function that draws it at the time and view of its link.
 
     Parameters
     ----------
@@ -126,7 +126,7 @@ def page_of(data: PictureData) -> Iterator[Callable[[str, Any], Any]]:
 
 
 def _opened(browser: Browser, address: str) -> tuple[BrowserContext, JSHandle]:
-    """Return a window with the page of a file, once it has drawn its state, and the exports of its modules."""
+    """Open the page of a file, wait until it has drawn its state, and return its window and module exports."""
     context = browser.new_context(
         viewport={"width": _VIEWPORT, "height": _VIEWPORT},
         color_scheme="light",
@@ -156,7 +156,7 @@ def png_of(data: PictureData, width: float = 85.0, black: bool = False) -> bytes
     Parameters
     ----------
     data : PictureData
-        The picture: no plot, which has its size from the page.
+        The picture, not a plot.
     width : float
         Width in millimetres.
     black : bool
@@ -179,9 +179,9 @@ def png_of(data: PictureData, width: float = 85.0, black: bool = False) -> bytes
         return bytes_of(draw("pictureUrl", [data.picture.name, width, black, data.texts]))
 
 
-def drawing_of(data: PictureData, width: float = 85.0, black: bool = False) -> Drawing:
+def page_image(data: PictureData, width: float = 85.0, black: bool = False) -> PageImage:
     """Return the image and the texts of a picture; parameters and errors as in `png_of`."""
     WIDTHS.require("A figure", width, "mm wide")
     with page_of(data) as draw:
         found = draw("imageAndTexts", [data.picture.name, width, black])
-    return Drawing(bytes_of(found["image"]), found["texts"], found["edge"])
+    return PageImage(bytes_of(found["image"]), found["texts"], found["edge"])

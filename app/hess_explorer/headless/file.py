@@ -1,14 +1,14 @@
-"""Write a picture in any of the file formats: tables and plots without a browser, all else as the page draws it."""
+"""Write a picture in any file format: tables and plots without a browser, everything else with the page."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from hess_explorer.export.figure import as_figure, as_file, image_figure, saved
+from hess_explorer.export.figure import as_figure, as_file, figure_bytes, image_figure
 from hess_explorer.export.formats import FORMATS, FileRequest
 from hess_explorer.export.picture_data import PictureData
-from hess_explorer.headless.drawing import drawing_of, png_of
+from hess_explorer.headless.drawing import page_image, png_of
 from hess_explorer.headless.film import as_film
 from hess_explorer.views.plot import Plot
 
@@ -21,20 +21,34 @@ __all__ = ["content", "figure"]
 def content(
     data: PictureData, request: FileRequest, report: Callable[[int, int], None] = lambda done, of: None
 ) -> bytes:
-    """Return the contents of the file; report : progress callback of `as_film`.
+    """Return the contents of a file.
 
-    Raises `InvalidParameter`, and `BrowserError` if a browser is needed and there is none.
+    Parameters
+    ----------
+    data : PictureData
+        The picture.
+    request : FileRequest
+        The format and its settings.
+    report : callable
+        Progress callback of `as_film`.
+
+    Raises
+    ------
+    InvalidParameter
+        If a setting is not supported, or a library is not installed.
+    BrowserError
+        If a browser is needed and there is none.
     """
     kind, width, black = request.kind, request.width, request.black
     if FORMATS[kind].holds == "film":
         return as_film(data, request, report)
     if FORMATS[kind].holds == "data" or isinstance(data.picture, Plot):
         return as_file(data, request)
-    return png_of(data, width, black) if kind == "png" else saved(figure(data, width, black), data, kind)
+    return png_of(data, width, black) if kind == "png" else figure_bytes(figure(data, width, black), data, kind)
 
 
 def figure(data: PictureData, width: float = 85.0, black: bool = False) -> Figure:
     """Return a picture as a figure of Matplotlib; parameters as in `as_figure`, errors as in `content`."""
     if isinstance(data.picture, Plot):
         return as_figure(data, width, black)
-    return image_figure(data, drawing_of(data, width, black), width)
+    return image_figure(data, page_image(data, width, black), width)

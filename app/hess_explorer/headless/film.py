@@ -38,7 +38,7 @@ _LOOP = 135.0
 def frames(data: PictureData, request: FileRequest, times: Array) -> Generator[bytes]:
     """Yield the frame at each time as PNG: a square with title and clock above the picture, and lines below a loop.
 
-    The page is told the time and then draws: the frames do not depend on the speed of the machine.
+    The frames do not depend on the speed of the machine, because the page draws each requested time.
 
     Parameters
     ----------
@@ -47,7 +47,7 @@ def frames(data: PictureData, request: FileRequest, times: Array) -> Generator[b
     request : FileRequest
         Width and colours; `loop` adds the lines below, and the colours of its page.
     times : array (n,)
-        The times.
+        Times of the frames, in the units of the player.
 
     Yields
     ------
@@ -78,7 +78,7 @@ def frames(data: PictureData, request: FileRequest, times: Array) -> Generator[b
 def as_film(
     data: PictureData, request: FileRequest, report: Callable[[int, int], None] = lambda done, of: None
 ) -> bytes:
-    """Return a square film of the whole motion, whose tags contain link, parameters and version.
+    """Return a square film of the whole motion, with link, parameters and version in the metadata.
 
     Parameters
     ----------

@@ -11,7 +11,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
-from hess_explorer.headless.browser import BrowserError, launched, wait_ready
+from hess_explorer.headless.browser import BrowserError, headless_browser, wait_ready
 from hess_explorer.server.liveness import is_alive
 from hess_mechanics.errors import ModelError
 
@@ -24,7 +24,7 @@ _LOAD_SECONDS = 120
 
 
 class ServerError(ModelError):
-    """The server or the page did not become ready; the message gives the reason."""
+    """The server or the page did not become ready; the message contains the reason."""
 
 
 def free_port() -> int:
@@ -108,7 +108,7 @@ def screenshot(query: str, size: tuple[int, int]) -> bytes:
         If there is no browser, or the page cannot be drawn.
     """
     # The browser first, so that a missing browser is reported without waiting for the server.
-    with launched() as browser, tempfile.TemporaryDirectory() as folder:
+    with headless_browser() as browser, tempfile.TemporaryDirectory() as folder:
         from playwright.sync_api import Error
 
         with server_process(Path(folder) / "server.log") as (_, base):

@@ -19,7 +19,13 @@ _MATH = {"math_inline": False, "math_inline_double": True, "math_block": True, "
 
 
 def problems_in(text: str, line: int, images: Images) -> Iterator[LessonError]:
-    """Yield the mistakes in a Markdown text that begins at a line; images : gets its images."""
+    """Yield the mistakes in a Markdown text that begins at a line.
+
+    Parameters
+    ----------
+    images : Images
+        Gets its images.
+    """
     for token in strict_parser().parse(text):
         yield from _problems_of(token, line + (token.map[0] if token.map else 0), images)
 

@@ -23,7 +23,10 @@ class ImageError(ValueError):
 class Images:
     """The images of one lesson by the target that its Markdown names, as `data:` URLs.
 
-    folder : folder of the lesson; None for a text without a file, which has no images.
+    Attributes
+    ----------
+    folder : Path or None
+        Folder of the lesson; None for a text without a file, which has no images.
     """
 
     def __init__(self, folder: Path | None) -> None:

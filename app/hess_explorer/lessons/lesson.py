@@ -18,7 +18,12 @@ TIME = "time"
 class LessonError(ModelError):
     """A lesson file is invalid; the error names file, line, problem and remedy.
 
-    message : the problem and what is allowed; line : line of the file, from 1.
+    Attributes
+    ----------
+    message : str
+        The problem and what is allowed.
+    line : int
+        Line of the file, from 1.
     """
 
     def __init__(self, message: str, line: int, file: str = "") -> None:
@@ -46,7 +51,13 @@ class Animation:
 
 @dataclass(frozen=True)
 class HiddenLayer:
-    """A layer of a picture that a step does not show; source : data of the layer in the browser."""
+    """A layer of a picture that a step does not show.
+
+    Attributes
+    ----------
+    source : str
+        Data of the layer in the browser.
+    """
 
     picture: str
     source: str
@@ -74,9 +85,18 @@ class Prediction:
 class LessonStep:
     """One step of a lesson.
 
-    text, answer : Markdown; the answer is hidden at first.  look : name of the picture to enlarge, "" for none.
-    controls : names of the parameters whose controls are beside the text.  pictures : names of the pictures that the
-    step shows alone, over its text; empty for the whole page.  line : line of its heading in the file.
+    Attributes
+    ----------
+    text, answer : str
+        Markdown; the answer is hidden at first.
+    look : str
+        Name of the picture to enlarge, "" for none.
+    controls : tuple of str
+        Names of the parameters whose controls are beside the text.
+    pictures : tuple of str
+        Names of the pictures that the step shows alone, over its text; empty for the whole page.
+    line : int
+        Line of its heading in the file.
     """
 
     title: str
@@ -96,7 +116,17 @@ class LessonStep:
 # Compared by identity, because the values of states are mappings, which are not hashable.
 @dataclass(frozen=True, eq=False)
 class Lesson:
-    """A lesson; name : as in a link; minutes : its duration, 0 if unknown; images : their URLs by target."""
+    """A lesson.
+
+    Attributes
+    ----------
+    name : str
+        As in a link.
+    minutes : float
+        Its duration, 0 if unknown.
+    images : mapping of str to str
+        Their URLs by target.
+    """
 
     name: str
     title: str

@@ -184,7 +184,15 @@ def _section(lines: list[str]) -> tuple[int, int]:
 
 @dataclass(frozen=True)
 class _Part:
-    """The text from a heading to the next one; line : number of its first line, from 1; fences : named `step`."""
+    """The text from a heading to the next one.
+
+    Attributes
+    ----------
+    line : int
+        Number of its first line, from 1.
+    fences : tuple
+        Named `step`.
+    """
 
     title: str
     text: str
@@ -209,7 +217,13 @@ def _parts(text: str, level: int) -> Iterator[_Part]:
 
 @dataclass(frozen=True)
 class _Fields:
-    """Settings by name, with their lines; line : first line of all."""
+    """Settings by name, with their lines.
+
+    Attributes
+    ----------
+    line : int
+        First line of all.
+    """
 
     values: Mapping[str, Any] = field(default_factory=dict)
     lines: Mapping[str, int] = field(default_factory=dict)
@@ -254,7 +268,13 @@ def _yaml(text: str, line: int) -> Any:
 def _steps(
     text: str, level: int, place: StateLink | None, images: Images, mistakes: list[LessonError]
 ) -> tuple[LessonStep, ...]:
-    """Return the steps under the headings of a level; mistakes : gets those of the steps that are left out."""
+    """Return the steps under the headings of a level.
+
+    Parameters
+    ----------
+    mistakes : list
+        Gets those of the steps that are left out.
+    """
     parts = list(_parts(text, level))
     steps: list[LessonStep] = []
     for part in parts[:MAX_STEPS]:
@@ -286,7 +306,13 @@ def _settings(part: _Part) -> _Fields:
 
 
 def _state(fields: _Fields, place: StateLink | None) -> StateLink:
-    """Return the state of a step; place : that of the step before."""
+    """Return the state of a step.
+
+    Parameters
+    ----------
+    place : StateLink or None
+        That of the step before.
+    """
     get, line_of = fields.get, fields.line_of
     if "state" in fields.values:
         place = place_of(get("state"), line_of("state"))
@@ -300,7 +326,13 @@ def _state(fields: _Fields, place: StateLink | None) -> StateLink:
 
 
 def _step(part: _Part, level: int, fields: _Fields, place: StateLink) -> LessonStep:
-    """Return a step; level : that of the headings Question and Answer."""
+    """Return a step.
+
+    Parameters
+    ----------
+    level : int
+        That of the headings Question and Answer.
+    """
     if not part.title:
         raise LessonError("the step has no title: write one after #.", part.line - 1)
     get, line_of = fields.get, fields.line_of

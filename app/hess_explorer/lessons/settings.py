@@ -194,7 +194,13 @@ def prediction_of(value: object, place: StateLink, line: int) -> Prediction | No
 def _layer(
     given: dict[str, Any], key: str, scene: Scene[Any], line: int, glyphs: tuple[str, ...] | None = None
 ) -> tuple[Plot[Any], Layer[Any]]:
-    """Return the picture and the layer that a mapping names; glyphs : the allowed kinds of layers, by default all."""
+    """Return the picture and the layer that a mapping names.
+
+    Parameters
+    ----------
+    glyphs : tuple of str or None
+        The allowed kinds of layers, by default all.
+    """
     plots = {view.name: view for view in scene.views if isinstance(view, Plot)}
     plot = plots[_one_of(given.get("picture"), f"picture of {key}", tuple(plots), line)]
     layers = {

@@ -30,22 +30,22 @@ _CHILD = "from hess_explorer.library.exploring import serve_alone; serve_alone(i
 class Exploration:
     """A page of the explorer with its own server, created by `explore`.
 
-    A notebook displays the page.  The server stops when this object is closed, garbage collected, or left as a context
-    manager, and when the Python process exits.
+    A notebook displays the page.  The server stops when this object is closed or garbage collected, at the end of its
+    `with` block, and when the Python process exits.
 
     Attributes
     ----------
     url : str
-        Address of the page, for any browser on this machine; on JupyterHub, Binder and Colab for the browser that shows
-        the notebook, on the first two through jupyter-server-proxy.
+        Address of the page: for any browser on this machine, or on JupyterHub, Binder and Colab for the browser of the
+        notebook.  JupyterHub and Binder need jupyter-server-proxy.
     """
 
     def __init__(self, first: SceneState, height: int) -> None:
         self._height = height
-        self._reached = first.link
+        self._link = first.link
         self._ready = threading.Event()
         port = free_port()
-        self.url = f"{_reached(port)}{first.link}"
+        self.url = f"{_address(port)}{first.link}"
         # A separate process, so that the page and the notebook's cells do not block each other.
         self._child = subprocess.Popen(
             [sys.executable, "-c", _CHILD, str(port)],
@@ -62,8 +62,8 @@ class Exploration:
 
     @property
     def state(self) -> SceneState:
-        """The state that the page shows now; the initial state until a browser has opened the page."""
-        return from_link(self._reached, lenient=True)
+        """The current state of the page; the initial state until a browser has opened the page."""
+        return from_link(self._link, lenient=True)
 
     def close(self) -> None:
         """Stop the server.  The page stays visible but no longer responds."""
@@ -72,7 +72,7 @@ class Exploration:
     def _receive(self, word: str, text: str) -> None:
         """Handle a message of the server: "ready", "ended", or "state" with the query of the current state."""
         if word == "state":
-            self._reached = f"?{text}"
+            self._link = f"?{text}"
         # Set on "ended" as well, so that the constructor stops waiting.
         self._ready.set()
 
@@ -109,7 +109,7 @@ def explore(scene: str = "suslov-hess", /, *, height: int = 640, **parameters: A
     Returns
     -------
     Exploration
-        The page; its `state` is the state that the user has reached.
+        The page; its `state` is the current state of the page.
 
     Raises
     ------
@@ -128,8 +128,8 @@ def explore(scene: str = "suslov-hess", /, *, height: int = 640, **parameters: A
     return Exploration(state(scene, **parameters), height)
 
 
-def _reached(port: int) -> str:
-    """Return the address of a server in this notebook, as the browser reaches it, with a slash at its end."""
+def _address(port: int) -> str:
+    """Return the address of a server of this notebook for the browser, with a slash at the end."""
     # JupyterHub and Binder set the folder of the user's server.
     hub = os.environ.get(_HUB)
     if hub is not None:
@@ -141,12 +141,12 @@ def _reached(port: int) -> str:
 
 
 def _origins() -> tuple[str, ...]:
-    """Return further origins: behind a proxy any, since only the proxy, which checks them, reaches the server."""
+    """Return the allowed origins: any behind a proxy, because the proxy checks them."""
     return ("*",) if _HUB in os.environ or "COLAB_RELEASE_TAG" in os.environ else ()
 
 
 def serve_alone(port: int) -> None:
-    """Run the server of an `Exploration`; it prints messages as lines of JSON [word, text]."""
+    """Run the server of an `Exploration`, and print its messages as lines of JSON [word, text]."""
 
     def tell(word: str, text: str = "") -> None:
         print(json.dumps([word, text]), flush=True)

@@ -13,7 +13,7 @@ import numpy as np
 from hess_explorer.library.own_state import LevelState, OwnState
 from hess_explorer.protocol.expressions import NotANumber
 from hess_explorer.protocol.expressions import evaluate as number_of
-from hess_explorer.protocol.specs import Value, written
+from hess_explorer.protocol.specs import Value, places_text
 from hess_explorer.scenes.framework.charted import Charts, of_motion
 from hess_explorer.scenes.framework.part import part
 from hess_explorer.scenes.framework.scene import Preset, Scene
@@ -55,9 +55,12 @@ _ESSENTIAL = 4
 
 @dataclass(frozen=True, repr=False)
 class OwnScene(Scene[OwnState]):
-    """A scene without files of its own.
+    """A scene without its own files, created by `hess_explorer.scene`.
 
-    text : what stands beside the pictures, Markdown with formulas.
+    Attributes
+    ----------
+    text : str
+        Text beside the pictures, in Markdown with formulas.
     """
 
     text: str = ""
@@ -83,35 +86,40 @@ def scene(
     presets: Mapping[str, Mapping[str, float]] | None = None,
     text: str = "",
 ) -> OwnScene:
-    """Return a scene for a system of one's own, with a slider for each parameter and each initial value.
+    """Create a scene for your own system, with a slider for each parameter and each initial value.
 
-    A section at levels of integrals has sliders of these instead of the initial values, and periodic orbits.
+    If the section lies at levels of integrals, these have sliders instead of the initial values, and the scene can
+    search for periodic orbits.
 
     Parameters
     ----------
     system : System
-        The equations of motion; its example is the first state.
+        The system; its example is the first state.
     pictures : sequence of str, optional
-        One text for each picture: two names of variables for an orbit in their plane, "t" and a name for a graph over
-        time, three names for the direction of a vector on a sphere, "exponent" for the largest Lyapunov exponent, and
-        "section", "section x px" or "section x px at y = 0" for a Poincaré section, in which a click chooses the
-        motion and a box a window; cells of MEGNO can lie under the points.  "section x px at y = 0 on E, L" lies at
-        levels of these integrals.  "branch" continues a periodic orbit of that section over a parameter or a level,
-        "chart" shows MEGNO or an exponent over two of the sliders.  By default the plane of the first two variables,
-        or the graph of a single one.
+        One text for each picture; by default the plane of the first two variables, or the graph of a single one.
+
+        - "x y": orbit in the plane of two variables;
+        - "t x": graph of a variable over time;
+        - "x y z": direction of the vector of three variables, on a sphere;
+        - "exponent": largest Lyapunov exponent over the averaging time;
+        - "section", "section x px" or "section x px at y = 0": Poincaré section, optionally with MEGNO as colour.
+          Click to choose the motion, draw a box to zoom;
+        - "section x px at y = 0 on E, L": Poincaré section at levels of these integrals;
+        - "branch": continuation of a periodic orbit of that section over a parameter or a level;
+        - "chart": MEGNO or the exponent over two of the sliders.
     sliders : mapping of str to (float, float), optional
-        Ends of the sliders, by the names of parameters, variables and integrals.  Those of a coordinate are also the
-        range of the section.
+        Ends of the sliders, by the names of parameters, variables and integrals.  Those of a coordinate of the section
+        are also its range.
     presets : mapping of str to mapping, optional
         Named states: values by the names of parameters, variables and integrals.
     text : str, optional
-        What stands beside the pictures: Markdown with formulas.
+        Text beside the pictures, in Markdown with formulas.
 
     Returns
     -------
     OwnScene
-        The scene.  A file with `SCENE = hess.scene(…)` is shown by `hess-explorer serve --scene FILE`, and
-        `hess.state(SCENE, …)` is one of its states.
+        The scene.  `hess.state(SCENE, …)` returns one of its states; `hess-explorer serve --scene FILE` shows a file
+        with `SCENE = hess.scene(…)`.
 
     Raises
     ------
@@ -203,14 +211,14 @@ def scene(
 
 
 def _charts(system: System, fields: Sequence[str]) -> Charts:
-    """Return the chart over the sliders, the first two at first."""
+    """Return the charts over the sliders, initially the first two."""
     motions = of_motion(system, lambda s: s.given, lambda s: s.long, computations_of(system))
     first, second = [*fields, "long"][:2]
     return Charts(motions, over=(first, second))
 
 
 def _section_of(system: System, pictures: Sequence[str]) -> dict[str, Any]:
-    """Return surface, coordinates and levels of the section among the pictures.  Raises `InvalidParameter`."""
+    """Return surface, coordinates and levels of the section in the list of pictures.  Raises `InvalidParameter`."""
     found = next(filter(None, map(_SECTION.fullmatch, pictures)), None)
     if found is None:
         if _BRANCH in pictures:
@@ -232,7 +240,7 @@ def _section_of(system: System, pictures: Sequence[str]) -> dict[str, Any]:
 
 
 def _checked_section(system: System, section: Mapping[str, Any]) -> VariableSection:
-    """Return the section at the example.  Raises `InvalidParameter` if it has one coordinate only."""
+    """Return the section at the example.  Raises `InvalidParameter` if it has only one coordinate."""
     found = None
     if len(system.variables) > 2:
         known = {name: float(value) for name, value in system.integrals(*system.example).items()}
@@ -246,7 +254,7 @@ def _checked_section(system: System, section: Mapping[str, Any]) -> VariableSect
 
 
 def _place(section: VariableSection) -> str:
-    """Return the place where the motion of the example first crosses a section, or any place where motions do."""
+    """Return the place where the motion of the example first crosses a section, or any place with a motion."""
     place = None
     with suppress(ModelError):
         place = first_place(section, section.system.example[0])
@@ -255,7 +263,7 @@ def _place(section: VariableSection) -> str:
         tried = low + evenly(_TRIED).T * (high - low)
         _, there = section.states_at(*tried.T)
         place = tuple(tried[int(np.argmax(there))])
-    return written([place])
+    return places_text([place])
 
 
 def _fields(system: System, integrals: Sequence[str] | None) -> dict[str, tuple[str, float]]:
@@ -272,7 +280,7 @@ def _fields(system: System, integrals: Sequence[str] | None) -> dict[str, tuple[
         known |= {name: (f"i_{name}", float(levels[name])) for name in integrals}
     for name, (field, _) in known.items():
         if not field.isidentifier():
-            raise InvalidParameter(f"{system.title}: {name!r} cannot stand in a link: name it like x, k2 or ω1.")
+            raise InvalidParameter(f"{system.title}: {name!r} cannot be used in a link: name it like x, k2 or ω1.")
     return known
 
 
@@ -317,7 +325,10 @@ def _first_picture(system: System) -> str:
 
 
 def _picture(system: System, picture: str, leveled: bool) -> Picture[Any]:
-    """Return the picture of a text; leveled : its section has periodic orbits.  Raises `InvalidParameter`."""
+    """Return the picture that a text describes; `leveled` adds periodic orbits to the section.
+
+    Raises `InvalidParameter`.
+    """
     if picture == _EXPONENT:
         return exponent_picture()
     if picture == _BRANCH:
@@ -339,8 +350,8 @@ def _picture(system: System, picture: str, leveled: bool) -> Picture[Any]:
         )
     if len(names) != 2:
         raise InvalidParameter(
-            f"{system.title}: {picture!r} is no picture. Write two names of variables, t and one of them, three for a "
-            f"sphere, section, or {_EXPONENT}."
+            f"{system.title}: {picture!r} is not a picture. Write the names of two variables, t and one of them, three "
+            f"for a sphere, section, or {_EXPONENT}."
         )
     x, y = _require(system, names[0], ("t", *system.variables)), _require(system, names[1], system.variables)
     return orbit_picture(x, y, f"{y} over {x}", name=f"{x}-{y}")

@@ -9,12 +9,12 @@ from typing import ClassVar
 import numpy as np
 
 from hess_explorer.compute.cache import Task
-from hess_explorer.protocol.specs import Value, Values, written
+from hess_explorer.protocol.specs import Value, Values, places_text
 from hess_explorer.scenes.framework.part import Start, part
-from hess_explorer.scenes.framework.periodic_search import Closed, NotPeriodic
+from hess_explorer.scenes.framework.periodic_search import ClosedOrbit, NotPeriodic
 from hess_explorer.scenes.framework.scene import State
 from hess_explorer.scenes.framework.sliders import accuracy_level, exponent_time, parameter, time_span
-from hess_explorer.scenes.framework.windows import boxed
+from hess_explorer.scenes.framework.windows import box_window
 from hess_explorer.scenes.parts.orbits.exponent import OrbitExponent
 from hess_explorer.scenes.parts.sections import (
     MEGNO,
@@ -44,7 +44,7 @@ _PIXELS = 300.0
 class OwnState(State):
     """A motion of a system; each scene adds the system's parameters, `p_…`, and initial values, `y_…`, as fields.
 
-    A scene with a section also adds its visible `window` and what is shown under its points, `indicator`.
+    A scene with a section also adds its `window` and the `indicator` under its points.
     """
 
     span: float = time_span(30.0, 300.0)
@@ -68,17 +68,17 @@ class OwnState(State):
 
     @property
     def given(self) -> Start:
-        """The chosen initial state."""
+        """The chosen initial state (d,)."""
         return tuple(getattr(self, f"y_{name}") for name in self.system.variables)
 
     @property
     def start(self) -> Start:
-        """The initial state of the orbit on show."""
+        """The initial state of the current orbit."""
         return self.given
 
     @property
     def duration(self) -> float:
-        """The time span of the orbit on show."""
+        """The time span of the current orbit."""
         return self.span
 
     @cached_property
@@ -88,14 +88,14 @@ class OwnState(State):
 
     @property
     def periodic_orbit(self) -> NotPeriodic | SectionPeriodicOrbit:
-        """The periodic orbit in place of the chosen one: none is searched for."""
+        """The periodic orbit in place of the chosen one; this scene does not search for any."""
         return NotPeriodic()
 
     orbit = part(lambda s: BodyOrbit(s, max_step=s.max_step))
     exponent = part(OrbitExponent)
 
     def levels(self) -> dict[str, float]:
-        """Return the values of integrals at which the section lies: those along the motion."""
+        """Return the levels of the integrals of the section: their values along the motion."""
         known = self.system.integrals(self.given, self.body.parameters)
         needed = len(self.system.variables) - 3
         return {name: float(value) for name, value in [*known.items()][:needed]}
@@ -114,12 +114,12 @@ class OwnState(State):
         return self.megno.caption
 
     def look_closer(self, corners: Corners) -> Values:
-        """Return the window of the section that a box selects."""
+        """Return the window that a box in the section selects."""
         (x0, x1), (y0, y1) = self.poincare.window
-        return boxed(corners, ((x0, y0), (x1, y1)))
+        return box_window(corners, ((x0, y0), (x1, y1)))
 
     def start_at(self, x: float, y: float) -> Values:
-        """Return the initial values at a place of the section; none where no motion crosses it."""
+        """Return the initial values at a place of the section; empty if no motion crosses it there."""
         states, there = self.poincare.states_at(np.array([x]), np.array([y]))
         named = zip(self.system.variables, states[0].tolist(), strict=True)
         values: dict[str, Value] = {f"y_{name}": value for name, value in named}
@@ -128,7 +128,7 @@ class OwnState(State):
 
 @dataclass(frozen=True)
 class LevelState(OwnState):
-    """A motion from a place of a section; each scene adds the values of the integrals there, `i_…`, and the `place`."""
+    """A motion from a place of a section; each scene adds the levels of integrals, `i_…`, and the `place`."""
 
     periodic: str = which()
     reach: float = length_of_manifolds()
@@ -138,23 +138,23 @@ class LevelState(OwnState):
 
     @cached_property
     def given(self) -> Start:
-        """The state at the place.  Raises `OutsideRegion`."""
+        """The state (d,) at the place.  Raises `OutsideRegion`."""
         return start_on(self.poincare, self.place)
 
     @property
     def start(self) -> Start:
-        """The initial state of the orbit on show."""
-        return self.given if self.closed is None else self.closed.state
+        """The initial state of the current orbit."""
+        return self.given if self.closed_orbit is None else self.closed_orbit.state
 
     @property
     def duration(self) -> float:
-        """The time span of the orbit on show."""
-        return self.span if self.closed is None else self.closed.time
+        """The time span of the current orbit."""
+        return self.span if self.closed_orbit is None else self.closed_orbit.time
 
     @property
-    def closed(self) -> Closed | None:
-        """The periodic orbit, if known."""
-        return self.periodic_orbit.closed
+    def closed_orbit(self) -> ClosedOrbit | None:
+        """The periodic orbit; None if unknown."""
+        return self.periodic_orbit.closed_orbit
 
     periodic_orbit = part(lambda s: SectionPeriodicOrbit(s.section, s.periodic, s.reach))
 
@@ -164,15 +164,15 @@ class LevelState(OwnState):
         return self.periodic_orbit.caption or self.megno.caption
 
     def levels(self) -> dict[str, float]:
-        """Return the chosen values of integrals."""
+        """Return the chosen levels of the integrals."""
         return {name: getattr(self, f"i_{name}") for name in self.integrals}
 
     def start_at(self, x: float, y: float) -> Values:
         """Return the place as the start of the motion."""
-        return {"place": written([(x, y)])}
+        return {"place": places_text([(x, y)])}
 
 
 def _pixels(system: System) -> tuple[float, ...]:
-    """Return pixels per unit of each variable, such that the example of the system fills a picture."""
+    """Return the pixels per unit of each variable at which the example of the system fills a picture."""
     states = solve(*system.example_motion, np.linspace(0.0, 30.0, 200), "draft").states
     return tuple((_PIXELS / np.maximum(np.ptp(states, axis=0), 1e-3)).tolist())

@@ -15,9 +15,9 @@ import numpy as np
 
 from hess_explorer.export.code import code
 from hess_explorer.export.columns import Table, columns_of
-from hess_explorer.export.formats import FileRequest, holding
+from hess_explorer.export.formats import FileRequest, formats_of
 from hess_explorer.export.picture_data import CLIENT_KEPT, Address, PictureData, address, compute, picture_of
-from hess_explorer.protocol.specs import NumberSpec, Places, Spec, Value, query_in, refusal, written
+from hess_explorer.protocol.specs import NumberSpec, Places, Spec, Value, places_text, query_in, refusal
 from hess_explorer.scenes import scene_named, scenes
 from hess_explorer.scenes.framework.scene import Scene
 from hess_mechanics.errors import InvalidParameter
@@ -27,14 +27,14 @@ from hess_mechanics.numerics.files import write_whole
 
 __all__ = ["SceneState", "from_link", "state"]
 
-_ENDINGS = holding("data", "figure", "film")
+_ENDINGS = formats_of("data", "figure", "film")
 
 
 @dataclass(frozen=True, eq=False)
 class SceneState:
     """A state of a scene, created by `state` and `from_link`.
 
-    Pictures are computed on first use and kept.
+    Pictures are computed on first use and cached.
 
     Examples
     --------
@@ -67,7 +67,7 @@ class SceneState:
 
     @property
     def motion(self) -> Any:
-        """The motion that the scene shows: its system, start, parameters and time; None without a motion.
+        """The motion of the scene: system, initial state, parameters and duration; None without a motion.
 
         Raises
         ------
@@ -78,7 +78,7 @@ class SceneState:
 
     @property
     def section(self) -> Any:
-        """The Poincaré section that the scene draws; None without a section.
+        """The Poincaré section of the scene; None without a section.
 
         Raises
         ------
@@ -89,7 +89,7 @@ class SceneState:
 
     @property
     def periodic(self) -> Any:
-        """The `PeriodicOrbit` that the section shows; None without one.
+        """The `PeriodicOrbit` shown in the section; None without one.
 
         Raises
         ------
@@ -103,7 +103,7 @@ class SceneState:
         >>> state.periodic.kind, state.periodic.period
         ('elliptic', 1)
         """
-        closed = _first(self._shown("section").state, ("closed",)) if "section" in self.pictures else None
+        closed = _first(self._shown("section").state, ("closed_orbit",)) if "section" in self.pictures else None
         return None if closed is None else closed.orbit
 
     @property
@@ -118,12 +118,12 @@ class SceneState:
 
     @property
     def link(self) -> str:
-        """The query of the state, "?" included: append it to the address of any server."""
+        """The query of the state with "?": append it to the address of any server."""
         return f"?{self._address.link}"
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """Corrections of the link that the state was read from."""
+        """Corrections of the link from which the state was read."""
         return self._address.notes
 
     @property
@@ -245,13 +245,13 @@ class SceneState:
     def save(
         self, file: str | Path, picture: str = "", *, width: float = 85.0, black: bool = False, seconds: float = 10.0
     ) -> Path:
-        """Write a picture to a file, of which an earlier version stays until the new one is complete.
+        """Write a picture to a file; an existing file is replaced when the new one is complete.
 
         Parameters
         ----------
         file : str or Path
-            Name of the file.  Its suffix chooses the format: csv and json for data; png, svg and pdf for a figure;
-            webm and mp4 for a film.  A headless browser draws films, and spheres, bodies, tori and clouds.
+            Name of the file.  Its suffix determines the format: csv and json for data; png, svg and pdf for a figure;
+            webm and mp4 for a film.  A headless browser draws films, spheres, bodies, tori and clouds.
         picture : str
             Name of the picture; the first picture by default.
         width : float
@@ -358,9 +358,9 @@ def state(scene: str | Scene[Any] = "suslov-hess", /, **parameters: Any) -> Scen
     scene : str or Scene
         Name of the scene, as in a link, or a scene of your own.
     **parameters
-        Values by the names that a link uses; other parameters have the defaults of the page.  Besides the parameters of
-        the scene: `t`, the time of bodies and clouds; `az` and `el`, azimuth and elevation of the view of a sphere in
-        radians.
+        Values by the names that a link uses; all others have the defaults of the page.  In addition to the parameters
+        of the scene: `t`, the time of bodies and clouds; `az` and `el`, azimuth and elevation of the view of a sphere
+        in radians.
 
     Returns
     -------
@@ -392,10 +392,10 @@ def state(scene: str | Scene[Any] = "suslov-hess", /, **parameters: Any) -> Scen
             raise InvalidParameter(
                 f"The scene {found.name} has no parameter {name!r}: choose one of {', '.join(specs)}."
             )
-    given = {name: _checked(specs[name], value) for name, value in parameters.items()}
-    wanted = {name: given.get(name, spec.default) for name, spec in specs.items()}
-    client = {name: float(wanted.pop(name)) for name in looks}
-    values, notes = found.admit(wanted)
+    given = {name: _validate(specs[name], value) for name, value in parameters.items()}
+    target = {name: given.get(name, spec.default) for name, spec in specs.items()}
+    client = {name: float(target.pop(name)) for name in looks}
+    values, notes = found.admit(target)
     if notes:
         raise InvalidParameter(" ".join(map(refusal, notes)))
     return SceneState(Address(found, found.views[0], values, client))
@@ -434,8 +434,8 @@ def from_link(link: str, *, lenient: bool = False) -> SceneState:
     return SceneState(address(query_in(link), lenient=lenient))
 
 
-def _checked(spec: Spec, value: Any) -> Value:
-    """Return the value of a parameter; raise `InvalidParameter` with the text of a link's note."""
+def _validate(spec: Spec, value: Any) -> Value:
+    """Return the value of a parameter.  Raises `InvalidParameter`."""
     found: Value
     note: str | None
     if isinstance(spec, NumberSpec):
@@ -449,7 +449,7 @@ def _checked(spec: Spec, value: Any) -> Value:
             pairs = [(float(x), float(y)) for x, y in value]
         except (TypeError, ValueError, OverflowError):
             raise InvalidParameter(f"{spec.name} ({spec.label}) must be a list of pairs [(x, y), …].") from None
-        found, note = spec.read(written(pairs))
+        found, note = spec.read(places_text(pairs))
     else:
         found, note = spec.read(as_level_name(value) if isinstance(value, Level) else str(value))
     if note:

@@ -127,7 +127,7 @@ class Recording:
                 "summary": f"accuracy: {state.work.chosen}",
                 # Without the run times, which say nothing here.
                 "status": " · ".join(state.status()),
-                "derived": "\n".join(report.derived),
+                "derived": "\n".join(report.quantities),
                 "notes": "\n".join([*notes, *report.notes]),
             }
         for plot, ranges in axes:

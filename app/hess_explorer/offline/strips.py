@@ -62,7 +62,13 @@ def steps_of_plots(plots: Sequence[tuple[Plot[Any], Axes]]) -> dict[str, dict[st
 
 
 def _step(values: Array, column: str, known: float | None) -> float:
-    """Return the quantisation step of an array in single precision; known : that of its plot."""
+    """Return the quantisation step of an array in single precision.
+
+    Parameters
+    ----------
+    known : float or None
+        That of its plot.
+    """
     finite = values[np.isfinite(values)]
     if len(finite) == 0:
         return 1.0

@@ -1,4 +1,4 @@
-"""The background tasks of the state on show."""
+"""The background tasks of the current state."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ __all__ = ["BackgroundTasks"]
 
 
 class BackgroundTasks:
-    """Starts, stops and reports the background tasks of the state on show.
+    """Starts, stops and reports the background tasks of the current state.
 
     Attributes
     ----------
@@ -36,7 +36,7 @@ class BackgroundTasks:
             self.background.stop()
 
     def drop(self) -> None:
-        """Discard the tasks of the state on show."""
+        """Discard the tasks of the current state."""
         self.progress = None
         self._next = None
         self.background.stop()
@@ -47,17 +47,22 @@ class BackgroundTasks:
         self.background.stop()
 
     def ended(self, more: bool) -> bool:
-        """Return True if no task is running any more; more : True if the state is unchanged.
+        """Return True if no task is running any more.
 
         Call it before the state is computed, because the last task may end during that computation.
+
+        Parameters
+        ----------
+        more : bool
+            True if the state is unchanged.
         """
-        self._left = self.background.left
+        self._left = self.background.backlog
         return self._left == 0 if more else self._stopped
 
     @property
     def news(self) -> bool:
         """True if a task has ended since the state was computed, or none is running or about to start."""
-        return self._next is None and not 0 < self.background.left == self._left
+        return self._next is None and not 0 < self.background.backlog == self._left
 
     def follow(self, report: Report, more: bool, ended: bool) -> list[str]:
         """Plan the tasks that the report lists; return a note if they ended early.  `start` starts them."""

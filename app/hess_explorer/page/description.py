@@ -34,7 +34,7 @@ def describe(name: str) -> str:
         {
             "name": scene.name,
             "title": scene.title,
-            "pictures": [{**view.describe(), "folded": view.folded or None} for view in scene.views],
+            "pictures": [{**view.describe(), "folded": view.button or None} for view in scene.views],
             "controls": [_control(spec) for spec in scene.specs if isinstance(spec, Controlled)],
             "essential": list(scene.essential),
             "handle": _handle(scene),

@@ -35,7 +35,13 @@ _FILES = {
 
 
 def page(own: Sequence[Lesson] = ()) -> Any:
-    """Return a new page for the current request; own : lessons in addition to those of the package."""
+    """Return a new page for the current request.
+
+    Parameters
+    ----------
+    own : sequence of Lesson
+        Lessons in addition to those of the package.
+    """
     try:
         return _page(_query(), own)
     # Log any error; the user sees one sentence.

@@ -47,8 +47,8 @@ class RequestedState:
         self.notes = []
         self._set(values)
         if any(isinstance(spec, ChoiceSpec) and self.values[name] != before[name] for name, spec in self.specs.items()):
-            carried = self.scene.carried(before, self.values)
-            self._set({name: value for name, value in carried.items() if name not in values})
+            adjustments = self.scene.adjustments(before, self.values)
+            self._set({name: value for name, value in adjustments.items() if name not in values})
 
     def change_scene(self, scene: Scene[Any]) -> None:
         """Go to a scene as it was left, and carry over changed values of parameters with the same meaning."""
@@ -57,7 +57,7 @@ class RequestedState:
         # A scene and its "Speed and accuracy" scene share one state.
         carried = (scene.origin or scene.name) != (self.scene.origin or self.scene.name)
         values = (
-            scene.taken_over(self._left.get(scene.name, scene.defaults()), self.scene, self.values)
+            scene.transfer(self._left.get(scene.name, scene.defaults()), self.scene, self.values)
             if carried
             else {**self._left.get(scene.name, {}), **self.values}
         )

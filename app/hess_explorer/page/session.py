@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from hess_explorer.compute.background import Background
-from hess_explorer.compute.budget import Abandoned
+from hess_explorer.compute.budget import ClientGone
 from hess_explorer.lessons import tries
 from hess_explorer.lessons.lesson import Lesson
 from hess_explorer.page.background_tasks import BackgroundTasks
@@ -71,7 +71,7 @@ class Session:
         self._in_sight = pictures
         self._held = False
         self._number = 0
-        # True if the last request asked for another state, False if it asked again for the one on show.
+        # True if the last request asked for another state, False if it asked again for the current one.
         self.is_new = False
         self.values: Values = {}
         # Scene, requested values and notes of the drawn state, and its pictures; None if nothing valid is drawn.
@@ -82,19 +82,19 @@ class Session:
 
     @property
     def scene(self) -> Scene[Any]:
-        """The scene on show."""
+        """The current scene."""
         return self.requested.scene
 
     @property
     def stage(self) -> Stage[Any]:
-        """The pictures of the scene on show."""
+        """The pictures of the current scene."""
         if self.scene.name not in self._stages:
             self._stages[self.scene.name] = Stage(self.scene, self.wire)
         return self._stages[self.scene.name]
 
     @property
     def background(self) -> Background:
-        """The background work of the state on show."""
+        """The background work of the current state."""
         return self._tasks.background
 
     def answer(self, request: Request) -> Answer:
@@ -110,7 +110,7 @@ class Session:
                     self._in_sight = [name for name in scene.pictures if name not in request.hidden]
                 if request.requested is not None:
                     self._update(request.held)
-        except Abandoned:
+        except ClientGone:
             raise
         # Log any error, and leave neither a traceback nor an outdated picture on the page.
         except Exception:
@@ -142,7 +142,7 @@ class Session:
         self._tasks.start()
 
     def _description(self, near: str | None) -> str:
-        """Return the description of the scene on show, or of the scene `near`, unless it was sent before."""
+        """Return the description of the current scene, or of the scene `near`, unless it was sent before."""
         for name in (self.scene.name, near):
             if name is not None and name not in self._described and (name == self.scene.name or name in scenes()):
                 self._described.add(name)
@@ -150,7 +150,7 @@ class Session:
         return ""
 
     def _apply(self, request: Request) -> None:
-        """Update the requested state; clicks refer to the state on show."""
+        """Update the requested state; clicks refer to the current state."""
         wanted, scene = self.requested, self.scene
         if request.restore is not None:
             wanted.restore(request.restore)
@@ -245,7 +245,13 @@ class Session:
             self._draw(more=True)
 
     def _draw(self, more: bool = False) -> None:
-        """Draw the requested state; more : True to redraw it with new results of the background tasks."""
+        """Draw the requested state.
+
+        Parameters
+        ----------
+        more : bool
+            True to redraw it with new results of the background tasks.
+        """
         wanted, ended = self.requested, self._tasks.ended(more)
         self.values, notes = wanted.values, list[str]()
         try:
@@ -272,7 +278,7 @@ class Session:
         self.wire.say("summary", report.summary)
         self.wire.say("status", report.status)
         self.wire.say("notes", "\n".join([*self.requested.notes, *notes, *report.notes]))
-        self.wire.say("derived", "\n".join(report.derived))
+        self.wire.say("derived", "\n".join(report.quantities))
 
     def _refuse(self, sentence: str) -> Report:
         """Clear the pictures and show the reason."""

@@ -16,7 +16,7 @@ from typing import Any
 
 from simpleeval import InvalidExpression, SimpleEval
 
-__all__ = ["FUNCTIONS", "MOST", "NotANumber", "Unreadable", "calculated", "evaluate", "in_python"]
+__all__ = ["FUNCTIONS", "MOST", "NotANumber", "Unreadable", "calculate", "evaluate", "in_python"]
 
 MOST = 100
 """Maximum length of an expression, in characters."""
@@ -49,23 +49,23 @@ class NotANumber(ValueError):
 
 
 class Unreadable(Exception):
-    """The text is no expression of the allowed kinds."""
+    """The text is not an allowed expression."""
 
 
 def in_python(text: str) -> str:
-    """Return an expression as Python writes it: signs as typed or printed, "^" for a power."""
+    """Translate an expression to Python: typographic signs to ASCII, "^" to "**"."""
     return text.strip().replace("−", "-").replace("^", "**").replace("·", "*")
 
 
-def calculated(
+def calculate(
     text: str,
     operators: Mapping[type[ast.AST], Callable[..., Any]],
     names: Mapping[str, Any],
     functions: Mapping[str, Callable[..., Any]],
 ) -> Any:
-    """Return the value of an expression of numbers, names, operators and functions, without running other code.
+    """Evaluate an expression of numbers, names, operators and functions, without running other code.
 
-    Raises `Unreadable`, and whatever the operators and functions raise of `ArithmeticError` and `ValueError`.
+    Raises `Unreadable` for other expressions, and any `ArithmeticError` and `ValueError` of operators and functions.
     """
     evaluator = SimpleEval(operators=dict(operators), functions=dict(functions), names=dict(names))
     evaluator.nodes = {kind: evaluator.nodes[kind] for kind in _KINDS}
@@ -101,7 +101,7 @@ def evaluate(text: str) -> float:
     if not _TEXT.fullmatch(text):
         raise NotANumber("This is not a number: type one like 1.5, 1e-8, pi/3, sqrt(2) or 1/7.")
     try:
-        value = calculated(text, _OPERATORS, _NAMES, FUNCTIONS)
+        value = calculate(text, _OPERATORS, _NAMES, FUNCTIONS)
         if isinstance(value, bool) or not isinstance(value, int | float):
             raise Unreadable
         value = float(value)

@@ -1,7 +1,7 @@
 """Formulas that a user types: polynomials such as 0.5*g1^2 − g3, and periodic drives such as cos(W*t).
 
-The text is untrusted.  `calculated` evaluates it without running code; names stand for polynomials, so that only
-polynomials come out, with bounds on length, degree and number of terms.
+The text is untrusted.  `calculate` evaluates it without running code; names stand for polynomials, so that the result
+is a polynomial, with bounds on length, degree and number of terms.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ import re
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from hess_explorer.protocol.expressions import Unreadable, calculated, in_python
+from hess_explorer.protocol.expressions import Unreadable, calculate, in_python
 from hess_mechanics.errors import InvalidParameter
 
 __all__ = ["MOST", "drive", "polynomial"]
@@ -108,7 +108,7 @@ def polynomial(text: str) -> dict[Exponents, float]:
     Raises
     ------
     InvalidParameter
-        If the text is too long or no polynomial of degree 6 or less with coefficients up to 1e6.
+        If the text is too long, or not a polynomial of degree 6 or less with coefficients up to 1e6.
 
     Examples
     --------
@@ -123,7 +123,7 @@ def polynomial(text: str) -> dict[Exponents, float]:
 
 
 def drive(text: str) -> dict[Exponents, float]:
-    """Return a sum of cos(n*W*t) and sin(n*W*t), and of their products, as a polynomial in cos Ωt and sin Ωt.
+    """Return the coefficients of a polynomial in cos(n*W*t) and sin(n*W*t), by exponents of cos Ωt and sin Ωt.
 
     Parameters
     ----------
@@ -138,7 +138,7 @@ def drive(text: str) -> dict[Exponents, float]:
     Raises
     ------
     InvalidParameter
-        If the text is too long or no such sum of degree 6 or less with coefficients up to 1e6.
+        If the text is too long, or not such a polynomial of degree 6 or less with coefficients up to 1e6.
 
     Examples
     --------
@@ -155,7 +155,7 @@ def drive(text: str) -> dict[Exponents, float]:
         "drive: use numbers and cos(n*W*t), sin(n*W*t), like cos(W*t) + 0.5*sin(2*W*t)",
     )
     if any(exponents[2] for exponents in found):
-        raise InvalidParameter("The time of a drive stands inside cos and sin only: it must be periodic.")
+        raise InvalidParameter("A drive must be periodic: use t only inside cos and sin.")
     return found
 
 
@@ -164,14 +164,14 @@ def _harmonic(angle: Any, part: str) -> _Terms:
     terms = _of(angle)
     n = terms.get((0, 0, 1), 0.0)
     if set(terms) != set(_PHASE) or n not in range(1, _DEGREE + 1):
-        raise InvalidParameter(f"A drive has cos(n*W*t) and sin(n*W*t), n a whole number from 1 to {_DEGREE}.")
+        raise InvalidParameter(f"A drive must consist of cos(n*W*t) and sin(n*W*t), n from 1 to {_DEGREE}.")
     return _Terms({exponents: getattr(value, part) for exponents, value in _power(_TURN, n).items()})
 
 
 def _read(
     plain: str, allowed: re.Pattern[str], names: Mapping[str, Any], functions: Mapping[str, Any], kind: str
 ) -> dict[Exponents, float]:
-    """Return the coefficients of an expression in Python.  Raises `InvalidParameter`."""
+    """Return the coefficients of a Python expression.  Raises `InvalidParameter`."""
     if len(plain) > MOST:
         raise InvalidParameter(f"The formula is longer than {MOST} characters: shorten it.")
     if not plain:
@@ -179,12 +179,12 @@ def _read(
     try:
         if not allowed.fullmatch(plain):
             raise Unreadable
-        found = _of(calculated(plain, _OPERATORS, names, functions))
+        found = _of(calculate(plain, _OPERATORS, names, functions))
     except InvalidParameter:
         raise
     except (Unreadable, ValueError, ArithmeticError):
-        raise InvalidParameter(f"This is no {kind}.") from None
-    # The constant part of a potential moves nothing, and that of a drive belongs to the rotors.
+        raise InvalidParameter(f"This is not a {kind}.") from None
+    # The constant part of a potential has no effect, and that of a drive belongs to the rotors.
     kept = {exponents: value for exponents, value in found.items() if value != 0.0 and any(exponents)}
     if not all(abs(value) <= _LARGEST for value in kept.values()):
         raise InvalidParameter(f"A coefficient of the formula is larger than {_LARGEST:g}: choose smaller numbers.")

@@ -43,7 +43,7 @@ __all__ = [
 
 T = TypeVar("T")
 ALIVE = {"alive": True}
-"""The request of a page that has heard nothing for seconds."""
+"""Request that a page sends after some seconds without a message."""
 
 
 @dataclass(frozen=True)
@@ -95,7 +95,7 @@ class Request:
 
 
 def parse(message: Any) -> Request | None:
-    """Return the request in decoded JSON, or None if there is none."""
+    """Return the request that decoded JSON contains, or None if it is not a request."""
     if not isinstance(message, dict):
         return None
 
@@ -161,8 +161,18 @@ class StateAnswer:
 
     Attributes
     ----------
-    number : index of the state in the session; answers : value of "requested" in the request; query : of its link;
-    tree : changes of the page, see `Wire.pack`; progress : tasks (done, total) while background tasks are running.
+    number : int
+        Index of the state in the session.
+    answers : int
+        Value of "requested" in the request.
+    query : str
+        Query of the link to the state.
+    tree : mapping of str
+        Changes of the page, see `Wire.pack`.
+    scene : str
+        Name of the scene.
+    progress : tuple of int or None
+        Background tasks (done, total) while they are running.
     """
 
     number: int
@@ -179,8 +189,14 @@ class Answer:
 
     Attributes
     ----------
-    scene, lesson : descriptions as JSON, empty for none; block : the numbers of the state; show : what the followers of
-    a room read beside the state, as JSON.
+    scene, lesson : str
+        Descriptions as JSON; empty for none.
+    state : StateAnswer or None
+        The state.
+    block : bytes
+        Arrays of the state.
+    show : str
+        Texts beside the state for the followers of a room, as JSON.
     """
 
     scene: str = ""

@@ -35,9 +35,9 @@ __all__ = [
     "decode",
     "encode",
     "places",
+    "places_text",
     "query_in",
     "refusal",
-    "written",
 ]
 
 VERSION = "1"
@@ -53,10 +53,10 @@ Values = Mapping[str, Value]
 
 @dataclass(frozen=True)
 class NumberSpec(Parameter):
-    """A numeric parameter; its slider covers `softbounds`, typed values may lie anywhere within `bounds`."""
+    """A numeric parameter; its slider covers `softbounds`, and typed values may lie anywhere within `bounds`."""
 
     def read(self, given: Value) -> tuple[float, str | None]:
-        """Return the number or untrusted text clamped to `bounds`, and a note if it had to be changed."""
+        """Return the number in an untrusted text, clamped to `bounds`, and a note if it was changed."""
         try:
             value = float(given)
         except (ValueError, OverflowError):
@@ -82,7 +82,10 @@ class ChoiceSpec:
     group: Group | Literal["Chart"] = "Computation"
 
     def read(self, given: Value) -> tuple[str, str | None]:
-        """Return the option of that name; otherwise the default and a note, which does not quote the text."""
+        """Return the option of that name; otherwise the default and a note, which does not quote the text.
+
+        The text is untrusted.
+        """
         if given in self.options:
             return str(given), None
         return self.default, f"{self.label} must be one of {', '.join(self.options)}: set to {self.default}."
@@ -90,7 +93,13 @@ class ChoiceSpec:
 
 @dataclass(frozen=True)
 class Formula:
-    """A formula as a text; reads : raises `InvalidParameter` for other texts."""
+    """A formula as a text.
+
+    Attributes
+    ----------
+    reads : callable
+        Parses the formula; raises `InvalidParameter` for an invalid text.
+    """
 
     name: str
     label: str
@@ -100,7 +109,7 @@ class Formula:
     reads: Callable[[str], object] = polynomial
 
     def read(self, given: Value) -> tuple[str, str | None]:
-        """Return the formula without surrounding spaces; otherwise the default and a note."""
+        """Return the formula without surrounding spaces; if it is invalid, the default and a note."""
         text = str(given).strip()
         try:
             self.reads(text)
@@ -113,7 +122,12 @@ class Formula:
 class Places:
     """Points chosen with the mouse in a picture, as a text "x,y;x,y"; they have no control.
 
-    most : maximum number of points; low, high : corners of the rectangle that contains them.
+    Attributes
+    ----------
+    most : int
+        Maximum number of points.
+    low, high : tuple
+        Corners of the rectangle that contains them.
     """
 
     name: str
@@ -124,7 +138,7 @@ class Places:
     default: str = ""
 
     def read(self, given: Value) -> tuple[str, str | None]:
-        """Return the last `most` points as a text, and a note if the text had to be changed."""
+        """Return the last `most` points as a text, and a note if the text was changed."""
         text = str(given)
         try:
             pairs = [tuple(map(float, pair.split(","))) for pair in text.split(";") if pair]
@@ -139,7 +153,7 @@ class Places:
             low, high = (",".join(map(plain, corner)) for corner in (self.low, self.high))
             return self.default, (f"{self.label} must be points x,y;x,y from {low} to {high}: the default is shown.")
         note = f"{self.label} may be at most {self.most}: the last ones are kept." if len(pairs) > self.most else None
-        return written(pairs[-self.most :]), note
+        return places_text(pairs[-self.most :]), note
 
 
 @dataclass(frozen=True)
@@ -153,9 +167,9 @@ class Names:
     default: str = ""
 
     def read(self, given: Value) -> tuple[str, str | None]:
-        """Return the first `most` known names, without duplicates, and a note if a name had to be dropped.
+        """Return the first `most` known names without duplicates, and a note if a name was dropped.
 
-        The default is returned if none of the names is known.
+        Without any known name, return the default.
         """
         names = list(dict.fromkeys(name for name in str(given).split(",") if name))
         known = [name for name in names if name in self.options]
@@ -167,13 +181,13 @@ class Names:
         return ",".join(known[: self.most]) or (self.default if note else ""), note
 
 
-def written(places: Sequence[tuple[float, ...]]) -> str:
+def places_text(places: Sequence[tuple[float, ...]]) -> str:
     """Return the points as a text "x,y;x,y"."""
     return ";".join(",".join(f"{value:.10g}" for value in place) for place in places)
 
 
 def places(text: Value) -> list[tuple[float, float]]:
-    """Return the points of a text that was checked before."""
+    """Return the points of a validated text."""
     pairs = (pair.split(",") for pair in str(text).split(";") if pair)
     return [(float(x), float(y)) for x, y in pairs]
 
@@ -212,12 +226,12 @@ def _text(value: Value) -> str:
 
 
 def encode(scene: str, values: Values) -> str:
-    """Return the query of a link to these values of a scene, version first."""
+    """Return the query of a link to a state, with the version first."""
     return urlencode([("v", VERSION), ("scene", scene), *((name, _text(value)) for name, value in values.items())])
 
 
 def refusal(note: str) -> str:
-    """Return the requirement of a note: the part before the last colon, without the value that was set instead."""
+    """Return the error message of a note: the part before the last colon, without the substituted value."""
     requirement, _, correction = note.rpartition(": ")
     return f"{(requirement or correction).removesuffix('.')}."
 
@@ -270,7 +284,15 @@ class Link:
             self.note("The link was made by another version of this page: its values may have another meaning here.")
 
     def note(self, note: str, given: str = "") -> None:
-        """Append a note on a correction, or raise `InvalidParameter`; given : quotation from the link."""
+        """Append a note on a correction; raise `InvalidParameter` unless the link is lenient.
+
+        Parameters
+        ----------
+        note : str
+            The requirement, and the value that was set instead.
+        given : str
+            Quotation from the link, for the error message.
+        """
         if not self._lenient:
             raise InvalidParameter(f"{given}{refusal(note).removesuffix('.')}; {_REMEDY}")
         if note not in self.notes:
@@ -307,7 +329,7 @@ def _short(text: str) -> str:
 
 
 def _quoted(names: Iterable[str]) -> str:
-    """Return the first names of a link in quotation marks, each up to the first sign that no name contains."""
+    """Return the first names in quotation marks, each up to the first character that no name contains."""
     return ", ".join(_short(re.sub(r"[^\w#.-].*", "…", name, flags=re.DOTALL)) for name in [*names][:_NAMED])
 
 

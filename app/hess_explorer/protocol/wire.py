@@ -42,7 +42,7 @@ class Wire:
         self._captions[picture] = caption
 
     def show_number(self, name: str, value: float, limits: Sequence[float], idle: bool = False) -> None:
-        """Set the control of a number: its value, the (low, high, step) of its slider, idle if it is disabled."""
+        """Set the value of a number's control and the (low, high, step) of its slider; `idle` disables it."""
         self._controls[name] = [value, *limits, *([True] if idle else [])]
 
     def show_choice(self, name: str, option: str) -> None:

@@ -32,7 +32,13 @@ _LEFT_OUT: dict[str, Any] = {
 
 @dataclass(frozen=True)
 class Frames:
-    """The frames of a state: scene : description of the picture; state : the state itself."""
+    """The frames of a state: scene : description of the picture.
+
+    Attributes
+    ----------
+    state : bytes
+        The state itself.
+    """
 
     scene: bytes
     state: bytes
@@ -54,7 +60,7 @@ class Drawing:
         self._lessons = lessons
         self._queue = RequestQueue()
         self._show: Show | None = None
-        # Computes what is missing in the state on show.
+        # Computes what is missing in the current state.
         self._session: Session | None = None
         self._left = 0
         self._progress: tuple[int, int] | None = None
@@ -62,7 +68,7 @@ class Drawing:
     @property
     def has_news(self) -> bool:
         """True if parts of the state have been computed since it was drawn."""
-        return self._session is not None and self._session.background.left != self._left
+        return self._session is not None and self._session.background.backlog != self._left
 
     async def draw(self, show: Show) -> Frames | None:
         """Return the frames of a state, or None if it takes too long."""
@@ -94,8 +100,8 @@ class Drawing:
         scene, step = opened.scene, step_of(self._lessons, show)
         picture = _picture(scene, step, show.picture)
         session = Session(scene, opened.values, opened.notes, {}, [picture])
-        is_same, is_going = show == self._show, self._session is not None and self._session.background.left > 0
-        left = self._session.background.left if self._session is not None else 0
+        is_same, is_going = show == self._show, self._session is not None and self._session.background.backlog > 0
+        left = self._session.background.backlog if self._session is not None else 0
         answer = session.answer(Request(requested=0))
         state = answer.state
         assert state is not None, "a request for a state has one in its answer"
@@ -106,7 +112,7 @@ class Drawing:
                 self._session.background.stop()
             self._session = session
             session.start_tasks()
-            left = session.background.left
+            left = session.background.backlog
         self._show, self._left, self._progress = show, left, state.progress
         name = f"{scene.name}/{picture}"
         state = dataclasses.replace(state, scene=name)

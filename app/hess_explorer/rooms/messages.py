@@ -51,7 +51,13 @@ class Lead:
 
 @dataclass(frozen=True)
 class Follow:
-    """Follow the lecturer; name : random name of the page."""
+    """Follow the lecturer.
+
+    Attributes
+    ----------
+    name : str
+        Random name of the page.
+    """
 
     name: str
 

@@ -131,7 +131,7 @@ class Room:
 
     @property
     def _asked(self) -> Prediction | None:
-        """The guess that the step on show asks for."""
+        """The guess that the current step asks for."""
         step = step_of(self._lessons, self._show) if self._show is not None else None
         return step.prediction if step is not None else None
 

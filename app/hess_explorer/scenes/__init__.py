@@ -1,4 +1,4 @@
-"""The scenes: the `SCENE` of every module in this package, those from elsewhere, and "Speed and accuracy" for each."""
+"""All scenes: those of this package and of plugins, those of the user, and "Speed and accuracy" for each of them."""
 
 from __future__ import annotations
 
@@ -15,19 +15,19 @@ from hess_mechanics.errors import InvalidParameter
 __all__ = ["PLUGINS", "add", "scene_named", "scenes"]
 
 PLUGINS = "hess_explorer.scenes"
-"""Group of the entry points by which other packages bring their scenes."""
+"""Entry point group for scenes of other packages."""
 
 _added: list[Scene[Any]] = []
 
 
 @cache
 def scenes() -> dict[str, Scene[Any]]:
-    """Return all scenes by name, in menu order: added ones first, and scenes derived from another scene last."""
+    """Return all scenes by name in menu order: added scenes first, "Speed and accuracy" scenes last."""
     own = _shipped() + [_checked(one.load(), one.value) for one in entry_points(group=PLUGINS)]
     own = [*_added, *sorted(own, key=lambda scene: scene.place)]
     found = {scene.name: scene for scene in [*own, *(speed_and_accuracy(scene) for scene in own if scene.trials)]}
     if len(found) < len(own) + sum(bool(scene.trials) for scene in own):
-        raise InvalidParameter("Two scenes have the same name: rename the system or the file of yours.")
+        raise InvalidParameter("Two scenes have the same name: rename your system or file.")
     return found
 
 
@@ -37,7 +37,7 @@ def _shipped() -> list[Scene[Any]]:
 
 
 def scene_named(name: str) -> Scene[Any] | None:
-    """Return a scene, or None if none has this name; a module of this package is imported without the others."""
+    """Return the scene of this name, or None; imports only the module of the scene if possible."""
     own = {module.name for module in pkgutil.iter_modules(__path__)}
     module = name.replace("-", "_")
     found = getattr(importlib.import_module(f"{__name__}.{module}"), "SCENE", None) if module in own else None
@@ -45,9 +45,19 @@ def scene_named(name: str) -> Scene[Any] | None:
 
 
 def add(scene: Any, source: str) -> None:
-    """Add a scene of one's own, before the page is served.
+    """Add a scene before the page is served.
 
-    source : where it comes from, for messages.  Raises `InvalidParameter`, also if its name is taken.
+    Parameters
+    ----------
+    scene : Scene
+        The scene.
+    source : str
+        Where it comes from, for error messages.
+
+    Raises
+    ------
+    InvalidParameter
+        If it is not a scene, or its name is taken.
     """
     _added.append(_checked(scene, source))
     scenes.cache_clear()
@@ -61,5 +71,5 @@ def add(scene: Any, source: str) -> None:
 
 def _checked(scene: Any, source: str) -> Scene[Any]:
     if not isinstance(scene, Scene):
-        raise InvalidParameter(f"{source} is {scene!r} and no scene: make one with hess.scene(system, pictures).")
+        raise InvalidParameter(f"{source} is {scene!r}, not a scene: create one with hess.scene(system, pictures).")
     return scene

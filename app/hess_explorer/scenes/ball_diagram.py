@@ -56,7 +56,7 @@ PRESETS = (
 
 @dataclass(frozen=True)
 class BallDiagram(DiagramState):
-    """State of the orbit diagram of the ball."""
+    """A state of the orbit diagram of the ball."""
 
     I11: float = parameter(ball.I11, 1.5)
     I22: float = parameter(ball.I22)

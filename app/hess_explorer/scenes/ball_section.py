@@ -128,14 +128,14 @@ class BallSectionState(SectionState):
         """The energy."""
         return self.h - math.hypot(self.b1, self.b2)
 
-    def admitted(self, notes: list[str]) -> BallSectionState:
-        """Move ψ out of the band that the energy forbids."""
+    def valid_state(self, notes: list[str]) -> BallSectionState:
+        """Return the state with ψ moved out of the forbidden band; append a note."""
         psi = self.psi if self.band is None else outside_band(self.band, self.psi)
         if psi != self.psi:
             notes.append(
                 f"With this energy γ cannot lie on the plane at ψ = {digits(self.psi)}: ψ was set to {digits(psi)}."
             )
-        return self.changed({"psi": psi})
+        return self.with_values({"psi": psi})
 
     @cached_property
     def band(self) -> tuple[float, float] | None:
@@ -154,7 +154,7 @@ class BallSectionState(SectionState):
 
     @cached_property
     def weights(self) -> tuple[float, ...]:
-        """Scale of each variable in pixels per unit, fitted to the orbit."""
+        """Pixels per unit of each variable, fitted to the orbit."""
         return pixels_per_unit(room_for(self.work.need(Task(fastest, self.body, self.start, self.duration))))
 
     # ---- the parts ----------------------------------------------------------------------------------------------
@@ -176,7 +176,7 @@ class BallSectionState(SectionState):
         return centre_of_mass((self.b1, self.b2, self.b3))
 
     def start_at(self, x: float, y: float) -> Values:
-        """Return the parameters of an orbit that starts at (ψ, δ)."""
+        """Return the parameter values of an orbit that starts at (ψ, δ)."""
         return {"psi": x, "delta": y}
 
     def half_width(self) -> float:
@@ -184,14 +184,14 @@ class BallSectionState(SectionState):
         return room_for(float(np.hypot(*self.orbit.path.states[:, :2].T).max()))
 
     def forbidden(self, axes: Axes) -> list[list[Array]]:
-        """Return the band of ψ that the energy forbids."""
+        """Return the forbidden band of ψ as rectangles."""
         if self.band is None or self.section.known.reason:
             return []
         return section_plane.band(*self.band, 2.0 * math.pi, axes)
 
     def returns(self) -> Array | None:
         """Return consecutive values (ψ, next ψ) of the chosen orbit (n, 2)."""
-        closed = self.closed
+        closed = self.closed_orbit
         if closed is not None:
             psi = closed.orbit.places[:, 0]
             return np.column_stack([psi, np.roll(psi, -1)])
@@ -204,7 +204,7 @@ class BallSectionState(SectionState):
         if self.special is not None:
             return self.special
         if self.section.known.reason:
-            return Caption("Left out: too many steps.")
+            return Caption("Omitted: too many steps.")
         volume = "The flow preserves volume." if self.I13 == self.I23 == 0.0 else "The flow does not preserve volume."
         visited = occupied_cells(self.section.own, self.poincare.window, _CELLS)
         counted = self.density.said or f"{len(self.section.own)} points of the "
@@ -212,19 +212,19 @@ class BallSectionState(SectionState):
 
     def _about_returns(self) -> Caption:
         if self.section.known.reason:
-            return Caption("Left out: too many steps.")
+            return Caption("Omitted: too many steps.")
         if is_reversible(self.body):
             return Caption("One point: every orbit that returns closes.", "Proved by the symmetry γ₃ → −γ₃, t → −t.")
-        if self.closed is not None:
-            return Caption("Each ψ against the next.", f"Period {self.closed.orbit.period}.")
+        if self.closed_orbit is not None:
+            return Caption("Each ψ against the next.", f"Period {self.closed_orbit.orbit.period}.")
         if has_area_integral(self.body):
             return Caption("A curve: there is another integral.", "ω₁γ₁ + ω₂γ₂ is constant.")
         return Caption("Each ψ against the next.")
 
-    def derived(self) -> Iterator[str]:
+    def quantities(self) -> Iterator[str]:
         """Yield the energies and the start of the orbit."""
         yield f"E = {digits(self.E)}"
-        yield from super().derived()
+        yield from super().quantities()
         yield f"lowest energy −|b| = {digits(lowest_energy(self.body))}"
         yield f"ω(0) = {vector(self.start[:2])}"
         yield f"γ(0) = {vector(self.start[2:])}"
@@ -272,7 +272,7 @@ SCENE = Scene(
         Plot(
             name="returns",
             title="First return",
-            folded="Show the first return",
+            button="Show the first return",
             caption=BallSectionState._about_returns,
             axes=("ψ", "ψ at the next crossing"),
             x=ANGLE,

@@ -68,14 +68,14 @@ PRESETS = (
 
 
 def _without_round_off(value: float) -> float:
-    """Remove round-off of a translation there and back: 5.000000000000001 becomes 5."""
+    """Round a number that was translated there and back: 5.000000000000001 becomes 5."""
     short = float(f"{value:.12g}")
     return short if math.isclose(short, value, rel_tol=1e-14) else value
 
 
 @dataclass(frozen=True)
 class BothSides(State):
-    """One motion in both descriptions."""
+    """A motion of the Suslov–Hess case and the same motion of Euler–Poisson."""
 
     given: str = choice(
         "Given in",
@@ -113,13 +113,13 @@ class BothSides(State):
 
     @cached_property
     def heavy(self) -> HeavyHess:
-        """The Euler–Poisson motion from the parameters, if that side is given."""
+        """The Euler–Poisson motion of the parameters, used if that side is given."""
         return HeavyHess((self.I1, self.I2, self.I3), self.m, self.h, self.f)
 
-    def admitted(self, notes: list[str]) -> BothSides:
+    def valid_state(self, notes: list[str]) -> BothSides:
         """Clamp the parameters of the given side to a valid motion."""
         if self.given == HEAVY:
-            return self.changed(self.heavy.admitted(notes))
+            return self.with_values(self.heavy.corrections(notes))
         h = max(self.h, _BOTTOM)
         if self.h < _BOTTOM:
             notes.append("In units b = 1 the energy must exceed −1: h was set to its lowest value.")
@@ -128,7 +128,7 @@ class BothSides(State):
         )
 
     def limits(self) -> Mapping[str, Slider]:
-        """Return the sliders of the given side."""
+        """Return the slider ranges of the given side."""
         if self.given == HEAVY:
             return self.heavy.limits()
         f = {"f": slider_within(f_max(self.h))} if self.h > -1.0 else {}
@@ -147,9 +147,9 @@ class BothSides(State):
         """Return the meaning of h and f on the given side."""
         return dict.fromkeys("hf", (known.H_HEAVY if self.given == HEAVY else known.H_HESS).means)
 
-    def carried(self, before: BothSides) -> Values:
+    def adjustments(self, before: BothSides) -> Values:
         """Return the parameters of the same motion after a change of the given side.  Raises `ModelError`."""
-        others = super().carried(before)
+        others = super().adjustments(before)
         if self.given == before.given:
             return others
         bridge = before.bridge
@@ -161,20 +161,22 @@ class BothSides(State):
 
     @cached_property
     def bridge(self) -> Bridge:
-        """Both bodies.  Raises `ModelError`."""
+        """The Suslov body and the equivalent heavy body.  Raises `ModelError`."""
         if self.given == HEAVY:
             return self.heavy.bridge
         return Bridge.of_suslov(HessBody(self.I22, self.I23, self.b3), self.share)
 
     @cached_property
-    def turning(self) -> TurningPoints:
-        """(h, f) in units b = 1, with the turning points of n3.  Raises `ModelError`."""
-        return self.heavy.turning if self.given == HEAVY else turning_points(self.h, self.f)
+    def turning_points(self) -> TurningPoints:
+        """The turning points of n3, with h and f in units b = 1.  Raises `ModelError`."""
+        return self.heavy.turning_points if self.given == HEAVY else turning_points(self.h, self.f)
 
     @cached_property
     def map(self) -> CircleMap:
         """The circle map of the torus."""
-        return self.work.need(Task(circle_map, self.bridge.hess.a, self.turning.h, self.turning.f, self.level))
+        return self.work.need(
+            Task(circle_map, self.bridge.hess.a, self.turning_points.h, self.turning_points.f, self.level)
+        )
 
     @property
     def period(self) -> float:
@@ -183,11 +185,11 @@ class BothSides(State):
 
     def ring(self) -> tuple[Array, Array]:
         """Return the two ellipses that bound ω."""
-        return annulus(self.bridge.hess, self.map.h, self.turning)
+        return annulus(self.bridge.hess, self.map.h, self.turning_points)
 
     @cached_property
     def half_width(self) -> float:
-        """Half width of the (ω1, ω2)-plane: a little more than the ring and than the error of a draft."""
+        """Half width of the (ω1, ω2)-plane, with room for the ring and for the error at the level `draft`."""
         ring = 1.1 * float(np.max(np.abs(self.ring()[1])))
         return nice_above(max(ring, 2.0 * DRAFT.promise * self.bridge.hess.frequency_unit))
 
@@ -198,8 +200,8 @@ class BothSides(State):
             Task(
                 track,
                 self.bridge.hess,
-                self.turning.h,
-                self.turning.f,
+                self.turning_points.h,
+                self.turning_points.f,
                 self.phi0,
                 self.span,
                 self.level,
@@ -214,18 +216,18 @@ class BothSides(State):
 
     @cached_property
     def iterates(self) -> Array:
-        """φ0 and its images under the circle map, up to the end of the orbit."""
+        """φ0 and its iterates under the circle map, up to the end of the orbit."""
         returns = max(1, math.ceil(self.span * self.bridge.hess.frequency_unit / self.map.period))
         return self.map.iterate(self.phi0, min(returns, MAX_RETURNS))
 
     @cached_property
     def heavy_states(self) -> Array:
-        """The same motion in the variables of Euler–Poisson, (n, 6)."""
+        """The states (n, 6) of the same motion in Euler–Poisson variables."""
         return self.bridge.from_suslov(np.hstack([self.track.omega, self.track.gamma]))
 
     @cached_property
     def andoyer(self) -> Array:
-        """(l, L/G) along the motion."""
+        """The Andoyer–Deprit variables (l, L/G) along the motion."""
         return coordinates(self.heavy_states)
 
     @cached_property
@@ -244,20 +246,20 @@ class BothSides(State):
             _MOST_GROWTH / (1.0 + 2.0 * math.pi * abs(self.bridge.hess.a)),
         )
         end = min(self.span, most * self.period)
-        start = tuple(self.turning.state_at_lower_turn(self.phi0).tolist())
+        start = tuple(self.turning_points.state_at_lower_turn(self.phi0).tolist())
         count = max(64, math.ceil(end / self.period * _IN_A_PERIOD)) + 1
         return self.work.need(Task(difference, self.bridge, start, end, count))
 
     def motion(self) -> Motion:
         """Return the reduced motion, common to both sides."""
-        length = min(self.span * self.bridge.hess.frequency_unit, MAX_RETURNS * self.turning.period)
-        return hess_case.reduced_motion(self.bridge.hess, self.turning, self.phi0, length)
+        length = min(self.span * self.bridge.hess.frequency_unit, MAX_RETURNS * self.turning_points.period)
+        return hess_case.reduced_motion(self.bridge.hess, self.turning_points, self.phi0, length)
 
     def orbit_columns(self) -> Columns:
         """Return the columns of the orbit and of the moving points in the other pictures."""
         found = self.track
         start = torus_plane.phases_at_returns(found, self.map, self.iterates)
-        seen = self.known("difference")
+        seen = self.peek("difference")
         apart = (
             np.full(found.times.size, LG_OF_0) if seen is None else np.interp(found.times, seen.times, lg(seen.held))
         )
@@ -268,7 +270,7 @@ class BothSides(State):
 
     def _about_torus(self) -> Caption:
         h, f = digits(self.map.h), digits(self.map.f)
-        width = ranging(self.turning.initial_rho, self.turning.final_rho)
+        width = ranging(self.turning_points.initial_rho, self.turning_points.final_rho)
         return Caption(numbers=f"h = {h}, f = {f} in units b = 1; |w| {width}.")
 
     def _about_andoyer(self) -> Caption:
@@ -280,7 +282,7 @@ class BothSides(State):
         end = digits(float(self.difference.times[-1]))
         return Caption(numbers=f"At most {held} up to t = {end} if r·M = 0 is imposed; {free} if not.")
 
-    def derived(self) -> Iterator[str]:
+    def quantities(self) -> Iterator[str]:
         """Yield the data of both bodies and their common integrals."""
         hess, heavy, theta = self.bridge.hess, self.bridge.heavy, self.map
         H, F1 = self.bridge.from_units_of_b(theta.h, theta.f)
@@ -304,19 +306,19 @@ class BothSides(State):
 
     def status(self) -> Iterator[str]:
         """Yield the status of the orbit and of the difference."""
-        if self.known("track"):
+        if self.peek("track"):
             yield from orbit_status(self.track.orbit)
-        if self.known("difference"):
+        if self.peek("difference"):
             yield f"difference at reference, error of the Suslov side ≤ {digits(self.difference.error, 2)}"
 
     def notes(self) -> Iterator[str]:
-        """Yield warnings: not a rigid body, a truncated orbit, round-off that grows within the torus."""
+        """Yield warnings: not a rigid body, a truncated orbit, growing round-off on the torus."""
         if not self.bridge.hess.check.is_body:
             yield self.bridge.hess.check.sentence
-        shown = float(self.track.times[-1]) if self.known("track") else math.inf
+        shown = float(self.track.times[-1]) if self.peek("track") else math.inf
         if shown < self.span * (1.0 - 1e-9):
             yield f"The orbit is drawn up to t = {digits(shown)}: {MAX_RETURNS} returns."
-        if self.known("difference") and self.difference.error > hess_case.UNSURE:
+        if self.peek("difference") and self.difference.error > hess_case.UNSURE:
             yield hess_case.BY_THE_UNSTABLE_CYCLE
 
 
@@ -325,7 +327,7 @@ SCENE = Scene(
     __file__,
     place=13,
     presets=PRESETS,
-    charts=Charts(of_torus(lambda s: (s.bridge.hess.a, s.turning.h, s.turning.f)), over=("h", "f")),
+    charts=Charts(of_torus(lambda s: (s.bridge.hess.a, s.turning_points.h, s.turning_points.f)), over=("h", "f")),
     group="Euler–Poisson",
     essential=("h", "f", "phi0"),
     answers=(Answer("Two bodies, one motion: a heavy top and a body on wheels, translated into each other."),),
@@ -377,7 +379,7 @@ SCENE = Scene(
                 dot=("phi_start", "phi"),
                 on_click=lambda s, x, y: {"phi0": x},
             ),
-            folded="Show the circle map",
+            button="Show the circle map",
         ),
         replace(
             andoyer.picture(
@@ -386,7 +388,7 @@ SCENE = Scene(
                 relation=lambda s: hess_circle(s.bridge.heavy),
                 orbit=lambda s: s.andoyer,
             ),
-            folded="Show (l, L/G)",
+            button="Show (l, L/G)",
         ),
     ),
 )

@@ -11,14 +11,14 @@ import numpy as np
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.answers import Answer
-from hess_explorer.scenes.framework.charted import Charted, Charts, of_motion, tensor_of
+from hess_explorer.scenes.framework.charted import Charts, ChartSource, of_motion, tensor_of
 from hess_explorer.scenes.framework.circle_left import DIGITS, PHI, Gamma_picture, sphere
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
 from hess_explorer.scenes.framework.sliders import accuracy_level, parameter, time_span
 from hess_explorer.scenes.framework.solid_body import Solid, constrained_solid, solid_body
 from hess_explorer.scenes.framework.trial import Trial, curve_error
 from hess_explorer.scenes.framework.work import orbit_status
-from hess_explorer.scenes.parts.orbits.proof import OrbitProof, proved_error_shown
+from hess_explorer.scenes.parts.orbits.proof import OrbitProof, show_proved_error
 from hess_explorer.scenes.parts.sections import BodyOrbit
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
@@ -56,7 +56,7 @@ PRESETS = (
 
 @dataclass(frozen=True)
 class ChaplyginBall(State):
-    """The chosen orbit, many orbits over the strip, and the map of the phases."""
+    """A chosen orbit, many orbits across the strip, and the scattering map of the phases."""
 
     I11: float = parameter(known.I11, 1.0)
     I22: float = parameter(known.I22)
@@ -68,7 +68,7 @@ class ChaplyginBall(State):
     phi: float = parameter(PHI)
     digits: float = parameter(DIGITS)
     span: float = time_span(60.0, 400.0, what="the chosen orbit")
-    certain: str = proved_error_shown()
+    certain: str = show_proved_error()
     accuracy: str = accuracy_level()
 
     @cached_property
@@ -88,7 +88,7 @@ class ChaplyginBall(State):
 
     @cached_property
     def half_width(self) -> float:
-        """Half width of the (ω1, ω2)-plane, with room for σ1."""
+        """Half width of the (ω1, ω2)-plane, with room for the ellipse σ1."""
         return plane.nice_above(1.1 * float(self.strip.outer.max()))
 
     @cached_property
@@ -98,12 +98,12 @@ class ChaplyginBall(State):
 
     @property
     def weights(self) -> tuple[float, ...]:
-        """Scale of each variable in pixels per unit."""
+        """Pixels per unit of each variable."""
         return plane.pixels_per_unit(self.half_width)
 
     @property
     def duration(self) -> float:
-        """The length of the orbit in time."""
+        """The duration of the orbit."""
         return self.span
 
     @cached_property
@@ -117,7 +117,7 @@ class ChaplyginBall(State):
         return OrbitProof(self.orbit, self.certain)
 
     def motion(self) -> Motion:
-        """Return the chosen orbit."""
+        """Return the motion of the chosen orbit."""
         return self.orbit.motion()
 
     @cached_property
@@ -131,7 +131,7 @@ class ChaplyginBall(State):
         return self.orbit.path.states[:, 2:] @ self.strip.xi
 
     def strip_orbits(self, count: int, level: Level) -> Task[tuple[StripOrbit, ...]]:
-        """Return a task that computes `count` orbits over the strip, with E = 1."""
+        """Return a task that computes `count` orbits across the strip, at E = 1."""
         return Task(strip_orbits, self.body, count, level)
 
     def phases(self, count: int, level: Level) -> Task[model.BallScattering]:
@@ -140,7 +140,7 @@ class ChaplyginBall(State):
 
     @cached_property
     def crowd(self) -> tuple[StripOrbit, ...]:
-        """Orbits over the strip."""
+        """The orbits across the strip."""
         plan = self.plan(Kind.CURVE)
         found: tuple[StripOrbit, ...] = self.work.need(
             self.strip_orbits(plan.side(_ORBITS), plan.level), preview=self.strip_orbits(_FEW_ORBITS, DRAFT)
@@ -149,7 +149,7 @@ class ChaplyginBall(State):
 
     @cached_property
     def map_or_reason(self) -> tuple[model.BallScattering | None, str]:
-        """θ⁺ over the phases and an empty reason; or None and the reason, if the map takes too many steps."""
+        """The scattering map θ⁺(φ) and an empty string; or None and a reason, if it takes too many steps."""
         plan = self.plan(Kind.MAP)
         whole = plan.side(_PHASES)
         try:
@@ -157,11 +157,11 @@ class ChaplyginBall(State):
                 self.phases(whole, plan.level), preview=self.phases(min(whole, _FEW_PHASES), DRAFT)
             ), ""
         except WorkLimit as error:
-            return None, f"The map of the phases is left out: {error}"
+            return None, f"The scattering map is omitted: {error}"
 
     @property
     def map(self) -> model.BallScattering | None:
-        """θ⁺ over the phases; None if it takes too many steps."""
+        """The scattering map θ⁺(φ); None if it takes too many steps."""
         return self.map_or_reason[0]
 
     def free(self) -> list[Array]:
@@ -181,7 +181,7 @@ class ChaplyginBall(State):
         ]
 
     def ellipse_names(self) -> list[tuple[float, float, str]]:
-        """Return labels beside σ2 and σ1, in a quadrant without the line of equilibria."""
+        """Return the labels of σ2 and σ1, in a quadrant without the line of equilibria."""
         angle = [(0.25 if self.I13 * self.I23 >= 0.0 else 0.75) * math.pi]
         places = plane.beside(self.strip.sigma2(angle)[0], self.strip.sigma1(angle)[0], self.half_width)
         return [(float(x), float(y), name) for (x, y), name in zip(places, ("σ₂", "σ₁"), strict=True)]
@@ -195,7 +195,7 @@ class ChaplyginBall(State):
 
     def _about_curve(self) -> Caption:
         if self.map is None:
-            return Caption("Left out: too many steps.")
+            return Caption("Omitted: too many steps.")
         return Caption(numbers=f"θ⁻ = {in_digits(self.theta)}: {square.spread(self.map.theta_plus)}; dashed: 𝒟 = 0.")
 
     def _about_Gamma(self) -> Caption:
@@ -205,7 +205,7 @@ class ChaplyginBall(State):
             return Caption("Γ returns to its initial value.", f"Γ = {shown[0]}.")
         return Caption(f"Γ {'increases' if last > first else 'decreases'}.", f"From {shown[0]} to {shown[1]}.")
 
-    def derived(self) -> Iterator[str]:
+    def quantities(self) -> Iterator[str]:
         """Yield the dimensions of the strip, its axis ξ and the distance δ."""
         most, least = (tuple(map(in_digits, axes)) for axes in (self.strip.outer, self.strip.inner))
         slowest, fastest = (in_digits(float(np.hypot(*end))) for end in self.strip.unstable)
@@ -220,12 +220,12 @@ class ChaplyginBall(State):
         if self.orbit.has_result("path"):
             yield from orbit_status(self.orbit.path)
             yield from self.proof.status()
-        if self.known("map_or_reason") and self.map is not None:
+        if self.peek("map_or_reason") and self.map is not None:
             yield f"{self.map.phis.size} phases, error ≤ {float(self.map.errors.max()):.1e}"
 
     def notes(self) -> Iterator[str]:
         """Yield the reason for a missing map."""
-        if self.known("map_or_reason") and self.map_or_reason[1]:
+        if self.peek("map_or_reason") and self.map_or_reason[1]:
             yield self.map_or_reason[1]
 
 
@@ -257,7 +257,7 @@ SCENE = Scene(
     measures=_MEASURES,
     charts=Charts(
         (
-            Charted(
+            ChartSource(
                 "ball-scattering",
                 lambda s: {**tensor_of(s.body), "D": s.D, "theta": s.theta, "phi": s.phi, "distance": s.distance},
             ),

@@ -1,4 +1,4 @@
-"""Common part of two scenes: attractors of a section γ₃ = 0 over a parameter, and one orbit."""
+"""Shared by two scenes: attractors of a section γ₃ = 0 over a parameter, and one orbit."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ from typing import Any, TypeVar
 import numpy as np
 
 from hess_explorer.compute.cache import Task
-from hess_explorer.protocol.specs import Values, written
-from hess_explorer.scenes.framework.charted import Charted, Charts, parameters_of
+from hess_explorer.protocol.specs import Values, places_text
+from hess_explorer.scenes.framework.charted import Charts, ChartSource, parameters_of
 from hess_explorer.scenes.framework.part import Start, part
-from hess_explorer.scenes.framework.periodic_search import NONE, Closed
+from hess_explorer.scenes.framework.periodic_search import NONE, ClosedOrbit
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene
 from hess_explorer.scenes.framework.solid_body import Solid, constrained_solid, solid_body
-from hess_explorer.scenes.framework.windows import boxed
+from hess_explorer.scenes.framework.windows import box_window
 from hess_explorer.scenes.parts.diagrams.controls import (
     BACKWARD,
     BOUNDS,
@@ -68,28 +68,28 @@ class DiagramState(DiagramControls):
 
     @property
     def weights(self) -> tuple[float, ...]:
-        """Scale of each variable in pixels per unit, with room for all motions of this energy."""
+        """Pixels per unit of each variable, with room for all motions of this energy."""
         I11, I22, *_, b1, b2, b3 = self.body.parameters
         highest = self.poincare.E + math.hypot(b1, b2, b3)
         return pixels_per_unit(room_for(math.sqrt(2.0 * highest / min(I11, I22))))
 
     @property
     def start(self) -> Start:
-        """The initial state of the orbit on show: on the periodic orbit if its branch is shown."""
-        return self.diagram.start if self.closed is None else self.closed.state
+        """The initial state (d,) of the orbit, on the periodic orbit if its branch is shown."""
+        return self.diagram.start if self.closed_orbit is None else self.closed_orbit.state
 
     @property
-    def closed(self) -> Closed | None:
-        """The periodic orbit on show; None if none is requested, or none is found."""
-        return None if self.branch == NONE else self.continuation.closed
+    def closed_orbit(self) -> ClosedOrbit | None:
+        """The periodic orbit; None if none is requested or found."""
+        return None if self.branch == NONE else self.continuation.closed_orbit
 
     @property
     def duration(self) -> float:
-        """The length of the orbit in time."""
+        """The duration of the orbit."""
         return self.span
 
     def motion(self) -> Motion:
-        """Return the orbit on show."""
+        """Return the motion of the orbit."""
         return self.orbit.motion()
 
     diagram = part(OrbitDiagram)
@@ -108,25 +108,25 @@ class DiagramState(DiagramControls):
 
     @cached_property
     def reversals(self) -> SectionCrossings:
-        """The moments of reversal of the orbit on show."""
+        """The times at which the rotation reverses."""
         return self.work.need(Task(reversals, self.body, self.start, self.span, self.level))
 
     @cached_property
-    def turning(self) -> Array:
-        """(ω, γ) along the orbit (n,)."""
+    def vertical_rate(self) -> Array:
+        """The rotation about the vertical, (ω, γ), along the orbit (n,)."""
         return rate(self.orbit.path.states)
 
     def choose(self, x: float, y: float) -> Values:
-        """Return the parameter and the orbit at (x, y): of the branch if it is near, else of the diagram."""
+        """Return the parameter value and the orbit at (x, y): of the branch if it is near, otherwise of the diagram."""
         found = self.continuation.chosen(x, y)
         if found is None:
             return self.diagram.choose(x, y)
         value, place, period = found
-        return {self.diagram.name: value, "chosen": written([place]), "branch": f"period {period}"}
+        return {self.diagram.name: value, "chosen": places_text([place]), "branch": f"period {period}"}
 
     def start_here(self, x: float, y: float) -> Values:
-        """Return the parameters of an orbit that starts at a place of the section."""
-        return {"chosen": written([(x, min(max(y, 1e-6), math.pi - 1e-6))])}
+        """Return the parameter values of an orbit that starts at a place of the section."""
+        return {"chosen": places_text([(x, min(max(y, 1e-6), math.pi - 1e-6))])}
 
     # ---- words --------------------------------------------------------------------------------------------------
 
@@ -144,13 +144,13 @@ class DiagramState(DiagramControls):
         first, error = digits(float(times[0])), digits(self.reversals.error_estimate, 1)
         return Caption(f"The rotation reverses {many}.", f"First at t = {first} ± {error}.")
 
-    def derived(self) -> list[str]:
+    def quantities(self) -> list[str]:
         """Return the energy, the chosen place, the bifurcations of the branch and the check of the body."""
         psi, delta = map(digits, self.diagram.place)
         return [
             f"E = {digits(self.poincare.E)}",
             f"chosen: ψ = {psi}, δ = {delta}",
-            *super().derived(),
+            *super().quantities(),
             check_body(*self.body.parameters[:4]).sentence,
         ]
 
@@ -176,38 +176,51 @@ def _flip_values(s: DiagramState, axes: Axes) -> list[tuple[float, float, str]]:
 
 
 def diagram_scene(
-    state: type[S], module: str, presets: tuple[Preset, ...], section: Charted, ball: bool = False, **words: Any
+    state: type[S], module: str, presets: tuple[Preset, ...], section: ChartSource, ball: bool = False, **words: Any
 ) -> Scene[S]:
-    """Return the scene of such states.
+    """Return the scene of a class of diagram states.
 
-    section : the regime of its motions, which is charted; words : other arguments of `Scene`.
+    Parameters
+    ----------
+    state : type
+        Class of its states.
+    module : str
+        File that declares the scene.
+    presets : tuple of Preset
+        Named states.
+    section : ChartSource
+        Charted computation: the regime of the motions in the section.
+    ball : bool
+        True for a ball, which is drawn instead of a body.
+    **words
+        Other arguments of `Scene`.
     """
     return Scene(
         state,
         module,
         presets=presets,
         charts=Charts((section,), over=("h", "I13")),
-        tracks={"orbit": lambda s: orbit_columns(s.orbit.path, turning=s.turning)},
+        tracks={"orbit": lambda s: orbit_columns(s.orbit.path, vertical_rate=s.vertical_rate)},
         views=_pictures(state, ball),
         **words,
     )
 
 
-def regime_in(section: str, **more: float) -> Charted:
-    """Return the regime of the motion in a section of the catalogue, at other arguments too."""
+def regime_in(section: str, **more: float) -> ChartSource:
+    """Return the charted regime of the motion in a section of the catalogue; `more` are further arguments."""
 
     def arguments(s: DiagramState) -> Mapping[str, float]:
         psi, delta = s.diagram.place
         return {**parameters_of(s.body), "h": s.h, "psi": psi, "delta": delta, **more}
 
-    return Charted(f"regime {section}", arguments)
+    return ChartSource(f"regime {section}", arguments)
 
 
 def _pictures(state: type[DiagramState], ball: bool) -> tuple[Picture[Any], ...]:
-    """Return the pictures: diagram with branch, body, section, reversal and, folded, Poisson sphere."""
+    """Return the pictures: diagram with branch, body, section, reversal, and a Poisson sphere with a button."""
 
     def closed(s: DiagramState) -> list[PeriodicOrbit]:
-        return [] if s.closed is None else [s.closed.orbit]
+        return [] if s.closed_orbit is None else [s.closed_orbit.orbit]
 
     def dotted(way: str) -> Callable[[DiagramState], Array | None]:
         return lambda s: None if s.density.tones else s.diagram.points(way)
@@ -223,7 +236,7 @@ def _pictures(state: type[DiagramState], ball: bool) -> tuple[Picture[Any], ...]
             first=Axes((state.first, state.last), (-math.pi, math.pi)),
             x=lambda s: (s.diagram.frame[0][0], s.diagram.frame[1][0]),
             y=lambda s: s.diagram.height,
-            on_box=lambda s, corners: boxed(corners, BOUNDS),
+            on_box=lambda s, corners: box_window(corners, BOUNDS),
             layers=(
                 *density.layers(
                     lambda s: s.density.tones,
@@ -251,8 +264,8 @@ def _pictures(state: type[DiagramState], ball: bool) -> tuple[Picture[Any], ...]
                     within=lambda s, axes: _upright([s.diagram.at], axes),
                     color=theme.INK,
                     width=1.5,
-                    label="state on show",
-                    tag="state on show",
+                    label="current state",
+                    tag="current state",
                 ),
                 *branch.layers(lambda s: s.continuation),
                 names("flip-values", within=_flip_values, size=13, on_paper=True),
@@ -291,12 +304,12 @@ def _pictures(state: type[DiagramState], ball: bool) -> tuple[Picture[Any], ...]
             dot=("t", "turning"),
             first=Axes((0.0, 60.0), (-2.0, 2.0)),
             x=lambda s: (0.0, s.span),
-            y=lambda s: about_0(s.turning, 1e-6),
+            y=lambda s: about_0(s.vertical_rate, 1e-6),
             layers=(
                 levels("levels", lambda s: [0.0]),
                 over_time(
                     "turning",
-                    lambda s: (s.orbit.path.times, s.turning),
+                    lambda s: (s.orbit.path.times, s.vertical_rate),
                     color=theme.ORBIT,
                     label="(ω, γ) of the chosen orbit",
                 ),
@@ -313,6 +326,6 @@ def _pictures(state: type[DiagramState], ball: bool) -> tuple[Picture[Any], ...]
         ),
         replace(
             along_the_orbit(lambda s: centre_of_mass(s.body.parameters[-3:]), lambda s: s.proof.around),
-            folded="Show the Poisson sphere",
+            button="Show the Poisson sphere",
         ),
     )

@@ -10,7 +10,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from hess_explorer.protocol.specs import Value, Values, written
+from hess_explorer.protocol.specs import Value, Values, places_text
 from hess_explorer.scenes.framework.answers import Answer
 from hess_explorer.scenes.framework.charted import Charts, of_motion
 from hess_explorer.scenes.framework.hess_case import HeavyHess
@@ -83,11 +83,11 @@ _RIS: dict[str, Value] = {"I1": 1.0, "I2": 1.5, "I3": 2.0, "m": -math.sqrt(0.5),
 _THERE, _LOW = "2.8,0.3", "-1.54,-0.86"
 """The first of these starts is impossible at the lowest energies."""
 _LS = np.array([-2.9, -2.7, -2.5, -2.2, 2.2, 2.5, 2.7, 2.9])
-_ON_HESS = written([*zip(_LS, hess_curve(HeavyBody.hess((1.0, 1.5, 2.0), -math.sqrt(0.5)), _LS), strict=True)])
+_ON_HESS = places_text([*zip(_LS, hess_curve(HeavyBody.hess((1.0, 1.5, 2.0), -math.sqrt(0.5)), _LS), strict=True)])
 
 
 def _figure(number: int, f: float, what: str, energies: Mapping[str, float]) -> Iterator[Preset]:
-    """Yield the examples of a figure, by letter."""
+    """Yield the presets of a figure, by letter."""
     for letter, h in energies.items():
         yield Preset(
             f"Figure {number} {letter}: f = {f:g}, h = {h:.4g}, {what}",
@@ -143,7 +143,7 @@ PRESETS = (
 
 @dataclass(frozen=True)
 class EulerPoisson(FilledState):
-    """A section of one body at one energy and area integral, filled with orbits on both sides of the barrier."""
+    """A section of a heavy body at one energy and area integral, with orbits on both sides of the barrier."""
 
     I1: float = parameter(I1)
     I2: float = parameter(I2)
@@ -189,7 +189,7 @@ class EulerPoisson(FilledState):
     weights: ClassVar[tuple[float, ...]] = (0.0, 0.0, 0.0, *(0.5 * PIXELS,) * 3)
 
     def limits(self) -> Mapping[str, Slider]:
-        """Return the sliders of the energy, from the bottom of the potential, and of the moments in their order."""
+        """Return slider ranges of the energy, from its minimum, and of the ordered moments."""
         bottom = -math.floor(100.0 * abs(self.m)) / 100.0
         return {
             **limits_of_moments(*self.moments),
@@ -235,7 +235,7 @@ class EulerPoisson(FilledState):
 
     @part
     def surface(self) -> HessSurface:
-        """The torus of the Hess manifold in space, and the orbit beside it."""
+        """The torus of the Hess manifold in space, with the orbit."""
         torus = HeavyTorus(self, HeavyHess(self.moments, self.m, self.h, self.f))
 
         def orbit() -> tuple[Array, Array]:
@@ -253,13 +253,13 @@ class EulerPoisson(FilledState):
     rotation = part(lambda s: RotationAcross(s, s.section, lambda: s.clicks.picked.places[0], s.turns == _ABOUT))
 
     def start_at(self, x: float, y: float) -> Values:
-        """Return the parameters of an orbit that starts at a place of the section."""
+        """Return the parameter values of an orbit that starts at a place of the section."""
         return self.clicks.move(x, y)
 
-    # ---- what the pictures show ---------------------------------------------------------------------------------
+    # ---- the pictures -------------------------------------------------------------------------------------------
 
     def track(self) -> Columns:
-        """Return the orbit on show."""
+        """Return the columns of the orbit."""
         orbit = self.orbit.path
         l, x = self.poincare.places_of(orbit.states).T
         return {"t": column(orbit.times), "l": column(l), "x": column(x), **gamma_columns(orbit.states[:, 3:])}
@@ -271,12 +271,12 @@ class EulerPoisson(FilledState):
 
     @cached_property
     def elsewhere(self) -> Array:
-        """Points (n, 2) of all orbits on other sheets."""
+        """The points (n, 2) of all orbits on other sheets of the energy surface."""
         known = *self.section.known.chosen, *self.section.known.batches
         return joined(batch.elsewhere for batch in known if batch.elsewhere is not None)
 
     def hess_curve(self) -> tuple[Array, Array]:
-        """Return the Hess manifold across the window."""
+        """Return the curve of the Hess manifold in the window, as x and y."""
         l = np.linspace(self.section.frame[0][0], self.section.frame[1][0], 241)
         return l, hess_curve(self.body, l)
 
@@ -291,10 +291,10 @@ class EulerPoisson(FilledState):
             f"{self.density.said}r·M keeps its sign along {sum(kept)} of {len(kept)} orbits.",
         )
 
-    def derived(self) -> Iterator[str]:
-        """Yield a and r, the start of the orbit on show and the check of the body."""
+    def quantities(self) -> Iterator[str]:
+        """Yield a and r, the start of the orbit and the check of the body."""
         yield f"a = {digits(self.body.hess_a)}, r = {vector(self.body.r)}"
-        yield from super().derived()
+        yield from super().quantities()
         if self.section.has_result("known") and len(self.elsewhere):
             yield f"on another sheet: {len(self.elsewhere)} points"
         yield self.body.check.sentence
@@ -327,7 +327,7 @@ SCENE = Scene(
     charts=Charts(
         of_motion(SYSTEM, lambda s: start_on(s.poincare, s.starts), time=lambda s: s.long),
         over=_NAMES,
-        placed=("starts", _NAMES),
+        place=("starts", _NAMES),
     ),
     group="Euler–Poisson",
     essential=("away", "h", "f"),
@@ -358,8 +358,8 @@ SCENE = Scene(
         along_the_orbit(
             lambda s: Direction(math.copysign(1.0, s.m) * np.array(s.body.r), "r"), lambda s: s.proof.around
         ),
-        exponent_picture(folded="Show the Lyapunov exponent"),
-        surface_picture(lambda s: s.surface, folded="Show the torus in space"),
+        exponent_picture(button="Show the Lyapunov exponent"),
+        surface_picture(lambda s: s.surface, button="Show the torus in space"),
         split_picture(lambda s: s.split),
         branch_picture(),
     ),

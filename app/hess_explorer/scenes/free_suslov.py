@@ -13,7 +13,7 @@ from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.specs import Values
 from hess_explorer.scenes.framework import free_body
 from hess_explorer.scenes.framework.answers import Answer
-from hess_explorer.scenes.framework.charted import Charted, Charts, tensor_of
+from hess_explorer.scenes.framework.charted import Charts, ChartSource, tensor_of
 from hess_explorer.scenes.framework.circle_left import Gamma_picture
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
 from hess_explorer.scenes.framework.sliders import ONE_TURN, Slider, accuracy_level, choice, parameter, time_span
@@ -48,7 +48,7 @@ _SLANTING: Values = {"I13": 0.2, "I23": 0.3, "k": 1.2, "w1": 3.0, "w2": -2.001}
 
 
 def _portrait(I13: float, I23: float) -> Values:
-    """Return a start near the unstable half line, whose direction is (I23, −I13)."""
+    """Return a start near the unstable half line with direction (I23, −I13)."""
     return {
         "I13": I13,
         "I23": I23,
@@ -87,7 +87,7 @@ PRESETS = (
 
 @dataclass(frozen=True)
 class FreeSuslov(State):
-    """Two orbits from one circle of γ."""
+    """Two orbits that start on the same circle of γ."""
 
     I22: float = parameter(free_body.I22)
     I13: float = parameter(free_body.I13)
@@ -110,7 +110,7 @@ class FreeSuslov(State):
     accuracy: str = accuracy_level()
 
     def limits(self) -> Mapping[str, Slider]:
-        """Return the slider of k, limited to I11 > 0."""
+        """Return the slider range of k, with I11 > 0."""
         return free_body.limits_of_k(self.I22, self.I13, self.I23)
 
     @cached_property
@@ -130,10 +130,10 @@ class FreeSuslov(State):
 
     @cached_property
     def h(self) -> float:
-        """The energy.  Raises like `passage`, in terms of ω, as the energy is not a control."""
+        """The energy.  Raises as `passage`, with messages about ω, because the energy has no control."""
         h = 0.5 * (self.body.I11 * self.w1**2 + self.body.I22 * self.w2**2) if self.passage.rate else 0.0
         if h == 0.0:
-            raise InvalidParameter("The energy of so small an ω is 0 in double precision: choose a larger one.")
+            raise InvalidParameter("|ω| is so small that the energy is 0 in double precision: choose a larger ω.")
         return h
 
     @cached_property
@@ -143,7 +143,7 @@ class FreeSuslov(State):
 
     @cached_property
     def arcs(self) -> tuple[Array, Array]:
-        """Both arcs from the unstable to the stable equilibrium."""
+        """The two arcs from the unstable to the stable equilibrium."""
         return free.arcs(self.body, self.h)
 
     @cached_property
@@ -186,7 +186,7 @@ class FreeSuslov(State):
 
     @cached_property
     def F2(self) -> tuple[AdditionalIntegral, float] | None:
-        """The additional integral, where it exists, and its value on the orbit."""
+        """The additional integral and its value on the orbit; None if it does not exist."""
         found = of_body(self.body)
         return None if found is None else (found, float(found(np.array(self.omega), np.array(self.gamma))))
 
@@ -201,7 +201,7 @@ class FreeSuslov(State):
         """The body along the orbit."""
         return constrained_solid(self.work, self.body, self.orbit)
 
-    # ---- what the pictures show --------------------------------------------------------------------------------
+    # ---- the pictures ------------------------------------------------------------------------------------------
 
     def orbit_columns(self) -> Columns:
         """Return the columns of the orbit and of the moving points in the other pictures."""
@@ -215,7 +215,7 @@ class FreeSuslov(State):
         )
 
     def ellipses(self) -> list[Array]:
-        """Return both arcs of some other energies."""
+        """Return the arcs at some other energies."""
         return [math.sqrt(share) * arc for share in _LEVELS for arc in self.arcs]
 
     def circles(self) -> list[Circle]:
@@ -234,7 +234,7 @@ class FreeSuslov(State):
         return found
 
     def gamma1(self, one: free.FreeMotion) -> list[Array]:
-        """Return γ1 of an orbit against time or phase."""
+        """Return γ1 of an orbit over time or phase."""
         if self.across == "phase":
             return branches(one.phase, one.gamma[:, 0], 2.0 * math.pi)
         return [np.column_stack([one.times, one.gamma[:, 0]])]
@@ -263,7 +263,7 @@ class FreeSuslov(State):
         came, went, other = map(digits, (*self.orbit.limits, self.second.limits[1]))
         return Caption("Γ tends to a constant.", f"From Γ⁻ = {came} to Γ⁺ = {went} and {other} (dotted).")
 
-    def derived(self) -> Iterator[str]:
+    def quantities(self) -> Iterator[str]:
         """Yield I11 and k², the energy, the rate, the directions and F2."""
         points = self.points
         yield from free_body.about_I11(self.k, self.body)
@@ -280,13 +280,13 @@ class FreeSuslov(State):
 
     def status(self) -> Iterator[str]:
         """Yield the status of the orbit."""
-        if self.known("orbit"):
+        if self.peek("orbit"):
             yield from orbit_status(self.orbit)
 
     def notes(self) -> Iterator[str]:
-        """Yield warnings: a thinned curve, a passage beyond the time span."""
-        if self.known("orbit") and self.orbit.times.size >= MOST_SAMPLES:
-            yield f"This long motion is drawn with {MOST_SAMPLES} points, so its uniform rotation is thinned out."
+        """Yield warnings: a curve with too few points, a passage after the time span."""
+        if self.peek("orbit") and self.orbit.times.size >= MOST_SAMPLES:
+            yield f"This long motion is drawn with only {MOST_SAMPLES} points: choose a shorter time span for details."
         needed = -self.passage.u0 / self.points.rate
         if needed > self.span:
             yield f"The passage comes at t = {digits(needed)}: choose a longer time span to see it."
@@ -297,7 +297,7 @@ SCENE = Scene(
     __file__,
     place=2,
     presets=PRESETS,
-    charts=Charts((Charted("cos-chi", lambda s: tensor_of(s.body)),), over=("k", "I23")),
+    charts=Charts((ChartSource("cos-chi", lambda s: tensor_of(s.body)),), over=("k", "I23")),
     group="Free body",
     essential=("k", "I23", "Gamma", "phi"),
     answers=(

@@ -48,9 +48,9 @@ PRESETS = (
 
 @dataclass(frozen=True)
 class HessLeak(State):
-    """One motion, integrated freely at the chosen and at the reference accuracy, and the exact motion.
+    """A motion integrated without correction, at the chosen and the reference level, and the exact motion.
 
-    The accuracy stays the same while a slider is held, as the leak depends on it.
+    A drag does not change the level of accuracy, because the leak depends on it.
     """
 
     I1: float = parameter(known.I1)
@@ -79,12 +79,12 @@ class HessLeak(State):
         """The motion on the Hess manifold."""
         return HeavyHess((self.I1, self.I2, self.I3), self.m, self.h, self.f)
 
-    def admitted(self, notes: list[str]) -> HessLeak:
-        """Clamp h to its minimum and f to the region of this h."""
-        return self.changed(self.hess.admitted(notes))
+    def valid_state(self, notes: list[str]) -> HessLeak:
+        """Return the state with h clamped to its minimum and f to the region of this h; append notes."""
+        return self.with_values(self.hess.corrections(notes))
 
     def limits(self) -> Mapping[str, Slider]:
-        """Return sliders over the possible values."""
+        """Return slider ranges over the possible values."""
         return self.hess.limits()
 
     @property
@@ -95,7 +95,9 @@ class HessLeak(State):
     @cached_property
     def map(self) -> CircleMap:
         """The circle map, with the multipliers of the cycles."""
-        return self.work.need(Task(circle_map, self.bridge.hess.a, self.hess.turning.h, self.hess.turning.f, REFERENCE))
+        return self.work.need(
+            Task(circle_map, self.bridge.hess.a, self.hess.turning_points.h, self.hess.turning_points.f, REFERENCE)
+        )
 
     @property
     def period(self) -> float:
@@ -108,8 +110,8 @@ class HessLeak(State):
 
     @cached_property
     def exact(self) -> Orbit:
-        """The motion of the reduced system, in units b = 1."""
-        start = tuple(self.hess.turning.state_at_lower_turn(self.phi0).tolist())
+        """The orbit of the reduced system, in units b = 1."""
+        start = tuple(self.hess.turning_points.state_at_lower_turn(self.phi0).tolist())
         return self.work.need(
             Task(
                 mechanics.exact_motion,
@@ -122,12 +124,12 @@ class HessLeak(State):
 
     @cached_property
     def states(self) -> Array:
-        """The exact motion in the variables of Euler–Poisson, (n, 6)."""
+        """The states (n, 6) of the exact motion in Euler–Poisson variables."""
         return self.bridge.from_reduced(self.bridge.hess.from_units_of_b(self.exact.states))
 
     @cached_property
     def leaks(self) -> dict[str, mechanics.Leak]:
-        """The freely integrated orbit: "own" at the chosen accuracy, and "reference"."""
+        """The orbits without correction: "own" at the chosen level, and "reference"."""
         end = float(self.exact.times[-1]) / self.bridge.hess.frequency_unit
         asked = (self.bridge.heavy, tuple(self.states[0].tolist()), end, self.exact.times.size)
         runs = {
@@ -138,26 +140,28 @@ class HessLeak(State):
 
     @property
     def run(self) -> mechanics.FreeRun:
-        """The orbit at the chosen accuracy."""
+        """The orbit without correction at the chosen level."""
         return self.leaks["own"].run
 
     def motion(self) -> Motion:
         """Return the exact motion of the reduced system."""
-        return reduced_motion(self.bridge.hess, self.hess.turning, self.phi0, self._periods * self.hess.turning.period)
+        return reduced_motion(
+            self.bridge.hess, self.hess.turning_points, self.phi0, self._periods * self.hess.turning_points.period
+        )
 
     @cached_property
     def solid(self) -> Solid:
-        """The body in its exact motion."""
+        """The body along the exact motion."""
         return heavy_solid(self.bridge.heavy, self.run.times, self.states)
 
-    # ---- what the pictures show --------------------------------------------------------------------------------
+    # ---- the pictures ------------------------------------------------------------------------------------------
 
     def times(self) -> Range:
-        """Return the axis of time."""
+        """Return the range of the time axis."""
         return 0.0, float(self.run.times[-1])
 
-    def leaking(self) -> Columns:
-        """Return the columns of the chosen orbit."""
+    def run_columns(self) -> Columns:
+        """Return the columns of the orbit without correction."""
         apart = lg(self.leaks["own"].apart)
         return {"t": column(self.run.times), "apart": column(apart), **gamma_columns(self.run.states[:, 3:])}
 
@@ -165,7 +169,7 @@ class HessLeak(State):
         """Return the columns of the exact motion and of the moving points in the graphs."""
         l, x = self.run.andoyer.T
         return {
-            **self.leaking(),
+            **self.run_columns(),
             "lg": column(lg(np.abs(self.run.off))),
             "l": column(l),
             "x": column(x),
@@ -175,7 +179,7 @@ class HessLeak(State):
     def heights(self) -> list[Circle]:
         """Return the circles that bound n3."""
         r, sign = self.bridge.heavy.r, math.copysign(1.0, self.bridge.hess.b)
-        return parallels(r, [sign * n3 for n3 in self.hess.turning.roots[1:]])
+        return parallels(r, [sign * n3 for n3 in self.hess.turning_points.roots[1:]])
 
     # ---- words --------------------------------------------------------------------------------------------------
 
@@ -207,9 +211,9 @@ class HessLeak(State):
         return Caption(layer, "It stays there." if stays else "It changes layer later.")
 
     def _about_sphere(self) -> Caption:
-        return Caption("γ of the exact and the leaking orbit.", f"n₃ {ranging(*self.hess.turning.roots[1:])}.")
+        return Caption("γ of the exact and the leaking orbit.", f"n₃ {ranging(*self.hess.turning_points.roots[1:])}.")
 
-    def derived(self) -> Iterator[str]:
+    def quantities(self) -> Iterator[str]:
         """Yield the reduced body and torus, the exact growth and the measured growth."""
         growth = mechanics.exact_growth(self.map)
         yield f"a = b′/a₁′ = {digits(self.bridge.hess.a)}"
@@ -230,17 +234,17 @@ class HessLeak(State):
 
     def status(self) -> Iterator[str]:
         """Yield the status of the chosen and the exact orbit."""
-        if self.known("leaks"):
+        if self.peek("leaks"):
             chosen, exact = self.run, self.exact
             yield f"{chosen.level}: orbit {chosen.times.size} points, {chosen.steps} Taylor steps, computed once"
             yield "drift " + " ".join(f"{name} {digits(drift, 1)}" for name, drift in chosen.drift.items())
             yield f"exact motion error ≤ {digits(exact.error_estimate, 2)} ({exact.status})"
 
     def notes(self) -> Iterator[str]:
-        """Yield warnings: not a rigid body, a motion that round-off perturbs within the torus."""
+        """Yield warnings: not a rigid body, growing round-off on the torus."""
         if not self.bridge.heavy.check.is_body:
             yield self.bridge.heavy.check.sentence
-        if self.known("exact") and self.exact.error_estimate > UNSURE:
+        if self.peek("exact") and self.exact.error_estimate > UNSURE:
             yield BY_THE_UNSTABLE_CYCLE
 
 
@@ -249,13 +253,15 @@ SCENE = Scene(
     __file__,
     place=12,
     presets=PRESETS,
-    charts=Charts(of_torus(lambda s: (s.bridge.hess.a, s.hess.turning.h, s.hess.turning.f)), over=("h", "f")),
+    charts=Charts(
+        of_torus(lambda s: (s.bridge.hess.a, s.hess.turning_points.h, s.hess.turning_points.f)), over=("h", "f")
+    ),
     group="Euler–Poisson",
     essential=("h", "f", "phi0", "returns"),
     answers=(Answer("The exact motion never leaves its surface; round-off can make the computed one leave."),),
     title="Leak off the Hess manifold",
     summary="An orbit on the Hess manifold of Euler–Poisson leaves it by round-off alone, at the rate of the cycle.",
-    tracks={"orbit": HessLeak.exact_columns, "second": HessLeak.leaking},
+    tracks={"orbit": HessLeak.exact_columns, "second": HessLeak.run_columns},
     angles=("l",),
     views=(
         solid_body(wheels=False, section=True),
@@ -295,7 +301,7 @@ SCENE = Scene(
             name="difference",
             title="Distance from the exact motion",
             caption=HessLeak._about_difference,
-            folded="Show the distance from the exact motion",
+            button="Show the distance from the exact motion",
             axes=("t", "lg |difference|"),
             x=HessLeak.times,
             y=lambda s: lg_axis(largest_distance(s.map.h)),

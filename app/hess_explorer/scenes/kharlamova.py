@@ -1,4 +1,4 @@
-"""e on a principal axis, b3 = 0 (Kharlamova's case): parabolas in an ellipse, and the role of the equator."""
+"""Constraint axis e on a principal axis, b3 = 0 (Kharlamova's case): parabolas in an ellipse, and the equator."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import numpy as np
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.answers import Answer
-from hess_explorer.scenes.framework.charted import Charted, Charts
+from hess_explorer.scenes.framework.charted import Charts, ChartSource
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
 from hess_explorer.scenes.framework.sliders import (
     ONE_TURN,
@@ -70,7 +70,7 @@ PRESETS = (
 
 @dataclass(frozen=True)
 class Kharlamova(State):
-    """One orbit on its arc of a parabola, and the periods in all directions from its start."""
+    """An orbit on its arc of a parabola, and the periods in all directions from its start."""
 
     # These bounds are narrower than in other scenes.
     I11: float = parameter(known.I11, bounds=(1e-2, 1e2))
@@ -120,8 +120,8 @@ class Kharlamova(State):
     )
     accuracy: str = accuracy_level()
 
-    def admitted(self, notes: list[str]) -> Kharlamova:
-        """Move a start outside the domain to its edge."""
+    def valid_state(self, notes: list[str]) -> Kharlamova:
+        """Return the state with a start outside the domain moved to its edge; append a note."""
         r1, r2 = self.body.axes
         size = math.hypot(self.q1 / r1, self.q2 / r2)
         if size <= 1.0 + 1e-13:
@@ -133,7 +133,7 @@ class Kharlamova(State):
         return state
 
     def limits(self) -> Mapping[str, Slider]:
-        """Return the sliders of q over the ellipse."""
+        """Return slider ranges of q over the ellipse."""
         return dict(zip(("q1", "q2"), map(slider_within, self.body.axes), strict=True))
 
     @cached_property
@@ -143,7 +143,7 @@ class Kharlamova(State):
 
     @cached_property
     def start(self) -> tuple[float, ...]:
-        """ω and γ at the start.  Raises `InvalidParameter`."""
+        """The initial state (ω, γ).  Raises `InvalidParameter`."""
         p = (self.p * math.cos(self.alpha), self.p * math.sin(self.alpha))
         return mechanics.state_at(self.body, (self.q1, self.q2), p)
 
@@ -164,7 +164,7 @@ class Kharlamova(State):
 
     @property
     def orbit(self) -> Orbit:
-        """The orbit on show."""
+        """The orbit."""
         return self.sampled[0]
 
     @cached_property
@@ -174,7 +174,7 @@ class Kharlamova(State):
 
     @cached_property
     def periods(self) -> Array:
-        """The initial directions α and the periods T, (n, 2)."""
+        """Initial directions α in radians and periods T, (n, 2)."""
         return self.work.need(Task(mechanics.periods_all_round, self.body, (self.q1, self.q2), self.p))
 
     @cached_property
@@ -193,13 +193,13 @@ class Kharlamova(State):
         return constrained_solid(self.work, self.body, self.orbit)
 
     def motion(self) -> Motion:
-        """Return the orbit on show."""
+        """Return the motion of the orbit."""
         return Motion(SYSTEM, self.start, self.body.parameters, self.span, self.body.pixels_per_unit(self.h))
 
-    # ---- what the pictures show --------------------------------------------------------------------------------
+    # ---- the pictures ------------------------------------------------------------------------------------------
 
     def orbit_columns(self) -> Columns:
-        """Return the columns of the orbit and of its mirror image, the second moving point."""
+        """Return the columns of the orbit and of its mirror image, which the second moving point follows."""
         orbit, mirror = self.sampled
         q, mirror_q = (self.body.to_plane(states)[0] for states in (orbit.states, mirror))
         tau, mirror_tau = (mechanics.rescaled_time(self.arc, states) for states in (orbit.states, mirror))
@@ -214,11 +214,11 @@ class Kharlamova(State):
         )
 
     def half_width(self) -> float:
-        """Return half the width of the frame of the domain."""
+        """Return the half width of the picture of the domain."""
         return nice_above(1.08 * max(self.body.axes))
 
     def fixed_points(self, kind: float) -> list[Array]:
-        """Return the parts of the domain's edge with fixed points: stable for kind 1, unstable for −1."""
+        """Return the parts of the domain's edge with fixed points, stable (kind 1) or unstable (kind −1)."""
         boundary, kinds = self.work.need(Task(mechanics.fixed_point_kinds, self.body, self.h))
         return pieces(boundary, kinds == kind)
 
@@ -235,7 +235,7 @@ class Kharlamova(State):
         return centre_of_mass((self.b1, self.b2, 0.0))
 
     def marks(self) -> list[Mark]:
-        """Return marks where the orbit crosses the equator, touches it or stays on it."""
+        """Return the points at which the orbit crosses the equator, touches it or stays on it."""
         if self.arc.kind != "fixed":
             return [
                 Mark((*u, 0.0), "unstable" if tau == self.arc.touch else "muted")
@@ -288,7 +288,7 @@ class Kharlamova(State):
             f"After T the orbit returns to its start, to {digits(self.closure_error, 1)}.",
         )
 
-    def derived(self) -> Iterator[str]:
+    def quantities(self) -> Iterator[str]:
         """Yield the energy, start, force, period and divergence."""
         yield f"E = {digits(self.h)}"
         yield f"Start: γ₃ = {digits(self.start[4])}"
@@ -298,19 +298,19 @@ class Kharlamova(State):
             yield f"Back after T: {digits(self.closure_error, 1)}"
         else:
             yield "T = ∞" if self.arc.kind == "asymptotic" else "A fixed point"
-        if self.known("sampled"):
+        if self.peek("sampled"):
             largest = float(np.abs(divergence([*self.orbit.states.T], self.body.parameters)).max())
             yield f"div v = {digits(largest)} on the orbit: the standard measure"
         yield "In τ: Hamiltonian, measure γ₃ dω dγ"
 
     def status(self) -> Iterator[str]:
         """Yield the status of the orbit."""
-        if self.known("sampled"):
+        if self.peek("sampled"):
             yield from orbit_status(self.orbit)
 
     def notes(self) -> Iterator[str]:
         """Yield a warning if the orbit is too long to draw in detail."""
-        if self.known("sampled") and self.orbit.times.size >= MOST_SAMPLES:
+        if self.peek("sampled") and self.orbit.times.size >= MOST_SAMPLES:
             yield f"This long motion is drawn with only {MOST_SAMPLES} points: choose a shorter time span for details."
 
 
@@ -325,7 +325,7 @@ SCENE = Scene(
     presets=PRESETS,
     charts=Charts(
         (
-            Charted(
+            ChartSource(
                 "period",
                 lambda s: {
                     "I11": s.I11,
@@ -344,14 +344,14 @@ SCENE = Scene(
     answers=(
         Answer("Nothing happens here: this is a fixed point.", lambda s: s.arc.kind == "fixed"),
         Answer(
-            "In this direction the motion takes for ever: it tends to an unstable fixed point.",
+            "In this direction the motion takes forever: it tends to an unstable fixed point.",
             lambda s: s.arc.kind == "asymptotic",
         ),
         Answer("Nearly every motion is an arc, there and back: after one period it begins again."),
     ),
     lead=("period",),
     title="Principal axis, b₃ = 0",
-    summary="Parabolas in an ellipse, run to and fro: every orbit closes but those that touch the equator from inside.",
+    summary="Parabolas in an ellipse: all orbits are periodic, except those that touch the equator from inside.",
     tracks={"orbit": Kharlamova.orbit_columns},
     views=(
         solid_body(),
@@ -405,7 +405,7 @@ SCENE = Scene(
             y=lambda s: period_axis(s.periods, s.arc.period),
             on_click=lambda s, x, y: {"alpha": x},
             on_drag="chosen",
-            message=lambda s: "" if has_periods(s.periods) else "Nothing moves: no period.",
+            message=lambda s: "" if has_periods(s.periods) else "No motion, so no period.",
             layers=period_graph.layers(
                 lambda s: s.periods, here=lambda s: None if s.arc.kind == "fixed" else (s.alpha, s.arc.period)
             ),
@@ -416,7 +416,7 @@ SCENE = Scene(
         Plot(
             name="curve",
             title="γ₃ against τ",
-            folded="Show γ₃ against τ",
+            button="Show γ₃ against τ",
             axes=("τ", "γ₃"),
             caption=Kharlamova._about_curve,
             x=Kharlamova.tau_axis,

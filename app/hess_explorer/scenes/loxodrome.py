@@ -1,4 +1,4 @@
-"""The loxodromic pendulum: a heavy body in the Hess case with area integral 0, as it moves in space."""
+"""The loxodromic pendulum: a heavy body in the Hess case with area integral 0."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ PRESETS = (
 
 @dataclass(frozen=True)
 class Loxodrome(State):
-    """One motion of one pendulum."""
+    """A motion of a loxodromic pendulum."""
 
     I1: float = parameter(known.I1)
     I2: float = parameter(known.I2, 1.5, doc="Middle principal moment: it must lie between I₁ and I₃.")
@@ -73,7 +73,7 @@ class Loxodrome(State):
         return self.I1, self.I2, self.I3
 
     def limits(self) -> Mapping[str, Slider]:
-        """Return sliders that keep the order of the moments."""
+        """Return slider ranges that keep the order of the moments."""
         return limits_of_moments(*self.moments)
 
     @cached_property
@@ -83,7 +83,7 @@ class Loxodrome(State):
 
     @cached_property
     def pendulum_motion(self) -> LoxodromicMotion:
-        """The motion, the source of all pictures."""
+        """The motion shown by all pictures."""
         return self.work.need(Task(loxodromic_motion, self.pendulum, self.span, self.level))
 
     def motion(self) -> Motion:
@@ -104,7 +104,7 @@ class Loxodrome(State):
         return Shape(np.eye(3), 1.0 / np.array(heavy.a), np.array(heavy.r)) if heavy.check.is_body else None
 
     def rods(self, label: str = "") -> list[Rod]:
-        """Return the middle axis and the centre of mass."""
+        """Return rods along the middle axis and to the centre of mass."""
         return [Rod((0.0, 1.0, 0.0), "orbit", label), Rod(self.pendulum.body.r, "mass")]
 
     def loxodrome(self) -> Array:
@@ -152,11 +152,11 @@ class Loxodrome(State):
                 "The body swings.", f"α = ±{digits(p.amplitude)} at most; the height reaches h = {digits(p.h)}."
             )
         if p.h == 1.0:
-            return Caption("The body approaches the top for ever.", "The height tends to 1.")
+            return Caption("The body approaches the top forever.", "The height tends to 1.")
         turns = abs(float(self.pendulum_motion.swing[-1])) / (2.0 * math.pi)
         return Caption("The body rotates.", f"{digits(turns)} turns in this time.")
 
-    def derived(self) -> Iterator[str]:
+    def quantities(self) -> Iterator[str]:
         """Yield a, the angle of the loxodrome and the derived data of the body."""
         p, heavy = self.pendulum, self.pendulum.body
         yield f"a = ±√((a₃−a₂)(a₂−a₁))/a₂ = {digits(p.a)}"
@@ -194,7 +194,7 @@ SCENE = Scene(
         Answer(
             "Gravity swings the body: its middle axis goes to and fro on a loxodrome.", lambda s: s.pendulum.h < 1.0
         ),
-        Answer("The body climbs towards the top for ever.", lambda s: s.pendulum.h == 1.0),
+        Answer("The body climbs towards the top forever.", lambda s: s.pendulum.h == 1.0),
         Answer("The body turns over and over: its middle axis runs along the whole loxodrome."),
     ),
     title="Loxodromic pendulum",

@@ -85,7 +85,7 @@ PRESETS = (
 
 @dataclass(frozen=True)
 class SuslovDiagram(DiagramState):
-    """State of the orbit diagram of the Suslov problem."""
+    """A state of the orbit diagram of the Suslov problem."""
 
     I11: float = parameter(known.I11, 1.1)
     I22: float = parameter(known.I22, 2.9)

@@ -1,4 +1,4 @@
-"""A body of one's own: inertia, potential, constraint, gyrostatic momentum and drive."""
+"""A user-defined body: inertia, potential, constraint, gyrostatic momentum and drive."""
 
 from __future__ import annotations
 
@@ -149,7 +149,7 @@ class OwnBodyState(State):
 
     @property
     def duration(self) -> float:
-        """The length of the orbit in time."""
+        """The duration of the orbit."""
         return self.lasts
 
     @cached_property
@@ -182,14 +182,14 @@ class OwnBodyState(State):
 
     @cached_property
     def is_compiled(self) -> bool:
-        """True once the equations of this form are compiled."""
+        """True if equations of this form are compiled."""
         # A chain, because a drag must not end the compilation.
         return self.work.newest([[Task(_compiled, self.body.system)]])[0] is not None
 
     @property
     def periodic_orbit(self) -> NotPeriodic:
-        """None; the exponent, which needs another kernel, waits for the orbit's."""
-        return NotPeriodic(looking=not self.is_compiled)
+        """No periodic orbit; the exponent, which needs another kernel, waits until the orbit is compiled."""
+        return NotPeriodic(is_searching=not self.is_compiled)
 
     orbit = part(lambda s: BodyOrbit(s, max_step=s.max_step))
     exponent = part(OrbitExponent)
@@ -214,7 +214,7 @@ class OwnBodyState(State):
 
     @cached_property
     def crossings(self) -> SectionCrossings | None:
-        """The section of the motion up to the time of the exponent; None until it is known."""
+        """The crossings of the motion with the section, up to the averaging time; None until known."""
         if not self.is_compiled or self.dragging:
             return None
         return self.work.need(
@@ -223,25 +223,25 @@ class OwnBodyState(State):
         )
 
     def idle(self) -> Mapping[str, float]:
-        """Return the numbers without effect: the constraint of a free body, the frequency of no drive."""
+        """Return the parameters without effect: the constraint of a free body, the frequency without a drive."""
         found = {} if self.constraint == _CONSTRAINED else {"a1": 0.0, "a2": 0.0, "a3": 0.0}
         return found if any((self.d1, self.d2, self.d3)) else {**found, "frequency": self.frequency}
 
-    def derived(self) -> Iterator[str]:
-        """Yield what is conserved, and whether it is a rigid body."""
+    def quantities(self) -> Iterator[str]:
+        """Yield the conserved quantities, and whether this is a rigid body."""
         yield f"conserved: {', '.join(self.body.system.integrals(*self.body.system.example))}"
         yield self.body.check.sentence
 
 
 def _compiled(system: System) -> bool:
-    """Compile the equations by following their example."""
+    """Compile the equations by integrating the example of the system."""
     solve(*system.example_motion, [0.1], "draft")
     return True
 
 
 def _caption(s: OwnBodyState) -> Caption:
     if not s.is_compiled:
-        return Caption("The equations are being compiled.", "Some seconds; numbers then change at once.")
+        return Caption("Compiling the equations.", "This takes some seconds, once.")
     return Caption(numbers=f"From t = 0 to t = {digits(s.lasts)}.")
 
 
@@ -263,7 +263,7 @@ def _energy_caption(s: OwnBodyState) -> Caption:
 
 def _section_caption(s: OwnBodyState) -> Caption:
     if not s.is_compiled or s.crossings is None:
-        return _caption(s) if not s.is_compiled else Caption(s.awaited())
+        return _caption(s) if not s.is_compiled else Caption(s.pending_caption())
     where = "Once in each period of the drive." if s.body.is_driven and s.frequency else "Where γ₃ = 0, upwards."
     return Caption(where, f"{len(s.crossings.times)} crossings up to t = {digits(s.long)}.")
 

@@ -1,4 +1,4 @@
-"""The constraint axis on a principal axis, b1 = b2 = 0: a point in a quartic potential, its section, and the body."""
+"""Constraint axis on a principal axis, b1 = b2 = 0: a point in a quartic potential, its section, and the body."""
 
 from __future__ import annotations
 
@@ -104,15 +104,15 @@ class Quartic(SectionState):
     upwards: str = coordinate_of_branch(_NAMES)
     span: float = time_span(40.0, 200.0, most=1e3, what="the chosen orbit")
 
-    def admitted(self, notes: list[str]) -> Quartic:
-        """Move a start that the energy forbids to the edge of the region."""
+    def valid_state(self, notes: list[str]) -> Quartic:
+        """Return the state with a forbidden start moved to the edge of the region; append a note."""
         q = self.body.inside((self.Q1, self.Q2))
         if q != (self.Q1, self.Q2):
             notes.append(f"With this energy the start is impossible: it was moved to the edge, q = {vector(q)}.")
-        return self.changed({"Q1": q[0], "Q2": q[1]})
+        return self.with_values({"Q1": q[0], "Q2": q[1]})
 
     def limits(self) -> Mapping[str, Slider]:
-        """Return the sliders: h above −|b3|, q over the region."""
+        """Return slider ranges: h above −|b3|, q over the region."""
         low, top, step = slider_within(abs(self.body.b3))
         return {
             "h": (0.9 * low, 4.0 * top, step),
@@ -131,17 +131,17 @@ class Quartic(SectionState):
 
     @cached_property
     def given(self) -> Start:
-        """The state at q with the direction β."""
+        """The state (d,) at q with direction β."""
         return model.state_at(self.body, (self.Q1, self.Q2), self.beta)
 
     @property
     def half_width(self) -> float:
-        """Half width of the plane of the point."""
+        """Half width of the plane of q."""
         return nice_above(1.05 * max(self.body.axes))
 
     @property
     def weights(self) -> tuple[float, ...]:
-        """Scale of each variable in pixels per unit."""
+        """Pixels per unit of each variable."""
         return self.body.pixels_per_unit(self.half_width)
 
     # ---- the parts ----------------------------------------------------------------------------------------------
@@ -158,7 +158,7 @@ class Quartic(SectionState):
     # ---- the pictures -------------------------------------------------------------------------------------------
 
     def section_window(self) -> Window:
-        """Return the window with room for all q and p."""
+        """Return the window of the section, with room for all q and p."""
         (q0, q1), (p0, p1) = centred(nice_above(1.05 * self.body.longest)), _P_AXIS
         return (q0, p0), (q1, p1)
 
@@ -168,19 +168,19 @@ class Quartic(SectionState):
         return model.angular_momentum(self.body, self.orbit.path.states)
 
     def first(self) -> tuple[float, float]:
-        """Return the q from which the orbit on show starts."""
-        if self.closed is None:
+        """Return the q at which the orbit starts."""
+        if self.closed_orbit is None:
             return self.Q1, self.Q2
         (q,), _ = self.body.to_plane(np.array([self.start]))
         return float(q[0]), float(q[1])
 
     def impossible(self, axes: Axes) -> list[list[Array]]:
-        """Return the part of the section outside its boundary."""
+        """Return the forbidden region of the section."""
         reach = 4.0 * max(axes.x[1], self.body.longest)
         return [] if self.section.known.reason else section_plane.outside(self.body.section_boundaries(), reach, 4.0)
 
     def start_at(self, x: float, y: float) -> Values:
-        """Return the start and direction at a place of the section; nothing if no motion passes there."""
+        """Return the start and direction at a place of the section; empty if no motion crosses it there."""
         try:
             return dict(zip(("Q1", "Q2", "beta"), model.start_on_section(self.body, x, y), strict=True))
         except ModelError:
@@ -208,10 +208,10 @@ class Quartic(SectionState):
     def _about_sphere(self) -> Caption:
         return Caption("The motion of the body.", f"γ = (p₁, p₂, γ₃), γ₃ {staying(self.orbit.path.states[:, 4])}.")
 
-    def derived(self) -> Iterator[str]:
+    def quantities(self) -> Iterator[str]:
         """Yield the moment of inertia, the energy, the start and the error of H = ½."""
         yield f"I₁₁ = {digits(self.body.I11)}"
-        yield from super().derived()
+        yield from super().quantities()
         yield f"h/|b₃| = {digits(self.h / abs(self.b3))}"
         yield f"Start: γ₃ = {digits(self.start[4])}"
         yield f"ω(0) = {vector(self.start[:2])}"

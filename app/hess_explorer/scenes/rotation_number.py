@@ -1,4 +1,4 @@
-"""The rotation number of the Suslov–Hess torus over its parameters, and the open problem."""
+"""The rotation number of the Suslov–Hess torus over its parameters, and an open problem of the paper."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ PRESETS = (
 
 @dataclass(frozen=True)
 class RotationNumber(State):
-    """One torus, a map of ρ over two parameters, and a line through the torus along one parameter."""
+    """A torus, a map of ρ over two parameters, and a line through the torus along one parameter."""
 
     a: float = parameter(known.A_HESS, bounds=BOUNDS["a"])  # the range of the map
     h: float = parameter(known.H_HESS, 0.5, step=0.005)
@@ -88,8 +88,8 @@ class RotationNumber(State):
     part_ha: str = window_over("h, a")
     part_fa: str = window_over("f, a")
 
-    def admitted(self, notes: list[str]) -> RotationNumber:
-        """Clamp f to the region of this h, and repair the windows."""
+    def valid_state(self, notes: list[str]) -> RotationNumber:
+        """Return the state with f clamped to the region of this h and valid windows; append notes."""
         return replace(
             self,
             f=possible_f(self.h, self.f, notes),
@@ -100,7 +100,7 @@ class RotationNumber(State):
 
     @property
     def torus(self) -> Torus:
-        """The torus on show."""
+        """The torus (a, h, f)."""
         return Torus(self.a, self.h, self.f)
 
     @part
@@ -124,43 +124,43 @@ class RotationNumber(State):
         return rotation_line.Tori(self.on_line.places(count), values, self.on_line.place(self.torus))
 
     @cached_property
-    def perturbed(self) -> Array | None:
-        """ρ of the other family at the same tori, once known; NaN where there is no torus."""
+    def other_family(self) -> Array | None:
+        """ρ of the other family at the same parameters, NaN without a torus; None until known."""
         plan, count = self.plan(Kind.LINE), self.tori.x.size
         turns = plan.part(mechanics.TURNS)
         task = Task(mechanics.perturbations_along, self.on_line, count, self.epsilon, plan.level, turns)
         return None if self.dragging else self.work.need(task, preview=None)
 
     @property
-    def sought(self) -> Fraction:
-        """The rational number to find on the line; its sign changes for f < 0, where ρ is positive."""
+    def target(self) -> Fraction:
+        """The rational number to find on the line; positive for f < 0, as ρ is."""
         rho = Fraction(self.rational.replace("−", "-"))
         return -rho if self.line != "f" and self.f < 0.0 else rho
 
     @cached_property
     def periodic(self) -> PeriodicTorus | None:
-        """The torus on the line with the rational ρ; None if there is none or it is not known yet."""
-        found = None if self.work.dragging else self.work.need(Task(_periodic, self.sought, self.on_line), preview=None)
+        """The torus on the line with the rational ρ; None if there is none or until known."""
+        found = None if self.work.dragging else self.work.need(Task(_periodic, self.target, self.on_line), preview=None)
         return None if found is None else found[0]
 
     @cached_property
     def map(self) -> CircleMap | None:
-        """The circle map of the torus on show; None on the separatrix."""
+        """The circle map of the torus; None on the separatrix."""
         return map_or_none(self.work, self.a, self.h, self.f, self.level)
 
     # ---- words --------------------------------------------------------------------------------------------------
 
     def _about_line(self) -> Caption:
-        rho = str(self.sought).replace("-", "−")
+        rho = str(self.target).replace("-", "−")
         if self.periodic is not None:
             place = digits(self.on_line.place(self.periodic.torus))
-            difference = f"|Θ{superscript(self.sought.denominator)} − id|"
+            difference = f"|Θ{superscript(self.target.denominator)} − id|"
             defect = digits(self.periodic.defect, 1)
             return Caption(
                 "All orbits of this torus are periodic.",
                 f"ρ = {rho} at {self.line} = {place}: {difference} ≤ {defect}.",
             )
-        return Caption("ρ locks at 0 only." if self.perturbed is None else f"No torus with ρ = {rho} is seen here.")
+        return Caption("ρ locks at 0 only." if self.other_family is None else f"No torus with ρ = {rho} found here.")
 
     def _about_circle(self) -> Caption:
         if self.map is None:
@@ -171,16 +171,16 @@ class RotationNumber(State):
             f"ρ = {digits(self.map.rotation_number)}.",
         )
 
-    def derived(self) -> Iterator[str]:
-        """Yield the circle map and the ladder of the other family."""
+    def quantities(self) -> Iterator[str]:
+        """Yield trace and ρ of the circle map, and the devil's staircase of the other family."""
         if self.map is not None:
             yield circle.riccati_matrix(self.map)
             yield f"|trace| = {digits(self.map.trace, 6)}, ρ = {digits(self.map.rotation_number)}"
             if self.map.fixed_points:
                 yield "multipliers " + ", ".join(digits(point.multiplier) for point in self.map.fixed_points)
-        perturbed = self.known("perturbed")
-        if perturbed is not None:
-            steps = ", ".join(map(str, mechanics.plateaus(perturbed, self.tori.values.possible)[:8]))
+        other_family = self.peek("other_family")
+        if other_family is not None:
+            steps = ", ".join(map(str, mechanics.plateaus(other_family, self.tori.values.possible)[:8]))
             yield f"plateaus of Θ(φ + ε sin 3φ): {steps.replace('-', '−') or 'none seen'}"
 
     def status(self) -> Iterator[str]:
@@ -191,7 +191,7 @@ class RotationNumber(State):
 
 
 def _periodic(rho: Fraction, line: ParameterLine) -> tuple[PeriodicTorus | None]:
-    """Return the periodic torus in a tuple, as a bare None means "not known yet"."""
+    """Return the periodic torus in a tuple, because a bare None means "not known yet"."""
     return (mechanics.periodic_torus(rho, line, REFERENCE),)
 
 
@@ -202,8 +202,8 @@ def _line(s: RotationNumber, plan: Plan) -> Array:
     """Return ρ of the tori on the line and of the other family."""
     places = plan.side(_ON_LINE)
     values = mechanics.along(s.on_line, places, plan.level)
-    perturbed = mechanics.perturbations_along(s.on_line, places, s.epsilon, plan.level, plan.part(mechanics.TURNS))
-    return np.stack([np.where(values.possible, values.rho, np.nan), perturbed])
+    other_family = mechanics.perturbations_along(s.on_line, places, s.epsilon, plan.level, plan.part(mechanics.TURNS))
+    return np.stack([np.where(values.possible, values.rho, np.nan), other_family])
 
 
 def _line_error(s: RotationNumber, found: Array, exact: Array) -> float:
@@ -267,8 +267,8 @@ SCENE = Scene(
             on_click=lambda s, x, y: {s.line: x},
             layers=rotation_line.rho_layers(
                 lambda s: s.tori,
-                lambda s: s.perturbed,
-                lambda s: [] if s.periodic is None else [float(s.sought)],
+                lambda s: s.other_family,
+                lambda s: [] if s.periodic is None else [float(s.target)],
             ),
         ),
         Plot(

@@ -12,7 +12,7 @@ import numpy as np
 from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework import free_body
 from hess_explorer.scenes.framework.answers import Answer
-from hess_explorer.scenes.framework.charted import Charted, Charts, tensor_of
+from hess_explorer.scenes.framework.charted import Charts, ChartSource, tensor_of
 from hess_explorer.scenes.framework.circle_left import CIRCLES, DIGITS, PHI, sphere
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
 from hess_explorer.scenes.framework.sliders import Slider, accuracy_level, parameter
@@ -52,7 +52,7 @@ PRESETS = (
 
 @dataclass(frozen=True)
 class ScatteringState(State):
-    """The rotation, which gives the curve and the map, and the orbit of the chosen phase."""
+    """The rotation that determines the scattering map, and the orbit of the chosen phase."""
 
     I22: float = parameter(free_body.I22)
     I13: float = parameter(free_body.I13)
@@ -74,11 +74,11 @@ class ScatteringState(State):
     accuracy: str = accuracy_level()
 
     def limits(self) -> Mapping[str, Slider]:
-        """Return the slider of k, limited to I11 > 0."""
+        """Return the slider range of k, with I11 > 0."""
         return free_body.limits_of_k(self.I22, self.I13, self.I23)
 
-    def admitted(self, notes: list[str]) -> ScatteringState:
-        """Limit the distance to 1e-16 beside an oblique line, where doubles round the start."""
+    def valid_state(self, notes: list[str]) -> ScatteringState:
+        """Return the state with a distance of at least 1e-16 if I13 I23 ≠ 0, where the start is rounded."""
         if self.I13 * self.I23 == 0.0 or self.digits <= _MOST_DIGITS:
             return self
         notes.append(f"With I₁₃I₂₃ ≠ 0 a start is known only to 1e−16: its distance was set to 1e−{_MOST_DIGITS:g}.")
@@ -96,22 +96,22 @@ class ScatteringState(State):
 
     @cached_property
     def points(self) -> Equilibria:
-        """The equilibria with the energy that makes ω0 = 1; nothing else depends on the energy."""
+        """The equilibria at the energy with ω0 = 1; nothing else depends on the energy."""
         return equilibria_of_unit_rate(self.body)
 
     @cached_property
     def start(self) -> tuple[tuple[float, float], tuple[float, float, float]]:
-        """ω(0) and γ(0) of the orbit on show.  Raises `InvalidParameter`, `WorkLimit`."""
+        """ω(0) and γ(0) of the orbit.  Raises `InvalidParameter`, `WorkLimit`."""
         return model.start(self.body, self.points.h, self.theta, self.phi, self.distance)
 
     @property
     def span(self) -> float:
-        """The length of the orbit in time: equally long before and after the passage, until γ settles."""
+        """The duration of the orbit, with the passage in the middle, until γ settles."""
         return 2.0 * math.log(10.0) * self.digits + 8.0
 
     @cached_property
     def map(self) -> model.Scattering:
-        """The rotation from the start on show."""
+        """The rotation from the chosen start."""
         return self.work.need(Task(model.scattering, self.body, self.level, 1, self.distance))
 
     @cached_property
@@ -126,22 +126,22 @@ class ScatteringState(State):
 
     @cached_property
     def theta_plus(self) -> float:
-        """θ⁺ of the orbit on show."""
+        """θ⁺ of the orbit."""
         return float(self.map.theta_plus(self.theta, self.phi))
 
     @cached_property
     def orbit(self) -> FreeMotion:
-        """The orbit on show."""
+        """The orbit of the chosen phase."""
         return self.work.need(Task(sampled_motion, self.body, *self.start, self.span, (1.0, _RADIUS), self.level))
 
     @property
     def k_axis(self) -> tuple[int, int]:
-        """The horizontal axis of cos χ."""
+        """The range of k in the picture of cos χ."""
         return min(0, math.floor(self.k)), max(7, math.ceil(self.k))
 
     @cached_property
     def orders(self) -> Array:
-        """The curve (k, cos χ) in rows."""
+        """The curve of cos χ over k, (n, 2)."""
         return self.work.need(Task(model.cos_chi_over, *self.k_axis, self.I22, self.I13, self.I23))
 
     def motion(self) -> Motion:
@@ -154,7 +154,7 @@ class ScatteringState(State):
         """The body along the orbit."""
         return constrained_solid(self.work, self.body, self.orbit)
 
-    # ---- what the pictures show --------------------------------------------------------------------------------
+    # ---- the pictures ------------------------------------------------------------------------------------------
 
     def grid(self) -> Array:
         """Return θ⁺ over all circles and phases."""
@@ -175,7 +175,7 @@ class ScatteringState(State):
         phi, before, after = map(in_digits, (self.phi, self.theta, self.theta_plus))
         return Caption(numbers=f"φ = {phi}: from θ⁻ = {before} to θ⁺ = {after}.")
 
-    def derived(self) -> Iterator[str]:
+    def quantities(self) -> Iterator[str]:
         """Yield I11 and k², the rotation and the start."""
         yield from free_body.about_I11(self.k, self.body)
         yield f"cos χ = {in_digits(self.limit.cos_chi, 6)}"
@@ -191,7 +191,7 @@ class ScatteringState(State):
             f"{found.level}: rotation {found.cost.steps} Taylor steps, error ≤ {found.error_estimate:.1e} "
             f"({found.status})"
         )
-        if self.known("orbit"):
+        if self.peek("orbit"):
             yield f"orbit {self.orbit.times.size} points, error ≤ {self.orbit.error_estimate:.1e}"
             yield from drift_status([self.orbit.drift])
 
@@ -225,8 +225,8 @@ SCENE = Scene(
     measures=(_MAP,),
     charts=Charts(
         (
-            Charted("scattering", lambda s: {**tensor_of(s.body), "theta": s.theta, "phi": s.phi}),
-            Charted("cos-chi", lambda s: tensor_of(s.body)),
+            ChartSource("scattering", lambda s: {**tensor_of(s.body), "theta": s.theta, "phi": s.phi}),
+            ChartSource("cos-chi", lambda s: tensor_of(s.body)),
         ),
         over=("k", "I23"),
     ),
@@ -242,7 +242,7 @@ SCENE = Scene(
     ),
     lead=("curve",),
     title="Scattering",
-    summary="No field: from the circle γ leaves and its phase to the circle it joins, exact for all phases at once.",
+    summary="No field: the circle that γ leaves and its phase determine the circle that it joins.",
     tracks={"orbit": lambda s: velocity_columns(s.orbit.times, s.orbit.omega, s.orbit.gamma)},
     views=(
         solid_body(field=False),

@@ -1,4 +1,4 @@
-"""Singular measures: a cloud of phase points drawn onto an invariant manifold, and its density."""
+"""Singular measures: a cloud of phase points attracted to an invariant manifold, and its density."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ PRESETS = (
 
 @dataclass(frozen=True)
 class SingularMeasures(State):
-    """One or two clouds over time."""
+    """One or two clouds of phase points over time."""
 
     I11: float = parameter(known.I11, 2.0)
     I22: float = parameter(known.I22)
@@ -127,7 +127,7 @@ class SingularMeasures(State):
     accuracy: str = accuracy_level()
 
     def idle(self) -> Mapping[str, float]:
-        """Return the parameters of an absent patch and of an absent second cloud."""
+        """Return the parameters of the patch or of the second cloud, if it is absent."""
         return {
             **({} if self.start == "small patch" else {"angle": self.angle}),
             **({} if self.beside == "principal axis" else {"b3": self.b3}),
@@ -163,7 +163,7 @@ class SingularMeasures(State):
         return np.abs(self.clouds.cloud.times)
 
     @property
-    def on_show(self) -> Array:
+    def statistics(self) -> Array:
         """Mean, minimum and maximum of the quantity in the fourth picture, (3, m)."""
         course = self.clouds.history
         return course.divergence if self.along == "divergence" else course.log_growth
@@ -171,11 +171,11 @@ class SingularMeasures(State):
     @property
     def heights(self) -> Range:
         """The vertical axis of the fourth picture."""
-        return with_room(np.append(self.on_show, 0.0), 0.08)
+        return with_room(np.append(self.statistics, 0.0), 0.08)
 
     def track(self) -> Columns:
         """Return the times of the clouds and the mean of the fourth picture."""
-        return {"t": column(self.times), "mean": column(self.on_show[0])}
+        return {"t": column(self.times), "mean": column(self.statistics[0])}
 
     # ---- words --------------------------------------------------------------------------------------------------
 
@@ -196,8 +196,8 @@ class SingularMeasures(State):
     def _about_history(self) -> Caption:
         return cloud.about_history(self.clouds, of_patch=self.along == "volume" and self.start == "small patch")
 
-    def derived(self) -> Iterator[str]:
-        """Yield the system, its invariant density and the change of volumes."""
+    def quantities(self) -> Iterator[str]:
+        """Yield the system, its invariant density and the change of phase-space volume."""
         course = self.clouds.history
         yield f"System: {'Chaplygin ball, b = 0' if self.D else 'free Suslov problem'}"
         yield "Invariant density: 1/|I₁₃ω₁ + I₂₃ω₂|"
@@ -212,7 +212,7 @@ class SingularMeasures(State):
             yield f"Beside: I₁₃ = I₂₃ = 0, b₃ = {digits(self.b3)}, div v = 0"
 
     def status(self) -> Iterator[str]:
-        """Return the size, cost and errors of the clouds."""
+        """Yield the size, cost and error of the clouds."""
         return cloud.status_of(self.clouds)
 
 
@@ -234,7 +234,7 @@ SCENE = Scene(
     essential=("h", "I23", "D", "spread"),
     answers=(Answer("The cloud leaves one line and gathers at another, though no energy is lost."),),
     title="Singular measures",
-    summary="10 000 phase points are drawn onto an invariant manifold, where an invariant density is infinite.",
+    summary="10 000 phase points approach an invariant manifold on which an invariant density is infinite.",
     tracks={"orbit": SingularMeasures.track},
     views=(
         cloud.CloudPlane(
@@ -273,7 +273,7 @@ SCENE = Scene(
             y=lambda s: s.heights,
             dot=("t", "mean"),
             layers=cloud.history_layers(
-                lambda s: s.times, lambda s: s.on_show, beside=lambda s: s.clouds.other is not None
+                lambda s: s.times, lambda s: s.statistics, beside=lambda s: s.clouds.other is not None
             ),
         ),
     ),

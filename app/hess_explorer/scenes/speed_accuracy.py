@@ -21,9 +21,14 @@ __all__ = ["SpeedAccuracy", "speed_and_accuracy"]
 
 @dataclass(frozen=True)
 class Study(State):
-    """Measurements of a state of the other scene.
+    """Measurements of a state of another scene.
 
-    shown : state of the other scene; trials : its computations.
+    Attributes
+    ----------
+    shown : State
+        State of the other scene.
+    trials : tuple of Trial
+        Its computations.
     """
 
     shown: State
@@ -31,7 +36,7 @@ class Study(State):
 
     @cached_property
     def costs(self) -> Costs:
-        """Time and error of all computations that the state shows."""
+        """Time and error of all computations of the state."""
         plain = bare(self.shown)
         return Costs(self.work, plain, tuple(trial for trial in self.trials if trial.shown(plain)))
 
@@ -42,17 +47,17 @@ class Study(State):
         return None if motion is None else Precision(self.work, motion)
 
     def limits(self) -> Mapping[str, Slider]:
-        """Return the sliders of the other scene."""
+        """Return the slider ranges of the other scene."""
         return self.shown.limits()
 
-    def derived(self) -> Iterator[str]:
+    def quantities(self) -> Iterator[str]:
         """Yield the results for the visible pictures, and the motion or the kinds of computation."""
         if self.precision is None:
             yield f"Computed: {', '.join(str(trial.kind) for trial in self.trials)}"
         if "trade" in self.seen:
             yield from self.costs.rows()
         if self.precision is not None:
-            yield from self.precision.derived()
+            yield from self.precision.quantities()
 
     def status(self) -> Iterator[str]:
         """Yield the chosen level and the cost of every level."""
@@ -61,7 +66,7 @@ class Study(State):
             yield from self.precision.status()
 
     def notes(self) -> Iterator[str]:
-        """Yield what was left out and why."""
+        """Yield the omitted measurements and the reasons."""
         if self.precision is not None:
             yield from self.precision.notes()
 
@@ -73,7 +78,7 @@ def _precision(state: Study) -> Precision:
 
 @dataclass(frozen=True, repr=False)
 class SpeedAccuracy(Scene[Study]):
-    """The scene "Speed and accuracy" of the scene `other`, with the same parameters."""
+    """The scene "Speed and accuracy" of another scene, with the same parameters."""
 
     other: Scene[Any] = field(kw_only=True)
 
@@ -97,7 +102,7 @@ class SpeedAccuracy(Scene[Study]):
         return ((trial, state.costs.shown) for trial in state.costs.trials)
 
     def of(self, values: Values, seen: Collection[str] = (), dragging: bool = False) -> Study:
-        """Return the state with these values; nothing is computed yet."""
+        """Return the state with these values, without computing anything."""
         shown = self.other.of(values, seen, dragging)
         return Study(shown, self.other.trials, work=shown.work, seen=shown.seen)
 
@@ -107,12 +112,12 @@ class SpeedAccuracy(Scene[Study]):
 
 
 def speed_and_accuracy(other: Scene[Any]) -> SpeedAccuracy:
-    """Return the scene "Speed and accuracy" of another one, with or without a motion."""
+    """Return the scene "Speed and accuracy" of another scene."""
     moving = other.has_motion
     words, about = (
-        ("speed_accuracy", "Error, drift and cost of the motion on show")
+        ("speed_accuracy", "Error, drift and cost of the motion")
         if moving
-        else ("speed_accuracy_of_maps", "Cost and error of all that the scene computes")
+        else ("speed_accuracy_of_maps", "Cost and error of all computations of the scene")
     )
     pictures: list[Picture[Study]] = [one.of(_precision) for one in PRECISION_PICTURES if moving]
     if other.measures:
@@ -126,7 +131,7 @@ def speed_and_accuracy(other: Scene[Any]) -> SpeedAccuracy:
         place=other.place,
         group="Accuracy",
         essential=other.essential,
-        summary=f"{about}, at every level of accuracy, measured here and now.",
+        summary=f"{about} at every level of accuracy, measured live.",
         tracks={"orbit": lambda s: _precision(s).track()} if moving else {},
         views=tuple(pictures),
     )

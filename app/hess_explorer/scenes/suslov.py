@@ -11,7 +11,7 @@ import numpy as np
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.answers import Answer
-from hess_explorer.scenes.framework.charted import Charted, Charts, of_motion, parameters_of
+from hess_explorer.scenes.framework.charted import Charts, ChartSource, of_motion, parameters_of
 from hess_explorer.scenes.framework.part import part
 from hess_explorer.scenes.framework.scene import Preset, Scene
 from hess_explorer.scenes.framework.sliders import TURN, choice, parameter, places, time_span
@@ -88,7 +88,7 @@ PRESETS = (
 
 @dataclass(frozen=True)
 class Suslov(FilledState):
-    """A section of one body at one energy, filled with orbits forward and backward in time."""
+    """A section of a body at one energy, with orbits forward and backward in time."""
 
     I11: float = parameter(I11)
     I22: float = parameter(I22, 3.0)
@@ -112,9 +112,9 @@ class Suslov(FilledState):
     starts: str = places("The places of the chosen orbits", 12, *_BOUNDS, "1,1")
     window: str = places("The window of the section", 2, *_BOUNDS)
 
-    def admitted(self, notes: list[str]) -> Suslov:
+    def valid_state(self, notes: list[str]) -> Suslov:
         """Return a state with a valid window, at least one start, and an energy that reaches the plane."""
-        state = super().admitted(notes)
+        state = super().valid_state(notes)
         bottom = self.poincare.lowest_energy + math.hypot(self.b1, self.b2, self.b3)
         if self.h <= bottom * (1.0 + 1e-9):
             state = replace(state, h=bottom * 1.01 + 1e-6)
@@ -143,11 +143,11 @@ class Suslov(FilledState):
 
     @property
     def weights(self) -> tuple[float, ...]:
-        """Scale of each variable in pixels per unit."""
+        """Pixels per unit of each variable."""
         return pixels_per_unit(self.half_width)
 
     def orbit_level(self) -> Level:
-        """Return the level of the orbit on show.
+        """Return the level of accuracy of the orbit.
 
         Near the lowest energy the motion is small compared with the velocity scale of a level's promise.
         """
@@ -169,7 +169,7 @@ class Suslov(FilledState):
 
     @cached_property
     def _conformal(self) -> tuple[Conformal | None, str]:
-        """The orbit on show in both times, or None and the reason."""
+        """The orbit in real and in conformal time and an empty string; or None and the reason."""
         if self.I13 != 0.0 or self.I23 != 0.0:
             return None, "Only for I₁₃ = I₂₃ = 0, as in the example “On a principal axis”."
         try:
@@ -194,10 +194,10 @@ class Suslov(FilledState):
         cells = occupied_cells(later, self.poincare.window, _CELLS)
         return Caption(numbers=f"{counted}late forward points occupy {cells} of {_CELLS**2} cells.")
 
-    def derived(self) -> Iterator[str]:
-        """Yield the energy, the start of the orbit on show and the check of the body."""
+    def quantities(self) -> Iterator[str]:
+        """Yield the energy, the start of the orbit and the check of the body."""
         yield f"E = {digits(self.E)}"
-        yield from super().derived()
+        yield from super().quantities()
         yield check_body(self.I11, self.I22, self.I13, self.I23).sentence
 
 
@@ -210,14 +210,14 @@ SCENE = Scene(
     charts=Charts(
         (
             *of_motion(SYSTEM, lambda s: start_on(s.poincare, s.starts), time=lambda s: s.long),
-            Charted(
+            ChartSource(
                 "basins suslov-section",
                 # Attractors belong to the whole section: one cell is enough.
                 lambda s: {**parameters_of(s.body), "h": s.h, "k": s.poincare.k, "across": 1.0, "up": 1.0},
             ),
         ),
         over=_NAMES,
-        placed=("starts", _NAMES),
+        place=("starts", _NAMES),
     ),
     group="Heavy body",
     essential=("h", "I13", "I23", "b3"),
@@ -247,7 +247,7 @@ SCENE = Scene(
         along_the_orbit(lambda s: centre_of_mass((s.b1, s.b2, s.b3)), lambda s: s.proof.around),
         replace(
             orbit_alone(lambda s: s.half_width, energy=lambda s: s.E, proved=lambda s: s.proof.band),
-            folded="Show the angular velocity",
+            button="Show the angular velocity",
         ),
         conformal_time.picture(lambda s: s._conformal[0], lambda s: s._conformal[1], lambda s: s.duration),
     ),

@@ -13,14 +13,21 @@ from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework import hess_case
 from hess_explorer.scenes.framework.answers import Answer
 from hess_explorer.scenes.framework.charted import Charts, of_torus
-from hess_explorer.scenes.framework.hess_case import Proved, limit_cycles, map_or_none, possible_f, possible_I23, proved
+from hess_explorer.scenes.framework.hess_case import (
+    ProvedStatement,
+    limit_cycles,
+    map_or_none,
+    possible_f,
+    possible_I23,
+    proved_statement,
+)
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
 from hess_explorer.scenes.framework.sliders import Slider, accuracy_level, number, parameter, slider_within
 from hess_explorer.scenes.framework.solid_body import Solid, hess_solid, solid_body
 from hess_explorer.scenes.framework.trial import COLOUR_UNIT, Trial, boundary_error, colour_error, curve_error
 from hess_explorer.scenes.framework.work import orbit_status
 from hess_explorer.scenes.parts.orbits.hess_surface import INVARIANT, HessSurface, shaded_by, surface_picture
-from hess_explorer.scenes.parts.orbits.proof import OrbitProof, proved_error_shown
+from hess_explorer.scenes.parts.orbits.proof import OrbitProof, show_proved_error
 from hess_explorer.views.layers import CellGrid, Columns
 from hess_explorer.views.maps import bifurcation_diagram as diagram
 from hess_explorer.views.maps import circle_map as circle
@@ -60,7 +67,7 @@ PRESETS = (
 
 @dataclass(frozen=True)
 class SuslovHess(State):
-    """One orbit on one torus M²(h, f), and the diagram of all tori."""
+    """An orbit on a torus M²(h, f), and the bifurcation diagram of all tori."""
 
     I22: float = parameter(hess_case.I22)
     I23: float = parameter(hess_case.I23)
@@ -78,16 +85,16 @@ class SuslovHess(State):
         label="Time span",
         doc="Duration of the orbit, in the time of the body (at most 100 returns).",
     )
-    certain: str = proved_error_shown()
+    certain: str = show_proved_error()
     shade: str = shaded_by()
     accuracy: str = accuracy_level()
 
-    def admitted(self, notes: list[str]) -> SuslovHess:
-        """Clamp |a| to 100 and f to the region of this h."""
+    def valid_state(self, notes: list[str]) -> SuslovHess:
+        """Return the state with |a| clamped to 100 and f to the region of this h; append notes."""
         return replace(self, I23=possible_I23(self.I22, self.I23, notes), f=possible_f(self.h, self.f, notes))
 
     def limits(self) -> Mapping[str, Slider]:
-        """Return the slider of f over the region of this h, in round steps."""
+        """Return the slider range of f over the region of this h, with round steps."""
         return {"f": slider_within(f_max(self.h))}
 
     @cached_property
@@ -96,7 +103,7 @@ class SuslovHess(State):
         return HessBody(self.I22, self.I23, self.b3)
 
     @cached_property
-    def turning(self) -> TurningPoints | None:
+    def turning_points(self) -> TurningPoints | None:
         """The turning points of n3; None on the separatrix."""
         try:
             return turning_points(self.h, self.f)
@@ -106,7 +113,7 @@ class SuslovHess(State):
     @cached_property
     def map(self) -> CircleMap | None:
         """The circle map; None on the separatrix."""
-        return None if self.turning is None else map_or_none(self.work, self.body.a, self.h, self.f, self.level)
+        return None if self.turning_points is None else map_or_none(self.work, self.body.a, self.h, self.f, self.level)
 
     @property
     def kind(self) -> str:
@@ -114,8 +121,8 @@ class SuslovHess(State):
         return "" if self.map is None else self.map.kind
 
     @cached_property
-    def locked(self) -> Array:
-        """The boundary of the lock zone, |t| = 2, (n, 2)."""
+    def lock_boundary(self) -> Array:
+        """The boundary |t| = 2 of the Arnold tongue, with points (n, 2)."""
         plan = self.plan(Kind.CURVE, steady=True)
         return self.work.need(Task(lock_boundary, self.body.a, plan.level, plan.side(_ON_BOUNDARY)))
 
@@ -126,7 +133,7 @@ class SuslovHess(State):
 
     @cached_property
     def half_width(self) -> float:
-        """Half width of the (ω1, ω2)-plane; it follows the largest ring of this h in factors of 2."""
+        """Half width of the (ω1, ω2)-plane, a power of 2 with room for the largest ring of this h."""
         largest = math.sqrt(2.0 * (diagram.window(self.h).x[1] + 1.0))
         halvings = math.floor(math.log2(largest / math.sqrt(2.0 * (self.h + 1.0))))
         ring = 1.02 * math.hypot(1.0, self.body.a) * largest * 0.5**halvings
@@ -134,12 +141,12 @@ class SuslovHess(State):
 
     @cached_property
     def track(self) -> Track:
-        """The orbit on show."""
+        """The orbit."""
         return self.work.need(self.finding)
 
     @property
     def finding(self) -> Task[Track]:
-        """The task that computes the orbit on show."""
+        """The task of the orbit."""
         return Task(track, self.body, self.h, self.f, self.phi0, self.span, self.level, self.half_width)
 
     @cached_property
@@ -155,7 +162,7 @@ class SuslovHess(State):
 
     @cached_property
     def iterates(self) -> Array | None:
-        """φ0 and its images under the circle map, up to the end of the orbit."""
+        """φ0 and its iterates under the circle map, up to the end of the orbit."""
         if self.map is None:
             return None
         returns = math.ceil(self.track.orbit.times[-1] / self.map.period)
@@ -163,8 +170,8 @@ class SuslovHess(State):
 
     @cached_property
     def density(self) -> tuple[Array | None, str]:
-        """The invariant density on the torus relative to the uniform one, or None and the reason."""
-        reason = torus_density.reason_for_no_density(self.map, self.turning)
+        """The invariant density on the torus, relative to the uniform one, or None; and the reason for None."""
+        reason = torus_density.reason_for_no_density(self.map, self.turning_points)
         if reason or self.map is None:
             return None, reason
         try:
@@ -179,25 +186,25 @@ class SuslovHess(State):
 
     @cached_property
     def solid(self) -> Solid:
-        """The body along the orbit on show."""
+        """The body along the orbit."""
         return hess_solid(self.body, self.track)
 
     def motion(self) -> Motion:
-        """Return the orbit on show in units b = 1."""
+        """Return the motion of the orbit in units b = 1."""
         state, length = start_of_track(self.body, self.h, self.f, self.phi0, self.span)
         weights = pixels_per_unit(self.body, self.half_width)
         return Motion(SYSTEM, tuple(state), (self.body.a, 1.0), length, tuple(weights), 1.0 / self.body.frequency_unit)
 
     @cached_property
-    def proof(self) -> Proved | None:
-        """Proved statements on this torus; None until known and while a slider is dragged."""
+    def proof(self) -> ProvedStatement | None:
+        """The proved statement on this torus; None until known and during a drag."""
         if self.dragging or self.map is None:
             return None
         if not has_flint():
-            return Proved("", "Proofs need python-flint: pip install 'hess-explorer[prove]'")
-        return self.work.need(Task(proved, self.I22, self.I23, self.h, self.f), preview=None)
+            return ProvedStatement("", "Proofs need python-flint: pip install 'hess-explorer[prove]'")
+        return self.work.need(Task(proved_statement, self.I22, self.I23, self.h, self.f), preview=None)
 
-    # ---- what the pictures show --------------------------------------------------------------------------------
+    # ---- the pictures ------------------------------------------------------------------------------------------
 
     def orbit_columns(self) -> Columns:
         """Return the columns of the orbit and of the moving points in the other pictures."""
@@ -214,7 +221,7 @@ class SuslovHess(State):
 
     def heights(self) -> list[Circle]:
         """Return the circles that bound n3, and the proved enclosure of γ."""
-        ends = (-1.0, 1.0) if self.turning is None else self.turning.roots[1:]
+        ends = (-1.0, 1.0) if self.turning_points is None else self.turning_points.roots[1:]
         return [*parallels(self.body.n3, ends), *self.orbit_proof.around]
 
     def colours(self, cells: tuple[int, int], level: Level) -> Task[Array]:
@@ -231,8 +238,8 @@ class SuslovHess(State):
 
     # ---- words --------------------------------------------------------------------------------------------------
 
-    def derived(self) -> Iterator[str]:
-        """Yield a, b, the derived data of the body, the integrals in its units and the period."""
+    def quantities(self) -> Iterator[str]:
+        """Yield a, b, derived data of the body, the integrals in its units, and the period."""
         body = self.body
         yield f"a = I₂₃/I₂₂ = {digits(body.a)}"
         yield f"b = {digits(body.b)}"
@@ -245,14 +252,14 @@ class SuslovHess(State):
             yield f"I₃₃ from {digits(body.check.I33[0])} to {digits(body.check.I33[1])}"
         if self.map is not None:
             yield f"Period of n₃ = {digits(self.map.period / body.frequency_unit)}"
-            if self.known("proof") and self.proof is not None:
+            if self.peek("proof") and self.proof is not None:
                 yield self.proof.sentence
             if self.map.kind == "elliptic":
                 yield f"ζ of the invariant density = {digits(invariant_measure(self.map).zeta)}"
 
     def status(self) -> Iterator[str]:
         """Yield the status of the orbit and of the circle map."""
-        if self.known("track"):
+        if self.peek("track"):
             yield from orbit_status(self.track.orbit)
             yield from self.orbit_proof.status()
         if self.map is None:
@@ -264,7 +271,7 @@ class SuslovHess(State):
         """Yield warnings: not a rigid body, a truncated orbit, an angle that jumps."""
         if not self.body.check.is_body:
             yield self.body.check.sentence
-        shown = float(self.track.times[-1]) if self.known("track") else math.inf
+        shown = float(self.track.times[-1]) if self.peek("track") else math.inf
         if shown < self.span * (1 - 1e-9):
             reason = "after that it is visibly at rest" if self.map is None else f"{MAX_RETURNS} returns"
             yield f"The orbit is shown up to t = {digits(shown)}: {reason}."
@@ -306,7 +313,7 @@ SCENE = Scene(
     essential=("h", "f", "I23", "phi0"),
     handle="bifurcation/here",
     answers=(
-        Answer("On the separatrix the body climbs for ever and never comes back.", lambda s: s.map is None),
+        Answer("On the separatrix the body climbs forever and never comes back.", lambda s: s.map is None),
         Answer(
             "At this edge the torus has shrunk: the height of the body no longer changes.",
             lambda s: torus_plane.is_circle(s.turning),
@@ -316,7 +323,7 @@ SCENE = Scene(
             lambda s: s.kind == "hyperbolic",
         ),
         Answer("The two loops have just met: here they appear or vanish.", lambda s: s.kind == "parabolic"),
-        Answer("No loop attracts: every start winds on for ever, and none forgets where it began."),
+        Answer("No loop attracts: every start winds on forever, and none forgets where it began."),
     ),
     lead=("bifurcation", "omega", "sphere", "circle"),
     title="The Suslov–Hess case",
@@ -326,14 +333,16 @@ SCENE = Scene(
     views=(
         solid_body(section=True),
         picture(
-            lambda s: torus_plane.about(s.map, s.turning),
+            lambda s: torus_plane.about(s.map, s.turning_points),
             lambda s: s.half_width,
             torus_plane.layers(
-                lambda s: annulus(s.body, s.h, s.turning), lambda s: s.half_width, proved=lambda s: s.orbit_proof.band
+                lambda s: annulus(s.body, s.h, s.turning_points),
+                lambda s: s.half_width,
+                proved=lambda s: s.orbit_proof.band,
             ),
         ),
         Sphere(
-            caption=lambda s: torus_plane.about_heights(s.turning),
+            caption=lambda s: torus_plane.about_heights(s.turning_points),
             circles=SuslovHess.heights,
             axis=lambda s: Direction(s.body.n3, "n₃"),
             looks={one: one for one in ("orbit", "stable", "unstable")},
@@ -352,7 +361,7 @@ SCENE = Scene(
             on_hover=lambda s, h, f: diagram.about_torus(s.body.a, h, f),
             layers=diagram.layers(
                 rotation=lambda s: s.rotation,
-                boundary=lambda s: s.locked,
+                boundary=lambda s: s.lock_boundary,
                 curve=lambda s: s.edge,
                 here=lambda s: [(s.h, s.f)],
                 axes=lambda s: diagram.window(s.h),

@@ -13,8 +13,8 @@ import numpy as np
 from tornado.iostream import StreamClosedError
 from tornado.web import RequestHandler
 
-from hess_explorer.compute.budget import Abandoned, limited
-from hess_explorer.export.formats import FORMATS, SERVED_SECONDS, WIDTHS, FileRequest, holding
+from hess_explorer.compute.budget import ClientGone, time_budget
+from hess_explorer.export.formats import FORMATS, SERVED_SECONDS, WIDTHS, FileRequest, formats_of
 from hess_explorer.export.notebook import PROGRAMS
 from hess_explorer.export.picture_data import address, compute
 from hess_explorer.offline.pages import planned, state_page
@@ -52,7 +52,7 @@ def _needs_browser(name: str, picture: str, kind: str) -> bool:
     """Return whether a browser draws the file: a film, or a figure of a picture that is no plot."""
     scene = scenes().get(name, next(iter(scenes().values())))
     view = next((view for view in scene.views if view.name == picture), scene.views[0])
-    return kind in holding("film") or (kind in holding("figure") and not isinstance(view, Plot))
+    return kind in formats_of("film") or (kind in formats_of("figure") and not isinstance(view, Plot))
 
 
 class Export(RequestHandler):
@@ -89,7 +89,7 @@ class Export(RequestHandler):
         read, _ = decode(self.request.query, _SPECS)
         own = {spec.name for spec in _SPECS} | {"picture", "vary"}
         query, picture = urlencode([one for one in given.items() if one[0] not in own]), given.get("picture", "")
-        sliders = given["vary"].split(",") if read["format"] in holding("state") and given.get("vary") else []
+        sliders = given["vary"].split(",") if read["format"] in formats_of("state") and given.get("vary") else []
         is_slow = bool(sliders) or _needs_browser(given.get("scene", ""), picture, str(read["format"]))
         if self.waiting[is_slow] >= _MOST[is_slow]:
             refuse(self, 503, "The server is making too many files at the moment: try again in a minute.")
@@ -106,7 +106,7 @@ class Export(RequestHandler):
                 self.set_header("Content-Type", FORMATS[request.kind].media)
                 self.set_header("Content-Disposition", f'attachment; filename="{name}.{request.kind}"')
                 self.finish(data)
-        except (Abandoned, StreamClosedError, asyncio.CancelledError):
+        except (ClientGone, StreamClosedError, asyncio.CancelledError):
             return
         except ModelError as error:
             refuse(self, 400, str(error))
@@ -114,9 +114,9 @@ class Export(RequestHandler):
             self.waiting[is_slow] -= 1
 
     def _file(self, query: str, picture: str, request: FileRequest) -> tuple[str, bytes]:
-        """Return name and contents of the file.  Raises `ModelError`, `Abandoned`."""
+        """Return name and contents of the file.  Raises `ModelError`, `ClientGone`."""
         if request.kind == "html":
-            with limited(self._left, _SECONDS), np.errstate(all="ignore"):
+            with time_budget(self._left, _SECONDS), np.errstate(all="ignore"):
                 pictures = picture.split(",") if picture else ()
                 return state_page(query, pictures, home=home_of(self.request), lenient=True)
         where = address(query, picture, lenient=True)
@@ -126,7 +126,7 @@ class Export(RequestHandler):
         # Not at the start, because no page needs HoloViews.
         from hess_explorer.export.figure import as_file
 
-        with limited(self._left, _SECONDS), np.errstate(all="ignore"):
+        with time_budget(self._left, _SECONDS), np.errstate(all="ignore"):
             return name, as_file(compute(where), request)
 
     async def _answer_slowly(self, query: str, picture: str, read: dict[str, Any], sliders: Sequence[str]) -> None:

@@ -39,7 +39,13 @@ def _schemes(query: str) -> str:
 
 
 def policy(nonce: str, embedders: tuple[str, ...]) -> str:
-    """Return the Content-Security-Policy of a response; embedders : sites that may embed the page."""
+    """Return the Content-Security-Policy of a response.
+
+    Parameters
+    ----------
+    embedders : tuple of str
+        Sites that may embed the page.
+    """
     # Without frame-ancestors any page may embed it, local files included, which "*" would exclude.
     ancestors = "" if "*" in embedders else " ".join(embedders)
     return "; ".join(

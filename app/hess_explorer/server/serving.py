@@ -122,7 +122,10 @@ def create_server(
 ) -> Server:
     """Return a server that listens but is not started; the parameters are those of `serve`.
 
-    changed : further options of `panel.io.server.get_server`.
+    Parameters
+    ----------
+    changed
+        Further options of `panel.io.server.get_server`.
     """
     capacity, rooms = Capacity(sessions), Rooms(_lessons(lessons))
     patterns = [

@@ -42,8 +42,8 @@ def compute(name: str, folded: bool = True) -> None:
         todo = Stage(scene, Wire()).show(state, hold_axes=False).todo
         for task in {task.function: task for task in reversed(todo)}.values():
             CACHE.get(task.function, *task.arguments)
-        if folded and scene.charted is not None:
-            scene.charted.load(state)
+        if folded and scene.chart_set is not None:
+            scene.chart_set.load(state)
     except ModelError as error:
         # A scene that fails must not stop the others.
         logger.warning("%s: %s", name, error)

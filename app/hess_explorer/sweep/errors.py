@@ -22,15 +22,18 @@ class StoreError(ModelError):
 
 
 class WorkersLost(ModelError):
-    """A cluster cannot be reached, or its workers have another version or die on some chunks."""
+    """A cluster cannot be reached, its workers run another version, or they died on some pieces."""
 
 
 class Interrupted(KeyboardInterrupt):
     """The sweep was stopped by Ctrl-C.
 
-    Attributes
+    Parameters
     ----------
-    dataset : the finished cells; all other cells have the status 0, "not computed".
+    message : str
+        How many cells are finished, and how to continue.
+    dataset : xarray.Dataset
+        The finished cells; all other cells have the status 0, "not computed".
     """
 
     def __init__(self, message: str, dataset: xr.Dataset) -> None:

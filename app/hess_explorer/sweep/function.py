@@ -1,4 +1,4 @@
-"""A function of the user as a computation, with the parameters of its calls and the fields of its results."""
+"""Turn a user's function into a computation: its parameters, and the numbers that it returns."""
 
 from __future__ import annotations
 
@@ -60,10 +60,12 @@ def _number(name: str, title: str) -> Number:
 def computation_of(
     function: Function, over: Mapping[str, Axis], fixed: Mapping[str, float], accuracy: str
 ) -> tuple[Computation, str]:
-    """Return a function as a computation, and its text.  It is called at one cell, or at a few until one has a result.
+    """Return a user's function as a computation, and its source code.
 
-    Its parameters are those that the sweep gives, and those with a number as default.  Raises `InvalidParameter`,
-    `WorkLimit`.
+    The parameters of the computation are the swept and fixed ones, and those with a number as default.  The function
+    is called at one cell, or at a few until one has a result, to learn the names of its numbers.
+
+    Raises `InvalidParameter` if it fails at all of these cells, and `WorkLimit` if the sweep has too many cells.
     """
     inner = function.func if isinstance(function, partial) else function
     name = str(getattr(inner, "__name__", ""))
@@ -89,7 +91,7 @@ def computation_of(
 
 
 def _fields(what: Computation, plan: SweepPlan) -> tuple[str, ...]:
-    """Return the names of a function's numbers, from the first cell that has a result."""
+    """Return the names of the numbers that a function returns at the first cell with a result."""
     failed: Exception | None = None
     for cell in np.unique(np.linspace(0, plan.cells - 1, _TRIALS).astype(int)):
         columns = plan.columns(np.array([cell]))
@@ -98,6 +100,6 @@ def _fields(what: Computation, plan: SweepPlan) -> tuple[str, ...]:
         except (ModelError, ArithmeticError, UserError) as error:
             failed = failed or error
     raise InvalidParameter(
-        f"{what.name} failed at all cells that were tried (first: {failed}): let it take its parameters by name, and "
-        "return a number or a named tuple of numbers."
+        f"{what.name} failed at all cells that were tried (first: {failed}): it must accept its parameters by name "
+        "and return a number or a named tuple of numbers."
     )

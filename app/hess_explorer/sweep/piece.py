@@ -19,7 +19,7 @@ from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.arguments import as_level
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["PieceResult", "cells_of_a_piece", "compute", "compute_sent", "named", "received", "sendable"]
+__all__ = ["PieceResult", "cell_name", "cells_of_a_piece", "compute", "compute_sent", "sendable"]
 
 PieceResult = tuple[dict[str, Array], dict[str, str]]
 """Arrays in the shape of a piece by variable, the status last; and texts of exceptions by cell."""
@@ -35,13 +35,13 @@ _PART = 128
 """A trial computes at most this fraction (1/128) of all cells."""
 
 
-def named(cell: Mapping[str, float]) -> str:
-    """Return the coordinates of a cell in words, with all digits."""
+def cell_name(cell: Mapping[str, float]) -> str:
+    """Return the coordinates of a cell as text, with all digits."""
     return ", ".join(f"{name} = {float(value)!r}" for name, value in cell.items())
 
 
 def compute(piece: SweepPlan) -> PieceResult:
-    """Return the results at all cells of a plan."""
+    """Compute all cells of a plan in this process."""
     columns = piece.columns()
     found = evaluate(piece.computation, piece.numbers, columns, as_level(piece.accuracy))
     arrays: dict[str, Any] = {}
@@ -51,14 +51,14 @@ def compute(piece: SweepPlan) -> PieceResult:
             arrays[f"{own}_error"] = found.errors[name]
     arrays["status"] = found.status
     failed = np.flatnonzero(found.status == Outcome.FAILED).tolist()
-    failures = {named({name: columns[name][i] for name in piece.axes}): found.why[i] for i in failed}
+    failures = {cell_name({name: columns[name][i] for name in piece.axes}): found.why[i] for i in failed}
     return {name: values.reshape(piece.shape) for name, values in arrays.items()}, failures
 
 
 def sendable(plan: SweepPlan) -> bytes:
-    """Return a plan without its axes as workers receive it, with the text of functions of a notebook.
+    """Serialize a plan without its axes, including functions that are defined in a notebook.
 
-    Raises `InvalidParameter`.
+    Raises `InvalidParameter` if the computation cannot be pickled.
     """
     import cloudpickle
 
@@ -70,37 +70,40 @@ def sendable(plan: SweepPlan) -> bytes:
     # Whatever the objects that a function uses raise.
     except Exception as error:
         raise InvalidParameter(
-            f"{what.key} cannot be sent to other processes ({error}): leave out workers, or define it "
-            "without what cannot be pickled, such as open files and locks."
+            f"{what.key} cannot be sent to other processes ({error}): omit workers, or avoid objects that cannot be "
+            "pickled, such as open files and locks."
         ) from error
 
 
 @lru_cache(maxsize=1)
-def received(content: bytes) -> SweepPlan:
-    """Return the plan that was sent, the same object for all pieces: a function keeps what it has compiled."""
+def _plan_of(content: bytes) -> SweepPlan:
+    """Return the plan from its serialized form.
+
+    All pieces share one object, so that a function stays compiled.
+    """
     what, numbers, accuracy, fixed = pickle.loads(content)
     return SweepPlan(find(what) if isinstance(what, str) else what, numbers, accuracy, {}, fixed)
 
 
 def compute_sent(content: bytes, needed: str, axes: Mapping[str, Array]) -> PieceResult:
-    """Return the results of a piece of a plan that was sent.  Raises `WorkersLost` if the versions differ."""
+    """Compute a piece of a serialized plan on a worker.  Raises `WorkersLost` if the versions differ."""
     if needed != version():
         raise WorkersLost(
             f"A worker has version {version()} of hess-explorer, but the sweep needs {needed}: "
             "install the same version on all workers."
         )
-    return compute(replace(received(content), axes=axes))
+    return compute(replace(_plan_of(content), axes=axes))
 
 
 def cells_of_a_piece(plan: SweepPlan, workers: int) -> float:
-    """Return how many cells a piece has at most, from trials at random cells."""
+    """Return the maximum number of cells of a piece, from the measured cost of random cells."""
     cost = _seconds_of_a_cell(plan)
     seconds = min(_LONGEST, max(_SHORTEST, cost * plan.cells / (_PIECES * workers)))
     return max(1.0, min(seconds / cost, _MOST_NUMBERS / len(plan.numbers)))
 
 
 def _seconds_of_a_cell(plan: SweepPlan) -> float:
-    """Return the cost of a cell; ∞ for few cells, which are pieces of their own."""
+    """Return the mean time of a cell in seconds; ∞ for a small sweep, which has one cell per piece."""
     if plan.cells < _PART // 4:
         return np.inf
     random = np.random.default_rng(0)

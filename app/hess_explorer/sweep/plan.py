@@ -42,8 +42,18 @@ class SweepPlan:
 
     Attributes
     ----------
-    fixed : values of the parameters that are not swept.
-    source : text of a function of the user, empty for other computations.
+    computation : Computation
+        The computation.
+    numbers : tuple of str
+        Names of the numbers to compute.
+    accuracy : str
+        Level of accuracy.
+    axes : mapping of str to array
+        Values (n,) of the swept parameters.
+    fixed : mapping of str to float
+        Values of all other parameters.
+    source : str
+        Source code of a user's function; empty for other computations.
     """
 
     computation: Computation
@@ -63,7 +73,7 @@ class SweepPlan:
         fixed: Mapping[str, float],
         source: str = "",
     ) -> SweepPlan:
-        """Return the checked plan.  Raises `InvalidParameter`, `WorkLimit`."""
+        """Return a validated plan.  Raises `InvalidParameter`, and `WorkLimit` above `MAX_CELLS` cells."""
         if not isinstance(over, Mapping) or not 1 <= len(over) <= _MOST_AXES:
             raise InvalidParameter(f"A sweep is over one to {_MOST_AXES} parameters: name them with their values.")
         if both := over.keys() & fixed:
@@ -80,7 +90,7 @@ class SweepPlan:
 
     @property
     def variables(self) -> dict[str, str]:
-        """The names of the numbers by that of their variable in a Dataset."""
+        """The name of the number behind each variable of the Dataset."""
         taken = (*self.axes, "status")
         return {f"{name.replace('-', '_')}{'_value' if name in taken else ''}": name for name in self.numbers}
 
@@ -99,7 +109,10 @@ class SweepPlan:
         return replace(self, axes={name: values[region[name]] for name, values in self.axes.items()})
 
     def columns(self, cells: NDArray[np.int64] | None = None) -> dict[str, Array]:
-        """Return all parameters at each cell, or at these cells, the last axis varying fastest."""
+        """Return the values (n,) of all parameters at n cells, by default all cells.
+
+        The last axis varies fastest.
+        """
         every = np.arange(self.cells) if cells is None else cells
         at = zip(self.axes.items(), np.unravel_index(every, self.shape), strict=True)
         fixed = {name: np.full(every.size, value) for name, value in self.fixed.items()}

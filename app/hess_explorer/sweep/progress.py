@@ -8,11 +8,23 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import NamedTuple
 
-__all__ = ["Progress", "Report", "reporting"]
+__all__ = ["Progress", "Report", "progress_report"]
 
 
 class Progress(NamedTuple):
-    """Progress of a sweep: cells done (including those from a store), total, seconds so far, seconds left or None."""
+    """Progress of a sweep.
+
+    Attributes
+    ----------
+    done : int
+        Number of finished cells, including those from a store.
+    cells : int
+        Total number of cells.
+    seconds : float
+        Wall time so far, in seconds.
+    left : float or None
+        Estimated remaining time in seconds; None until a cell is finished.
+    """
 
     done: int
     cells: int
@@ -26,8 +38,8 @@ Report = Callable[[Progress], None]
 
 
 @contextmanager
-def reporting(progress: bool | Report | None, cells: int, before: int) -> Iterator[Callable[[int], object]]:
-    """Yield a callback for each number of finished cells, for a progress bar (True) or `progress`."""
+def progress_report(progress: bool | Report | None, cells: int, before: int) -> Iterator[Callable[[int], object]]:
+    """Yield a function that adds a number of finished cells to the progress bar, or reports them to `progress`."""
     if not callable(progress):
         from tqdm.auto import tqdm
 

@@ -1,4 +1,4 @@
-"""`sweep` computes numbers over one to three parameters; `explain` gives the status of a cell."""
+"""`sweep` computes numbers over one to three parameters; `explain` describes the status of a cell."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ import numpy as np
 from hess_explorer.compute.cells import Outcome, evaluate
 from hess_explorer.sweep.errors import Interrupted, StoreError, WorkersLost
 from hess_explorer.sweep.function import computation_of
-from hess_explorer.sweep.piece import cells_of_a_piece, named
+from hess_explorer.sweep.piece import cell_name, cells_of_a_piece
 from hess_explorer.sweep.plan import Axis, SweepPlan
-from hess_explorer.sweep.progress import Report, reporting
+from hess_explorer.sweep.progress import Report, progress_report
 from hess_explorer.sweep.store import create, exists, load, missing, require_libraries, write
-from hess_explorer.sweep.workers import connected, results, size
+from hess_explorer.sweep.workers import connection, results, size
 from hess_mechanics.catalogue import Computation, find
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.accuracy import Accuracy
@@ -47,38 +47,39 @@ def sweep(
     Parameters
     ----------
     computation : str, Computation or callable
-        A name of the catalogue such as "circle-map" or "lyapunov suslov", which defines the parameters, their bounds
-        and defaults; or a computation of a system of your own.  Or your function: its parameters are numbers given by
-        name, and it returns a number or a named tuple of numbers, whose fields become variables.  A parameter
-        `accuracy` receives the level.  The function is called once before the sweep begins.
+        Name of a computation of the catalogue, such as "circle-map" or "lyapunov suslov", which defines the
+        parameters, their bounds and defaults; or a computation of your own system; or a function.  A function takes
+        numbers by name and returns a number or a named tuple of numbers, whose fields become variables; its parameter
+        `accuracy`, if any, receives the level.  It is called once before the sweep begins.
     over : mapping of str
         The swept parameters: (low, high, count) for evenly spaced values with both ends, or a list of values.
     numbers : sequence of str, optional
-        Numbers of the computation, by default the first, or all of a function.  Each is a variable, with `_` for `-` in
-        its name.
+        Numbers to compute: by default the first one of a computation, all of a function.  Each becomes a variable, with
+        `_` instead of `-` in its name.
     accuracy : str or Level
-        "draft", "standard", "precise" or "reference".
+        Level of accuracy: "draft", "standard", "precise" or "reference".
     store : str or Path, optional
-        Folder of a Zarr group that keeps every finished piece.  The same call resumes an interrupted sweep.
+        Folder of a Zarr group that stores every finished piece.  The same call resumes an interrupted sweep.
         Simultaneous runs are safe but repeat work.
     workers : None, "all" or int
-        None computes in this thread; an integer starts that many processes for this sweep, "all" one per core.  In a
-        script they need the call below ``if __name__ == "__main__":``.
+        None computes in this thread, an integer in that many new processes, "all" in one process per core.  A script
+        must then call `sweep` below ``if __name__ == "__main__":``.
     scheduler : str or distributed.Client, optional
-        Address of a Dask scheduler, "tcp://…" or "tls://…", or a Client, whose workers compute the sweep; they need
-        the same version of this package.
+        Address of a Dask scheduler, "tcp://…" or "tls://…", or a Client.  Its workers need the same version of this
+        package.
     progress : bool or callable, optional
-        True shows a progress bar, every 30 seconds if standard error is not a terminal; a function is
-        called with a `Progress`.
+        True shows a progress bar, which is updated every 30 seconds if stderr is not a terminal.  A function is called
+        with a `Progress` after each piece.
     **fixed : float
-        Values of the other parameters that differ from their defaults.
+        Values of other parameters that differ from their defaults.
 
     Returns
     -------
     xarray.Dataset
-        The numbers, their estimated errors as `<name>_error` where there is an estimate, and the `status` of each cell
-        (see `Outcome` and `explain`); the attribute `failures` has the exceptions of up to 1000 failed cells, as JSON.
-        On one kind of processor the values do not depend on `store`, `workers` and `scheduler`.
+        The numbers over the swept parameters, their estimated errors `<name>_error` where estimates exist, and the
+        `status` of each cell (see `Outcome` and `explain`).  The attribute `failures` contains the exceptions of up to
+        1000 failed cells as JSON.  On one kind of processor the values do not depend on `store`, `workers` and
+        `scheduler`.
 
     Raises
     ------
@@ -122,12 +123,13 @@ def sweep(
     hint = "" if path is None else f"  Finished cells are saved in {str(path)!r}: run the same sweep again to continue."
     try:
         # A finished sweep needs no workers.
-        with nullcontext() if todo == [] else connected(workers, scheduler) as client:
+        with nullcontext() if todo == [] else connection(workers, scheduler) as client:
             if todo is None:
                 place = create(path, plan, cells_of_a_piece(plan, size(client)))
                 todo = missing(place, plan)
             done = plan.cells - sum(plan.part(region).cells for region in todo)
-            with reporting(progress, plan.cells, done) as report, closing(results(client, plan, todo)) as pieces:
+            pieces = results(client, plan, todo)
+            with progress_report(progress, plan.cells, done) as report, closing(pieces):
                 for region, found in pieces:
                     write(place, region, found)
                     report(plan.part(region).cells)
@@ -143,7 +145,9 @@ def sweep(
 
 
 def explain(result: xr.Dataset, **cell: float) -> str:
-    """Return a sentence on the status of a cell, which is computed once more unless the text of its exception is kept.
+    """Return a sentence on the status of a cell.
+
+    The cell is computed again unless its exception is stored in `result`.
 
     Parameters
     ----------
@@ -160,17 +164,25 @@ def explain(result: xr.Dataset, **cell: float) -> str:
     Raises
     ------
     InvalidParameter
-        If the coordinates do not match the sweep, or the sweep is one of a function of your own and the cell has not
-        failed.
+        If the coordinates do not match the sweep, or if a cell of your own function has not failed.
+
+    Examples
+    --------
+    >>> from hess_explorer.sweep import explain, sweep
+    >>> result = sweep("circle-map", over={"h": [-0.9, 1.5]}, f=1.0)
+    >>> result.status.values.tolist()
+    [10, 1]
+    >>> explain(result, h=-0.9)
+    'no such motion.'
     """
     facts = result.attrs
     if {*cell} != {*result.status.dims}:
         raise InvalidParameter("Pass a result of `sweep` or `read`, and all coordinates of one of its cells.")
     cell = {name: as_number(name, cell[name]) for name in map(str, result.status.dims)}
-    if (failure := json.loads(facts["failures"]).get(named(cell))) is not None:
+    if (failure := json.loads(facts["failures"]).get(cell_name(cell))) is not None:
         return str(failure)
     if facts["source"]:
-        raise InvalidParameter(f"{facts['title']} is a function of your own: call it at the cell for the reason.")
+        raise InvalidParameter(f"{facts['title']} is your own function: call it at this cell to see the reason.")
     columns = {name: np.array([value]) for name, value in {**json.loads(facts["parameters"]), **cell}.items()}
     numbers = facts["numbers"].split(", ")
     outcome = evaluate(find(facts["computation"]), numbers, columns, as_level(facts["accuracy"]))

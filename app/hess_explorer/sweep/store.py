@@ -1,7 +1,7 @@
-"""The Zarr group of a sweep, on a disk or in memory, which xarray writes region by region.
+"""The Zarr group of a sweep, on disk or in memory, which xarray writes region by region.
 
-Its chunks are the pieces of the sweep, each a file that is whole or not there.  The status of a piece is written after
-its values, so a piece with a status is finished, whenever the run ended.  Unreadable pieces are computed again.
+The chunks are the pieces of the sweep; each is a complete file or missing.  The status of a piece is written after its
+values, so a piece with a status is finished, even if the run was killed.  Unreadable pieces are computed again.
 """
 
 from __future__ import annotations
@@ -43,9 +43,9 @@ def require_libraries() -> None:
 
 
 def create(path: Path | None, plan: SweepPlan, cells: float) -> Path | MemoryStore:
-    """Return a new store with pieces of at most so many cells, in memory without a path.
+    """Create a store with pieces of at most `cells` cells; without a path it is in memory.
 
-    Raises `OtherSweep`, `StoreError`.
+    Raises `StoreError` if the folder cannot be written, `OtherSweep` if another process has filled it.
     """
     if path is None:
         from zarr.storage import MemoryStore
@@ -66,7 +66,7 @@ def create(path: Path | None, plan: SweepPlan, cells: float) -> Path | MemorySto
 
 
 def _fill(place: Path | MemoryStore, plan: SweepPlan, cells: float) -> None:
-    """Write the attributes of a store, its axes, and its arrays without any chunk."""
+    """Write the attributes, the axes and the empty arrays of a store."""
     import dask.array
     import xarray as xr
     from zarr.codecs import ZstdCodec
@@ -108,7 +108,10 @@ def _facts(plan: SweepPlan) -> dict[str, str]:
 
 
 def exists(path: Path, plan: SweepPlan) -> bool:
-    """Return True if the path has a store of this sweep, False if it is free.  Raises `OtherSweep`, `StoreError`."""
+    """Return True if the path contains a store of this sweep, False if it is free.
+
+    Raises `OtherSweep` if it contains another sweep, `StoreError` if it contains anything else.
+    """
     if not path.exists() or (path.is_dir() and not any(path.iterdir())):
         return False
     stored = _open(path)
@@ -120,14 +123,12 @@ def exists(path: Path, plan: SweepPlan) -> bool:
     axes = plan.axes.items()
     other += [f"other values of {name}" for name, values in axes if not np.array_equal(stored.get(name, ()), values)]
     if other:
-        raise OtherSweep(
-            f"{str(path)!r} contains another sweep: it has {other[0]}.  Choose another folder, or repeat that sweep."
-        )
+        raise OtherSweep(f"{str(path)!r} contains another sweep: it has {other[0]}.  Choose another folder.")
     return True
 
 
 def missing(place: Path | MemoryStore, plan: SweepPlan) -> list[Region]:
-    """Return the pieces that are not finished."""
+    """Return the regions of the unfinished pieces."""
     from dask.array.core import normalize_chunks, slices_from_chunks
 
     stored = _open(place)
@@ -137,7 +138,7 @@ def missing(place: Path | MemoryStore, plan: SweepPlan) -> list[Region]:
 
 
 def _finished(part: xr.Dataset, plan: SweepPlan) -> bool:
-    """Return True if a piece is readable, each cell has a status, and each cell with a value some finite number."""
+    """Return whether a piece is readable, each cell has a status, and each cell with a value a finite number."""
     try:
         status = part.status.values
         if not status.all():
@@ -150,7 +151,7 @@ def _finished(part: xr.Dataset, plan: SweepPlan) -> bool:
 
 
 def write(place: Path | MemoryStore, region: Region, done: PieceResult) -> None:
-    """Save a piece, with the status last.  Raises `StoreError`."""
+    """Save a piece, its status last.  Raises `StoreError`."""
     import xarray as xr
     import zarr
 
@@ -178,7 +179,7 @@ def _reading(place: Any, message: str) -> Iterator[None]:
 
 
 def _open(place: Path | MemoryStore) -> xr.Dataset:
-    """Return the Dataset of a store, not loaded.  Raises `StoreError`."""
+    """Open the Dataset of a store without loading it.  Raises `StoreError`."""
     import xarray as xr
 
     with _reading(place, "does not contain a sweep: choose another folder."):
@@ -189,14 +190,14 @@ def _open(place: Path | MemoryStore) -> xr.Dataset:
 
 
 def load(place: Path | MemoryStore) -> xr.Dataset:
-    """Return the results of a store; unfinished cells have the status 0.  Raises `StoreError`."""
+    """Load the results of a store; unfinished cells have the status 0.  Raises `StoreError`."""
     found = _open(place)
     with _reading(place, "has a part that cannot be read: run the same sweep again to recompute it."):
         return found.load().drop_encoding()
 
 
 def read(path: str | Path) -> xr.Dataset:
-    """Return the Dataset of a saved sweep, finished or not, also while it is computed.
+    """Read the results of a stored sweep, which may be unfinished or still running.
 
     Parameters
     ----------
@@ -206,12 +207,21 @@ def read(path: str | Path) -> xr.Dataset:
     Returns
     -------
     xarray.Dataset
-        The results.
+        The results, as `sweep` returns them; unfinished cells have the status 0.
 
     Raises
     ------
     StoreError
         If there is no store, or a part of it cannot be read.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from hess_explorer.sweep import read, sweep
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     result = sweep("circle-map", over={"h": [1.2, 1.5]}, store=f"{folder}/map.zarr")
+    ...     read(f"{folder}/map.zarr").identical(result)
+    True
     """
     require_libraries()
     return load(Path(path))

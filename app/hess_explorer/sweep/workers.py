@@ -1,4 +1,4 @@
-"""Workers of a sweep: this thread, or those of a Dask cluster, by default one of processes of this machine."""
+"""Workers of a sweep: this thread, processes of this machine, or the workers of a Dask cluster."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from hess_mechanics.numerics.arguments import as_integer
 if TYPE_CHECKING:
     from distributed import Client, Worker
 
-__all__ = ["connected", "dask_setup", "results", "size"]
+__all__ = ["connection", "dask_setup", "results", "size"]
 
 _WAIT = 60.0
 """Timeout in seconds for the cluster to respond with at least one worker."""
@@ -27,17 +27,17 @@ _AHEAD = 3
 
 
 def dask_setup(worker: Worker) -> None:
-    """Let a worker of this machine ignore Ctrl-C, which reaches it from the terminal: its sweep ends it."""
+    """Let a worker of this machine ignore Ctrl-C in the terminal; the sweep stops it."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
 def size(client: Client | None) -> int:
-    """Return the number of workers of a cluster, 1 for this thread."""
+    """Return the number of workers of a cluster; 1 for this thread."""
     return 1 if client is None else max(1, sum(client.nthreads().values()))
 
 
 def results(client: Client | None, plan: SweepPlan, regions: Iterable[Region]) -> Generator[tuple[Region, PieceResult]]:
-    """Yield the results of the pieces in any order.  Raises `WorkersLost`."""
+    """Yield the results of the pieces, in any order.  Raises `WorkersLost` if some pieces failed."""
     if client is None:
         for region in regions:
             yield region, compute(plan.part(region))
@@ -73,8 +73,11 @@ def results(client: Client | None, plan: SweepPlan, regions: Iterable[Region]) -
 
 
 @contextmanager
-def connected(workers: str | int | None, scheduler: str | Client | None) -> Iterator[Client | None]:
-    """Yield a client of the workers, None for this thread.  Raises `InvalidParameter`, `WorkersLost`."""
+def connection(workers: str | int | None, scheduler: str | Client | None) -> Iterator[Client | None]:
+    """Yield a client of the workers; None for this thread.
+
+    Raises `WorkersLost` if no worker responds, `InvalidParameter` if the workers cannot be used.
+    """
     # Dask starts one worker for each core of this process without a number.
     count = None if workers == "all" else as_integer("workers", workers or 1, 1, 1000)
     if scheduler is None and count == 1:
@@ -107,13 +110,13 @@ def connected(workers: str | int | None, scheduler: str | Client | None) -> Iter
             client.wait_for_workers(1, timeout=_WAIT)
         except (OSError, TimeoutError) as error:
             raise WorkersLost(
-                f"No Dask scheduler with a worker answered at {scheduler} within {_WAIT:g} s: start one with "
+                f"No Dask scheduler with a worker responded at {scheduler} within {_WAIT:g} s: start one with "
                 "`dask scheduler`, and workers with `dask worker`."
             ) from error
         # Dask raises these in a script without the condition, and for tls:// without certificates.
         except (TypeError, RuntimeError) as error:
             raise InvalidParameter(
-                f"The workers cannot be used ({error}): in a script call `sweep` below `if __name__ == '__main__':`, "
-                "for tls:// set the certificates in Dask's configuration or pass a Client."
+                f"The workers cannot be used ({error}): in a script, call `sweep` below `if __name__ == '__main__':`; "
+                "for tls://, set the certificates in Dask's configuration or pass a Client."
             ) from error
         yield client

@@ -1,7 +1,7 @@
 """A plot as a Bokeh figure: axes, lines and markers, with empty sources.
 
-The browser gets it as JSON and fills its sources with data.  The page itself draws cells, thousands of dots and the
-points that move in time, which are not Bokeh glyphs.
+The browser receives it as JSON and fills its sources with data.  Cells, large numbers of dots and moving points are not
+Bokeh glyphs; the page draws them itself.
 """
 
 from __future__ import annotations
@@ -96,7 +96,7 @@ def build(plot: Plot[Any]) -> figure:
 def _item(root: figure) -> dict[str, Any]:
     """Return `bokeh.embed.json_item` of a figure without the definitions of Panel's models.
 
-    The page has them already (150 kB), and writing them takes longer than all the rest.
+    The page already has these 150 kB, and writing them is slow.
     """
     # The serializer identifies objects by their address, so this document must stay alive.
     serializer, empty = Serializer(deferred=False), Document()

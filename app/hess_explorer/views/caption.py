@@ -13,9 +13,12 @@ class Caption:
 
     Parameters
     ----------
-    verdict : the main result, in at most eight words.
-    numbers : the numbers behind it.
-    title : the heading, in two to five words.  `Picture.full_caption` fills in the title of the picture.
+    verdict : str
+        Main result in at most eight words.
+    numbers : str
+        Numbers that support it.
+    title : str
+        Heading of two to five words; `Picture.full_caption` fills in the title of the picture.
     """
 
     verdict: str = ""

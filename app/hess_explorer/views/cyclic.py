@@ -1,9 +1,9 @@
 """A cyclic colour scale, for numbers with −½ and ½ identified.
 
 Darkest at ±½, lightest at 0, blue below and yellow above, uniform in lightness and safe for colour-blind readers:
-CET-CBC1 of P. Kovesi, "Good Colour Maps: How to Design Them" (arXiv:1509.03700), turned so that it begins at its
-darkest colour.  Every eighth colour stands here, as the package that has it (colorcet, CC BY 4.0) takes a second to
-import.
+CET-CBC1 of P. Kovesi, "Good Colour Maps: How to Design Them" (arXiv:1509.03700), shifted so that it begins at its
+darkest colour.  Only every eighth colour is copied here, because importing the package colorcet (CC BY 4.0) takes a
+second.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """A plot as HoloViews elements, for notebooks, figures and films, in either backend.
 
-The page looks the same: a layer names its style by properties of Bokeh glyphs, which the elements share.
+They look as on the page, because a layer names its style by properties of Bokeh glyphs.
 """
 
 from __future__ import annotations
@@ -51,13 +51,22 @@ def overlay(
     title: str = "",
     colour: Colour = as_it_is,
 ) -> hv.Overlay:
-    """Return the layers of a plot from the back to the front, with options for all loaded backends.
+    """Return the layers of a plot as HoloViews elements, with options for all loaded backends.
 
     Parameters
     ----------
-    plot : the plot; columns : columns by source; layers without columns are left out.
-    axes, names : the ranges and the names of its axes.
-    title : the title above the plot; colour : maps the colours of the page.
+    plot : Plot
+        The plot.
+    columns : mapping of str
+        Columns by data source; layers without columns are omitted.
+    axes : Axes
+        Ranges of the axes.
+    names : tuple of str
+        Names of the axes.
+    title : str
+        Title above the plot.
+    colour : callable
+        Maps the colours of the page.
     """
     # Cells lie below all other layers.
     layers = sorted(plot.painted, key=lambda layer: layer.glyph != "image")
@@ -218,7 +227,7 @@ def _letters(style: Style) -> Options:
 
 
 def _finish(plot: Any, element: hv.Overlay) -> None:
-    """Draw the frame square and above all layers, and labels only if their anchors are inside."""
+    """Make the frame square, draw it above all layers, and hide labels with anchors outside."""
     axis = plot.handles["axis"]
     # HoloViews computes the aspect from the axis values, even if only one axis is logarithmic.
     axis.set_box_aspect(1.0)
@@ -251,7 +260,7 @@ def _pixels(style: Style) -> Hook:
 
 
 def _moved(style: Style) -> Hook:
-    """Return a hook that offsets words from their anchors, and puts them on paper."""
+    """Return a hook that shifts words away from their anchors, on a paper-coloured background."""
 
     def hook(plot: Any, element: hv.Labels) -> None:
         from matplotlib.transforms import ScaledTranslation

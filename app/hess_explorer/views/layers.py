@@ -79,9 +79,16 @@ class Axes:
 
 @dataclass(frozen=True)
 class CellGrid:
-    """Numbers at the centres of cells (m, n) that fill the rectangle x × y; rows of equal y.
+    """Numbers at the centres of cells that fill a rectangle.
 
-    ends : numbers of the first and the last colour, if they depend on the state.
+    Attributes
+    ----------
+    cells : array (m, n)
+        The numbers; each row has one y.
+    x, y : (float, float)
+        Sides of the rectangle.
+    ends : (float, float) or None
+        Numbers of the first and the last colour, if they depend on the state.
     """
 
     cells: Array
@@ -93,7 +100,7 @@ class CellGrid:
 def in_window(
     cells: Callable[[S], Array | None], window: Callable[[S], Sequence[tuple[float, float]]]
 ) -> Callable[[S], CellGrid | None]:
-    """Return the grid of cells (m, n) that fill a window, its lower left and upper right corner; None without cells."""
+    """Return a function of the state: the grid of cells (m, n) that fill a window, or None without cells."""
 
     def grid(state: S) -> CellGrid | None:
         found = cells(state)
@@ -105,9 +112,18 @@ def in_window(
 
 @dataclass(frozen=True)
 class Sign:
-    """One legend entry: a word and a sign of a kind ("line", "dot", "dot small", "dot diamond", "box") in a CSS style.
+    """One legend entry.
 
-    least : for layers of cells, the sign stands for numbers in [least, least + 1).
+    Attributes
+    ----------
+    label : str
+        Text of the entry.
+    kind : str
+        Kind of sign: "line", "dot", "dot small", "dot diamond" or "box".
+    style : str
+        CSS style of the sign.
+    least : float or None
+        For layers of cells: the sign stands for numbers in [least, least + 1).
     """
 
     label: str
@@ -128,11 +144,26 @@ CENTRE_OF_MASS = Sign("centre of mass", "dot", f"background: conic-gradient({_QU
 class Layer(Generic[S]):
     """One layer of glyphs.
 
-    name : name within the plot; its source is "<plot>-<name>", or "data-<track>" if it draws a track of the scene.
-    glyph : its name in Bokeh; columns : names of its position columns; style : properties of the glyph.
-    data(state) : its columns, empty for nothing; within(state, axes) : the same if they depend on the axes.
-    moving : whether it changes with every state; such layers lie above axes and background, which are not repainted.
-    legend : its entries in the legend of the scene; tag : the word that names it in the picture, see "tags.py".
+    Attributes
+    ----------
+    name : str
+        Name within the plot; the data source is "<plot>-<name>", or "data-<track>" for a track of the scene.
+    glyph : str
+        Name of the glyph in Bokeh.
+    columns : tuple of str
+        Names of the columns with positions.
+    style : mapping of str
+        Properties of the glyph.
+    data : callable or None
+        `data(state)` returns the columns; empty for no data.
+    within : callable or None
+        `within(state, axes)` returns the columns if they depend on the axes.
+    moving : bool
+        True if the layer changes with every state; it then lies above axes and background, which are not repainted.
+    legend : tuple of Sign
+        Entries in the legend of the scene.
+    tag : str
+        Label in the picture, see "tags.py".
     """
 
     name: str
@@ -168,7 +199,7 @@ MESSAGE: Layer[Any] = Layer(
 
 
 def mapped(get: Callable[[S], T | None], make: Callable[[T], U]) -> Callable[[S], U | None]:
-    """Return the composition of `make` after `get`, which passes None through."""
+    """Compose `make` with `get`; None passes through."""
 
     def of(state: S) -> U | None:
         found = get(state)
@@ -178,7 +209,7 @@ def mapped(get: Callable[[S], T | None], make: Callable[[T], U]) -> Callable[[S]
 
 
 def column(values: Any) -> Array:
-    """Return numbers as a contiguous array in double precision; they are sent in single precision."""
+    """Return numbers as a contiguous array in double precision; the browser receives single precision."""
     return np.ascontiguousarray(values, dtype=np.float64)
 
 
@@ -246,7 +277,7 @@ def line(
     track: str | None = None,
     within: Within[S] = None,
 ) -> Layer[S]:
-    """Return a layer with one curve: data(state) = (x, y) or None, or the columns of a track of the scene."""
+    """Return a layer with one curve: `data(state)` returns (x, y) or None; or it draws columns of a track."""
     layer: Layer[S] = Layer(name, "line", columns, track=track, tag=tag)
     return _layer(
         _stroked(layer, color, width, dash, 1.0, label), lambda value: _positions(columns, value), data, within
@@ -266,7 +297,7 @@ def curves(
     moving: bool = True,
     within: Within[S] = None,
 ) -> Layer[S]:
-    """Return a layer of curves: data(state) = arrays (n, 2), or None."""
+    """Return a layer of curves; `data(state)` returns arrays (n, 2), or None."""
     layer: Layer[S] = Layer(name, "multi_line", ("xs", "ys"), moving=moving, tag=tag)
     return _layer(_stroked(layer, color, width, dash, alpha, label), _parts, data, within)
 
@@ -282,7 +313,7 @@ def region(
     moving: bool = False,
     within: Within[S] = None,
 ) -> Layer[S]:
-    """Return a layer of filled parts, each an outer closed curve (n, 2) and the curves of its holes."""
+    """Return a layer of filled regions, each with an outer closed curve (n, 2) and the curves of its holes."""
     layer: Layer[S] = Layer(
         name,
         "multi_polygons",
@@ -311,7 +342,7 @@ def points(
     columns: tuple[str, ...] = ("x", "y"),
     within: Within[S] = None,
 ) -> Layer[S]:
-    """Return a layer of markers: data(state) = (x, y), (x, y, angle) or None."""
+    """Return a layer of markers; `data(state)` returns (x, y), (x, y, angle) or None."""
     small = size < 10 and not hollow
     shape = [marker] if marker in ("diamond", "inverted_triangle") else []
     look = (
@@ -350,7 +381,7 @@ def dots(
     columns: tuple[str, str] = ("x", "y"),
     track: str | None = None,
 ) -> Layer[S]:
-    """Return a layer of thousands of points, drawn by the page itself: data(state) = (x, y), or None."""
+    """Return a layer of thousands of points, drawn by the page itself; `data(state)` returns (x, y) or None."""
     layer: Layer[S] = Layer(
         name,
         "dots",
@@ -370,7 +401,7 @@ def arrows(
     size: float = 10.0,
     alpha: float = 1.0,
 ) -> Layer[S]:
-    """Return a layer of triangles along a motion: data(state) = (x, y, angle) or None; angle 0 points upwards."""
+    """Return a layer of triangles along a motion; `data(state)` returns (x, y, angle) or None, angle 0 points up."""
     layer: Layer[S] = points(
         name, data, color=color, size=size, marker="triangle", alpha=alpha, columns=("x", "y", "angle")
     )
@@ -389,7 +420,7 @@ def ring(
     columns: tuple[str, str] = ("x", "y"),
     within: Within[S] = None,
 ) -> Layer[S]:
-    """Return a layer of rings about places [(x, y), …]."""
+    """Return a layer of rings at places; `data(state)` returns [(x, y), …]."""
     layer: Layer[S] = points(
         name, color=color, size=size, hollow=True, edge_width=width, label=label, tag=tag, columns=columns
     )
@@ -407,7 +438,7 @@ def target(
     size: float = 21.0,
     columns: tuple[str, str] = ("x", "y"),
 ) -> Layers[S]:
-    """Return a ring visible on any colour: black on white."""
+    """Return the layers of a ring that is visible on any colour: black on white."""
     return (
         ring(name, data, color="white", size=size, width=6.0, columns=columns),
         ring(f"{name}-too", data, color="black", size=size, width=2.5, columns=columns),
@@ -428,10 +459,30 @@ def image(
     legend: tuple[Sign, ...] = (),
     tag: str = "",
 ) -> Layer[S]:
-    """Return a layer of numbers on a grid, below all other layers.
+    """Return a layer of coloured cells, below all other layers.
 
-    smooth : interpolate between the centres of cells, for continuous functions; cyclic : the same with `low` and `high`
-    identified; kinds : numbers are labels, with smooth borders between them; fine : cells are about as large as pixels.
+    Parameters
+    ----------
+    name : str
+        Name within the plot.
+    data : callable
+        `data(state)` returns the cells, or None.
+    palette : str or tuple of str
+        Name of a palette, or its colours.
+    low, high : float
+        Numbers of the first and the last colour.
+    smooth : bool
+        True to interpolate between the centres of cells, for continuous functions.
+    cyclic : bool
+        True to interpolate with `low` and `high` identified.
+    kinds : bool
+        True if numbers are labels, with smooth borders between them.
+    fine : bool
+        True if cells are about as large as pixels.
+    legend : tuple of Sign
+        Legend entries.
+    tag : str
+        Label in the picture.
     """
     colors = getattr(palettes, palette) if isinstance(palette, str) else palette
     layer: Layer[S] = Layer(
@@ -458,7 +509,7 @@ _PAPER = {"background_fill_color": theme.PAPER, "background_fill_alpha": 0.75}
 
 
 def levels(name: str, data: Callable[[S], Sequence[float]]) -> Layer[S]:
-    """Return a layer of dotted lines across the frame at given heights."""
+    """Return a layer of dotted horizontal lines at given heights."""
 
     def across(state: S, axes: Axes) -> list[Array]:
         low, high = axes.x
@@ -477,7 +528,7 @@ def names(
     on_paper: bool = False,
     within: Within[S] = None,
 ) -> Layer[S]:
-    """Return a layer of words at places or some pixels above, on paper or not: data(state) = [(x, y, word), …]."""
+    """Return a layer of words at or `above` places; `data(state)` returns [(x, y, word), …]."""
     layer: Layer[S] = Layer(
         name,
         "text",
@@ -495,7 +546,7 @@ def names(
 
 
 def label(layer: Layer[S]) -> Layer[S]:
-    """Return the layer of the word that names another layer: in its colour on paper, or as it is in a region."""
+    """Return the layer of the label of another layer, in its colour."""
     own = {"line": "line_color", "multi_line": "line_color", "scatter": "fill_color", "dots": "color"}.get(layer.glyph)
     style = {
         "text_color": layer.style[own] if own else theme.INK,

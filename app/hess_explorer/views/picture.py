@@ -21,19 +21,32 @@ Corners = tuple[float, float, float, float]
 
 @dataclass(frozen=True, kw_only=True)
 class Picture(ABC, Generic[S]):
-    """One picture on the page, as data: its content for a state of the scene, and its response to the mouse.
+    """A picture as data: its content for a state of the scene, and its response to the mouse.
 
     Parameters
     ----------
-    name : identifier; title : heading, or a function of the state.
-    caption(state) : verdict and numbers; `full_caption` adds the title.
-    on_click(state, x, y) : parameter values set by a click; on_drag : name of the layer whose point a drag moves.
-    starts : whether a click chooses where the motion starts.
-    on_box(state, corners) : parameter values set by a box selection.
-    on_hover(state, x, y) : tooltip for the place under the mouse.  Raises `ModelError`.
-    signs : legend entries in addition to those of its layers.
-    drawn_from : names of other pictures whose sources it draws.
-    folded : label of the button that shows the picture, if it is hidden at first.
+    name : str
+        Identifier.
+    title : str or callable
+        Heading, or `title(state)`.
+    caption : callable
+        `caption(state)` returns verdict and numbers; `full_caption` adds the title.
+    on_click : callable, optional
+        `on_click(state, x, y)` returns the parameter values that a click sets.
+    on_drag : str
+        Name of the layer whose point a drag moves.
+    starts : bool
+        True if a click chooses the start of the motion.
+    on_box : callable, optional
+        `on_box(state, corners)` returns the parameter values that a box selection sets.
+    on_hover : callable, optional
+        `on_hover(state, x, y)` returns the tooltip at a place; it raises `ModelError`.
+    signs : tuple of Sign
+        Legend entries in addition to those of the layers.
+    drawn_from : tuple of str
+        Names of other pictures whose data sources it draws.
+    button : str
+        Label of the button that shows the picture; empty for a picture that is visible at first.
     """
 
     name: str
@@ -46,13 +59,21 @@ class Picture(ABC, Generic[S]):
     on_hover: Callable[[S, float, float], str] | None = None
     signs: tuple[Sign, ...] = ()
     drawn_from: tuple[str, ...] = ()
-    folded: str = ""
+    button: str = ""
 
     kind: ClassVar[str]
     """Renderer in the browser: "plot" is Bokeh, the others draw on their own canvases."""
 
     def of(self, part: Callable[[T], S], **changes: Any) -> Picture[T]:
-        """Return the same picture for states with `part`: its functions apply to that; changes : other fields."""
+        """Return the same picture for other states; its functions apply to `part(state)`.
+
+        Parameters
+        ----------
+        part : callable
+            `part(state)` returns the state of this picture.
+        **changes
+            Changed fields.
+        """
 
         def through(value: Any) -> Any:
             if isinstance(value, Layer):
@@ -67,17 +88,17 @@ class Picture(ABC, Generic[S]):
 
     @property
     def needs(self) -> frozenset[str]:
-        """Names of the pictures whose data it requires."""
+        """Names of the pictures whose data the picture requires."""
         return frozenset(self.drawn_from)
 
     @property
     def tracks(self) -> frozenset[str]:
-        """The tracks of the scene that it requires: "orbit" sets the time of the player."""
+        """Names of the tracks that the picture requires; "orbit" sets the time of the player."""
         return frozenset({"orbit"})
 
     @property
     def followers(self) -> Mapping[str, tuple[str, str]]:
-        """Columns of the track "orbit" followed by each moving point, by source."""
+        """The two columns of "orbit" that each moving point follows, by data source."""
         return {}
 
     @property
@@ -106,19 +127,19 @@ class Picture(ABC, Generic[S]):
         return {"name": self.name, "kind": self.kind, "hands": self.hands, "starts": self.starts}
 
     def ranges(self, state: S, held: Axes | None) -> Axes | None:
-        """Return the axes that fit a state; those `held` where it has none."""
+        """Return the axes that fit a state, with the current axes `held` as fallback."""
         return held
 
     @abstractmethod
     def data(self, state: S) -> Sources:
-        """Return the columns that are independent of the axes, by source."""
+        """Return the columns that do not depend on the axes, by data source."""
 
     def framed(self, state: S, axes: Axes | None, drawn: Sources) -> Sources:
-        """Return the columns that depend on the axes, by source; they are merged with those `drawn` without axes."""
+        """Return the columns that depend on the axes, by data source, given the columns `drawn` without axes."""
         return {}
 
     def nothing(self, sentence: str, axes: Axes | None) -> Sources:
-        """Return the columns of an empty picture; only a plot shows the reason."""
+        """Return the columns of an empty picture; only a plot shows the sentence."""
         return {self.name: {}}
 
     def full_caption(self, state: S) -> Caption:

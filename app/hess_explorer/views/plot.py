@@ -23,20 +23,36 @@ Ticks = Sequence[tuple[float, str]]
 
 @dataclass(frozen=True, kw_only=True)
 class Plot(Picture[S]):
-    """A square picture.
+    """A square plot; fields of `Picture` come first.
 
     Parameters
     ----------
-    axes : names of the axes; x, y : their ranges; each may be a function of the state.  A range that
-        is None stays unchanged.
-    layers : the layers from the back to the front.  The moving point and a message come on top.
-    message(state) : a sentence in the middle of an empty frame; "" for none.
-    dot : columns of the track "orbit" that the moving point follows; dots : further layers that follow it.
-    point : the look of the moving point, and its entry in the legend.
-    ticks : positions and labels on both axes, instead of the default; y_ticks : others on the vertical axis.
-    log : the logarithmic axes, "x", "y" or "xy".
-    first : the axes before the first state, if they depend on the state.
-    x_ticks : positions on the horizontal axis; y_tick_count : desired number of labels on the vertical axis.
+    axes : tuple of str or callable
+        Names of the axes, or a function of the state.
+    x, y : (float, float) or callable
+        Ranges of the axes, or functions of the state; None keeps the current range.
+    layers : sequence of Layer
+        Layers from the back to the front, below the moving point and the message.
+    message : callable, optional
+        `message(state)` returns a sentence for the middle of an empty frame; "" for none.
+    dot : tuple of str, optional
+        The two columns of "orbit" that the moving point follows.
+    dots : mapping of str to tuple, optional
+        Names of further layers that follow two columns of "orbit".
+    point : Layer
+        Style of the moving point, and its legend entry.
+    ticks : tuple, optional
+        Positions and labels on both axes, instead of the default.
+    y_ticks : tuple, optional
+        Positions and labels on the vertical axis, instead of `ticks`.
+    log : str
+        Logarithmic axes: "x", "y" or "xy".
+    first : Axes, optional
+        Axes before the first state, if they depend on the state.
+    x_ticks : sequence of float, optional
+        Positions of the ticks on the horizontal axis.
+    y_tick_count : int, optional
+        Desired number of labels on the vertical axis.
     """
 
     axes: tuple[str, str] | Callable[[S], tuple[str, str]]
@@ -58,7 +74,7 @@ class Plot(Picture[S]):
 
     @property
     def painted(self) -> Layers[S]:
-        """All layers from the back to the front: with the labels of those that carry one, the point and a message."""
+        """All layers from the back to the front, including labels, the moving point and the message."""
         return (*self.layers, *(label(layer) for layer in self.layers if layer.tag), self.point, MESSAGE)
 
     @property
@@ -83,20 +99,20 @@ class Plot(Picture[S]):
 
     @property
     def followers(self) -> Mapping[str, tuple[str, str]]:
-        """Columns of the track "orbit" followed by each moving point, by source."""
+        """The two columns of "orbit" that each moving point follows, by data source."""
         moving = {**({"point": self.dot} if self.dot else {}), **(self.dots or {})}
         return {f"{self.name}-{layer}": columns for layer, columns in moving.items()}
 
     def describe(self) -> dict[str, Any]:
         """Return the description of the plot, sent to the browser before the first data."""
-        # Imports Bokeh and Panel, which take longer than all else and serve pages only.
+        # Only pages need Bokeh and Panel, whose import is slow.
         from hess_explorer.views import bokeh_figure
 
         return {**super().describe(), **bokeh_figure.describe(self)}
 
     @property
     def tracks(self) -> frozenset[str]:
-        """The tracks of the scene that it requires."""
+        """Names of the tracks that the plot requires."""
         drawn = {layer.track for layer in self.layers if layer.track is not None}
         return frozenset(drawn | ({"orbit"} if self.followers else set()))
 
@@ -110,9 +126,9 @@ class Plot(Picture[S]):
         )
 
     def there(self, drawn: Mapping[str, Columns]) -> tuple[Sign, ...]:
-        """Return the legend entries of what is visible, given the columns of all sources.
+        """Return the visible legend entries, given the columns of all data sources.
 
-        The legend does not repeat a label that stands in the picture.
+        The legend does not repeat labels inside the picture.
         """
         found = (
             sign
@@ -140,17 +156,17 @@ class Plot(Picture[S]):
         return f"data-{layer.track}" if layer.track else f"{self.name}-{layer.name}"
 
     def ranges(self, state: S, held: Axes | None) -> Axes:
-        """Return the axes that fit a state; those `held` where it has none."""
+        """Return the axes that fit a state, with the current axes `held` as fallback."""
         assert held is not None
         x, y = self.x(state) if callable(self.x) else self.x, self.y(state) if callable(self.y) else self.y
         return Axes(x or held.x, y or held.y)
 
     def data(self, state: S) -> Sources:
-        """Return the columns that are independent of the axes, by source."""
+        """Return the columns that do not depend on the axes, by data source."""
         return {self.source_of(layer): layer.data(state) for layer in self.layers if layer.data is not None}
 
     def framed(self, state: S, axes: Axes | None, drawn: Sources) -> Sources:
-        """Return the columns that depend on the axes, by source."""
+        """Return the columns that depend on the axes, by data source."""
         assert axes is not None
         found = {self.source_of(layer): layer.within(state, axes) for layer in self.layers if layer.within is not None}
         sentence = "" if self.message is None else self.message(state)
@@ -161,7 +177,7 @@ class Plot(Picture[S]):
         return {**found, **self._words(self.names(state), sentence, axes)}
 
     def nothing(self, sentence: str, axes: Axes | None) -> Sources:
-        """Return the columns of an empty plot with the reason as message."""
+        """Return the columns of an empty plot with a sentence as message."""
         assert axes is not None
         empty: Sources = {self.source_of(layer): {} for layer in self.painted}
         return {**empty, **self._words((" ", " "), sentence, axes)}

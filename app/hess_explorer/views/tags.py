@@ -44,7 +44,12 @@ _DIRECTIONS = np.array([(1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, 
 def placed(layers: Sequence[Layer[Any]], columns: Sequence[Columns], axes: Axes, log: str) -> Mapping[str, Columns]:
     """Return the columns of the label of each layer with a tag, by the layer's name; empty without a free place.
 
-    columns : those of each layer; log : the logarithmic axes.
+    Parameters
+    ----------
+    columns : sequence of Columns
+        Those of each layer.
+    log : str
+        The logarithmic axes.
     """
     frame = _Frame(axes, log)
     drawn = [

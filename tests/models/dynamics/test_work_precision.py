@@ -48,7 +48,7 @@ def scale_of(motion):
 @mark.parametrize("change", [{}, {"I22": 0.5, "I23": 1.5, "b3": 0.7, "h": 30.0}], ids=str)
 def test_errors_and_pixels_are_those_against_another_method(change):
     motion = motion_of(**change)
-    found = growth(*motion.named, motion.weights, SAMPLES)
+    found = growth(*motion.arguments, motion.weights, SAMPLES)
     result = HESS.compute({**HESS.defaults(), **change}, HESS.pictures, False)
     board = Board(HESS)
     board.show(result)
@@ -67,7 +67,7 @@ def test_errors_and_pixels_are_those_against_another_method(change):
         apart = (seen(states) - seen(exact)) / np.array([width, width, 2.0, 2.0, 2.0])
         pixels = PIXELS * np.maximum(*(np.linalg.norm(part, axis=1) for part in (apart[:, :2], apart[:, 2:])))
         assert found.pixels[name] == approx(pixels, abs=0.01 * pixels.max())
-    points = measure_levels(*motion.named, SAMPLES)
+    points = measure_levels(*motion.arguments, SAMPLES)
     assert [(one.setting, one.error) for one in points] == [(name, found.errors[name].max()) for name in LEVELS]
     assert min(point.ms for point in points) > 0.0
 
@@ -75,7 +75,7 @@ def test_errors_and_pixels_are_those_against_another_method(change):
 def test_the_methods_of_scipy_are_six_points_with_their_errors():
     motion = motion_of(span=10.0)
     times = np.linspace(0.0, motion.span, SAMPLES)
-    points = measure_others(*motion.named, SAMPLES)
+    points = measure_others(*motion.arguments, SAMPLES)
     assert [(point.method, point.setting) for point in points] == [
         (method, tolerance) for method in ("DOP853", "LSODA") for tolerance in ("1e-04", "1e-07", "1e-10")
     ]
@@ -97,8 +97,8 @@ def test_the_methods_of_scipy_are_six_points_with_their_errors():
 def test_the_methods_of_scipy_are_left_out_beyond_150_times_the_shortest_period():
     for motion in (motion_of(h=3.0, f=-1.0), motion_of(I22=2.0, I23=1.0)):
         longest = 150.0 / unit_of(motion)
-        assert not others_take_long(*motion.named[:3], longest * (1.0 - 1e-12))
-        assert others_take_long(*motion.named[:3], longest * (1.0 + 1e-12))
+        assert not others_take_long(*motion.arguments[:3], longest * (1.0 - 1e-12))
+        assert others_take_long(*motion.arguments[:3], longest * (1.0 + 1e-12))
 
 
 def test_a_method_of_scipy_asks_in_mid_run_whether_to_go_on():
@@ -111,7 +111,7 @@ def test_a_method_of_scipy_asks_in_mid_run_whether_to_go_on():
             raise WorkLimit("enough")
 
     with work_limit(end, lambda seconds: None), raises(WorkLimit, match="enough"):
-        measure_others(*motion_of(span=40.0).named, SAMPLES)
+        measure_others(*motion_of(span=40.0).arguments, SAMPLES)
 
 
 # ---- the scene ------------------------------------------------------------------------------------------------------
@@ -176,8 +176,8 @@ def test_a_click_chooses_the_nearest_level_and_none_in_another_chart():
 def test_a_span_that_would_take_seconds_is_cut_with_a_note():
     free = scenes()["free-suslov"].defaults()
     long = scenes()["free-suslov-accuracy"].compute({**free, "w1": 1e3, "span": 1e5}, {"growth"}, False)
-    motion = long.precision.followed
+    motion = long.precision.limited_motion
     assert motion.span * Problem.of(motion, motion.state).nu == approx(5000.0)
-    assert long.precision.growing.times[-1] == approx(motion.span)
+    assert long.precision.growth.times[-1] == approx(motion.span)
     (note,) = long.notes()
     assert note.startswith("Measured up to t = ")

@@ -1,4 +1,4 @@
-"""Cells of a picture, computed row by row: first coarse cells all over it, then finer ones."""
+"""Cells of a picture, computed row by row: coarse cells everywhere first, then finer ones."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.work import Work
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["CELLS", "COARSE", "DENSITY", "Arguments", "changed", "found_by_rows"]
+__all__ = ["CELLS", "COARSE", "DENSITY", "Arguments", "cells_by_rows", "change_percentage"]
 
 CELLS = (36, 24)
 """Cells across and up a section at the level `standard`."""
@@ -24,19 +24,27 @@ DENSITY = "density"
 Arguments = tuple[Any, ...]
 
 
-def found_by_rows(
+def cells_by_rows(
     work: Work,
     row_of: Callable[..., Array],
     stages: Sequence[Sequence[Arguments]],
     sooner: Callable[[], object] = lambda: None,
 ) -> tuple[Array, int] | None:
-    """Return the finest cells (n, …, m), and the number of rows that are still coarse.
+    """Return the finest known cells (n, …, m), and the number of rows that are still coarse.
 
-    None until all rows of the first stage are known.
+    Return None until all rows of the first stage are known.
 
-    row_of : computes a row of cells (…, m) from its arguments; stages : the arguments of the rows, the coarsest first;
-    sooner : requests results that are computed after the first stage.  Each cell is the middle one of `COARSE`² cells
-    of the next stage.
+    Parameters
+    ----------
+    work : Work
+        Computation of the state.
+    row_of : callable
+        Computes a row of cells (…, m) from its arguments.
+    stages : sequence of sequences
+        Arguments of the rows of each stage, the coarsest first.  Each cell is the middle one of `COARSE`² cells of the
+        next stage.
+    sooner : callable
+        Requests results that are computed right after the first stage.
     """
     cells: Array | None = None
     left = 0
@@ -55,7 +63,7 @@ def found_by_rows(
     return None if cells is None else (cells, left)
 
 
-def changed(cells: Array, truth: Array) -> float:
-    """Return the percentage of cells (n, m) that differ at the points of the truth, in as many cells or finer ones."""
+def change_percentage(cells: Array, truth: Array) -> float:
+    """Return the percentage of cells (n, m) that differ from the truth, given in cells of equal or smaller size."""
     rows, columns = (np.arange(fine) * coarse // fine for coarse, fine in zip(cells.shape, truth.shape, strict=True))
     return 100.0 * float(np.mean(cells[np.ix_(rows, columns)] != truth))

@@ -1,7 +1,7 @@
 """The chart of a scene: a number of the catalogue over two of the scene's parameters, as one of its pictures.
 
-A scene declares the computations and their arguments in a state (`Charts`).  From them come the choices of a chart, as
-parameters of its states, and the picture.
+A scene declares the computations and their arguments (`Charts`).  The choices of the chart, which are parameters of the
+state, and the picture follow from them.
 """
 
 from __future__ import annotations
@@ -17,13 +17,13 @@ import numpy as np
 from hess_explorer.compute.cache import Task
 from hess_explorer.compute.cells import Outcome
 from hess_explorer.protocol.specs import ChoiceSpec, NumberSpec, Places, Spec, Values
-from hess_explorer.scenes.framework.cells import COARSE, found_by_rows
+from hess_explorer.scenes.framework.cells import COARSE, cells_by_rows
 from hess_explorer.scenes.framework.chart_cells import STORED, Cells, Side, chart_row
 from hess_explorer.scenes.framework.charted import Charts, Numbers
 from hess_explorer.scenes.framework.part import Part, part
-from hess_explorer.scenes.framework.sliders import declared, specs_of
+from hess_explorer.scenes.framework.sliders import declare, specs_of
 from hess_explorer.scenes.framework.trial import bare
-from hess_explorer.scenes.framework.windows import Window, boxed, inside, tidy_window, window_of
+from hess_explorer.scenes.framework.windows import Window, box_window, inside, tidy_window, window_of
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import CellGrid, Positions
 from hess_explorer.views.picture import Corners
@@ -32,7 +32,7 @@ from hess_mechanics import catalogue
 from hess_mechanics.numerics.accuracy import level
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["charting"]
+__all__ = ["with_chart"]
 
 _FIRST, _STAGES = 8, 3
 """Cells along a side of the first stage, and the number of stages; one more where many cells are computed at once."""
@@ -51,27 +51,27 @@ class _Chart(Part[Any]):
 
     @property
     def axes(self) -> tuple[Side, Side]:
-        """Both sides."""
+        """The horizontal and the vertical side."""
         return self.sides[self.host.chart_x], self.sides[self.host.chart_y]
 
     @property
     def place(self) -> tuple[float, float]:
-        """The place of this state."""
+        """The place of this state in the chart."""
         return self.axes[0].of(self.host), self.axes[1].of(self.host)
 
-    def carried(self, before: Self) -> Values:
-        """Return the whole window after a change of an axis."""
+    def adjustments(self, before: Self) -> Values:
+        """Return an empty window after a change of an axis, which shows the whole chart."""
         return {} if self.axes == before.axes else {"chart_window": ""}
 
     @property
     def number(self) -> catalogue.Number:
-        """The number on show."""
-        charted, number = self.numbers[self.host.chart]
-        return charted.computation.number(number)
+        """The current number."""
+        source, number = self.numbers[self.host.chart]
+        return source.computation.number(number)
 
     @cached_property
     def key(self) -> Cells:
-        """The cells; the values of both sides in this state belong to the ring and not to them."""
+        """Cache key of the cells, which do not depend on the values of both sides in this state."""
         x, y = self.axes
         state = y.put(x.put(bare(self.host), x.ends[0]), y.ends[0])
         return Cells(*self.numbers[self.host.chart], x, y, state, level(self.work.chosen))
@@ -85,26 +85,26 @@ class _Chart(Part[Any]):
 
     @cached_property
     def _found(self) -> tuple[Array, int, Window] | None:
-        """Rows (n, 3, m), the number of those that are still coarse, and the window of the cells."""
+        """Rows (n, 3, m) of cells, the number of rows that are still coarse, and the window of the cells."""
         if self.key in STORED:
             cells, window = STORED[self.key]
             return cells, 0, window
         # The number of this state comes first.
         _ = self.own
-        more = self.key.charted.computation.many is not None
+        more = self.key.source.computation.many is not None
         counts = [_FIRST * COARSE**stage for stage in range(_STAGES + more)]
         rows = [[(self.key, self.window, count, row) for row in range(count)] for count in counts]
-        found = found_by_rows(self.work, chart_row, rows)
+        found = cells_by_rows(self.work, chart_row, rows)
         return None if found is None else (*found, self.window)
 
     @cached_property
     def own(self) -> Array | None:
-        """Value, error and status (3, 1) in this state; None until known."""
+        """Value, error and status (3, 1) of this state; None until known."""
         return self.work.need(Task(chart_row, self.key, (self.place, self.place), 1, 0), preview=None)
 
     @cached_property
     def cells(self) -> CellGrid | None:
-        """The cells; their ends are one turn, all numbers but outliers, or None for categories."""
+        """The cells; the ends of their colours are one turn, the range without outliers, or None for categories."""
         if self._found is None:
             return None
         values, _, ((x0, y0), (x1, y1)) = self._found
@@ -119,20 +119,20 @@ class _Chart(Part[Any]):
         return CellGrid(values, (x0, x1), (y0, y1), ends)
 
     def here(self) -> Positions:
-        """Return the place of the state, if it is in sight."""
+        """Return the place of the state if the window contains it."""
         return inside([self.place], self.window)
 
     def choose(self, x: float, y: float) -> Values:
         """Return the parameters at a place.  Raises `ModelError` if no number is possible there."""
         across, up = self.axes
         state = up.put(across.put(self.host, x), y)
-        self.key.charted.values(state)
+        self.key.source.values(state)
         return {one.name: getattr(state, one.name) for one in (across, up)}
 
     def look_closer(self, corners: Corners) -> Values:
         """Return the window of a box."""
         (x0, x1), (y0, y1) = (one.ends for one in self.axes)
-        return boxed(corners, ((x0, y0), (x1, y1)), "chart_window")
+        return box_window(corners, ((x0, y0), (x1, y1)), "chart_window")
 
     def _says(self, value: float, error: float, status: float) -> str:
         outcome, number = Outcome(int(status)), self.number
@@ -154,10 +154,10 @@ class _Chart(Part[Any]):
 
     @property
     def caption(self) -> Caption:
-        """The number in this state, and what is known of the cells."""
+        """The caption: the number in this state, and the progress of the cells."""
         verdict = "" if self.own is None else self._says(*self.own[:, 0])
         if self._found is None or self.cells is None:
-            return Caption(verdict, self.work.awaited("The chart is"))
+            return Caption(verdict, self.work.pending_caption("The chart is"))
         cells, coarse, _ = self._found
         rows, _, columns = cells.shape
         said = [f"{columns} × {rows} cells" + f", {rows - coarse} rows known" * (coarse > 0)]
@@ -171,19 +171,21 @@ def _sides(charts: Charts, state: type[Any]) -> Mapping[str, Side]:
     for spec in specs_of(state):
         if isinstance(spec, NumberSpec):
             found.append(Side(spec.symbol, spec.name, spec.softbounds))
-        elif isinstance(spec, Places) and spec.name == charts.placed[0]:
+        elif isinstance(spec, Places) and spec.name == charts.place[0]:
             ends = zip(spec.low, spec.high, strict=True)
-            found += [Side(charts.placed[1][i], spec.name, both, i) for i, both in enumerate(ends)]
+            found += [Side(charts.place[1][i], spec.name, both, i) for i, both in enumerate(ends)]
     return {one.symbol: one for one in found}
 
 
-def charting(state: type[Any], charts: Charts) -> type[Any]:
-    """Return the class of states with the choices of a chart, which do not change other results."""
+def with_chart(state: type[Any], charts: Charts) -> type[Any]:
+    """Return a class of states with the additional choices of a chart, which do not change other results."""
     numbers, sides = charts.numbers, _sides(charts, state)
     x, y = (next(symbol for symbol, side in sides.items() if one in (symbol, side.name)) for one in charts.over)
     along = "Parameter along this axis."
     specs: tuple[Spec, ...] = (
-        ChoiceSpec("chart", "Number", (*numbers,), next(iter(numbers)), "Number on show, as in commands.", "Chart"),
+        ChoiceSpec(
+            "chart", "Number", (*numbers,), next(iter(numbers)), "Displayed number, named as in commands.", "Chart"
+        ),
         ChoiceSpec("chart_x", "Across", (*sides,), x, along, "Chart"),
         ChoiceSpec("chart_y", "Up", (*sides,), y, along, "Chart"),
         Places("chart_window", "The window of the chart", 2, (-_FAR, -_FAR), (_FAR, _FAR)),
@@ -191,8 +193,8 @@ def charting(state: type[Any], charts: Charts) -> type[Any]:
 
     return make_dataclass(
         state.__name__,
-        [(spec.name, str, declared(spec, compare=False)) for spec in specs],
+        [(spec.name, str, declare(spec, compare=False)) for spec in specs],
         bases=(state,),
         frozen=True,
-        namespace={"__module__": state.__module__, "charting": part(lambda s: _Chart(s, numbers, sides))},
+        namespace={"__module__": state.__module__, "chart_part": part(lambda s: _Chart(s, numbers, sides))},
     )

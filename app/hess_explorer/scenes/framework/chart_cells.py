@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 
 from hess_explorer.compute.cache import Task
-from hess_explorer.compute.cells import evaluate, refused
-from hess_explorer.protocol.specs import places, written
-from hess_explorer.scenes.framework.charted import Charted
+from hess_explorer.compute.cells import evaluate, failure
+from hess_explorer.protocol.specs import places, places_text
+from hess_explorer.scenes.framework.charted import ChartSource
 from hess_explorer.scenes.framework.windows import Window
 from hess_explorer.views.layers import Range
 from hess_mechanics.dynamics.cells import centres
@@ -23,9 +23,18 @@ __all__ = ["STORED", "Cells", "Side", "chart_row"]
 
 @dataclass(frozen=True)
 class Side:
-    """A parameter of the scene as a side of a chart, or a coordinate of its last place.
+    """A side of a chart: a parameter of the scene, or a coordinate of its last place.
 
-    ends : the usual range; axis : index of the coordinate.
+    Attributes
+    ----------
+    symbol : str
+        Symbol on the axis.
+    name : str
+        Name of the parameter.
+    ends : tuple of float
+        Default range.
+    axis : int or None
+        Index of the coordinate of a place; None for a number.
     """
 
     symbol: str
@@ -39,19 +48,19 @@ class Side:
         return float(value) if self.axis is None else places(value)[-1][self.axis]
 
     def put(self, state: Any, value: float) -> Any:
-        """Return the state with another value; of several places only the last one is kept."""
+        """Return the state with another value; only the last of several places is kept."""
         if self.axis is None:
-            return state.changed({self.name: value})
+            return state.with_values({self.name: value})
         place = [*places(getattr(state, self.name))[-1]]
         place[self.axis] = value
-        return state.changed({self.name: written([tuple(place)])})
+        return state.with_values({self.name: places_text([tuple(place)])})
 
 
 @dataclass(frozen=True)
 class Cells:
-    """A number over two parameters, the others as in a state: the cache key of its cells."""
+    """Cache key of the cells of a chart: a number over two parameters, with all others from a state."""
 
-    charted: Charted
+    source: ChartSource
     number: str
     x: Side
     y: Side
@@ -60,13 +69,13 @@ class Cells:
 
     def arguments(self, x: float, y: float) -> Mapping[str, Any]:
         """Return the arguments at a place.  Raises `ModelError`."""
-        return self.charted.values(self.y.put(self.x.put(self.state, x), y))
+        return self.source.values(self.y.put(self.x.put(self.state, x), y))
 
 
-def _evaluated(charted: Charted, number: str, chosen: Level, cells: tuple[Any, ...]) -> Array:
-    names = [one.name for one in charted.computation.parameters]
+def _evaluate_cells(source: ChartSource, number: str, chosen: Level, cells: tuple[Any, ...]) -> Array:
+    names = [one.name for one in source.computation.parameters]
     columns = dict(zip(names, np.array(cells, float).T, strict=True))
-    found = evaluate(charted.computation, (number,), columns, chosen)
+    found = evaluate(source.computation, (number,), columns, chosen)
     errors = found.errors.get(number, np.full(len(cells), np.nan))
     return frozen(np.stack([found.values[number], errors, found.status]))
 
@@ -81,12 +90,12 @@ def chart_row(cells: Cells, window: Window, count: int, row: int) -> Array:
             known[i] = tuple(cells.arguments(x, y).values())
         # An error in one cell must not stop the others.
         except Exception as error:
-            found[2, i], _ = refused(error, {cells.x.name: x, cells.y.name: y})
+            found[2, i], _ = failure(error, {cells.x.name: x, cells.y.name: y})
     if known:
         # By the arguments, which not every parameter of the scene changes.
-        found[:, [*known]] = Task(_evaluated, cells.charted, cells.number, cells.level, tuple(known.values())).get()
+        found[:, [*known]] = Task(_evaluate_cells, cells.source, cells.number, cells.level, tuple(known.values())).get()
     return frozen(found)
 
 
 STORED: dict[Cells, tuple[Array, Window]] = {}
-"""Values, errors and status (n, 3, m) of stored sweeps on show, and their windows."""
+"""Values, errors and status (n, 3, m) of displayed stored sweeps, and their windows."""

@@ -1,4 +1,4 @@
-"""Numbers of the catalogue that a scene charts, and their arguments in a state."""
+"""Numbers of the catalogue for the charts of a scene, with their arguments in a state."""
 
 from __future__ import annotations
 
@@ -14,19 +14,25 @@ from hess_mechanics.catalogue import Computation
 from hess_mechanics.dynamics.system import Body, System
 from hess_mechanics.numerics.accuracy import DRAFT
 
-__all__ = ["Arguments", "Charted", "Charts", "Numbers", "of_motion", "of_torus", "parameters_of", "tensor_of"]
+__all__ = ["Arguments", "ChartSource", "Charts", "Numbers", "of_motion", "of_torus", "parameters_of", "tensor_of"]
 
 Arguments = Mapping[str, float]
-Numbers = Mapping[str, tuple["Charted", str]]
+Numbers = Mapping[str, tuple["ChartSource", str]]
 """Computation and name of each number, by the option of the menu."""
 
 
 @dataclass(frozen=True, eq=False)
-class Charted:
-    """A computation whose numbers a scene charts.
+class ChartSource:
+    """A computation whose numbers can be charted.
 
-    key : of the computation; arguments(state) : its arguments other than the defaults, raises `ModelError`; known : the
-    computations by key, empty for the catalogue.
+    Attributes
+    ----------
+    key : str
+        Key of the computation.
+    arguments : callable
+        `arguments(state)` returns the arguments that differ from the defaults; it raises `ModelError`.
+    known : mapping of str to Computation
+        The computations by key; empty for the catalogue.
     """
 
     key: str
@@ -39,49 +45,55 @@ class Charted:
         return (self.known or catalogue.catalogue())[self.key]
 
     def values(self, state: Any) -> Mapping[str, Any]:
-        """Return all arguments of a state, within their bounds.  Raises `ModelError`."""
+        """Return all arguments of a state, clamped to their bounds.  Raises `ModelError`."""
         return self.computation.values(self.arguments(state))
 
 
 @dataclass(frozen=True)
 class Charts:
-    """The numbers that a scene charts, and over which parameters.
+    """The numbers of a chart, and its initial sides.
 
-    charted : the computations; over : the first two sides, parameters by name and coordinates by symbol; placed : a
-    parameter of places and the symbols of their coordinates, which are sides as well.
+    Attributes
+    ----------
+    sources : tuple of ChartSource
+        The computations.
+    over : tuple of str
+        The initial sides: parameters by name, coordinates by symbol.
+    place : tuple
+        A parameter of places and the symbols of their coordinates, which are possible sides.
     """
 
-    charted: tuple[Charted, ...]
+    sources: tuple[ChartSource, ...]
     over: tuple[str, str]
-    placed: tuple[str, tuple[str, str]] = ("", ("", ""))
+    place: tuple[str, tuple[str, str]] = ("", ("", ""))
 
     @property
     def numbers(self) -> Numbers:
-        """The numbers of all computations by name; of equal names the last."""
-        return {name: (one, name) for one in self.charted for name in one.computation.numbers}
+        """The numbers of all computations by name; the last one has precedence."""
+        return {name: (one, name) for one in self.sources for name in one.computation.numbers}
 
     def load(self, state: Any) -> None:
-        """Compute every number once, which compiles or loads its kernels.  Raises `ModelError`."""
-        for one in self.charted:
+        """Compute every number once to compile or load its kernels.  Raises `ModelError`."""
+        for one in self.sources:
             columns = {name: np.array([value]) for name, value in one.values(state).items()}
             evaluate(one.computation, (*one.computation.numbers,), columns, DRAFT)
 
 
-def of_torus(torus: Callable[[Any], tuple[float, float, float]]) -> tuple[Charted, ...]:
-    """Return what is charted of a Suslov–Hess torus (a, h, f)."""
+def of_torus(torus: Callable[[Any], tuple[float, float, float]]) -> tuple[ChartSource, ...]:
+    """Return the charted computations of a Suslov–Hess torus; `torus(state)` returns (a, h, f)."""
     return (
-        Charted("circle-map", lambda s: dict(zip("ahf", torus(s), strict=True))),
-        Charted("critical-a", lambda s: dict(zip("hf", torus(s)[1:], strict=True))),
+        ChartSource("circle-map", lambda s: dict(zip("ahf", torus(s), strict=True))),
+        ChartSource("critical-a", lambda s: dict(zip("hf", torus(s)[1:], strict=True))),
     )
 
 
 def tensor_of(body: Any) -> Arguments:
-    """Return the inertia tensor of a body."""
+    """Return the inertia tensor of a body as arguments I11, I22, I13 and I23."""
     return {name: getattr(body, name) for name in ("I11", "I22", "I13", "I23")}
 
 
 def parameters_of(body: Body) -> Arguments:
-    """Return the parameters of a body."""
+    """Return the parameters of a body by name."""
     return dict(zip(body.system.parameters, body.parameters, strict=True))
 
 
@@ -90,10 +102,19 @@ def of_motion(
     start: Callable[[Any], tuple[float, ...]],
     time: Callable[[Any], float] | None = None,
     known: Mapping[str, Computation] | None = None,
-) -> tuple[Charted, ...]:
+) -> tuple[ChartSource, ...]:
     """Return MEGNO, exponents and crossings of the chosen motion of a system.
 
-    start(state) : its initial state, raises `ModelError`; time(state) : the averaging time; known : as in `Charted`.
+    Parameters
+    ----------
+    system : System
+        The system.
+    start : callable
+        `start(state)` returns the initial state (d,); it raises `ModelError`.
+    time : callable, optional
+        `time(state)` returns the averaging time.
+    known : mapping of str to Computation, optional
+        The computations by key; by default the catalogue.
     """
     known = known or {}
 
@@ -104,8 +125,8 @@ def of_motion(
         return motion(s) if time is None else {**motion(s), "duration": time(s)}
 
     return (
-        Charted(f"megno {system.name}", motion, known),
-        Charted(f"lyapunov {system.name}", averaged, known),
-        Charted(f"spectrum {system.name}", averaged, known),
-        Charted(f"crossings {system.name}", motion, known),
+        ChartSource(f"megno {system.name}", motion, known),
+        ChartSource(f"lyapunov {system.name}", averaged, known),
+        ChartSource(f"spectrum {system.name}", averaged, known),
+        ChartSource(f"crossings {system.name}", motion, known),
     )

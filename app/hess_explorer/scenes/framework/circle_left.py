@@ -1,4 +1,4 @@
-"""The start of an orbit near the unstable half of the line of equilibria: phase of γ on a circle, distance of ω."""
+"""Start of an orbit near the unstable half of the line of equilibria: phase of γ on a circle, distance of ω."""
 
 from __future__ import annotations
 
@@ -65,13 +65,19 @@ def Gamma_picture(
     orbit: Callable[[Any], tuple[Array, Array]],
     *others: Layer[Any],
 ) -> Plot[Any]:
-    """Return the graph of Γ over the time `span`, with levels; orbit(state) : times and Γ of the chosen orbit."""
+    """Return the graph of Γ over the time `span`, with levels.
+
+    Parameters
+    ----------
+    orbit : callable
+        `orbit(state)` returns the times (n,) and Γ (n,) of the chosen orbit.
+    """
     return Plot(
         name="Gamma",
         title="Γ = (ξ, γ) against time",
         caption=caption,
         axes=("t", "Γ"),
-        folded="Show Γ against time",
+        button="Show Γ against time",
         x=lambda s: (0.0, s.span),
         y=(-1.05, 1.05),
         dot=("t", "Gamma"),

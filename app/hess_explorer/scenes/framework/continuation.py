@@ -1,4 +1,4 @@
-"""The continuation of a periodic orbit in a parameter, computed in pieces; the mouse finds its orbits."""
+"""Continuation of a periodic orbit in a parameter, computed in pieces; a click selects an orbit."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ import numpy as np
 from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.families import Begin
 from hess_explorer.scenes.framework.part import Part, Sectioned
-from hess_explorer.scenes.framework.periodic_search import Closed, NotFound, Place
+from hess_explorer.scenes.framework.periodic_search import ClosedOrbit, NotFound, Place
 from hess_explorer.scenes.framework.windows import Window
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.maps.branch import bifurcations
@@ -63,7 +63,7 @@ class Continuation(Part[H_co]):
     @property
     @abstractmethod
     def side(self) -> int:
-        """Index of the coordinate drawn upwards."""
+        """Index of the coordinate on the vertical axis."""
 
     @property
     @abstractmethod
@@ -72,27 +72,27 @@ class Continuation(Part[H_co]):
 
     @property
     def turn(self) -> float:
-        """The period of the coordinate drawn upwards, ∞ if it is not an angle.  Raises `ModelError`."""
+        """The period of the coordinate on the vertical axis; ∞ if it is not an angle.  Raises `ModelError`."""
         return self.host.poincare.turns[self.side]
 
     @cached_property
-    def _found(self) -> Closed | NotFound | None:
-        """The orbit that is continued, or why there is none; None until known."""
+    def _found(self) -> ClosedOrbit | NotFound | None:
+        """The orbit to continue, or the reason why there is none; None until known."""
         return None if self.begin is None else self.work.need(self.begin.search, preview=None)
 
     @property
-    def closed(self) -> Closed | None:
-        """The orbit that is continued, if there is one."""
-        return self._found if isinstance(self._found, Closed) else None
+    def closed_orbit(self) -> ClosedOrbit | None:
+        """The orbit to continue; None if there is none."""
+        return self._found if isinstance(self._found, ClosedOrbit) else None
 
     @cached_property
-    def _known(self) -> tuple[list[mechanics.Branch], list[str], bool]:
-        """The known pieces of the branch, the reasons for missing ones, and whether none is pending."""
+    def _pieces(self) -> tuple[list[mechanics.Branch], list[str], bool]:
+        """The known pieces of the branch, the reasons for missing pieces, and whether all pieces are known."""
         found: list[mechanics.Branch] = []
         failed: list[str] = []
         whole = True
         begin = self.begin
-        if begin is None or self.closed is None:
+        if begin is None or self.closed_orbit is None:
             return found, failed, False
         low, high = begin.ends
         for upwards in (True, False):
@@ -114,7 +114,7 @@ class Continuation(Part[H_co]):
     @property
     def branches(self) -> list[mechanics.Branch]:
         """The known pieces of the branch."""
-        return self._known[0]
+        return self._pieces[0]
 
     # ---- the mouse ----------------------------------------------------------------------------------------------
 
@@ -166,7 +166,7 @@ class Continuation(Part[H_co]):
         )
 
     def about(self, x: float, y: float) -> str:
-        """Return a line on the bifurcation, or the orbit of the branch, under the mouse."""
+        """Return a tooltip on the bifurcation or the orbit of the branch at (x, y)."""
         for one in bifurcations(self.branches):
             if np.hypot(*self._pixels(np.full(len(one.places), one.value), one.places, x, y).T).min() <= _NEAR:
                 return self._named(one)
@@ -191,45 +191,45 @@ class Continuation(Part[H_co]):
     def caption(self) -> Caption:
         """The caption of the branch."""
         if self.begin is None or isinstance(self._found, NotFound):
-            return Caption("No periodic orbit found from here.")
-        if self.closed is None:
-            return Caption(self.work.awaited("A periodic orbit is"))
-        found, _, whole = self._known
-        orbit = self.closed.orbit
+            return Caption("No periodic orbit found near this point.")
+        if self.closed_orbit is None:
+            return Caption(self.work.pending_caption("A periodic orbit is"))
+        found, _, whole = self._pieces
+        orbit = self.closed_orbit.orbit
         known = bifurcations(found)
         some = f"{len(known)} bifurcation{'s' * (len(known) != 1)}" if known else "No bifurcation"
         return Caption(
             f"Period {orbit.period}, {orbit.kind} here.", f"{some} on its branch{'' if whole else ' so far'}."
         )
 
-    def derived(self) -> Iterator[str]:
+    def quantities(self) -> Iterator[str]:
         """Yield the bifurcations."""
-        found = bifurcations(self.branches) if self.has_result("_known") else []
+        found = bifurcations(self.branches) if self.has_result("_pieces") else []
         yield from map(self._named, found[:_SAID])
         if len(found) > _SAID:
             yield f"and {len(found) - _SAID} more bifurcations of the branch"
 
     def status(self) -> Iterator[str]:
-        """Yield the size and the error of the branch."""
-        if self.has_result("_known") and self.branches:
+        """Yield the size and error of the branch."""
+        if self.has_result("_pieces") and self.branches:
             yield (
                 f"branch {sum(len(one.values) for one in self.branches)} points, places to "
                 f"{digits(max(one.error_estimate for one in self.branches), 1)}"
             )
 
     def notes(self) -> Iterator[str]:
-        """Yield the reasons why there is no branch, or why it ends within the range."""
-        if not self.has_result("_known"):
+        """Yield the reasons why there is no branch, or why it ends inside the range."""
+        if not self.has_result("_pieces"):
             return
         if isinstance(self._found, NotFound):
             yield self._found.reason
-        if self.begin is None or self.closed is None:
+        if self.begin is None or self.closed_orbit is None:
             return
-        found, failed, whole = self._known
+        found, failed, whole = self._pieces
         yield from failed
         open_ends = 2 - (self.begin.value in self.begin.ends)
         if whole and not failed and sum(one.heading is None for one in found) < open_ends:
-            yield "The branch goes on: no more of it is computed."
+            yield "The branch continues, but is not computed further."
         ended = [
             one.end_reason for one in found if one.heading is None and "the end of the range" not in one.end_reason
         ]
@@ -237,7 +237,7 @@ class Continuation(Part[H_co]):
 
 
 def _part(begin: Begin, upwards: bool, k: int) -> mechanics.Branch | NotFound:
-    """Return piece k of the branch, towards larger values of the parameter (`upwards`) or smaller ones."""
+    """Return piece k of the branch, towards larger (`upwards`) or smaller values of the parameter."""
     found = begin.search.get()
     if isinstance(found, NotFound):
         return found

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.specs import Value
 from hess_explorer.scenes.framework.part import Sectioned
-from hess_explorer.scenes.framework.periodic_search import Closed, NotFound, Place, sought
+from hess_explorer.scenes.framework.periodic_search import ClosedOrbit, NotFound, Place, find_orbit
 from hess_mechanics.dynamics.return_map import PoincareSection, ReturnMap
 from hess_mechanics.numerics.accuracy import PRECISE
 
@@ -19,7 +19,14 @@ __all__ = ["Begin", "Family"]
 class Family:
     """A scene's section and its return map over one parameter.
 
-    state : class of the scene's states; name, symbol : of the parameter; others : all other parameters of the section.
+    Attributes
+    ----------
+    state : callable
+        Class of the scene's states.
+    name, symbol : str
+        Name and symbol of the parameter.
+    others : tuple
+        Names and values of all other parameters of the section.
     """
 
     state: Callable[..., Sectioned]
@@ -29,7 +36,17 @@ class Family:
 
     @classmethod
     def of(cls, state: Sectioned, name: str, symbol: str, names: tuple[str, ...]) -> Family:
-        """Return the family through a state; names : names of all parameters of the section."""
+        """Return the family that contains a state.
+
+        Parameters
+        ----------
+        state : Sectioned
+            The state.
+        name, symbol : str
+            Name and symbol of the parameter.
+        names : tuple of str
+            Names of all parameters of the section.
+        """
         return cls(type(state), name, symbol, tuple((one, getattr(state, one)) for one in names if one != name))
 
     def __call__(self, value: float) -> PoincareSection:
@@ -43,7 +60,21 @@ class Family:
 
 @dataclass(frozen=True)
 class Begin:
-    """The start of a branch: value of the parameter, place, period, and ends of the range."""
+    """Start of a branch.
+
+    Attributes
+    ----------
+    family : Family
+        The section over the parameter.
+    value : float
+        Value of the parameter.
+    place : tuple of float
+        Place in the section near the periodic orbit.
+    period : int or None
+        Period of the orbit; None for any.
+    ends : tuple of float
+        Range of the parameter.
+    """
 
     family: Family
     value: float
@@ -52,6 +83,6 @@ class Begin:
     ends: tuple[float, float]
 
     @property
-    def search(self) -> Task[Closed | NotFound]:
-        """The computation that searches for the orbit at the start.  Raises `ModelError`."""
-        return Task(sought, self.family.map_at(self.value), self.place, self.period, False)
+    def search(self) -> Task[ClosedOrbit | NotFound]:
+        """The task that searches for the orbit at the start.  Raises `ModelError`."""
+        return Task(find_orbit, self.family.map_at(self.value), self.place, self.period, False)

@@ -26,7 +26,10 @@ I23 = replace(parameters.I23, default=0.5, softbounds=(-1.0, 1.0), doc="Product 
 
 
 def free_body(k: float, I22: float, I13: float, I23: float) -> SuslovBody:
-    """Return the body.  Raises `NotPositiveDefinite`, `InvalidParameter`, with messages that name the controls."""
+    """Return the body, with error messages that name the controls.
+
+    Raises `NotPositiveDefinite` if I11 is not positive, `InvalidParameter` if I13 = I23 = 0.
+    """
     if I13 == I23 == 0.0:
         raise InvalidParameter(
             "I₁₃ = I₂₃ = 0: without a field ω does not change, and there is no ξ. Choose at least one of them nonzero."
@@ -40,7 +43,7 @@ def free_body(k: float, I22: float, I13: float, I23: float) -> SuslovBody:
 
 
 def limits_of_k(I22: float, I13: float, I23: float) -> Mapping[str, Slider]:
-    """Return the range of the slider of k; I11 is positive at its lower end."""
+    """Return the range of the slider of k, with I11 > 0 at its lower end."""
     J = math.hypot(I13, I23)
     # The slider ends at −2, so −3 is low enough; −I₂₂/J may overflow.
     lowest = max(-3.0, -I22 / J) if J > 0.0 else -3.0

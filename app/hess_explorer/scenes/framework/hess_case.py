@@ -1,4 +1,4 @@
-"""Shared by the scenes of the Hess case: parameters, their limits and texts."""
+"""Parameters, limits and texts shared by the scenes of the Hess case."""
 
 from __future__ import annotations
 
@@ -44,12 +44,12 @@ __all__ = [
     "RIS",
     "UNSURE",
     "HeavyHess",
-    "Proved",
+    "ProvedStatement",
     "limit_cycles",
     "map_or_none",
     "possible_I23",
     "possible_f",
-    "proved",
+    "proved_statement",
     "reduced_motion",
 ]
 
@@ -94,10 +94,10 @@ RIS = {"I1": 1.0, "I2": 1.5, "I3": 2.0, "m": math.sqrt(0.5)}
 """The body of figures 13 and 14, turned by π about its middle axis."""
 
 
-def reduced_motion(hess: HessBody, turning: TurningPoints, phi0: float, length: float) -> Motion:
-    """Return the motion of a torus from phase φ0, over a time span in units b = 1, for "Speed and accuracy"."""
-    start = tuple(turning.state_at_lower_turn(phi0).tolist())
-    weights = pixels_per_unit(math.sqrt(2.0 * (turning.h + 1.0)))
+def reduced_motion(hess: HessBody, turning_points: TurningPoints, phi0: float, length: float) -> Motion:
+    """Return the motion on a torus from phase φ0, over the time `length` in units b = 1."""
+    start = tuple(turning_points.state_at_lower_turn(phi0).tolist())
+    weights = pixels_per_unit(math.sqrt(2.0 * (turning_points.h + 1.0)))
     return Motion(SYSTEM, start, (hess.a, 1.0), length, weights, 1.0 / hess.frequency_unit)
 
 
@@ -121,7 +121,7 @@ def possible_I23(I22: float, I23: float, notes: list[str]) -> float:
 
 
 def map_or_none(work: Work, a: float, h: float, f: float, level: Level) -> CircleMap | None:
-    """Return the circle map of a torus in units b = 1; None on the separatrix."""
+    """Return the circle map of a torus (a, h, f) in units b = 1; None on the separatrix."""
     try:
         return work.need(Task(circle_map, a, h, f, level))
     except Separatrix:
@@ -131,40 +131,50 @@ def map_or_none(work: Work, a: float, h: float, f: float, level: Level) -> Circl
 def limit_cycles(
     work: Work, hess: HessBody, theta: CircleMap | None, level: Level, half_width: float
 ) -> tuple[Track, Track] | None:
-    """Return the stable and the unstable limit cycle on the torus of a circle map, see `torus.cycles`; None without."""
+    """Return the stable and the unstable limit cycle on a torus, see `torus.cycles`; None without limit cycles."""
     if theta is None or theta.kind != "hyperbolic":
         return None
     return work.need(Task(cycles, hess, theta.h, theta.f, theta.fixed_points[0], level, half_width))
 
 
 @dataclass(frozen=True)
-class Proved:
-    """The proved statement on a torus: a short sentence for the caption of its map, and one with more digits."""
+class ProvedStatement:
+    """The proved statement on a torus.
+
+    Attributes
+    ----------
+    badge : str
+        Short sentence for the caption of the circle map.
+    sentence : str
+        Sentence with more digits.
+    """
 
     badge: str
     sentence: str
 
 
-def proved(I22: float, I23: float, h: float, f: float) -> Proved:
-    """Return the proved statement on a torus; each double stands for exactly the decimal number that its box shows."""
+def proved_statement(I22: float, I23: float, h: float, f: float) -> ProvedStatement:
+    """Prove a statement on a torus; each double stands for the decimal number that its box shows."""
     try:
         found = prove(exact("I23", I23) / exact("I22", I22), h, f, _MOST_BITS, _MOST_WORK)
     except ModelError as error:
-        return Proved("Not proved.", f"Not proved: {error}")
+        return ProvedStatement("Not proved.", f"Not proved: {error}")
     if isinstance(found, EdgeProof):
         moves = "two equilibria" if found.statement == TWO_EQUILIBRIA else "one periodic orbit"
-        return Proved(f"Proved: no torus, but a circle with n₃ constant: {moves}.", claim(found))
+        return ProvedStatement(f"Proved: no torus, but a circle with n₃ constant: {moves}.", claim(found))
     if found.statement == NO_CYCLE:
         # With enough digits to show that it is less than 2.
         least = next(count for count in itertools.count(4) if Fraction(found.trace.decimals(count)[1]) < 2)
-        return Proved(
+        return ProvedStatement(
             f"Proved: no cycle, |trace| in {_within(found.trace, least)}.",
             f"Proved: no cycle, |trace| in {_within(found.trace, least + 7)}{_costs(found)}",
         )
     if found.statement != TWO_CYCLES:
-        return Proved(f"Undecided at {found.bits} bits.", f"Undecided at {found.bits} bits: |trace| is too close to 2")
+        return ProvedStatement(
+            f"Undecided at {found.bits} bits.", f"Undecided at {found.bits} bits: |trace| is too close to 2"
+        )
     less, more = found.multipliers
-    return Proved(
+    return ProvedStatement(
         f"Proved: exactly two cycles, multipliers in {_within(less, 4)}, {_within(more, 4)}.",
         f"Proved: exactly two cycles, multipliers in {_within(less, 11)}, {_within(more, 11)}{_costs(found)}",
     )
@@ -180,7 +190,19 @@ def _costs(found: Proof) -> str:
 
 @dataclass(frozen=True)
 class HeavyHess:
-    """A motion of Euler–Poisson on the Hess manifold: the moments of inertia, μ|r|, energy and area integral."""
+    """A motion of a heavy body on the Hess manifold.
+
+    Attributes
+    ----------
+    moments : tuple of float
+        Principal moments of inertia.
+    m : float
+        μ|r|, weight times the distance of the centre of mass.
+    h : float
+        Energy.
+    f : float
+        Area integral.
+    """
 
     moments: tuple[float, float, float]
     m: float
@@ -189,13 +211,13 @@ class HeavyHess:
 
     @property
     def _least_weight(self) -> float:
-        """The least μ|r| for which h in units of μ|r| is not too large to compute with."""
+        """The least μ|r| at which h/(μ|r|) is not too large for the computation."""
         return max(1e-3, 1e-9 * abs(self.h))
 
     def _largest_f(self, h: float) -> float:
         return largest_area_integral(self.m, self.moments[1], h) * _INSIDE
 
-    def admitted(self, notes: list[str]) -> Values:
+    def corrections(self, notes: list[str]) -> Values:
         """Clamp h to values above its minimum and f to the region of this h; append a note for each change."""
         if abs(self.m) < self._least_weight:
             return {}
@@ -222,7 +244,10 @@ class HeavyHess:
 
     @cached_property
     def bridge(self) -> Bridge:
-        """The heavy body and the Suslov body with the same motions.  Raises `InvalidParameter`, `NoField`."""
+        """The heavy body and the Suslov body with the same motions.
+
+        Raises `NoField` without weight, and `InvalidParameter` if there is no such body.
+        """
         if abs(self.m) < self._least_weight:
             raise NoField(
                 f"μ|r| = {digits(self.m)}: without weight there is no Hess case. Choose μ|r| of at least "
@@ -231,8 +256,8 @@ class HeavyHess:
         return Bridge.of_heavy(HeavyBody.hess(self.moments, self.m))
 
     @cached_property
-    def turning(self) -> TurningPoints:
-        """(h, f) in units b = 1, with the turning points of n3.  Raises `Separatrix`, `OutsideRegion`."""
+    def turning_points(self) -> TurningPoints:
+        """The turning points of n3, with h and f in units b = 1.  Raises `Separatrix`, `OutsideRegion`."""
         try:
             return turning_points(*self.bridge.in_units_of_b(self.h, self.f))
         except Separatrix:

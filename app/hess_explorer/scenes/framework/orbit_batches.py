@@ -22,11 +22,22 @@ T = TypeVar("T")
 class OrbitBatch:
     """Some orbits of a section.
 
-    orbits : points (n, 2) of each orbit, in order of time; firsts : True for orbits of the first of two kinds.
-    drift : the largest drift of each integral; steps : their Taylor steps.
-    reasons : why each orbit ends early; empty for the others.
-    same_side : True if all points of an orbit lie on its side of the curve that divides the kinds, if there is one.
-    elsewhere : points (m, 2) that are drawn separately.
+    Attributes
+    ----------
+    orbits : tuple of array (n, 2)
+        Points of each orbit, in order of time.
+    firsts : tuple of bool
+        True for orbits of the first of two kinds.
+    drift : mapping of str to float
+        Largest relative drift of each integral.
+    steps : int
+        Total number of Taylor steps.
+    reasons : tuple of str
+        Reason why each orbit ends early; empty for a complete orbit.
+    same_side : tuple of bool
+        True if all points of an orbit lie on one side of the curve that separates both kinds.
+    elsewhere : array (m, 2) or None
+        Points that are drawn separately.
     """
 
     orbits: tuple[Array, ...]
@@ -39,11 +50,11 @@ class OrbitBatch:
 
 
 def batch_of(section: PoincareSection, points: SectionPoints, first: bool = True) -> OrbitBatch:
-    """Return crossings of a section in its coordinates, all of one kind."""
+    """Return crossings of a section, in its coordinates, as a batch of one kind."""
     orbits = tuple(frozen(section.places_of(states)) for states in points.states)
     return OrbitBatch(orbits, (first,) * len(orbits), points.drift, points.cost.steps, points.reasons)
 
 
 def in_batches(items: Sequence[T]) -> Iterator[tuple[T, ...]]:
-    """Return the items in batches of the size computed together."""
+    """Yield the items in batches that are computed together."""
     return (tuple(items[i : i + _TOGETHER]) for i in range(0, len(items), _TOGETHER))

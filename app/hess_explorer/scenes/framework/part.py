@@ -1,4 +1,4 @@
-"""Parts of a scene: each is one result with its texts."""
+"""Parts of a scene: each computes one result and its texts."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class Host(Protocol):
 
     @property
     def work(self) -> Work:
-        """The computation of the state on show."""
+        """The computation of the current state."""
 
 
 class Sectioned(Host, Protocol):
@@ -38,45 +38,50 @@ H_co = TypeVar("H_co", bound=Host, covariant=True)
 
 @dataclass(frozen=True, eq=False)
 class Part(Generic[H_co]):
-    """One result of a scene with its texts; the state declares it with `@part`.
+    """One result of a scene with its texts; a state declares it with `@part`.
 
-    host : the state or part that it belongs to.  Each class of parts declares in a `Protocol` the members of the host
-    that it needs.  Results are cached properties, computed when a picture in sight needs them.
+    Results are cached properties, computed when a visible picture needs them.
+
+    Attributes
+    ----------
+    host : Host
+        The state or part that it belongs to.  Each class of parts declares the required members of the host in a
+        `Protocol`.
     """
 
     host: H_co
 
     @property
     def work(self) -> Work:
-        """The computation of the state on show."""
+        """The computation of the current state."""
         return self.host.work
 
     def has_result(self, name: str) -> bool:
-        """Return whether a picture in sight has computed this cached property; texts never compute one."""
+        """Return whether a visible picture has computed this cached property; texts compute nothing."""
         return name in vars(self)
 
-    def admitted(self, notes: list[str]) -> Values:
-        """Return the parameters that have to change for a valid state; append a note for each change."""
+    def corrections(self, notes: list[str]) -> Values:
+        """Return the parameter changes that make the state valid; append a note for each of them."""
         return {}
 
     def idle(self) -> Mapping[str, float]:
-        """Return the numbers without effect in this state, with the values that their disabled controls show."""
+        """Return the parameters without effect in this state, with the values shown by their disabled controls."""
         return {}
 
     def means(self) -> Mapping[str, str]:
-        """Return the meanings, as `Number.means`, of the numbers whose meaning depends on a choice."""
+        """Return the meanings, as `NumberSpec.means`, of the parameters whose meaning depends on a choice."""
         return {}
 
-    def carried(self, before: Self) -> Values:
+    def adjustments(self, before: Self) -> Values:
         """Return the parameter changes that keep the motion continuous after a different choice."""
         return {}
 
-    def derived(self) -> Iterable[str]:
-        """Return quantities that follow from the parameters, a line each."""
+    def quantities(self) -> Iterable[str]:
+        """Return derived quantities, one line each."""
         return ()
 
     def status(self) -> Iterable[str]:
-        """Return entries of the status line: size, cost and errors of the results."""
+        """Return entries of the status line: size, cost and error of the results."""
         return ()
 
     def notes(self) -> Iterable[str]:
@@ -88,4 +93,4 @@ P = TypeVar("P", bound=Part[Host])
 
 
 class part(cached_property[P]):  # noqa: N801 — used as a decorator, like cached_property
-    """Declare a part of a state; its texts appear in the order of the declarations."""
+    """Decorator that declares a part of a state; texts appear in the order of the declarations."""

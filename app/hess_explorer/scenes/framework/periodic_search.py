@@ -1,4 +1,4 @@
-"""Background computations of a periodic orbit: the orbit, its manifolds and their crossings, as separate pieces."""
+"""Background computations for a periodic orbit: the orbit, its manifolds and their crossings."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ __all__ = [
     "NONE",
     "PERIODS",
     "BranchChoice",
-    "Closed",
+    "ClosedOrbit",
     "NotFound",
     "NotPeriodic",
     "Periodic",
@@ -29,7 +29,7 @@ __all__ = [
     "Search",
     "branch_of",
     "crossings_between",
-    "sought",
+    "find_orbit",
 ]
 
 Place = tuple[float, ...]
@@ -54,8 +54,18 @@ _UNKNOWN = "What follows is not known to half a pixel: a more exact level may sh
 
 
 @dataclass(frozen=True)
-class Closed:
-    """A periodic orbit, the state at its first place, and the time after which it closes."""
+class ClosedOrbit:
+    """A periodic orbit of a section.
+
+    Attributes
+    ----------
+    orbit : PeriodicOrbit
+        The orbit of the return map.
+    state : tuple of float
+        State (d,) at its first place.
+    time : float
+        Period in time.
+    """
 
     orbit: PeriodicOrbit
     state: tuple[float, ...]
@@ -64,7 +74,7 @@ class Closed:
 
 @dataclass(frozen=True)
 class NotFound:
-    """The reason why no result was found."""
+    """The reason why there is no result."""
 
     reason: str
 
@@ -73,12 +83,12 @@ class Periodic(Protocol):
     """The periodic orbit shown in place of the chosen one."""
 
     @property
-    def closed(self) -> Closed | None:
+    def closed_orbit(self) -> ClosedOrbit | None:
         """The orbit; None if none is requested or known."""
 
     @property
-    def looking(self) -> bool:
-        """True while a requested orbit is not known yet."""
+    def is_searching(self) -> bool:
+        """True until the requested orbit is known."""
 
     @property
     def growth(self) -> tuple[float, float] | None:
@@ -87,22 +97,25 @@ class Periodic(Protocol):
 
 @dataclass(frozen=True)
 class NotPeriodic:
-    """For scenes without a search for periodic orbits.
+    """Stands for a periodic orbit in scenes without a search.
 
-    looking : True while the exponent has to wait for something else.
+    Attributes
+    ----------
+    looking : bool
+        True while the exponent has to wait for something else.
     """
 
-    looking: bool = False
-    closed: Closed | None = None
+    is_searching: bool = False
+    closed_orbit: ClosedOrbit | None = None
     growth: tuple[float, float] | None = None
 
 
-def sought(map_: ReturnMap, aim: Place, period: int | None, near: bool) -> Closed | NotFound:
-    """Search for a periodic orbit; return it, or the reason why none was found."""
+def find_orbit(map_: ReturnMap, aim: Place, period: int | None, near: bool) -> ClosedOrbit | NotFound:
+    """Search for a periodic orbit near a place; return the orbit, or the reason why none was found."""
     try:
         orbit = find_periodic(map_, aim, period, _MOST, near)
         first = orbit.places[0]
-        return Closed(
+        return ClosedOrbit(
             replace(orbit, symmetric=tuple(map_.symmetries_of(orbit.places))),
             tuple(map(float, map_.state_at(first))),
             map_.time_of(first, orbit.period),
@@ -114,9 +127,9 @@ def sought(map_: ReturnMap, aim: Place, period: int | None, near: bool) -> Close
 
 
 def branch_of(search: Search, branch: BranchChoice, length: float, pixel: float) -> Manifold | NotFound:
-    """Return one branch of a manifold, as far as it is right to half a pixel."""
-    found = Task(sought, *search).get()
-    assert isinstance(found, Closed), "only a closed orbit has branches"
+    """Return one branch of a manifold, up to the length at which its error reaches half a pixel."""
+    found = Task(find_orbit, *search).get()
+    assert isinstance(found, ClosedOrbit), "only a closed orbit has branches"
     place, stable, side = branch
     for part in _PARTS:
         try:
@@ -143,7 +156,7 @@ def branch_of(search: Search, branch: BranchChoice, length: float, pixel: float)
 def crossings_between(
     search: Search, unstable: BranchChoice, stable: BranchChoice, length: float, pixel: float
 ) -> tuple[Intersection, ...]:
-    """Return the crossings of two branches, as far as they are drawn."""
+    """Return the crossings of the drawn parts of two branches."""
     one, other = (Task(branch_of, search, branch, length, pixel).get() for branch in (unstable, stable))
     if isinstance(one, NotFound) or isinstance(other, NotFound):
         return ()

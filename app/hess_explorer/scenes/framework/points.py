@@ -12,9 +12,14 @@ _MOST = float(os.environ.get("HESS_EXPLORER_POINTS", "1e7"))
 
 
 def stages_of(first: int, stages: int, growth: int = 2) -> tuple[int, int]:
-    """Return the points of the first stage and the number of stages, within the largest number of points.
+    """Return the points of the first stage and the number of stages, limited to the largest number of points.
 
-    first, stages : the same without this limit.  Each stage has `growth` times as many points as the one before.
+    Parameters
+    ----------
+    first, stages : int
+        Both numbers without this limit.
+    growth : int
+        Factor from the points of a stage to those of the next one.
     """
     first = min(first, int(_MOST))
     return first, max(1, min(stages, int(math.log(_MOST / first * (growth - 1) + 1.0, growth) + 1e-9)))

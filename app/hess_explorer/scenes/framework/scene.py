@@ -13,12 +13,12 @@ from typing import Any, ClassVar, Generic, Self, TypeVar, cast
 from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.specs import ChoiceSpec, NumberSpec, Spec, Value, Values
 from hess_explorer.scenes.framework.answers import Answer
-from hess_explorer.scenes.framework.chart import charting
+from hess_explorer.scenes.framework.chart import with_chart
 from hess_explorer.scenes.framework.chart_picture import chart_picture
 from hess_explorer.scenes.framework.charted import Charts
 from hess_explorer.scenes.framework.part import Host, Part, part
 from hess_explorer.scenes.framework.sliders import Slider, specs_of
-from hess_explorer.scenes.framework.trial import Trial, bare, needed, orbit_trial
+from hess_explorer.scenes.framework.trial import Trial, bare, orbit_trial, sufficient_level
 from hess_explorer.scenes.framework.work import Work
 from hess_explorer.views.layers import Columns, Sign
 from hess_explorer.views.picture import Picture
@@ -48,9 +48,20 @@ class Preset:
 class Motion:
     """One motion of a system, as "Speed and accuracy" measures it.
 
-    system, state, parameters, span : as for `hess_mechanics.solve`, in the units of the computation.
-    weights : (d,) pixels of the scene's pictures per unit of each variable.
-    unit : factor from the time of the computation to the time t of the page.
+    Attributes
+    ----------
+    system : System
+        The system.
+    state : tuple of float
+        Initial state (d,).
+    parameters : tuple of float
+        Parameters of the system.
+    span : float
+        Duration in the units of the computation.
+    weights : tuple of float
+        Pixels of the scene's pictures per unit of each variable, (d,).
+    unit : float
+        Factor from the time of the computation to the time t of the page.
     """
 
     system: System
@@ -61,19 +72,32 @@ class Motion:
     unit: float = 1.0
 
     @property
-    def named(self) -> tuple[str, tuple[float, ...], tuple[float, ...], float]:
-        """System by name, state, parameters and span: the arguments of `work_precision`."""
+    def arguments(self) -> tuple[str, tuple[float, ...], tuple[float, ...], float]:
+        """The arguments of `work_precision`: name of the system, state, parameters and span."""
         return self.system.name, self.state, self.parameters, self.span
 
 
 @dataclass(frozen=True)
 class Report:
-    """The texts beside the pictures: derived quantities, the status line and its summary, notes.
+    """The texts beside the pictures.
 
-    todo : computations that the state still needs; total : the number of its background computations.
+    Attributes
+    ----------
+    quantities : sequence of str
+        Derived quantities, one line each.
+    status : str
+        The status line.
+    notes : sequence of str
+        Notes on the state.
+    todo : sequence of Task
+        Computations that the state still needs.
+    total : int
+        Number of its background computations.
+    summary : str
+        The short status line.
     """
 
-    derived: Sequence[str]
+    quantities: Sequence[str]
     status: str
     notes: Sequence[str]
     todo: Sequence[Task[Any]]
@@ -85,9 +109,17 @@ class Report:
 class State:
     """One state of a scene: its fields are the parameters, its cached properties the results.
 
-    work : level and cache; seen : the pictures in sight; drawn : their columns, by source.
-    A property is computed once, when a picture in sight needs it.  Results that later states can use go through
-    `work` into the process-wide cache.
+    A property is computed once, when a visible picture needs it.  Results that later states can use go through `work`
+    into the process-wide cache.
+
+    Attributes
+    ----------
+    work : Work
+        Level of accuracy and cache.
+    seen : frozenset of str
+        Names of the visible pictures.
+    drawn : dict of str
+        Columns of these pictures by data source.
     """
 
     work: Work = field(default_factory=Work, kw_only=True, compare=False, repr=False)
@@ -96,7 +128,7 @@ class State:
 
     @property
     def level(self) -> Level:
-        """The level of accuracy; while a slider is dragged, the cheapest one that is right to half a pixel."""
+        """The level of accuracy; during a drag the cheapest one with an error below half a pixel."""
         return self.work.level
 
     @property
@@ -105,16 +137,24 @@ class State:
         return self.work.dragging
 
     def plan(self, kind: Kind, steady: bool = False) -> Plan:
-        """Return the plan of the level for a kind of computation; steady : hardly any slider changes the result."""
+        """Return the settings of the level for a kind of computation.
+
+        Parameters
+        ----------
+        kind : Kind
+            The kind of computation.
+        steady : bool
+            True if hardly any slider changes the result.
+        """
         return self.work.plan(kind, steady)
 
-    def known(self, name: str) -> Any | None:
-        """Return a cached property if a picture in sight has computed it, else None."""
+    def peek(self, name: str) -> Any | None:
+        """Return a cached property if a visible picture has computed it, otherwise None."""
         return vars(self).get(name)
 
-    def awaited(self, what: str = "") -> str:
-        """Return the caption of a result that is not known yet."""
-        return self.work.awaited(what)
+    def pending_caption(self, what: str = "") -> str:
+        """Return the caption of a result that is not known yet, see `Work.pending_caption`."""
+        return self.work.pending_caption(what)
 
     def parts(self) -> tuple[Part[Host], ...]:
         """Return the parts declared with `@part`, in the order of their declarations."""
@@ -122,51 +162,51 @@ class State:
         names = dict.fromkeys(name for base in bases for name, one in vars(base).items() if isinstance(one, part))
         return tuple(getattr(self, name) for name in names)
 
-    def changed(self, values: Values) -> Self:
+    def with_values(self, values: Values) -> Self:
         """Return the state with other values of some parameters."""
         typed: dict[str, Any] = dict(values)
         return replace(self, **typed)
 
-    def admitted(self, notes: list[str]) -> Self:
+    def valid_state(self, notes: list[str]) -> Self:
         """Clamp the parameters to a valid state; append a note for each change."""
-        return self.changed({name: value for one in self.parts() for name, value in one.admitted(notes).items()})
+        return self.with_values({name: value for one in self.parts() for name, value in one.corrections(notes).items()})
 
     def limits(self) -> Mapping[str, Slider]:
         """Return the ranges of sliders that depend on the state."""
         return {}
 
     def idle(self) -> Mapping[str, float]:
-        """Return the numbers without effect in this state, with the values that their disabled controls show.
+        """Return the parameters without effect in this state, with the values shown by their disabled controls.
 
         Raises `ModelError` if they cannot be determined.
         """
         return {name: value for one in self.parts() for name, value in one.idle().items()}
 
     def means(self) -> Mapping[str, str]:
-        """Return the meanings, as `NumberSpec.means`, of the numbers whose meaning depends on a choice."""
+        """Return the meanings, as `NumberSpec.means`, of the parameters whose meaning depends on a choice."""
         return {name: meaning for one in self.parts() for name, meaning in one.means().items()}
 
-    def carried(self, before: Self) -> Values:
-        """Return the parameter changes that keep the motion continuous after a different choice in the state before.
+    def adjustments(self, before: Self) -> Values:
+        """Return the parameter changes that keep the motion continuous after a different choice.
 
         Raises `ModelError` if they cannot be determined.
         """
         return {
             name: value
             for one, other in zip(self.parts(), before.parts(), strict=True)
-            for name, value in one.carried(other).items()
+            for name, value in one.adjustments(other).items()
         }
 
     def motion(self) -> Motion | None:
-        """Return the motion on show, for "Speed and accuracy"; None without one.  Raises `ModelError`."""
+        """Return the current motion, for "Speed and accuracy"; None without one.  Raises `ModelError`."""
         return None
 
-    def derived(self) -> Iterable[str]:
-        """Return quantities that follow from the parameters, a line each."""
-        return (line for one in self.parts() for line in one.derived())
+    def quantities(self) -> Iterable[str]:
+        """Return derived quantities, one line each."""
+        return (line for one in self.parts() for line in one.quantities())
 
     def status(self) -> Iterable[str]:
-        """Return entries of the status line: size, cost, errors of what was computed."""
+        """Return entries of the status line: size, cost and error of the results."""
         return (entry for one in self.parts() for entry in one.status())
 
     def notes(self) -> Iterable[str]:
@@ -180,20 +220,38 @@ class Scene(Generic[S]):
 
     Parameters
     ----------
-    state : the class of its states; module : the file that declares it; its text is the Markdown file of the same name.
-    title, summary : a few words; a sentence for the menu.
-    presets : named states; a new visitor sees the first one.
-    views : its pictures.  Only the results that pictures in sight need are computed.
-    tracks : columns shared by several pictures and the player; the player follows the column t of "orbit".
-    angles : the columns of "orbit" that are angles.
-    measures : computations besides the motion whose cost and error are measured at each level.
-    charts : the numbers that it charts over its parameters.
-    place : its position in the menu, the first scene opens the page; group : its heading there.
-    essential : the parameters whose controls are open; the others are folded into their groups.
-    handle : the control that a new visitor should drag: an essential parameter (the first by default) or
-        "picture/layer".
-    answers : sentences above the pictures: the first one that holds is shown, else the summary.
-    lead : the pictures that lead, the others stand in a strip beside them; the first one by default.
+    state : type
+        Class of its states.
+    module : str
+        File that declares the scene (`__file__`); the Markdown file of the same name contains the text.
+    title : str
+        A few words.
+    summary : str
+        A sentence for the menu.
+    presets : tuple of Preset
+        Named states; a new visitor sees the first one.
+    views : tuple of Picture
+        The pictures.  Only the results for visible pictures are computed.
+    tracks : mapping of str to callable
+        Columns shared by several pictures and the player, which follows the column t of "orbit".
+    angles : tuple of str
+        Columns of "orbit" that are angles, in radians.
+    measures : tuple of Trial
+        Computations in addition to the motion whose cost and error are measured at each level.
+    charts : Charts, optional
+        Numbers that can be charted over the parameters.
+    place : int
+        Position in the menu; the first scene opens the page.
+    group : str
+        Heading in the menu.
+    essential : tuple of str
+        Parameters whose controls are open; the others are folded into their groups.
+    handle : str
+        Suggested first drag: an essential parameter (by default the first one) or "picture/layer".
+    answers : tuple of Answer
+        Sentences above the pictures: the first one that holds is shown, or else the summary.
+    lead : tuple of str
+        Pictures that lead; the others stand in a strip beside them.  By default the first one.
     """
 
     state: type[S]
@@ -212,13 +270,13 @@ class Scene(Generic[S]):
     handle: str = ""
     answers: tuple[Answer[S], ...] = ()
     lead: tuple[str, ...] = ()
-    charted: ClassVar[Charts | None] = None
+    chart_set: ClassVar[Charts | None] = None
 
     def __post_init__(self, charts: Charts | None) -> None:
         """Add the chart to states and pictures."""
-        object.__setattr__(self, "charted", charts)
+        object.__setattr__(self, "chart_set", charts)
         if charts is not None:
-            object.__setattr__(self, "state", charting(self.state, charts))
+            object.__setattr__(self, "state", with_chart(self.state, charts))
             object.__setattr__(self, "views", (*self.views, chart_picture(charts)))
 
     @cached_property
@@ -233,7 +291,7 @@ class Scene(Generic[S]):
 
     @cached_property
     def _text(self) -> tuple[str, str]:
-        """The front matter of the Markdown file and its body, which has the text of the files that it includes."""
+        """The front matter of the Markdown file, and its body with all included files."""
         path = Path(self.module).with_suffix(".md")
         text = _INCLUDED.sub(
             lambda part: (path.parent / part[1]).read_text(encoding="utf-8").rstrip(), path.read_text(encoding="utf-8")
@@ -249,7 +307,7 @@ class Scene(Generic[S]):
 
     @property
     def moves(self) -> str:
-        """A sentence on the controls: which one moves what."""
+        """A sentence on the effect of the controls."""
         return self._text[0]
 
     def answer(self, state: S) -> str:
@@ -257,16 +315,16 @@ class Scene(Generic[S]):
         return next((one.sentence for one in self.answers if one.when(state)), self.summary)
 
     def drawing(self, name: str) -> str:
-        """Return an SVG file that the Markdown text refers to as an image."""
+        """Return the SVG file of an image in the Markdown text."""
         return Path(self.module).with_name(name).read_text(encoding="utf-8")
 
     @cached_property
     def signs(self) -> tuple[Sign, ...]:
-        """The entries of the legend: the signs of all pictures, each once and with one label."""
+        """The entries of the legend: the distinct signs of all pictures."""
         return tuple(dict.fromkeys(replace(sign, least=None) for view in self.views for sign in view.legend))
 
-    def shown_signs(self, there: Collection[Sign]) -> str:
-        """Return the indices of the legend entries with a visible sign, separated by commas."""
+    def visible_signs(self, there: Collection[Sign]) -> str:
+        """Return the indices of the visible legend entries, separated by commas."""
         known = {replace(sign, least=None) for sign in there}
         return ",".join(str(i) for i, sign in enumerate(self.signs) if sign in known)
 
@@ -290,18 +348,18 @@ class Scene(Generic[S]):
         return tuple(view.name for view in self.views)
 
     @property
-    def folded(self) -> Mapping[str, str]:
-        """Pictures that open at the press of a button → the label of the button."""
-        return {view.name: view.folded for view in self.views if view.folded}
+    def buttons(self) -> Mapping[str, str]:
+        """The label of the button of each picture that a button opens."""
+        return {view.name: view.button for view in self.views if view.button}
 
     @property
     def open_pictures(self) -> tuple[str, ...]:
         """The names of the pictures that are open at first."""
-        return tuple(view.name for view in self.views if not view.folded)
+        return tuple(view.name for view in self.views if not view.button)
 
     @property
     def dots(self) -> dict[str, tuple[str, str]]:
-        """Sources of moving points → the columns of the track "orbit" that they follow."""
+        """The two columns of "orbit" that each moving point follows, by data source."""
         return {source: columns for view in self.views for source, columns in view.followers.items()}
 
     @property
@@ -319,7 +377,7 @@ class Scene(Generic[S]):
         return {spec.name: spec.default for spec in self.specs}
 
     def example(self, preset: Preset) -> dict[str, Value]:
-        """Return all numbers and places of a preset, and the choices that any preset sets: not the accuracy."""
+        """Return the values of a preset: all numbers and places, and the choices that any preset sets."""
         given = {name for one in self.presets for name in one.values}
         plain = {one.name: one.default for one in self.specs if not isinstance(one, ChoiceSpec) or one.name in given}
         return {**plain, **preset.values}
@@ -334,14 +392,14 @@ class Scene(Generic[S]):
         return self.state(**typed, work=work, seen=frozenset(seen))
 
     def admit(self, values: Values) -> tuple[dict[str, Value], list[str]]:
-        """Clamp the values to a valid state; return them with a note for each change."""
+        """Clamp the values to a valid state; return them and a note for each change."""
         within: dict[str, Value] = {}
         notes: list[str] = []
         for spec in self.specs:
             within[spec.name], note = spec.read(values[spec.name])
             notes += [note] if note else []
         try:
-            state = self.of(within).admitted(notes)
+            state = self.of(within).valid_state(notes)
         except ModelError:
             # An impossible state raises its error when it is computed.
             return within, notes
@@ -352,15 +410,15 @@ class Scene(Generic[S]):
         return _or_nothing(lambda: self.of(values).limits())
 
     def idle(self, values: Values) -> Mapping[str, float]:
-        """Return the numbers without effect in the state of admitted values, with what their controls show."""
+        """Return the parameters without effect in a valid state, with the values that their controls show."""
         return _or_nothing(lambda: self.of(values).idle())
 
-    def carried(self, before: Values, values: Values) -> Values:
-        """Return the parameter changes that keep the motion of the values before continuous after other choices."""
-        return _or_nothing(lambda: self.of(values).carried(self.of(self.admit(before)[0])))
+    def adjustments(self, before: Values, values: Values) -> Values:
+        """Return the parameter changes that keep the motion continuous after other choices."""
+        return _or_nothing(lambda: self.of(values).adjustments(self.of(self.admit(before)[0])))
 
     def _meanings(self, values: Values) -> Mapping[str, str]:
-        """Return the meaning of each number and choice of a state by name, without those that have no effect."""
+        """Return the meanings of the numbers and choices of a state by name, except those without effect."""
         labels = {
             spec.name: (isinstance(spec, NumberSpec) and spec.means) or spec.label
             for spec in self.specs
@@ -369,10 +427,17 @@ class Scene(Generic[S]):
         idle = self.idle(values)
         return {name: meaning for name, meaning in {**labels, **self.of(values).means()}.items() if name not in idle}
 
-    def taken_over(self, there: Values, before: Scene[Any], left: Values) -> dict[str, Value]:
-        """Return the values `there` of this scene, updated with changed values of the same meaning in the scene before.
+    def transfer(self, there: Values, before: Scene[Any], left: Values) -> dict[str, Value]:
+        """Transfer changed values from another scene to parameters with the same meaning.
 
-        left : the values of the scene before; those that are impossible here are not taken over.
+        Parameters
+        ----------
+        there : mapping of str
+            Values of this scene.
+        before : Scene
+            The other scene.
+        left : mapping of str
+            Its values; values that are impossible in this scene are not transferred.
         """
         defaults, mine, its = before.defaults(), self._meanings(there), before._meanings(left)
         taken = {
@@ -386,11 +451,11 @@ class Scene(Generic[S]):
         return {**there, **taken}
 
     def compute(self, values: Values, seen: Collection[str], dragging: bool) -> S:
-        """Return the state of admitted values with the results for the pictures `seen`.  Raises `ModelError`."""
+        """Compute a valid state with the results for the pictures `seen`.  Raises `ModelError`."""
         return self.draw(self.of(values, seen, dragging))
 
     def draw(self, state: S) -> S:
-        """Return the state with the columns of all pictures in sight.  Raises `ModelError`."""
+        """Compute the columns of all visible pictures and return the state.  Raises `ModelError`."""
         self._settle(state)
         views = [view for view in self.views if view.name in state.seen]
         shown = state.seen.union(*(view.needs for view in views))
@@ -402,7 +467,7 @@ class Scene(Generic[S]):
         return state
 
     def in_sight(self, state: S) -> Iterator[tuple[Trial[Any], State]]:
-        """Return the trials of the pictures in sight, each with the `bare` state to compute."""
+        """Yield the trials of the visible pictures, each with the `bare` state to compute."""
         plain = bare(state)
         return (
             (trial, plain)
@@ -411,10 +476,12 @@ class Scene(Generic[S]):
         )
 
     def _settle(self, state: S) -> None:
-        """Set the level of "auto": the cheapest one whose error is invisible in every picture in sight."""
+        """Set the level of "auto" to the cheapest one whose error is invisible in all visible pictures."""
         if not state.work.auto or state.dragging:
             return
-        found = [state.work.need(Task(needed, trial, plain), preview=None) for trial, plain in self.in_sight(state)]
+        found = [
+            state.work.need(Task(sufficient_level, trial, plain), preview=None) for trial, plain in self.in_sight(state)
+        ]
         known = [name for name in found if name is not None]
         if known and len(known) == len(found):
             state.work.settle(max(known, key=[*LEVELS].index))

@@ -21,14 +21,14 @@ __all__ = [
     "Slider",
     "accuracy_level",
     "choice",
-    "declared",
+    "declare",
     "exponent_time",
     "formula",
     "like",
     "number",
     "parameter",
     "places",
-    "proved_error_shown",
+    "show_proved_error",
     "slider_within",
     "specs_of",
     "time_span",
@@ -46,21 +46,32 @@ _SPEC = "spec"
 HIDDEN, SHOWN = "not shown", "shown"
 
 
-def declared(spec: Spec, compare: bool = True) -> Any:
-    """Return the field of a parameter; compare : whether results of the state can depend on it."""
+def declare(spec: Spec, compare: bool = True) -> Any:
+    """Return the dataclass field of a parameter.
+
+    Parameters
+    ----------
+    spec : Spec
+        The specification.
+    compare : bool
+        True if results of the state can depend on the parameter.
+    """
     return field(default=spec.default, metadata={_SPEC: spec}, compare=compare)
 
 
 def parameter(known: Parameter, default: float | None = None, **changes: Any) -> Any:
-    """Return the field of a parameter from `hess_mechanics.parameters`.
+    """Declare a parameter of `hess_mechanics.parameters`.
 
     Parameters
     ----------
-    known : its description there.
-    default : another default.
-    changes : other fields of `Parameter`, such as softbounds, step or doc.  State a reason beside other bounds.
+    known : Parameter
+        Its description.
+    default : float, optional
+        Another default.
+    **changes
+        Other fields of `Parameter`, such as softbounds, step or doc.  Give a reason for other bounds in a comment.
     """
-    return declared(NumberSpec(**known.changed(default=known.default if default is None else default, **changes)))
+    return declare(NumberSpec(**known.changed(default=known.default if default is None else default, **changes)))
 
 
 def number(
@@ -76,26 +87,40 @@ def number(
     means: str = "",
 ) -> Any:
     """Declare a number: its slider covers `softbounds` in steps; typed values and links are limited to `bounds`."""
-    return declared(NumberSpec("", symbol, label, default, softbounds, step, bounds, doc, group, means=means))
+    return declare(NumberSpec("", symbol, label, default, softbounds, step, bounds, doc, group, means=means))
 
 
 def choice(label: str, options: tuple[str, ...], default: str, *, doc: str, group: Group = "Computation") -> Any:
     """Declare a choice from a fixed list of names."""
-    return declared(ChoiceSpec("", label, options, default, doc, group))
+    return declare(ChoiceSpec("", label, options, default, doc, group))
 
 
 def formula(label: str, default: str, reads: Callable[[str], object], *, doc: str, group: Group = "Body") -> Any:
-    """Declare a formula; reads : raises `InvalidParameter` for texts that are none."""
-    return declared(Formula("", label, default, doc, group, reads))
+    """Declare a formula.
+
+    Parameters
+    ----------
+    label : str
+        Label of the control.
+    default : str
+        Default formula.
+    reads : callable
+        Parses the formula; raises `InvalidParameter` for an invalid text.
+    doc : str
+        Tooltip of the control.
+    group : str
+        Group of the control.
+    """
+    return declare(Formula("", label, default, doc, group, reads))
 
 
 def places(label: str, most: int, low: tuple[float, float], high: tuple[float, float], default: str = "") -> Any:
-    """Declare points set with the mouse, at most `most`, between two corners; they have no control."""
-    return declared(Places("", label, most, low, high, default))
+    """Declare at most `most` points set with the mouse, within a rectangle; they have no control."""
+    return declare(Places("", label, most, low, high, default))
 
 
 def accuracy_level() -> Any:
-    """Declare the level of accuracy, with the same description in every scene."""
+    """Declare the level of accuracy, with one description for all scenes."""
     return choice(
         "Accuracy",
         (*LEVELS, AUTO),
@@ -109,8 +134,8 @@ def accuracy_level() -> Any:
     )
 
 
-def proved_error_shown() -> Any:
-    """Declare whether the proved error of the orbit on show is computed."""
+def show_proved_error() -> Any:
+    """Declare the choice whether the proved error of the orbit is computed."""
     return choice(
         "Proved error",
         (HIDDEN, SHOWN),
@@ -121,7 +146,7 @@ def proved_error_shown() -> Any:
 
 
 def exponent_time(default: float, longest: float, most: float, what: str) -> Any:
-    """Declare the averaging time along the orbit on show."""
+    """Declare the averaging time along the orbit."""
     return number(
         "T",
         default,
@@ -149,13 +174,13 @@ def time_span(default: float, longest: float, *, step: float = 1.0, most: float 
 
 
 def like(state: type[Any], name: str, default: Value | None = None, **changes: Any) -> Any:
-    """Declare a parameter like that of another state, with another default or other arguments of `number` if given."""
+    """Declare a parameter of another state again, with another default or other arguments of `number` if given."""
     spec: Any = next(one for one in specs_of(state) if one.name == name)
-    return declared(replace(spec, default=spec.default if default is None else default, **changes))
+    return declare(replace(spec, default=spec.default if default is None else default, **changes))
 
 
 def slider_within(largest: float) -> Slider:
-    """Return a slider from −largest to largest, with round ends and some hundreds of round steps."""
+    """Return a slider from −largest to largest, with round ends and a few hundred round steps."""
     digits = 2 - math.floor(math.log10(largest))
     step = float(f"1e{-digits}")
     end = round(math.floor(largest / step) * step, digits)
@@ -163,11 +188,11 @@ def slider_within(largest: float) -> Slider:
 
 
 def specs_of(state: type[Any]) -> tuple[Spec, ...]:
-    """Return the specifications of all parameters of a state: its own, those of its bases, the choices of a chart.
+    """Return the specifications of all parameters of a class of states, including its bases and the chart.
 
     A parameter that is declared again keeps its place.
     """
     level = {name: i for i, one in enumerate(state.__mro__) for name in get_annotations(one)}
-    declared = [one for one in fields(state) if _SPEC in one.metadata]
-    declared.sort(key=lambda one: (not one.compare, level[one.name]))
-    return tuple(replace(one.metadata[_SPEC], name=one.name) for one in declared)
+    own = [one for one in fields(state) if _SPEC in one.metadata]
+    own.sort(key=lambda one: (not one.compare, level[one.name]))
+    return tuple(replace(one.metadata[_SPEC], name=one.name) for one in own)

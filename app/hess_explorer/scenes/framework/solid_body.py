@@ -1,4 +1,4 @@
-"""The body in space along the orbit on show: a Suslov body with its wheels, or a heavy body."""
+"""The body in space along the orbit: a Suslov body with its wheels, or a heavy body."""
 
 from __future__ import annotations
 
@@ -53,9 +53,22 @@ CIRCULAR_SECTION = Sign("circular section of the gyration ellipsoid", "line", f"
 class Solid:
     """A body along an orbit.
 
-    times : (n,) times of the player; omega : (n, 2) with ω3 = 0, or (n, 3); gamma : (n, 3) in the body's axes.
-    mass : the direction of the centre of mass, None without a field; shape : its ellipsoid, None if none is drawn.
-    about_shape : the caption; drawn : False if the picture stays empty.
+    Attributes
+    ----------
+    times : array (n,)
+        Times of the player.
+    omega : array (n, 2) or (n, 3)
+        Angular velocity in the body's axes; ω3 = 0 for two components.
+    gamma : array (n, 3)
+        Vertical unit vector in the body's axes.
+    mass : Direction or None
+        Direction of the centre of mass; None without a field.
+    shape : Shape or None
+        Its ellipsoid; None if none is drawn.
+    about_shape : Caption
+        Caption of the picture.
+    drawn : bool
+        False if the picture stays empty.
     """
 
     times: Array
@@ -67,16 +80,16 @@ class Solid:
     drawn: bool = True
 
     @cached_property
-    def lying(self) -> Attitude:
+    def attitude(self) -> Attitude:
         """The attitude along the orbit."""
         omega = self.omega if self.omega.shape[1] == 3 else np.column_stack([self.omega, np.zeros(len(self.times))])
         return attitude_along(self.times, omega, self.gamma)
 
     def in_space(self, held: bool = False) -> tuple[Attitude, Array] | None:
-        """Return attitude and times, every second sample while a slider is held; None if nothing is drawn."""
-        if not self.drawn or self.lying.defect > _LOST:
+        """Return attitude and times, every second sample if a slider is held; None if nothing is drawn."""
+        if not self.drawn or self.attitude.defect > _LOST:
             return None
-        found = self.lying.every_second() if held else self.lying
+        found = self.attitude.every_second() if held else self.attitude
         return found, found.times
 
     @property
@@ -86,7 +99,7 @@ class Solid:
 
 
 def free_I33(tensor: tuple[float, float, float, float], check: BodyCheck) -> float:
-    """Return the middle I33 of the rigid bodies with this tensor; if there are none, a positive definite choice."""
+    """Return the middle I33 of the rigid bodies with this tensor; without any, a positive definite choice."""
     I11, I22, I13, I23 = tensor
     if check.I33 is None:
         return max(0.5 * (I11 + I22), 2.0 * (I13**2 / I11 + I23**2 / I22))
@@ -94,7 +107,7 @@ def free_I33(tensor: tuple[float, float, float, float], check: BodyCheck) -> flo
 
 
 def ellipsoid_of_inertia(tensor: tuple[float, float, float, float], check: BodyCheck) -> tuple[Shape, Caption]:
-    """Return the ellipsoid of inertia for I11, I22, I13, I23 and the I33 of `free_I33`, and its caption."""
+    """Return the ellipsoid of inertia for (I11, I22, I13, I23) and the I33 of `free_I33`, and its caption."""
     (I11, I22, I13, I23), I33 = tensor, free_I33(tensor, check)
     chosen = f"I₃₃ = {digits(I33)}"
     if check.is_body:
@@ -108,9 +121,9 @@ def ellipsoid_of_inertia(tensor: tuple[float, float, float, float], check: BodyC
 
 
 def constrained_solid(work: Work, body: Body, orbit: Orbit | FreeMotion) -> Solid:
-    """Return a body of the Suslov problem, e = e3, or a ball, along its orbit.
+    """Return a body of the Suslov problem with e = e3, or a ball, along its orbit.
 
-    Its parameters are I11, I22, I13, I23, …, b1, b2, b3, its states (ω1, ω2, γ).
+    The parameters of the body are I11, I22, I13, I23, …, b1, b2, b3; its states are (ω1, ω2, γ).
     """
     I11, I22, I13, I23, *_, b1, b2, b3 = body.parameters
     omega, gamma = (
@@ -121,7 +134,7 @@ def constrained_solid(work: Work, body: Body, orbit: Orbit | FreeMotion) -> Soli
 
 
 def hess_solid(body: HessBody, track: Track) -> Solid:
-    """Return a body of the Suslov–Hess case with its gyration ellipsoid and its section normal to n3."""
+    """Return a body of the Suslov–Hess case with its gyration ellipsoid and the section normal to n3."""
     mass = centre_of_mass((0.0, body.b2, body.b3))
     if body.middle_I33 is None:
         about_shape = Caption(
@@ -145,7 +158,7 @@ def hess_solid(body: HessBody, track: Track) -> Solid:
 
 
 def heavy_solid(body: HeavyBody, times: Array, states: Array) -> Solid:
-    """Return a heavy body without a constraint along states (n, 6) = (M, γ)."""
+    """Return a heavy body along its orbit, given by states (n, 6) = (M, γ)."""
     shape, about_shape = None, Caption("Not a rigid body, so no ellipsoid.", "r: the centre of mass.")
     if body.check.is_body:
         I1, I2, I3 = (1.0 / a for a in body.a)
@@ -175,8 +188,20 @@ def solid_body(
 ) -> BodyInSpace[S]:
     """Return the picture of a body.
 
-    ball : it rolls on another ball; field : there may be a field; wheels : they impose (ω, e) = 0.
-    section : draw its circular section, and the trail of the centre of mass.
+    Parameters
+    ----------
+    of : callable
+        `of(state)` returns the body.
+    name, title : str
+        Name and title of the picture.
+    ball : bool
+        True if the body rolls on another ball.
+    field : bool
+        True if there may be a field.
+    section : bool
+        True to draw the circular section and the trail of the centre of mass.
+    wheels : bool
+        True to draw the wheels that impose (ω, e) = 0.
     """
 
     def rods(state: S) -> list[Rod]:

@@ -32,8 +32,8 @@ class Stage(Generic[S]):
         self._state: S | None = None
 
     def show(self, state: S, hold_axes: bool) -> Report:
-        """Draw a state from `Scene.compute`; `hold_axes` keeps the axes, for a held slider.  Raises `ModelError`."""
-        # Everything that can fail comes first, so that a refused state is not drawn in part.
+        """Draw a state of `Scene.compute`; `hold_axes` keeps the axes during a drag.  Raises `ModelError`."""
+        # Everything that can fail comes first, so that a failing state is not partly drawn.
         views = [view for view in self.scene.views if view.name in state.seen]
         captions = {view.name: view.full_caption(state) for view in views}
         held = {view.name: self._axes[view.name] for view in views}
@@ -43,7 +43,7 @@ class Stage(Generic[S]):
             for source, columns in view.framed(state, axes[view.name], drawn).items():
                 drawn[source] = {**drawn.get(source, {}), **columns}
         answer = self.scene.answer(state)
-        derived, notes = [*state.derived()], [*dict.fromkeys(state.notes())]
+        quantities, notes = [*state.quantities()], [*dict.fromkeys(state.notes())]
         status = re.sub(r"(?<=\d)e-(?=\d)", "e−", " · ".join([*state.status(), state.work.ended()]))
         self._state = state
         for view in views:
@@ -53,11 +53,11 @@ class Stage(Generic[S]):
             self._put(source, columns)
         self._name_signs(views, drawn)
         self.wire.say("answer", answer)
-        return Report(derived, status, notes, tuple(state.work.todo), state.work.pieces, state.work.summary())
+        return Report(quantities, status, notes, tuple(state.work.todo), state.work.pieces, state.work.summary())
 
     def _name_signs(self, views: Sequence[Picture[S]], drawn: Mapping[str, Columns]) -> None:
         """Send the visible entries of the legend."""
-        self.wire.say("signs", self.scene.shown_signs({sign for view in views for sign in view.there(drawn)}))
+        self.wire.say("signs", self.scene.visible_signs({sign for view in views for sign in view.there(drawn)}))
 
     def fail(self, sentence: str, hold_axes: bool = False) -> None:
         """Clear all pictures and show the sentence in their captions; reset the axes unless `hold_axes`."""
@@ -87,7 +87,7 @@ class Stage(Generic[S]):
         return "" if state is None or view is None or view.on_hover is None else view.on_hover(state, x, y)
 
     def _seen(self, picture: str) -> tuple[S, Picture[S]] | tuple[None, None]:
-        """Return the state on show and a picture, if it is in sight: hidden pictures compute nothing."""
+        """Return the current state and a picture; None if the picture is hidden, because it has no results."""
         state = self._state
         return (None, None) if state is None or picture not in state.seen else (state, self._views[picture])
 
@@ -109,7 +109,7 @@ class Stage(Generic[S]):
 
 
 def _same(left: Any, right: Any) -> bool:
-    """Return whether two columns, or mappings and lists of them, have equal numbers."""
+    """Return whether two columns, or mappings and lists of columns, contain equal numbers."""
     if left is right:
         return True
     if isinstance(left, np.ndarray) or isinstance(right, np.ndarray):

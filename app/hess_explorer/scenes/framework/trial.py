@@ -1,4 +1,4 @@
-"""Trials: the computations of a scene by kind, to measure their cost and error at each level of accuracy."""
+"""Trials: measure the cost and error of a scene's computations at each level of accuracy."""
 
 from __future__ import annotations
 
@@ -27,16 +27,16 @@ if TYPE_CHECKING:
 
 __all__ = [
     "COLOUR_UNIT",
-    "Refused",
+    "Refusal",
     "Trial",
     "bare",
     "boundary_error",
     "colour_error",
     "curve_error",
-    "measured",
-    "needed",
+    "level_costs",
     "orbit_trial",
     "section_error",
+    "sufficient_level",
 ]
 
 S = TypeVar("S", bound="State")
@@ -55,12 +55,26 @@ def _always(shown: object) -> bool:
 class Trial(Generic[S]):
     """One kind of computation of a scene.
 
-    kind, pictures : the kind, and the pictures that show it; empty means all pictures.
-    run(state, plan) : computes it as the scene does; error(state, result, truth) : its error in `unit`, NaN if there
-    is nothing to compare.
-    alike : part of a plan in which the truth is computed as the measured level, because other points are not compared.
-    seen : the largest invisible error; shown(state) : True if the pictures show it in this state.
-    most : limits of parameters for which it takes about a second.
+    Attributes
+    ----------
+    kind : Kind
+        The kind of computation.
+    pictures : tuple of str
+        Names of the pictures that show it; empty for all pictures.
+    run : callable
+        `run(state, plan)` computes it as the scene does.
+    error : callable
+        `error(state, result, truth)` returns the error in `unit`; NaN if there is nothing to compare.
+    unit : str
+        Unit of the error.
+    alike : str
+        Setting of a plan that the reference shares with the measured level, because only equal points are compared.
+    seen : float
+        Largest invisible error, in `unit`.
+    shown : callable
+        `shown(state)` returns True if the pictures show it in this state.
+    most : tuple of (str, float)
+        Upper limits of parameters with which it takes about a second.
     """
 
     kind: Kind
@@ -76,12 +90,12 @@ class Trial(Generic[S]):
     def small(self, state: S) -> S:
         """Return the state with parameters limited to `most`, so that it is computed in about a second."""
         less = {name: min(float(getattr(state, name)), most) for name, most in self.most}
-        return state.changed(less) if less else state
+        return state.with_values(less) if less else state
 
 
 @dataclass(frozen=True)
-class Refused:
-    """The reason why something could not be measured: a sentence, cached like a result."""
+class Refusal:
+    """The reason why a trial could not be measured, as a sentence; it is cached like a result."""
 
     reason: str
 
@@ -94,19 +108,19 @@ def bare(state: S) -> S:
     return found
 
 
-def measured(trial: Trial[S], state: S) -> tuple[LevelCost, ...] | Refused:
-    """Return time and error of each level, for a `bare` state.  Raises `OverBudget`."""
+def level_costs(trial: Trial[S], state: S) -> tuple[LevelCost, ...] | Refusal:
+    """Measure the time and error of each level for a `bare` state.  Raises `OverBudget`."""
     try:
         return tuple(measure(*_of(trial, state), alike=trial.alike))
     except OverBudget:
         # A later attempt may succeed.
         raise
     except ModelError as error:
-        return Refused(str(error))
+        return Refusal(str(error))
 
 
-def needed(trial: Trial[S], state: S) -> str:
-    """Return the cheapest level with an invisible error; `standard` if it cannot be computed.  Raises `OverBudget`."""
+def sufficient_level(trial: Trial[S], state: S) -> str:
+    """Return the cheapest level with an invisible error; `standard` if none can be measured.  Raises `OverBudget`."""
     try:
         return enough(measure(*_of(trial, state), alike=trial.alike), trial.seen)
     except OverBudget:
@@ -116,13 +130,13 @@ def needed(trial: Trial[S], state: S) -> str:
 
 
 def _of(trial: Trial[S], state: S) -> tuple[Kind, Callable[[Plan], Any], Callable[[Any, Any], float]]:
-    """Return the kind, the run and the error of a trial, as `measure` takes them."""
+    """Return kind, run and error of a trial as arguments of `measure`."""
     less = trial.small(state)
     return trial.kind, lambda plan: trial.run(less, plan), lambda *both: trial.error(less, *both)
 
 
 def _measured_span(motion: Motion) -> float:
-    return min(motion.span, longest_span(*motion.named[:3]))
+    return min(motion.span, longest_span(*motion.arguments[:3]))
 
 
 def _orbit(state: State, plan: Plan) -> Array:
@@ -136,18 +150,28 @@ def _orbit_error(state: State, states: Array, truth: object) -> float:
     motion = state.motion()
     assert motion is not None
     # The reference has more digits than any level.
-    exact = exactly(*motion.named[:3], _measured_span(motion), _SAMPLES)
+    exact = exactly(*motion.arguments[:3], _measured_span(motion), _SAMPLES)
     away, first = exact.away(states) * np.asarray(motion.weights), motion.system.angular_velocities
     return float(max(np.linalg.norm(part, axis=1).max() for part in (away[:, :first], away[:, first:])))
 
 
 def orbit_trial() -> Trial[Any]:
-    """Return the trial of the motion on show."""
+    """Return the trial of the current motion."""
     return Trial(Kind.ORBIT, (), _orbit, _orbit_error)
 
 
 def curve_error(values: Array, exact: Array, height: float, period: float = math.inf) -> float:
-    """Return the largest error of a curve (n,) in pixels of an axis of length `height`; period : ∞ if not an angle."""
+    """Return the largest error of a curve (n,) in pixels of an axis of length `height`.
+
+    Parameters
+    ----------
+    values, exact : array (n,)
+        The curve and its reference.
+    height : float
+        Length of the axis, in units of the curve.
+    period : float
+        Period of an angle; ∞ for other values.
+    """
     away = values - exact
     if math.isfinite(period):
         away = away - period * np.round(away / period)
@@ -155,9 +179,9 @@ def curve_error(values: Array, exact: Array, height: float, period: float = math
 
 
 def boundary_error(curve: Array, exact: Array, axes: Axes) -> float:
-    """Return the largest distance in pixels of the points (n, 2) of a curve within the axes from another polyline.
+    """Return the largest distance in pixels from the visible points (n, 2) of a curve to the polyline `exact`.
 
-    NaN without a point or a polyline.
+    NaN if either is empty.
     """
     (x, y), (low, high) = exact.T, np.array([axes.x, axes.y]).T
     there = exact[(x >= low[0]) & (x <= high[0]) & (y >= low[1]) & (y <= high[1])]
@@ -173,9 +197,9 @@ def colour_error(values: Array, exact: Array) -> float:
 def section_error(
     orbits: Sequence[Array], truth: Sequence[Array], pixels: Sequence[float], periods: Sequence[float] = (math.inf,) * 2
 ) -> float:
-    """Return the largest error of orbits (n, 2) in pixels, without chaotic ones: no level is right to their end.
+    """Return the largest error in pixels of regular orbits (n, 2); no level follows a chaotic orbit to its end.
 
-    NaN if all of them are chaotic.
+    NaN if all orbits are chaotic.
     """
     aways = [errors_in_pixels(one, other, pixels, periods) for one, other in zip(orbits, truth, strict=True)]
     return max((float(away.max()) for away in aways if away.size and not torn_away(away)), default=math.nan)

@@ -4,30 +4,30 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from hess_explorer.protocol.specs import Value, Values, places, written
+from hess_explorer.protocol.specs import Value, Values, places, places_text
 from hess_mechanics.dynamics.cells import Window
 from hess_mechanics.dynamics.sampling import PIXELS
 
-__all__ = ["Window", "boxed", "inside", "pixels_in", "tidy_window", "window_of"]
+__all__ = ["Window", "box_window", "inside", "pixels_in", "tidy_window", "window_of"]
 
 
 def tidy_window(text: Value) -> str:
-    """Return the text of a window with its corners in order; an empty string if it is invalid."""
+    """Return the text of a window with sorted corners; an empty string for an invalid window."""
     corners = places(text)
     if len(corners) != 2 or corners[0][0] == corners[1][0] or corners[0][1] == corners[1][1]:
         return ""
     (x0, y0), (x1, y1) = corners
-    return written([(min(x0, x1), min(y0, y1)), (max(x0, x1), max(y0, y1))])
+    return places_text([(min(x0, x1), min(y0, y1)), (max(x0, x1), max(y0, y1))])
 
 
 def window_of(text: Value, full: Window) -> Window:
-    """Return the window of an admitted text; `full` if the text is empty."""
+    """Return the window of a valid text; `full` if the text is empty."""
     corners = places(text)
     return (corners[0], corners[1]) if len(corners) == 2 else full
 
 
 def pixels_in(window: Window) -> tuple[float, ...]:
-    """Return the pixels per unit of each coordinate in a picture of the window."""
+    """Return the pixels per unit of each coordinate of a window that fills a picture."""
     return tuple(PIXELS / (high - low) for low, high in zip(*window, strict=True))
 
 
@@ -37,9 +37,9 @@ def inside(points: Sequence[tuple[float, float]], window: Window) -> list[tuple[
     return [(x, y) for x, y in points if x0 <= x <= x1 and y0 <= y <= y1]
 
 
-def boxed(corners: tuple[float, float, float, float], bounds: Window, name: str = "window") -> Values:
-    """Return the window parameter `name` for a box, clipped to the bounds; an empty mapping if it has no area."""
+def box_window(corners: tuple[float, float, float, float], bounds: Window, name: str = "window") -> Values:
+    """Return the window parameter `name` for a box, clipped to the bounds; empty if it has no area."""
     (x0, y0), (x1, y1) = bounds
     left, right = max(x0, min(corners[0], corners[2])), min(x1, max(corners[0], corners[2]))
     low, high = max(y0, min(corners[1], corners[3])), min(y1, max(corners[1], corners[3]))
-    return {name: written([(left, low), (right, high)])} if low < high and left < right else {}
+    return {name: places_text([(left, low), (right, high)])} if low < high and left < right else {}

@@ -31,8 +31,12 @@ T = TypeVar("T")
 class Work:
     """The computation of one state at a level, through the cache.
 
-    chosen : the name of the chosen level, which a held slider does not change.
-    auto : True if the level is set by measurement, see `settle`.
+    Attributes
+    ----------
+    chosen : str
+        Name of the chosen level, also while a slider is held.
+    auto : bool
+        True if the level is determined by measurement, see `settle`.
     """
 
     def __init__(self, accuracy: str = "standard", dragging: bool = False) -> None:
@@ -50,7 +54,7 @@ class Work:
 
     @property
     def todo(self) -> list[Task[Any]]:
-        """The computations of missing results, in their order: refinements of pictures once all others are there."""
+        """The computations of missing results in order; refinements of pictures come last."""
         return self._todo or self._refinements
 
     def settle(self, name: str) -> None:
@@ -58,9 +62,16 @@ class Work:
         self._settled, self.chosen, self.level = True, name, level(name)
 
     def plan(self, kind: Kind, steady: bool = False) -> Plan:
-        """Return the plan of the level for a kind of computation; scenes set their own numbers of points for a drag.
+        """Return the settings of the level for a kind of computation.
 
-        steady : hardly any slider changes the result; during a drag it keeps its plan, but no finer than `standard`.
+        Scenes choose the number of points during a drag.
+
+        Parameters
+        ----------
+        kind : Kind
+            The kind of computation.
+        steady : bool
+            True if hardly any slider changes the result; a drag then keeps the settings, at most those of `standard`.
         """
         if steady:
             return plan(
@@ -69,8 +80,14 @@ class Work:
         found = plan(kind, self.level.name)
         return replace(found, share=1.0, cells=1.0) if self.dragging else found
 
-    def awaited(self, what: str = "") -> str:
-        """Return the caption of a result that is not known yet; what : its name and "is" or "are"."""
+    def pending_caption(self, what: str = "") -> str:
+        """Return the caption of a result that is not known yet.
+
+        Parameters
+        ----------
+        what : str
+            Name of the result and "is" or "are".
+        """
         soon = "computed when the slider is released." if self.dragging else "being computed."
         return f"{what} {soon}" if what else soon.capitalize()
 
@@ -81,10 +98,15 @@ class Work:
     def need(self, task: Task[T], preview: Task[T] | EllipsisType | None) -> T | None: ...
 
     def need(self, task: Task[T], preview: Task[T] | EllipsisType | None = ...) -> T | None:
-        """Return the result of a task; until it is known, that of its preview, which is computed at once.
+        """Return the result of a task; until it is known, the result of its preview, which is computed at once.
 
-        preview : by default the task itself; None for no result.  A task with another preview is added to `todo` unless
-        a slider is held.  Then a smaller preview is shown even if the result is known.
+        Parameters
+        ----------
+        task : Task
+            The computation.
+        preview : Task or None
+            By default the task itself; None for no result.  A task with another preview is added to `todo` unless a
+            slider is held.  During a drag a preview is shown even if the result is known.
         """
         if preview in (..., task):
             value, hit = CACHE.get(task.function, *task.arguments)
@@ -114,18 +136,18 @@ class Work:
         return found
 
     def _spent(self) -> tuple[float, float]:
-        """Return the seconds spent so far, and those spent compiling kernels, which happens once."""
+        """Return the computing time and the compile time so far, in seconds."""
         compiling = seconds_compiling() - self._compiled
         return time.perf_counter() - self._start - compiling, compiling
 
     def summary(self) -> str:
-        """Return a short status line: the level, its promised error, the time spent."""
+        """Return a short status line: level, promised error and computing time."""
         chosen = f"{AUTO}: {self.level.name}" if self.auto else self.level.name
         right = "the floor of double precision" if self.level.is_floor else f"1e−{-math.log10(self.level.promise):.0f}"
         return f"{chosen}, right to {right} · {1e3 * self._spent()[0]:.0f} ms"
 
     def ended(self) -> str:
-        """Return the end of the status line: the time spent, and "computed" or "cached"."""
+        """Return the end of the status line: computing time, and "computed" or "cached"."""
         spent, compiling = self._spent()
         once = f"{compiling:.1f} s to compile, once · " if compiling > _NOTED else ""
         duration = f"{once}{1e3 * spent:.1f} ms, {'computed' if self._misses else 'cached'}"
@@ -144,7 +166,7 @@ def orbit_status(orbit: Orbit | FreeMotion) -> list[str]:
 
 
 def accuracy_status(accurate: tuple[int, int | None] | None, crossings: int) -> Iterator[str]:
-    """Yield the status entry of a section: the last crossings that are right to half a pixel."""
+    """Yield the status entry of a section: the last crossings with an error below half a pixel."""
     if accurate is not None:
         own, others = (
             "to the end" if count is not None and count >= crossings else f"up to crossing {count}"

@@ -1,1 +1,1 @@
-"""Parts that scenes are composed of: one in each file, and no part imports another."""
+"""Parts of scenes, one per file; no part imports another."""

@@ -1,4 +1,4 @@
-"""Curves on logarithmic scales or of logarithms; values too small for the axis are drawn on its edge."""
+"""Curves of logarithms or on logarithmic axes; values below the axis are drawn at its edge."""
 
 from __future__ import annotations
 
@@ -24,17 +24,17 @@ LG_OF_0 = -17.5
 
 
 def lg(distance: Array) -> Array:
-    """Return lg of a non-negative distance, at least `LG_OF_0`."""
+    """Return the decimal logarithm of non-negative distances, at least `LG_OF_0`."""
     return np.asarray(np.log10(np.maximum(distance, 10.0**LG_OF_0)), float)
 
 
 def lg_axis(largest: float) -> Range:
-    """Return an axis from lg 0 to above lg `largest`, rounded up to halves."""
+    """Return an axis from `LG_OF_0` to lg `largest`, rounded up to halves."""
     return LG_OF_0, math.ceil(2.0 * math.log10(largest)) / 2.0
 
 
 def clipped(values: Array, floor: float) -> Array:
-    """Return values (n,), raised to the floor of the axis."""
+    """Return values (n,), clipped from below at the floor of the axis."""
     return np.asarray(np.maximum(values, floor), float)
 
 

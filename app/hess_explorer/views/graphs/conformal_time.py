@@ -1,4 +1,4 @@
-"""The time τ, dτ = γ3 dt, along a motion with e on a principal axis, and the Poisson brackets that depend on γ."""
+"""The conformal time τ, dτ = γ3 dt, along a motion with e on a principal axis, and its Poisson brackets."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def about(motion: Conformal) -> Caption:
 
 
 def _bracket(motion_of: Found[S], i: int) -> Callable[[S, Axes], list[Array]]:
-    """Return the graph of a bracket, cut at the equator, where it is infinite."""
+    """Return the graph of a Poisson bracket, cut where it is infinite, on the equator."""
 
     def graph(state: S, axes: Axes) -> list[Array]:
         motion = motion_of(state)
@@ -83,5 +83,5 @@ def picture(motion_of: Found[S], reason: Callable[[S], str], span: Callable[[S],
         x=lambda s: (0.0, span(s)),
         y=mapped(motion_of, lambda motion: about_0(motion.tau, _LEAST)),
         layers=layers,
-        folded="Show the conformal time",
+        button="Show the conformal time",
     )

@@ -1,4 +1,4 @@
-"""Graphs of functions: curves over an angle, in as many branches as they need."""
+"""Graphs of functions over time and over an angle, and ranges that fit them."""
 
 from __future__ import annotations
 
@@ -42,14 +42,14 @@ def over_time(
     label: str = "",
     tag: str = "",
 ) -> Layer[S]:
-    """Return the layer of a graph; data(state) = times and values (n,), or None if unknown."""
+    """Return the layer of a graph over time; `data(state)` returns times and values (n,), or None if unknown."""
     return curves(
         name, mapped(data, lambda found: [np.column_stack(found)]), color=color, dash=dash, label=label, tag=tag
     )
 
 
 def settled_range(curves: Sequence[Array]) -> Range:
-    """Return an axis for curves (n,) over a long time, with room for 0 and for all but their first tenth."""
+    """Return an axis that contains 0 and curves (n,) over a long time, except their first tenth."""
     settled = np.concatenate([y[len(y) // 10 :] for y in curves])
     low, high = float(settled.min()), float(settled.max())
     room = 0.08 * max(1e-6, high - low)
@@ -57,7 +57,7 @@ def settled_range(curves: Sequence[Array]) -> Range:
 
 
 def about_0(values: Array, least: float) -> Range:
-    """Return an axis about 0 with a round limit for values, whose largest counts as at least `least`."""
+    """Return an axis about 0 with a round limit that contains the values and ±`least`."""
     return centred(nice_above(1.2 * max(float(np.abs(values).max()), least)))
 
 
@@ -75,7 +75,7 @@ def thinned(x: Array, y: Array) -> tuple[Array, Array]:
 
 
 def branches(x: Array, y: Array, period: float) -> list[Array]:
-    """Return a curve over an angle, cut at ±period/2; each part reaches to the edge."""
+    """Return the parts of a curve over an angle, cut at ±period/2; each part reaches the edge."""
     x, y = np.asarray(x, float), np.asarray(y, float)
     cuts = np.flatnonzero(np.abs(np.diff(x)) > period / 2)
     edges = np.copysign(period / 2, x[cuts])
@@ -88,7 +88,7 @@ def branches(x: Array, y: Array, period: float) -> list[Array]:
 
 
 def pieces(curve: Array, mask: Mask, jump: float = math.inf) -> list[Array]:
-    """Return the parts of a curve (n, 2) where `mask` (n,) holds, also cut at jumps in height."""
+    """Return the parts of a curve (n, 2) where `mask` (n,) is true, also cut at jumps in height."""
     cuts = np.flatnonzero((mask[1:] != mask[:-1]) | (np.abs(np.diff(curve[:, 1])) > jump)) + 1
     return [
         part

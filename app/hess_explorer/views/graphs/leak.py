@@ -18,7 +18,7 @@ S = TypeVar("S")
 
 
 def distances(leaks: Callable[[S], Mapping[str, Leak]], distance: Callable[[Leak], Array]) -> Layers[S]:
-    """Return the curves of lg of a distance (n,) over time for the orbits "own" (chosen accuracy) and "reference"."""
+    """Return the curves lg distance over time of the orbits "own" (chosen accuracy) and "reference"."""
 
     def curve(state: S, name: str) -> tuple[Array, Array]:
         leak = leaks(state)[name]

@@ -20,7 +20,7 @@ _OTHERS = {"DOP853": "square", "LSODA": "triangle"}
 
 
 def curves_of_levels(curve: Callable[[S, str], Curve]) -> Layers[S]:
-    """Return a curve for each level, by name, in the colour and dashes of the level."""
+    """Return the curve of each level in its colour and dashes; `curve(state, name)` returns its data."""
 
     def of(name: str) -> Layer[S]:
         return line(name, lambda s: curve(s, name), color=theme.LEVELS[name], dash=theme.DASHES[name], label=name)
@@ -29,7 +29,7 @@ def curves_of_levels(curve: Callable[[S, str], Curve]) -> Layers[S]:
 
 
 def integrals(curve: Callable[[S, int], Curve | None]) -> Layers[S]:
-    """Return a curve for each integral, by number from 0; None for integrals that a motion lacks."""
+    """Return the curve of each integral; `curve(state, i)` returns its data, or None if there is no integral i."""
 
     def of(i: int, color: str, dash: str) -> Layer[S]:
         return line(f"integral-{i}", lambda s: curve(s, i), color=color, dash=dash, label=f"integral {i + 1}")
@@ -38,7 +38,7 @@ def integrals(curve: Callable[[S, int], Curve | None]) -> Layers[S]:
 
 
 def methods(method: Callable[[S, str], Curve], level: Callable[[S, str], Curve]) -> Layers[S]:
-    """Return the curve of the Taylor series with a point per level, and the curves of SciPy's methods by name."""
+    """Return the curve of the Taylor method with a point per level, and the curves of SciPy's methods."""
 
     def at(name: str) -> Layer[S]:
         return points(f"at-{name}", lambda s: level(s, name), color=theme.LEVELS[name], size=12, label=name)

@@ -24,7 +24,7 @@ def has_periods(periods: Array) -> bool:
 
 
 def period_axis(periods: Array, here: float = 0.0) -> Range:
-    """Return an axis with room for most periods, as some are infinite, and for the period on show if finite."""
+    """Return an axis that contains most finite periods and the current one, if it is finite."""
     finite = periods[np.isfinite(periods[:, 1]), 1]
     if not finite.size:
         return 0.0, 20.0
@@ -32,7 +32,7 @@ def period_axis(periods: Array, here: float = 0.0) -> Range:
 
 
 def layers(periods: Callable[[S], Array], here: Callable[[S], tuple[float, float] | None]) -> Layers[S]:
-    """Return the layers: T against α from (α, T), (n, 2), and a ring at the orbit on show; infinite T is clipped."""
+    """Return the layers: the graph of T over α from rows (α, T), and a ring at the current orbit."""
 
     def curve(state: S, axes: Axes) -> list[Array]:
         found = periods(state)

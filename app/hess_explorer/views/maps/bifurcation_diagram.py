@@ -1,4 +1,4 @@
-"""Bifurcation diagram in (h, f): region, curve, points, rotation number, lock zone."""
+"""Bifurcation diagram in (h, f): region, curve, points, rotation number, Arnold tongue."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ S = TypeVar("S")
 
 
 def window(h: float) -> Axes:
-    """Return the axes for this h: the same for all h of the slider, enlarged in steps beyond."""
+    """Return the axes for this h: constant over the range of the slider, larger in steps beyond."""
     end = 4.0
     while h > end:
         end *= 2.5
@@ -49,14 +49,14 @@ def _mirrored(half: Array) -> list[Array]:
 
 
 def impossible(curve: Array, axes: Axes) -> Regions:
-    """Return the `region` outside the curve with this upper branch (n, 2)."""
+    """Return the forbidden region outside the curve with this upper branch (n, 2)."""
     top = axes.y[1]
     edge = [[axes.x[0], 0.0], *curve, [axes.x[1], top], [axes.x[0], top]]
     return [[one] for one in _mirrored(np.array(edge))]
 
 
 def _locked(boundary: Array, axes: Axes) -> Regions:
-    """Return the zone right of |t| = 2, continued along the curve; the grey region covers the excess."""
+    """Return the Arnold tongue to the right of |t| = 2; the forbidden region covers the excess."""
     if len(boundary) == 0:
         return []
     h, f = boundary[0]
@@ -73,9 +73,20 @@ def layers(
     here: Callable[[S], Positions],
     axes: Callable[[S], Axes],
 ) -> Layers[S]:
-    """Return the layers: rotation number ρ, lock zone in one tone, no motion in grey, a ring at the torus on show.
+    """Return the layers: rotation number ρ, Arnold tongue, forbidden region in grey, a ring at the current torus.
 
-    rotation : over the window; boundary : |t| = 2, (n, 2) with f ≥ 0; curve : upper branch of the edge, (n, 2).
+    Parameters
+    ----------
+    rotation : callable
+        `rotation(state)` returns ρ over the window.
+    boundary : callable
+        `boundary(state)` returns the curve |t| = 2 with f ≥ 0, (n, 2).
+    curve : callable
+        `curve(state)` returns the upper branch of the bifurcation curve, (n, 2).
+    here : callable
+        `here(state)` returns the place of the current torus.
+    axes : callable
+        `axes(state)` returns the axes.
     """
     corners = ("h", "f")
 
@@ -115,7 +126,7 @@ REACH: Layer[Any] = points(
 
 
 def about(h: float, f: float, theta: CircleMap | None) -> Caption:
-    """Return the zone of a torus from its circle map; None on the separatrix."""
+    """Return the caption on a torus from its circle map, which is None on the separatrix."""
     zone = (
         "On the separatrix."
         if theta is None
@@ -128,7 +139,7 @@ def about(h: float, f: float, theta: CircleMap | None) -> Caption:
 
 
 def about_torus(a: float, h: float, f: float) -> str:
-    """Return a line about the torus (h, f) under the mouse.  Raises `Separatrix`."""
+    """Return the tooltip on the torus (a, h, f).  Raises `Separatrix`."""
     if h <= -1.0 or abs(f) > f_max(h):
         return f"h = {digits(h)}, f = {digits(f)}: impossible"
     theta = circle_map(a, h, f, DRAFT)

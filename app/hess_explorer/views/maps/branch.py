@@ -54,7 +54,7 @@ def _strands(branch: Branch, side: int, sign: str) -> list[Array]:
 
 
 class Branched(Protocol):
-    """Branches with the coordinate that is drawn upwards: its index, and its period or ∞."""
+    """Branches, with the index of the coordinate on the vertical axis and its period (∞ for none)."""
 
     @property
     def branches(self) -> Sequence[Branch]: ...
@@ -67,7 +67,7 @@ class Branched(Protocol):
 
 
 def layers(of: Callable[[S], Branched]) -> Layers[S]:
-    """Return the branches of a state over the parameter: one coordinate of all places."""
+    """Return the layers of branches over a parameter: one coordinate of all places, and the bifurcations."""
 
     def parts(sign: str) -> Callable[[S, Axes], list[Array]]:
         def drawn(state: S, axes: Axes) -> list[Array]:
@@ -87,7 +87,7 @@ def layers(of: Callable[[S], Branched]) -> Layers[S]:
             y = one.places[:, shown.side]
             there = seen(np.column_stack([y, np.full(len(y), one.value)]), shown.turn, up)
             inside = [(float(x), float(height)) for height, x in there if axes.x[0] <= x <= axes.x[1]]
-            # Only the highest place carries the name, as names at all places would overlap.
+            # Only the highest place has a label, because labels at all places would overlap.
             found += [
                 (x, y, _SHORT.get(one.kind, one.kind) if y == max(inside, key=lambda at: at[1])[1] else "")
                 for x, y in inside

@@ -34,12 +34,12 @@ _BEYOND = 100.0
 
 
 def cobweb(iterates: Array) -> tuple[Array, Array]:
-    """Return the staircase (φ0, φ0) → (φ0, φ1) → (φ1, φ1) → …"""
+    """Return x and y of the cobweb (φ0, φ0) → (φ0, φ1) → (φ1, φ1) → …"""
     return np.repeat(iterates, 2)[:-1], np.repeat(iterates, 2)[1:]
 
 
 def _copies(circle_map: CircleMap) -> list[Array]:
-    """Return the graph and its copies one turn up and down; the frame clips them to the square."""
+    """Return the graph and copies shifted up and down by one turn; the frame clips them."""
     phi, theta = circle_map.graph
     return [np.column_stack([phi, theta + turn]) for turn in (0.0, -2 * math.pi, 2 * math.pi)]
 
@@ -50,7 +50,7 @@ def _fixed(circle_map: CircleMap, stable: bool) -> tuple[list[float], list[float
 
 
 def _density(circle_map: CircleMap) -> list[Array]:
-    """Return the smooth invariant density above the bottom of the frame, if it exists."""
+    """Return the smooth invariant density, drawn above the bottom of the frame; empty if it does not exist."""
     if circle_map.kind != "elliptic":
         return []
     relative = np.minimum(_BEYOND, 2.0 * math.pi * invariant_measure(circle_map).density(_DENSITY))
@@ -125,17 +125,22 @@ def picture(
 
 
 def cycles(theta: CircleMap) -> str:
-    """Return the cycles of a torus in words; a parabolic map without a fixed point of its own is the identity."""
+    """Return the limit cycles of a torus in words; a parabolic map without a fixed point is the identity."""
     if theta.kind == "parabolic":
         return "the two cycles have merged" if theta.fixed_points else "every orbit closes"
     return "two limit cycles" if theta.kind == "hyperbolic" else "no cycle"
 
 
 def about(theta: CircleMap | None, proof: str = "") -> Caption:
-    """Return the kind of a map, its trace and rotation number, and its multipliers; None on the separatrix.
+    """Return the caption of a circle map: kind, trace, rotation number and multipliers.
 
-    proof : the proved statement, if known.  It replaces the kind and the numbers that it encloses, or the whole caption
-    if it says that there is no torus.
+    Parameters
+    ----------
+    theta : CircleMap or None
+        The circle map; None on the separatrix.
+    proof : str
+        The proved statement, if known.  It replaces the kind and the enclosed numbers, or the whole caption if there is
+        no torus.
     """
     if theta is None:
         return Caption("Separatrix: no return.")
@@ -155,7 +160,7 @@ def about(theta: CircleMap | None, proof: str = "") -> Caption:
 
 
 def riccati_matrix(theta: CircleMap) -> str:
-    """Return the two entries of the Riccati matrix."""
+    """Return the entries α and β of the Riccati matrix as text."""
     alpha, beta = theta.alpha_beta
     return (
         f"Riccati matrix α = {digits(alpha.real)} {'−' if alpha.imag < 0.0 else '+'} {digits(abs(alpha.imag))} i, "

@@ -30,7 +30,14 @@ _DRAWN_TRACE = 50.0
 class Tori:
     """Tori along a line of parameters.
 
-    x : (n,) the parameter; values : ρ and trace of each torus; here : the parameter of the torus on show.
+    Attributes
+    ----------
+    x : array (n,)
+        Values of the parameter.
+    values : TorusValues
+        ρ and trace of each torus.
+    here : float
+        Parameter of the current torus.
     """
 
     x: Array
@@ -38,7 +45,7 @@ class Tori:
     here: float
 
     def curve(self, y: Array, jump: float = math.inf) -> list[Array]:
-        """Return the parts of a graph over the possible tori, cut at jumps."""
+        """Return the parts of the graph of y (n,) over the existing tori, cut at jumps."""
         return pieces(np.column_stack([self.x, y]), self.values.possible, jump)
 
     @property
@@ -47,7 +54,7 @@ class Tori:
         return np.minimum(self.values.trace, _DRAWN_TRACE)
 
     def ring(self, y: Array, axes: Axes) -> list[tuple[float, float]]:
-        """Return the place of the torus on show on a graph, if it is in the frame."""
+        """Return the place of the current torus on the graph of y, if the frame contains it."""
         there = np.isfinite(y)
         if not there.any():
             return []
@@ -59,7 +66,7 @@ class Tori:
 def rho_layers(
     tori: Callable[[S], Tori], perturbed: Callable[[S], Array | None], rational: Callable[[S], Sequence[float]]
 ) -> Layers[S]:
-    """Return the layers: ρ along a line, ρ of another family if known, and the rational ρ that a torus has."""
+    """Return the layers: ρ along a line, ρ of another family if known, and the torus with the rational ρ."""
 
     def other(state: S) -> list[Array]:
         found = perturbed(state)
@@ -74,7 +81,7 @@ def rho_layers(
 
 
 def trace_layers(tori: Callable[[S], Tori]) -> Layers[S]:
-    """Return the layers of |t| along a line; tori with |t| > 2 are locked."""
+    """Return the layers of |t| along a line; tori with |t| > 2 have limit cycles."""
     return (
         levels("levels", lambda s: [2.0]),
         curves("t", lambda s: tori(s).curve(tori(s).trace), color=theme.ORBIT),

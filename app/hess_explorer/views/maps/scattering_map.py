@@ -37,7 +37,7 @@ POLAR_TICKS = ((0.0, "0"), (math.pi / 4, "π/4"), (math.pi / 2, "π/2"), (3 * ma
 def over_square(
     caption: Callable[[S], Caption], theta_plus: Callable[[S], Array], here: Callable[[S], tuple[float, float]]
 ) -> Plot[S]:
-    """Return the plot of θ⁺ over (φ, θ⁻); a click or drag sets both."""
+    """Return the plot of θ⁺ over (φ, θ⁻); a click or drag sets both parameters."""
     return Plot(
         name="map",
         title="θ⁺ over (φ, θ⁻)",
@@ -99,7 +99,16 @@ def over_orders(
 ) -> Plot[S]:
     """Return the plot of cos χ over k; a click sets k.
 
-    orders : the closed form, rows (k, cos χ); closed : its value for the body; here : the body's k and computed cos χ.
+    Parameters
+    ----------
+    ends : callable
+        `ends(state)` returns the range of k.
+    orders : callable
+        `orders(state)` returns rows (k, cos χ) of the closed form.
+    here : callable
+        `here(state)` returns k of the body and the computed cos χ.
+    closed : callable
+        `closed(state)` returns the closed form for the body.
     """
 
     def about(state: S) -> Caption:
@@ -113,7 +122,7 @@ def over_orders(
         title="cos χ against k",
         caption=about,
         axes=("k", "cos χ"),
-        folded="Show cos χ against k",
+        button="Show cos χ against k",
         x=ends,
         y=lambda s: cosine_axis(orders(s)[:, 1].max(initial=here(s)[1])),
         on_click=lambda s, x, y: {"k": x},
@@ -128,6 +137,6 @@ def over_orders(
 
 
 def cosine_axis(largest: float) -> Range:
-    """Return an axis from −1, the least cosine, to above the largest one."""
+    """Return an axis from −1 to slightly above the largest cosine."""
     reach = nice_above(max(1e-3, 1.0 + float(largest)))
     return -1.0 - 0.05 * reach, -1.0 + 1.05 * reach

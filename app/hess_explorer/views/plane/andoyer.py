@@ -1,4 +1,4 @@
-"""(l, L/G) of a motion on the Hess manifold, and the curve of the Hess relation."""
+"""Andoyer–Deprit variables (l, L/G) of a motion on the Hess manifold, and the curve of the Hess relation."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def picture(
     orbit: Callable[[S], Array],
     color: str = theme.ORBIT,
 ) -> Plot[S]:
-    """Return the plot of the Hess relation and an orbit, each (l, L/G) in rows (n, 2); a ring marks the start."""
+    """Return the plot of the Hess relation and an orbit, both as rows (l, L/G); a ring marks the start."""
     return Plot(
         name="andoyer",
         title=title,
@@ -63,8 +63,14 @@ def between(
 ) -> Layers[S]:
     """Return the layers between the orbits of a section and the chosen orbits, including their track.
 
-    elsewhere : points (n, 2) on another sheet; curve : l and L/G of the Hess relation.
-    across : both ends of the line of the rotation number within the window.
+    Parameters
+    ----------
+    elsewhere : callable
+        `elsewhere(state)` returns points (n, 2) on another sheet.
+    curve : callable
+        `curve(state)` returns l and L/G of the Hess relation.
+    across : callable
+        `across(state)` returns the ends of the line of the rotation number in the window.
     """
     return (
         dots("elsewhere", lambda s: elsewhere(s).T, color=theme.SHEET, size=12, label="on another sheet: another G"),
@@ -82,7 +88,7 @@ def between(
 
 
 def _parts(points: Array) -> list[Array]:
-    """Split a curve (l, L/G) where M reverses through 0 and where l passes ±π; there parts overlap the edge."""
+    """Split a curve (l, L/G) where M passes 0 and where l passes ±π, where the parts overlap the edge."""
     l, x = points.T
     s = np.sqrt(np.maximum(0.0, 1.0 - x * x))
     direction = np.column_stack([s * np.sin(l), s * np.cos(l), x])

@@ -1,4 +1,4 @@
-"""The density of crossings in a section: a tone in each pixel, of a colour for each of one or two kinds of orbits."""
+"""The density of crossings in a section: a tone for each pixel, a colour for each kind of orbits."""
 
 from __future__ import annotations
 
@@ -22,10 +22,15 @@ _BRIGHT = 0.995
 
 
 def tones(counts: Sequence[Array]) -> list[Array]:
-    """Return the opacity (n, m) of each kind of orbits, 0 to 255, in the order in which they are drawn.
+    """Return the opacity (n, m) of each kind of orbits, 0 to 255, in drawing order.
 
-    counts : crossings (n, m) of each kind in each pixel.  The tone grows with the logarithm of all crossings there.  A
-    kind covers the ones before it in proportion to its share of them, so that the colours mix by these shares.
+    The tone grows with the logarithm of the number of crossings in a pixel.  Each kind covers the previous ones in
+    proportion to its share of the crossings, so that the colours mix by these shares.
+
+    Parameters
+    ----------
+    counts : sequence of array (n, m)
+        Number of crossings of each kind in each pixel.
     """
     total = np.sum(counts, axis=0)
     full = max(2.0, float(np.quantile(total[total > 0], _BRIGHT)))

@@ -1,4 +1,4 @@
-"""A Poincaré section with points of two kinds, a dividing curve and the impossible region."""
+"""A Poincaré section with points of two kinds, a dividing curve and the forbidden region."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ _CLEAR = theme.FORBIDDEN + "00"
 
 
 def apart(points: Array, window: Window) -> Array:
-    """Return points (n, 2), thinned to one per cell of the window if there are very many."""
+    """Thin points (n, 2) to one per cell of the window if there are very many."""
     if len(points) <= _MANY:
         return points
     low, high = np.array(window)
@@ -49,7 +49,7 @@ def _kinds(
     colors: tuple[str, ...],
     labels: tuple[str, ...],
 ) -> Layer[S]:
-    """Return the layer of cells (m, n) by kind 0, 1, …; larger numbers count as the last kind, −1 is empty."""
+    """Return the layer of cells (m, n) of kinds 0, 1, …; −1 is empty, and larger numbers count as the last kind."""
     shifted = mapped(cells, lambda found: np.minimum(found, len(colors) - 1) + 1.5)
     return image(
         name,
@@ -66,7 +66,7 @@ def _kinds(
 
 
 def basins(arrivals: Callable[[S], Arrivals | None], window: Callable[[S], Window]) -> Layer[S]:
-    """Return the layer of basins: a colour for each attractor, the stronger the sooner an orbit arrives."""
+    """Return the layer of basins: a colour for each attractor, stronger for an earlier arrival."""
     faint, full = 0.35, 0.95
     shades = [f"{round(255 * (faint + (full - faint) * (i + 0.5) / _SHADES)):02x}" for i in range(_SHADES)]
     colors = (*theme.BASINS, theme.MUTED)
@@ -101,7 +101,7 @@ def basins(arrivals: Callable[[S], Arrivals | None], window: Callable[[S], Windo
 
 
 def indicator(cells: Callable[[S], Array | None], window: Callable[[S], Window]) -> Layer[S]:
-    """Return the layer of MEGNO, cells (m, n) of the kinds of `megno_map`."""
+    """Return the layer of MEGNO: cells (m, n) with the kinds of `megno_map`."""
     colors = (theme.SHEET + "50", theme.UNSTABLE + "60", theme.STABLE + "70", theme.MAP + "80", theme.MUTED + "60")
     labels = ("regular", "chaotic", "regular, volume shrinks", "chaotic, volume shrinks", "motion ends early")
     return _kinds("megno", cells, window, colors, labels)
@@ -117,10 +117,24 @@ def layers(
     labels: tuple[str, str],
     between: Layers[S] = (),
 ) -> Layers[S]:
-    """Return the layers: points (n, 2) of both kinds, the chosen orbits with rings at their starts, impossible in grey.
+    """Return the layers: points of both kinds, chosen orbits with rings at their starts, forbidden region in grey.
 
-    impossible : cells (m, n) over the window, 1 if impossible; labels : names of the kinds in the legend; between :
-    further layers, above the points of all orbits and below those of the chosen ones.
+    Parameters
+    ----------
+    first, second : callable
+        Points (n, 2) of the two kinds, as functions of the state.
+    own : callable
+        `own(state)` returns the points (n, 2) of the chosen orbits.
+    chosen : callable
+        `chosen(state)` returns the starts of the chosen orbits.
+    impossible : callable
+        `impossible(state)` returns cells (m, n) over the window, 1 in the forbidden region.
+    window : callable
+        `window(state)` returns the visible window.
+    labels : tuple of str
+        Names of the kinds in the legend.
+    between : sequence of Layer
+        Further layers, above the points of both kinds and below those of the chosen orbits.
     """
     return (
         image(

@@ -20,9 +20,9 @@ S = TypeVar("S")
 
 
 def within(curve: Array, turn: float, axes: Axes) -> list[Array]:
-    """Return the parts of a curve (n, 2) within the horizontal axis, an angle of period `turn` (∞ if none).
+    """Return the visible parts of a curve (n, 2) over an angle of period `turn` (∞ for other coordinates).
 
-    A part goes one point beyond the end; the frame clips it.
+    A part extends one point beyond the frame, which clips it.
     """
     low, high = axes.x
     x = curve[:, 0]
@@ -41,7 +41,7 @@ def within(curve: Array, turn: float, axes: Axes) -> list[Array]:
 
 
 def seen(places: Array, turn: float, axes: Axes) -> Array:
-    """Return the points (n, 2) within the horizontal axis, an angle of period `turn` (∞ if none)."""
+    """Return the visible points (n, 2) over an angle of period `turn` (∞ for other coordinates)."""
     low, high = axes.x
     x, y = places.T
     x = x if math.isinf(turn) else low + np.mod(x - low, turn)
@@ -54,7 +54,7 @@ def layers(
     manifolds: Callable[[S], Sequence[Manifold]],
     homoclinic: Callable[[S], Sequence[Intersection]],
 ) -> Layers[S]:
-    """Return the layers: manifolds of saddles, their intersections and, on top, the points of the orbits."""
+    """Return the layers: manifolds of saddles, their intersections, and the points of periodic orbits on top."""
 
     def parts(stable: bool) -> Callable[[S, Axes], list[Array]]:
         return lambda s, axes: [
@@ -89,7 +89,7 @@ def layers(
 
 
 def places(orbits: Callable[[S], Sequence[PeriodicOrbit]]) -> Layers[S]:
-    """Return the points of orbits, styled by stability."""
+    """Return the layers of the points of periodic orbits, styled by stability."""
 
     def of_sign(sign: str) -> Callable[[S], Array | None]:
         def of(state: S) -> Array | None:
@@ -134,7 +134,7 @@ def places(orbits: Callable[[S], Sequence[PeriodicOrbit]]) -> Layers[S]:
 
 
 def sign_of(kind: str) -> str:
-    """Return "attracts", "repels" or "neither" for an orbit of this kind."""
+    """Return "attracts", "repels" or "neither" for a kind of periodic orbit."""
     if kind in ("stable node", "stable focus"):
         return "attracts"
     return "neither" if kind == "elliptic" or kind.startswith("parabolic") else "repels"

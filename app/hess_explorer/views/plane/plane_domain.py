@@ -23,7 +23,7 @@ S = TypeVar("S")
 
 
 def plane_columns(orbit: Orbit, q: Array, **more: Array) -> Columns:
-    """Return the columns of an orbit for this plane and the sphere, with q (m, 2) and more for the player."""
+    """Return the columns of an orbit for this plane and the sphere, with q (m, 2) and `more` columns."""
     return {
         "t": column(orbit.times),
         "q1": column(q[:, 0]),
@@ -60,7 +60,7 @@ def picture(
 def ground(
     edge: Callable[[S], Array], forbidden: Callable[[S], Sequence[Array]], levels: Callable[[S], Sequence[Array]]
 ) -> Layers[S]:
-    """Return the layers below the orbit: grey outside the edge (n, 2) and inside closed curves; equipotentials."""
+    """Return the layers below the orbit: grey outside the edge and inside forbidden curves, and equipotentials."""
 
     def grey(state: S, axes: Axes) -> Regions:
         outer = edge(state)
@@ -85,9 +85,16 @@ def orbit(start: Callable[[S], tuple[float, float]], label: str = "") -> Layers[
 def momentum_picture(
     momentum: Callable[[S], tuple[Array, Array]], least: Callable[[S], float], is_integral: Callable[[S], bool]
 ) -> Plot[S]:
-    """Return the plot of q1p2 − q2p1 over time, (n,) each: an integral if the force is central.
+    """Return the plot of q1p2 − q2p1 over time, which is an integral if the force is central.
 
-    least : minimal half height of the axis; is_integral : whether the force is central.
+    Parameters
+    ----------
+    momentum : callable
+        `momentum(state)` returns times and values (n,).
+    least : callable
+        `least(state)` returns the minimum half height of the axis.
+    is_integral : callable
+        `is_integral(state)` returns whether the force is central.
     """
 
     def about(state: S) -> Caption:
@@ -104,7 +111,7 @@ def momentum_picture(
         title="q₁p₂ − q₂p₁ against time",
         caption=about,
         axes=("t", "q₁p₂ − q₂p₁"),
-        folded="Show q₁p₂ − q₂p₁ against time",
+        button="Show q₁p₂ − q₂p₁ against time",
         x=lambda s: (0.0, float(momentum(s)[0][-1])),
         dot=("t", "momentum"),
         y=lambda s: about_0(momentum(s)[1], least(s)),

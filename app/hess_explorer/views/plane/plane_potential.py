@@ -31,7 +31,7 @@ _LEVELS = (0.1, 0.25, 0.5, 0.75, 0.95)
 
 
 def about(body: PotentialBody, motion: PlaneMotion) -> Caption:
-    """Return the caption of a motion: whether and why it closes, and whether a further integral exists."""
+    """Return the caption of a motion: whether it is periodic, and whether a further integral exists."""
     if motion.fixed:
         return Caption("A fixed point: nothing changes.")
     if motion.period is not None:
@@ -62,7 +62,7 @@ def picture(
     motion: Callable[[S], PlaneMotion],
     half_width: Callable[[S], float],
 ) -> Plot[S]:
-    """Return the plot of the domain: equipotentials of U, and the motion from the start of the scene's orbit."""
+    """Return the plot of the domain: equipotentials of U, and the motion from the chosen start."""
 
     def edge(state: S) -> Array:
         angle = np.linspace(0.0, 2.0 * np.pi, 241)
@@ -90,7 +90,7 @@ def picture(
         axes=("q₁", "q₂"),
         x=about_origin(half_width),
         y=about_origin(half_width),
-        folded="Show another potential",
+        button="Show another potential",
         layers=(
             *ground(edge, too_high, levels),
             curves("border", lambda s: [edge(s)], color=theme.MUTED, width=1),

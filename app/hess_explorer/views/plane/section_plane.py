@@ -38,9 +38,20 @@ def layers(
     start: Callable[[S], Positions] | None = None,
     ended: Points[S] | None = None,
 ) -> Layers[S]:
-    """Return the layers: points (n, 2) of the chosen orbit, small points of others, a ring at the start, grey region.
+    """Return the layers of a section: the chosen orbit, other orbits, a ring at the start, the forbidden region.
 
-    forbidden : parts as of `region`; ended : points of other orbits that end early.
+    Parameters
+    ----------
+    own : callable
+        `own(state)` returns the points (n, 2) of the chosen orbit.
+    others : callable, optional
+        `others(state)` returns the points (n, 2) of other orbits, drawn small.
+    forbidden : callable, optional
+        `forbidden(state, axes)` returns the forbidden region, as for `region`.
+    start : callable, optional
+        `start(state)` returns the start of the chosen orbit.
+    ended : callable, optional
+        `ended(state)` returns the points (n, 2) of other orbits that end early.
     """
     found: list[Layer[S]] = []
     if forbidden is not None:
@@ -61,7 +72,7 @@ def _points(name: str, of: Points[S], color: str, size: float, label: str) -> La
 
 
 def _few(found: Array | None) -> Array | None:
-    """Return the distinct crossings (2, n) of a closed orbit, hardly visible as dots; None for other orbits."""
+    """Return the distinct crossings (2, n) of a closed orbit, which need large marks; None for other orbits."""
     if found is None or not len(found):
         return None
     places = np.unique(np.round(found, 3), axis=0)
@@ -69,16 +80,16 @@ def _few(found: Array | None) -> Array | None:
 
 
 def joined(parts: Iterable[Array]) -> Array:
-    """Return all points (n, 2) of some orbits."""
+    """Concatenate the points (n, 2) of some orbits."""
     return np.concatenate([np.empty((0, 2)), *parts])
 
 
 def band(middle: float, half: float, period: float, axes: Axes) -> list[list[Array]]:
-    """Return the vertical band middle ± half of the horizontal angle, with periodic copies, as `forbidden`."""
+    """Return the vertical band middle ± half of the horizontal angle with its periodic copies, as a region."""
     part = rectangle((-half, half), axes.y)
     return [[part + np.array([middle + turn, 0.0])] for turn in (-period, 0.0, period)]
 
 
 def outside(curves: Sequence[Array], x: float, y: float) -> list[list[Array]]:
-    """Return the rectangle ± x, ± y without the interior of closed curves (n, 2), as `forbidden`."""
+    """Return the rectangle ±x, ±y without the interior of closed curves (n, 2), as a region."""
     return [[rectangle((-x, x), (-y, y)), *curves]]

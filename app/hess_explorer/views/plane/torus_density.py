@@ -1,4 +1,4 @@
-"""The unrolled torus of the Hess case: invariant density and the orbit on show."""
+"""The unrolled torus of the Hess case: invariant density and the current orbit."""
 
 from __future__ import annotations
 
@@ -34,11 +34,11 @@ def phases(track: Track, theta: CircleMap | None) -> Array:
     return np.asarray(2.0 * np.pi * (turns - np.floor(turns + 0.5)))
 
 
-def reason_for_no_density(theta: CircleMap | None, turning: TurningPoints | None) -> str:
-    """Return the reason for a missing density, "" if it exists; both arguments are None on the separatrix."""
-    if theta is None or turning is None:
+def reason_for_no_density(theta: CircleMap | None, turning_points: TurningPoints | None) -> str:
+    """Return the reason for a missing density, "" if it exists; the arguments are None on the separatrix."""
+    if theta is None or turning_points is None:
         return "On the separatrix no motion returns."
-    if turning.roots[2] - turning.roots[1] < 1e-6:
+    if turning_points.roots[2] - turning_points.roots[1] < 1e-6:
         return "On the bifurcation curve the torus is a circle."
     if theta.kind == "hyperbolic":
         return "|trace| > 2: all motions but one tend to the stable limit cycle."
@@ -56,7 +56,7 @@ def about(density: Array) -> Caption:
 
 
 def picture(density: Callable[[S], tuple[Array | None, str]]) -> Plot[S]:
-    """Return the plot of the density (n, m) relative to the uniform one, or of the reason for none, and the orbit."""
+    """Return the plot of the density (n, m) relative to the uniform one, or of the reason for None, and the orbit."""
 
     def caption(state: S) -> Caption:
         found, reason = density(state)
@@ -86,6 +86,6 @@ def picture(density: Callable[[S], tuple[Array | None, str]]) -> Plot[S]:
         y=ANGLE,
         ticks=ANGLE_TICKS,
         dot=("sigma", "phi"),
-        folded="Show the density on the torus",
+        button="Show the density on the torus",
         layers=layers,
     )

@@ -30,7 +30,7 @@ def layers(
     half_width: Callable[[S], float],
     proved: Callable[[S], Regions] = lambda s: (),
 ) -> Layers[S]:
-    """Return the layers: tracks "orbit", "stable" and "unstable" in the ring between two ellipses, proved band."""
+    """Return the layers: orbit, stable and unstable cycle in the ring between two ellipses, and the proved band."""
     return (
         region(
             "forbidden",
@@ -65,13 +65,13 @@ def layers(
 
 
 def phases_at_returns(track: Track, theta: CircleMap, iterates: Array) -> Array:
-    """Return the phase of the last return at each time of an orbit (n,); `iterates` : phases of all returns."""
+    """Return the phase of the last return at each time (n,) of an orbit, given the phases `iterates` of all returns."""
     index = np.floor(track.orbit.times / theta.period).astype(int)
     return np.asarray(iterates[np.minimum(index, len(iterates) - 1)])
 
 
 def track_columns(track: Track, **more: Array) -> Columns:
-    """Return the columns of an orbit and further columns for the player."""
+    """Return the columns of an orbit, with `more` columns for the player."""
     return velocity_columns(track.times, track.omega, track.gamma, phi=track.phi, **more)
 
 
@@ -85,24 +85,24 @@ def is_circle(turning: TurningPoints | None) -> bool:
     return turning is not None and turning.roots[2] - turning.roots[1] < 1e-6
 
 
-def about(theta: CircleMap | None, turning: TurningPoints | None) -> Caption:
-    """Return the fate of the orbit on its torus; both None on the separatrix."""
-    if theta is None or turning is None:
+def about(theta: CircleMap | None, turning_points: TurningPoints | None) -> Caption:
+    """Return the caption on the behaviour of the orbit; the arguments are None on the separatrix."""
+    if theta is None or turning_points is None:
         return Caption("The orbit comes to rest in infinite time.")
     orbit = {
         "hyperbolic": "The orbit tends to the stable limit cycle.",
         "parabolic": f"{cycles(theta).capitalize()}.",
-    }.get(theta.kind, "No limit cycle: the orbit winds for ever.")
-    if is_circle(turning):
+    }.get(theta.kind, "No limit cycle: the orbit winds forever.")
+    if is_circle(turning_points):
         orbit = "Bifurcation curve: the torus is a circle."
-    return Caption(orbit, f"|w| {ranging(turning.initial_rho, turning.final_rho)}.")
+    return Caption(orbit, f"|w| {ranging(turning_points.initial_rho, turning_points.final_rho)}.")
 
 
-def about_heights(turning: TurningPoints | None) -> Caption:
-    """Return the range of heights of the vertical; None on the separatrix."""
-    if turning is None:
+def about_heights(turning_points: TurningPoints | None) -> Caption:
+    """Return the caption on the heights of the vertical; the argument is None on the separatrix."""
+    if turning_points is None:
         return Caption("The vertical tends to n₃ = −1.", "The upper equilibrium.")
-    n1, n2 = turning.roots[1:]
+    n1, n2 = turning_points.roots[1:]
     if digits(n1) == digits(n2):
         return Caption("The vertical γ has constant height.", f"n₃ = {digits(n1)}.")
     return Caption("The vertical γ between two heights.", f"n₃ = {digits(n1)} and {digits(n2)}.")

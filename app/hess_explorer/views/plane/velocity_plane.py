@@ -60,7 +60,7 @@ S = TypeVar("S")
 
 
 def velocity_columns(times: Array | None, omega: Array, gamma: Array, **more: Array) -> Columns:
-    """Return the columns of ω (m, 2) and γ (m, 3) for this plane and the sphere, and more for the player."""
+    """Return the columns of ω (m, 2) and γ (m, 3) for this plane and the sphere, with `more` columns."""
     moving = {} if times is None else {"t": column(times)}
     return {
         **moving,
@@ -106,7 +106,7 @@ def picture(
 
 
 def orbit(label: str) -> Layer[S]:
-    """Return the track of the orbit, bold."""
+    """Return the bold layer of the orbit."""
     return line(
         "orbit", track="orbit", columns=("omega1", "omega2"), color=theme.ORBIT, width=2.5, label=label, tag="orbit"
     )
@@ -123,25 +123,25 @@ def orbit_alone(
     proved: Callable[[S], Regions],
     label: str = "",
 ) -> Plot[S]:
-    """Return the plane with only the track of the orbit and the proved band; `energy` goes to the caption."""
+    """Return the plot of the orbit and the proved band, with the energy in the caption."""
     return picture(
         lambda s: Caption("The chosen orbit.", f"E = {digits(energy(s))}."), half_width, (band(proved), orbit(label))
     )
 
 
 def nice_above(value: float) -> float:
-    """Return the next of 1, 1.5, 2, 3, 4, 5, 6, 8 times a power of ten."""
+    """Round up to 1, 1.5, 2, 3, 4, 5, 6 or 8 times a power of ten."""
     power = 10.0 ** np.floor(np.log10(value))
     return float(power * next(step for step in (1, 1.5, 2, 3, 4, 5, 6, 8, 10) if step * power >= value * (1 - 1e-12)))
 
 
 def room_for(speed: float) -> float:
-    """Return half the width of a plane with room for |ω| = `speed`."""
+    """Return the half width of a plane with room for |ω| = `speed`."""
     return nice_above(1.05 * max(1e-9, speed))
 
 
 def centred(half_width: float) -> Range:
-    """Return the range of an axis about 0."""
+    """Return the range ±half_width."""
     return -half_width, half_width
 
 
@@ -156,17 +156,17 @@ def square(half_width: float) -> Array:
 
 
 def outside(curve: Array, half_width: float) -> list[Array]:
-    """Return the outside of a closed curve (m, 2), as a part of a `region`."""
+    """Return the exterior of a closed curve (m, 2) as a part of a region."""
     return [square(half_width), curve]
 
 
 def ring_outside(inner: Array, outer: Array, half_width: float) -> Regions:
-    """Return all but the ring between two closed curves (m, 2), as a `region` larger than any held axes."""
+    """Return the complement of the ring between two closed curves (m, 2) as a region larger than any axes."""
     return [outside(outer, 4.0 * half_width), [inner]]
 
 
 def beside(inner: Array, outer: Array, half_width: float) -> Array:
-    """Return label places (2, 2): inside a point (2,) of one closed curve and outside a point of the other."""
+    """Return places (2, 2) of labels: inside a point (2,) of the inner curve and outside a point of the outer one."""
     gap = 0.09 * half_width
     lengths = np.linalg.norm([inner, outer], axis=1)
     return np.array([inner * (1.0 - min(1.0, gap / lengths[0])), outer * (1.0 + gap / lengths[1])])
@@ -177,7 +177,7 @@ def halves(
 ) -> Layers[S]:
     """Return the layers of the stable and the unstable half of the line of equilibria, segments (2, 2).
 
-    The label in the picture is the part of the legend's entry before the comma.
+    The label in the picture is the part of the legend entry before the comma.
     """
     tags = [label.split(",")[0] for label in labels]
     return (
@@ -202,13 +202,13 @@ def halves(
 
 
 def to_the_edge(point: Array, half_width: float, axes: Axes) -> Array:
-    """Return the half line (2, 2) from 0 through a point (2,) beyond the picture and any held axes."""
+    """Return the half line (2, 2) from 0 through a point (2,) to beyond the frame."""
     far = max(half_width, axes.x[1]) / max(float(np.max(np.abs(point))), 1e-300)
     return np.array([np.zeros(2), far * np.asarray(point)])
 
 
 def equilibria(stable: Callable[[S], Array], unstable: Callable[[S], Array]) -> Layers[S]:
-    """Return the layers of a stable point (2,), filled, and an unstable one, hollow."""
+    """Return the layers of a stable point (2,), filled, and of an unstable point, hollow."""
     return (
         points("stable-point", lambda s: stable(s)[:, None], color=theme.STABLE, size=11, edge_width=3),
         points(
@@ -218,7 +218,7 @@ def equilibria(stable: Callable[[S], Array], unstable: Callable[[S], Array]) -> 
 
 
 def energy_levels(data: Callable[[S], Sequence[Array]], half_width: Callable[[S], float], label: str) -> Layers[S]:
-    """Return the layers of curves (m, 2) of other energies, with arrows from their first to their last point."""
+    """Return the layers of curves (m, 2) at other energies, with arrows in their direction."""
     return (
         curves("levels", data, color=theme.MUTED, width=1, label=label),
         arrows("level-arrows", lambda s: arrows_on(data(s), half_width(s)), color=theme.MUTED, size=8),

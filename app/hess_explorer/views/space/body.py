@@ -1,4 +1,4 @@
-"""The solid body in space, and the curves that its points draw on a fixed sphere; rendered by "body.js"."""
+"""The body in space, and the curves that its points trace on a fixed sphere; rendered by "body.js"."""
 
 from __future__ import annotations
 
@@ -37,11 +37,19 @@ _THINNEST = 0.12
 
 @dataclass(frozen=True)
 class Shape:
-    """Ellipsoid of a body with a fixed point, in the coordinates of its attitude.
+    """Ellipsoid of a body with a fixed point, in the axes of its attitude.
 
-    axes : (3, 3), principal axes in rows; moments : (3,); names : names of the axes.
-    section : (3,), normal of a circular section of the gyration ellipsoid, with the radius of the middle moment;
-    selects the gyration ellipsoid (M, I⁻¹M) = const.  None selects the ellipsoid of inertia (ω, Iω) = const.
+    Attributes
+    ----------
+    axes : array (3, 3)
+        Principal axes in rows.
+    moments : array (3,)
+        Principal moments of inertia.
+    names : tuple of str
+        Names of the axes.
+    section : array (3,) or None
+        Normal of a circular section of the gyration ellipsoid (M, I⁻¹M) = const, which is then drawn.  None draws the
+        ellipsoid of inertia (ω, Iω) = const.
     """
 
     axes: Array
@@ -59,14 +67,21 @@ class Shape:
 
     @property
     def semi_axes(self) -> Array:
-        """Semi-axes of the ellipsoid, proportional to √I1 : √I2 : √I3 or to their inverses; shape (3,)."""
+        """Semi-axes (3,) of the ellipsoid, proportional to √I1 : √I2 : √I3 or to their inverses."""
         lengths = np.sqrt(self.moments) if self.section is not None else 1.0 / np.sqrt(self.moments)
         return LARGEST * np.maximum(lengths / np.max(lengths), _THINNEST)
 
     def weights(self, centre: Array | None, hollow: bool) -> Array:
-        """Return six weights with these moments and their centre of mass along `centre`, (n, 4) as x, y, z, radius.
+        """Return weights (n, 4) as x, y, z, radius, with the moments of inertia of the body.
 
-        Their volumes are proportional to their masses.  Empty if there are none; hollow : they lie in a ball's wall.
+        Their volumes are proportional to their masses.  Empty if no weights have these moments.
+
+        Parameters
+        ----------
+        centre : array (3,) or None
+            Direction of their centre of mass.
+        hollow : bool
+            True for weights in the wall of a hollow ball.
         """
         arms = np.full(3, _WALL) if hollow else self.semi_axes + _WEIGHT
         masses = paired_weights(self.moments, arms, None if centre is None else self.axes @ centre)
@@ -81,10 +96,17 @@ class Shape:
 class Wheels:
     """Vagner's wheels for the constraint (ω, e) = 0: they roll on a fixed shell without slipping sideways.
 
-    The axles are parallel; `at` and −`at` touch the shell; the wheels lie in the plane of `at` and `e`.  The velocity
-    ω × at has no component along the axle at × e if and only if (ω, e) = 0.
+    The axles are parallel; `at` and −`at` touch the shell; the wheels lie in the plane of `at` and `e`.  The velocity ω
+    × at has no component along the axle at × e if and only if (ω, e) = 0.
 
-    at : unit vector of the body orthogonal to e; e : unit vector of the constraint; look : of the trace, as in `Rod`.
+    Attributes
+    ----------
+    at : sequence of float
+        Unit vector (3,) of the body orthogonal to e.
+    e : sequence of float
+        Unit vector (3,) of the constraint.
+    look : str
+        Style of the trace, as in `Rod`.
     """
 
     at: Sequence[float] | Array
@@ -96,7 +118,10 @@ class Wheels:
 class Rod:
     """A rod from the fixed point to the unit sphere, along a direction of the body, with a dot and a label.
 
-    look : "mass" (ends in a ball), "axis", "orbit", "second", "stable", "unstable" or "muted".
+    Attributes
+    ----------
+    look : str
+        "mass" (ends in a ball), "axis", "orbit", "second", "stable", "unstable" or "muted".
     """
 
     along: Sequence[float] | Array
@@ -106,7 +131,10 @@ class Rod:
 
 @dataclass(frozen=True)
 class Curve:
-    """A curve in space, components (n, 3) along (γ, e, γ × e); look as in `Rod`, or "limit"; width in pixels."""
+    """A curve in space, in components (n, 3) along (γ, e, γ × e).
+
+    Its `look` is a style of `Rod` or "limit"; the width is in pixels.
+    """
 
     points: Array
     look: str
@@ -114,7 +142,7 @@ class Curve:
 
 
 def seen_in_space(points: Array) -> Array:
-    """Convert components along (γ, e, γ × e) to the axes of the picture: e, γ × −e and, upwards, −γ."""
+    """Convert components along (γ, e, γ × e) to the axes of the picture: e, −γ × e and −γ (upwards)."""
     return np.stack([points[..., 1], -points[..., 2], -points[..., 0]], axis=-1)
 
 
@@ -129,16 +157,34 @@ _WEIGHTS = Sign("weights with the body's moments of inertia", "dot", "background
 
 @dataclass(frozen=True, kw_only=True)
 class BodyInSpace(Picture[S]):
-    """The sphere fixed in space, with γ downwards like gravity, and the body inside at the player's time.
+    """A sphere fixed in space, with γ pointing down, and the body inside at the time of the player.
 
-    shape(state) : the ellipsoid of the body, or None.
-    motion(state) : its attitude and the times (n,) in the player's units, or None.
-    wheels : the wheels of its constraint; trail(state) : the direction whose trace is drawn, or None.
-    mass(state) : direction of the centre of mass of its weights, or None.
-    hollow : draw a glass ball rolling on an inner ball instead of the ellipsoid; heavy(state) : whether γ is gravity.
-    attitude : the picture whose attitude it follows, if it has none of its own.
-    rods : fixed to the body; curves : in space; circles, marks : fixed in the space of the picture.
-    bare : omit the lines of the sphere.
+    Attributes
+    ----------
+    shape : callable or None
+        `shape(state)` returns the ellipsoid of the body, or None.
+    motion : callable or None
+        `motion(state)` returns its attitude and the times (n,) in the player's units, or None.
+    wheels : Wheels or None
+        The wheels of its constraint.
+    trail : callable or None
+        `trail(state)` returns the direction whose trace is drawn, or None.
+    mass : callable or None
+        `mass(state)` returns the direction of the centre of mass of the weights, or None.
+    hollow : bool
+        True to draw a glass ball rolling on an inner ball instead of the ellipsoid.
+    heavy : callable
+        `heavy(state)` returns whether γ is the direction of gravity.
+    attitude : str
+        Name of the picture whose attitude it follows; empty if it has its own.
+    rods : callable
+        `rods(state)` returns rods fixed to the body.
+    curves : callable
+        `curves(state)` returns curves in space.
+    circles, marks : sequence
+        Circles and marks fixed in the space of the picture.
+    bare : bool
+        True to omit the lines of the sphere.
     """
 
     shape: Callable[[S], Shape | None] = lambda state: None
@@ -159,7 +205,7 @@ class BodyInSpace(Picture[S]):
 
     @property
     def needs(self) -> frozenset[str]:
-        """The pictures whose data must be there for it."""
+        """Names of the pictures whose data the picture requires."""
         return super().needs | ({self.attitude} if self.attitude else set())
 
     @property

@@ -98,10 +98,18 @@ def _points(clouds: Clouds) -> Array:
 class CloudPlane(Picture[S]):
     """The (ω1, ω2)-plane; its source holds the frames of all clouds, also for a sphere with `clouds`.
 
-    clouds(state) : the moving clouds; half_width(state) : axes ± half_width.
-    strip(state) : σ1, σ2 and the line of equilibria at the energy h.
-    b3(state) : the field in which the second cloud moves, with I13 = I23 = 0.
-    density : source of the density over |s| at the player's time, filled by the browser.
+    Attributes
+    ----------
+    clouds : callable
+        `clouds(state)` returns the moving clouds.
+    half_width : callable
+        `half_width(state)` returns axes ± half_width.
+    strip : callable
+        `strip(state)` returns σ1, σ2 and the line of equilibria at the energy h.
+    b3 : callable
+        `b3(state)` returns the field in which the second cloud moves, with I13 = I23 = 0.
+    density : str
+        Source of the density over |s| at the player's time, filled by the browser.
     """
 
     clouds: Callable[[S], Clouds]
@@ -231,7 +239,10 @@ def history_layers(
 ) -> Layers[S]:
     """Return the layers of mean, minimum, maximum (3, m) over the cloud at times (m,); track "orbit" holds the mean.
 
-    beside : whether there is a cloud on a principal axis, whose values are 0.
+    Parameters
+    ----------
+    beside : callable
+        Whether there is a cloud on a principal axis, whose values are 0.
     """
 
     def extreme(name: str, i: int) -> Layer[S]:

@@ -90,10 +90,16 @@ def gamma_columns(gamma: Array) -> Columns:
 class Sphere(Picture[S]):
     """The sphere with the tracks of the scene that have columns g1, g2, g3.
 
-    looks : track → look, "orbit", "second", "stable", "unstable" or "muted".
-    axis(state), circles(state), marks(state) : additional marks.
-    clouds : the picture whose clouds it also shows.
-    labels : names of the three axes.
+    Attributes
+    ----------
+    looks : mapping of str to str
+        Track → look, "orbit", "second", "stable", "unstable" or "muted".
+    axis, circles, marks : callable or None
+        Additional marks.
+    clouds : str
+        The picture whose clouds it also shows.
+    labels : tuple
+        Names of the three axes.
     """
 
     name: str = "sphere"

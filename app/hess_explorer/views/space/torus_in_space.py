@@ -39,9 +39,15 @@ class Curve:
 class TorusInSpace(Picture[S]):
     """The torus as `hess_mechanics.suslov_hess.embedding` places it.
 
-    surface(state) : its cross-section, or None.
-    curves(state) : curves by their looks, "orbit", "stable" or "unstable".
-    zeta(state) : the points ζ_s (n,) of the invariant density along the cross-section, or None to leave it out.
+    Attributes
+    ----------
+    surface : callable or None
+        `surface(state)` returns its cross-section, or None.
+    curves : callable
+        `curves(state)` returns curves by their looks, "orbit", "stable" or "unstable".
+    zeta : callable or None
+        `zeta(state)` returns the points ζ_s (n,) of the invariant density along the cross-section, or None to leave it
+        out.
     """
 
     name: str = "surface"
@@ -86,17 +92,17 @@ def _columns(curve: Curve | None) -> Columns:
     return {**times, **{name: column(curve.points[:, i]) for i, name in enumerate("xyz")}}
 
 
-def about(theta: CircleMap | None, turning: TurningPoints | None, *more: str) -> Caption:
+def about(theta: CircleMap | None, turning_points: TurningPoints | None, *more: str) -> Caption:
     """Return what the surface is, and more sentences; both None on the separatrix."""
-    return Caption(_kind(theta, turning), " ".join(filter(None, more)))
+    return Caption(_kind(theta, turning_points), " ".join(filter(None, more)))
 
 
-def _kind(theta: CircleMap | None, turning: TurningPoints | None) -> str:
-    if theta is None or turning is None:
+def _kind(theta: CircleMap | None, turning_points: TurningPoints | None) -> str:
+    if theta is None or turning_points is None:
         return "Separatrix: the centre is the upper equilibrium."
-    if turning.roots[2] - turning.roots[1] < 1e-6:
+    if turning_points.roots[2] - turning_points.roots[1] < 1e-6:
         return "Bifurcation curve: the torus is a circle."
-    if turning.f == 0.0 and turning.h < 1.0:
+    if turning_points.f == 0.0 and turning_points.h < 1.0:
         return "f = 0: the centre is a circle."
     if theta.kind == "hyperbolic":
         return "Two limit cycles on the torus."

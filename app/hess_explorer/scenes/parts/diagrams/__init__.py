@@ -1,1 +1,1 @@
-"""Parts about diagrams over a parameter."""
+"""Parts for diagrams over a parameter."""

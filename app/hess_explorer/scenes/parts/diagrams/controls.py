@@ -16,7 +16,7 @@ from hess_explorer.scenes.framework.sliders import (
     exponent_time,
     number,
     places,
-    proved_error_shown,
+    show_proved_error,
     time_span,
 )
 from hess_mechanics.chaplygin_ball.ball_section import BallSection
@@ -60,9 +60,12 @@ def parameter_of_diagram(symbols: tuple[str, ...], default: str) -> str:
 
 @dataclass(frozen=True)
 class DiagramControls(State, ABC):
-    """The parameters of a diagram; a scene declares those of its body and the parameter of the diagram.
+    """The parameters of a diagram; a scene adds those of its body and the parameter of the diagram.
 
-    symbols : symbol of each parameter of the section → its name.
+    Attributes
+    ----------
+    symbols : mapping of str to str
+        Names of the section's parameters by symbol.
     """
 
     h: float
@@ -122,12 +125,12 @@ class DiagramControls(State, ABC):
         (NONE, *PERIODS),
         NONE,
         group="State",
-        doc="Over the diagram: the periodic orbit that Newton's method finds from the chosen place, "
+        doc="Over the diagram: the periodic orbit that Newton's method finds near the chosen place, "
         "continued in the parameter, through folds. A click on it shows that orbit.",
     )
     span: float = time_span(60.0, 400.0, what="the chosen orbit")
     long: float = exponent_time(4000.0, 5000.0, 2e4, "the mean divergence is")
-    certain: str = proved_error_shown()
+    certain: str = show_proved_error()
     accuracy: str = accuracy_level()
     chosen: str = places("The place of the chosen orbit", 1, *BOUNDS)
 

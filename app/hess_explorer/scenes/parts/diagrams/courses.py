@@ -1,4 +1,4 @@
-"""Orbits followed through the values of a parameter, in pieces, and what is read off them."""
+"""Orbits followed through the values of a parameter, in pieces; period doublings and ranges of these orbits."""
 
 from __future__ import annotations
 
@@ -33,16 +33,33 @@ _ROOM, _LEAST = 0.1, 0.01
 
 @dataclass(frozen=True)
 class Course:
-    """An orbit followed through the values of the parameter, in pieces; parameters as of `diagram_over`.
+    """An orbit followed through the values of a parameter, in pieces.
 
-    before : the course at whose end this one starts; without it, it starts at `place`.
+    Attributes
+    ----------
+    family : Family
+        The section over the parameter.
+    values : tuple of float
+        Values of the parameter.
+    place : tuple of float
+        Start of the orbit in the section, without `before`.
+    transient, count : int
+        Numbers of omitted and of drawn crossings at each value.
+    follow : bool
+        True to start at the last place of the previous value; False to start at `place` again.
+    level : Level
+        Level of accuracy.
+    backward : bool
+        True to follow the orbit backward in time.
+    before : Course or None
+        The course whose end is the start of this one.
     """
 
     family: Family
     values: tuple[float, ...]
     place: Place
     transient: int
-    kept: int
+    count: int
     follow: bool
     level: Level
     backward: bool = False
@@ -54,26 +71,26 @@ class Course:
         return range(-(-len(self.values) // _TOGETHER))
 
     def over(self, values: Sequence[float], start: Place) -> Diagram:
-        """Return the orbit diagram over some of the values, from a place."""
+        """Return the orbit diagram over some values, starting at a place."""
         return diagram_over(
             lambda value: ReturnMap(self.family(value), self.level, self.backward),
             self.family.name,
             values,
             start,
             self.transient,
-            self.kept,
+            self.count,
             self.follow,
             self.place,
         )
 
 
 def piece(course: Course, number: int) -> Diagram:
-    """Return a piece of a course, which needs the pieces before it."""
+    """Return a piece of a course; computes the previous pieces first."""
     return course.over(course.values[number * _TOGETHER : (number + 1) * _TOGETHER], _reached(course, number))
 
 
 def _reached(course: Course, number: int) -> Place:
-    """Return the last place of the orbit on the section before a piece."""
+    """Return the last place of the orbit in the section before a piece."""
     if number == 0:
         return course.place if course.before is None else _reached(course.before, len(course.before.pieces))
     before: Diagram = Task(piece, course, number - 1).get()
@@ -82,7 +99,7 @@ def _reached(course: Course, number: int) -> Place:
 
 
 def doublings(course: Course) -> Cascade | str:
-    """Return the doublings from the first one seen on a course, or why none was located; "" if none is seen."""
+    """Return the period doublings from the first visible one, or why none was located; "" if none is visible."""
     seen = first_doubling([Task(piece, course, number).get() for number in course.pieces])
     if seen is None:
         return ""
@@ -98,7 +115,7 @@ def doublings(course: Course) -> Cascade | str:
 
 
 def cropped(course: Course, side: int, whole: Range) -> Range:
-    """Return the range of a coordinate with the attractor over the parameter, and the repeller if it is near."""
+    """Return the range of a coordinate that contains the attractor, and the repeller if it is near."""
     attractor, repeller = (
         [some[:, side] for some in way.over(way.values, way.place).places]
         for way in (course, replace(course, backward=True))
@@ -112,6 +129,6 @@ def cropped(course: Course, side: int, whole: Range) -> Range:
 
 
 def _range(parts: Sequence[Array]) -> Range:
-    """Return the range of the points at most values."""
+    """Return the range of the points, without a small share of the values."""
     lows, highs = zip(*((one.min(), one.max()) for one in parts if len(one)), strict=True)
     return float(np.quantile(lows, _FEW_FAR)), float(np.quantile(highs, 1.0 - _FEW_FAR))

@@ -1,4 +1,4 @@
-"""An orbit diagram shaded by the density of a million points, which grow while one looks."""
+"""An orbit diagram shaded by the density of a million points, computed in stages."""
 
 from __future__ import annotations
 
@@ -44,17 +44,20 @@ _NEAR = 3
 class DiagramDensity(Part[OrbitDiagram]):
     """Points of the orbits of a diagram, counted in the pixels of the window.
 
-    The diagram gives the place to which the orbit settles at each of its values.  Between two values there are further
-    columns.  The orbits are followed in stages, each of which makes them some times as long.
+    At each value the orbit starts at the place where the diagram has settled.  There are further columns between two
+    values.  Each stage multiplies the length of the orbits.
 
-    forward : direction of time of each way: backward in time, back, and there, in this order.
+    Attributes
+    ----------
+    forward : mapping of str to bool
+        Direction of time of each way, in drawing order.
     """
 
     forward: ClassVar[Mapping[str, bool]] = {BACKWARD: False, FALLING: True, RISING: True}
 
     @cached_property
     def _ends(self) -> dict[str, Array]:
-        """The last place at each value, in rising order, by way; only of ways that are complete."""
+        """The last places (n, 2) of each complete way, by increasing value of the parameter."""
         return {
             way: np.concatenate([one.ends for one in parts])[:: -1 if way == FALLING else 1]
             for way, parts in self.host.pieces.items()
@@ -92,7 +95,7 @@ class DiagramDensity(Part[OrbitDiagram]):
 
     @cached_property
     def _found(self) -> list[tuple[str, Visits | None]]:
-        """Way and newest known visits of each group of columns; none while a slider is held."""
+        """Way and newest visits of each group of columns; empty while a slider is held."""
         if self.work.dragging:
             return []
         chains = [(way, chain) for way in self.forward if way in self._ends for chain in self._chains(way)]
@@ -106,13 +109,13 @@ class DiagramDensity(Part[OrbitDiagram]):
 
     @property
     def _complete(self) -> bool:
-        """True if all ways are known in all columns."""
+        """True if all columns of all ways are known."""
         return {way for way, one in self._found if one is not None} == set(self.host.pieces) and all(
             one is not None for _, one in self._found
         )
 
     def counts(self, way: str) -> Array:
-        """Return the points (n, m) of a way in each pixel."""
+        """Return the number of points of a way in each pixel, (n, m)."""
         groups = [one.counts for name, one in self._found if one is not None and name == way]
         return np.concatenate(groups, axis=1) if groups else np.zeros((_ROWS, self._columns), np.uint32)
 
@@ -130,7 +133,7 @@ class DiagramDensity(Part[OrbitDiagram]):
 
     @property
     def said(self) -> str:
-        """The number of points in words; an empty string until they are shown."""
+        """The number of points as a sentence; an empty string until they are shown."""
         return f"{self.points:,} points. " if self.tones else ""
 
     def status(self) -> Iterator[str]:
@@ -142,7 +145,7 @@ class DiagramDensity(Part[OrbitDiagram]):
 
 @dataclass(frozen=True)
 class _Columns:
-    """Columns of pixels whose orbits are followed together; first : crossings of each in the first stage."""
+    """Columns of pixels whose orbits are followed together; `first` crossings of each in the first stage."""
 
     family: Family
     values: tuple[float, ...]
@@ -154,13 +157,13 @@ class _Columns:
     level: Accuracy
 
     def visits(self, starts: Sequence[Place] | Array, skipped: int, crossings: int) -> Visits:
-        """Return the visits of orbits from these places."""
+        """Return the visits of orbits that start at these places."""
         some = self.family, self.values, self.side, self.reach, _ROWS
         return visits_over(*some, starts, skipped, crossings, self.forward, self.level)
 
 
 def _stage(columns: _Columns, number: int) -> Visits:
-    """Return the visits of some columns up to a stage."""
+    """Return the visits of some columns, including earlier stages."""
     if number == 0:
         return columns.visits(columns.starts, _SKIPPED, columns.first)
     before = Task(_stage, columns, number - 1).get()

@@ -1,4 +1,4 @@
-"""An orbit diagram of a section over one parameter, computed piece by piece, and a branch over it."""
+"""An orbit diagram of a section over one parameter, computed in pieces, and a branch over it."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from itertools import product
 import numpy as np
 
 from hess_explorer.compute.cache import Task
-from hess_explorer.protocol.specs import Values, written
+from hess_explorer.protocol.specs import Values, places_text
 from hess_explorer.protocol.specs import places as points_of
 from hess_explorer.scenes.framework.continuation import Continuation
 from hess_explorer.scenes.framework.families import Begin, Family
@@ -51,7 +51,7 @@ _GLANCES = 12
 class OrbitDiagram(Part[DiagramControls]):
     """The points to which the orbits of a section settle, over one of its parameters."""
 
-    def admitted(self, notes: list[str]) -> Values:
+    def corrections(self, notes: list[str]) -> Values:
         """Return a valid window within the diagram, a place, and the edges in order."""
         first, last = sorted((self.host.first, self.host.last))
         if first == last:
@@ -73,9 +73,9 @@ class OrbitDiagram(Part[DiagramControls]):
 
     @cached_property
     def place(self) -> tuple[float, float]:
-        """The start of the orbit on show: the chosen place, or another one if no motion is possible there.
+        """The start of the orbit: the chosen place, or another one if no motion is possible there.
 
-        Raises `OutsideRegion`.
+        Raises `OutsideRegion` if no motion crosses the section.
         """
         (chosen,) = points_of(self.host.chosen)[-1:]
         if self.poincare.states_at(*np.array(chosen)[:, None])[1][0]:
@@ -88,7 +88,7 @@ class OrbitDiagram(Part[DiagramControls]):
 
     @property
     def start(self) -> Start:
-        """The initial state of the orbit on show."""
+        """The initial state of the current orbit."""
         return tuple(map(float, self.poincare.states_at(*np.array(self.place)[:, None])[0][0]))
 
     @cached_property
@@ -99,7 +99,7 @@ class OrbitDiagram(Part[DiagramControls]):
 
     @cached_property
     def height(self) -> Range | None:
-        """The visible range of the coordinate: that of the attractor, unless a window is chosen; None while unknown."""
+        """The visible range of the coordinate: the chosen window or the range of the attractor; None until known."""
         (left, low), (right, high) = self._window
         if self.host.window:
             return low, high
@@ -109,7 +109,7 @@ class OrbitDiagram(Part[DiagramControls]):
 
     @cached_property
     def frame(self) -> Window:
-        """The visible window; as high as the whole diagram while its height is unknown."""
+        """The visible window; the full height of the diagram until the range of the attractor is known."""
         (left, low), (right, high) = self._window
         low, high = self.height or (low, high)
         return (left, low), (right, high)
@@ -121,17 +121,17 @@ class OrbitDiagram(Part[DiagramControls]):
 
     @property
     def at(self) -> float:
-        """The value of the parameter in this state."""
+        """The current value of the parameter."""
         return float(getattr(self.host, self.name))
 
     @property
     def family(self) -> Family:
-        """The sections over the parameter; they do not depend on its value in this state."""
+        """The section over the parameter, independent of its current value."""
         return Family.of(self.host, self.name, self.host.along, tuple(self.host.symbols.values()))
 
     @property
     def side(self) -> int:
-        """Index of the section's coordinate that the diagram shows."""
+        """Index of the section's coordinate on the vertical axis."""
         return COORDINATES.index(self.host.shown)
 
     @cached_property
@@ -184,18 +184,18 @@ class OrbitDiagram(Part[DiagramControls]):
 
     @property
     def _locates(self) -> bool:
-        """True if doublings are located: not while a slider is held, and not at `draft`."""
+        """True if period doublings are located: not during a drag, and not at the level `draft`."""
         return not self.work.dragging and self.work.level.name != "draft"
 
     @cached_property
     def doubling(self) -> tuple[float, Array, float] | None:
-        """The first doubling seen, see `first_doubling`; None if unknown or none is seen."""
+        """The first visible period doubling, see `first_doubling`; None if unknown or none is visible."""
         whole = self._locates and self.progress[RISING] == self.along_values.size
         return first_doubling(self.pieces[RISING]) if whole else None
 
     @cached_property
     def cascade(self) -> Cascade | str | None:
-        """The period doublings from the first one seen, or why none was located; None if unknown or none is seen."""
+        """The located period doublings, or why none was located; None if unknown or none is visible."""
         return (self.work.need(Task(doublings, self._courses[RISING]), preview=None) or None) if self._locates else None
 
     @property
@@ -204,7 +204,7 @@ class OrbitDiagram(Part[DiagramControls]):
         return self.cascade.values if isinstance(self.cascade, Cascade) else np.empty(0)
 
     def choose(self, x: float, y: float) -> Values:
-        """Return the parameter value and the place that a click at (x, y) selects: of the nearest value with points."""
+        """Return the parameter value and the place that a click at (x, y) selects, at the nearest value with points."""
         # The values of there and back are the same but for round-off.
         near = min(
             (
@@ -216,13 +216,13 @@ class OrbitDiagram(Part[DiagramControls]):
             ),
             default=None,
         )
-        return {self.name: x} if near is None else {self.name: near[2], "chosen": written([near[3]])}
+        return {self.name: x} if near is None else {self.name: near[2], "chosen": places_text([near[3]])}
 
     def caption(self, points: str = "") -> Caption:
-        """Return the caption: progress, doublings, periods; points : their number in words."""
+        """Return the caption: progress, period doublings or periods; `points` is a sentence on their number."""
         known, asked = sum(self.progress.values()), self.along_values.size * len(self._courses)
         if known < asked:
-            return Caption(self.work.awaited(), f"{known} of {asked} values are known.")
+            return Caption(self.work.pending_caption(), f"{known} of {asked} values are known.")
         if all(one.conservative.all() for one in self.pieces[RISING]):
             return Caption("Volume is preserved: no attractors.", f"{points}One orbit for each value.")
         found = self.cascade
@@ -240,7 +240,7 @@ class OrbitDiagram(Part[DiagramControls]):
             )
         periods = sorted({int(m) for one in self.pieces[RISING] for m in one.periods if m})
         if not periods:
-            return Caption("No periodic orbit is seen.", points.rstrip())
+            return Caption("No periodic orbit is visible.", points.rstrip())
         return Caption(numbers=f"{points}Periods seen: {', '.join(map(str, periods[:8]))}.")
 
     def status(self) -> Iterator[str]:
@@ -256,16 +256,21 @@ class OrbitDiagram(Part[DiagramControls]):
 
 @dataclass(frozen=True, eq=False)
 class DiagramBranch(Continuation[OrbitDiagram]):
-    """The branch of a periodic orbit over the parameter of the diagram: of the requested one, or of that which doubles.
+    """The branch of a periodic orbit over the parameter of the diagram.
 
-    period : one of `PERIODS`, or `NONE`.
+    It continues the requested orbit, or the first one whose period doubles.
+
+    Attributes
+    ----------
+    period : str
+        One of `PERIODS`, or `NONE`.
     """
 
     period: str
 
     @property
     def begin(self) -> Begin | None:
-        """The start of the branch; None if no orbit is requested and none is seen to double."""
+        """The start of the branch; None if no orbit is requested and no period doubling is visible."""
         host = self.host
         at, place, period = host.at, host.place, PERIODS.get(self.period)
         if self.period == NONE:
@@ -278,7 +283,7 @@ class DiagramBranch(Continuation[OrbitDiagram]):
 
     @property
     def side(self) -> int:
-        """Index of the coordinate drawn upwards."""
+        """Index of the coordinate on the vertical axis."""
         return self.host.side
 
     @property

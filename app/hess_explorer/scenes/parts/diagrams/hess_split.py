@@ -36,7 +36,12 @@ _CLOSE = (1e-3, -1e-3, 2e-3, -2e-3)
 class HessSplit(Part[Host]):
     """The splitting of the separatrices of the Hess manifold near the Hess case.
 
-    torus : the torus of the Hess case itself; away : ε of the state on show.
+    Attributes
+    ----------
+    torus : HessTorus
+        The torus in the Hess case.
+    away : float
+        ε, the distance of the current state from the Hess case.
     """
 
     torus: HessTorus
@@ -49,7 +54,7 @@ class HessSplit(Part[Host]):
 
     @cached_property
     def _found(self) -> dict[float, Split | NotFound] | None:
-        """The splits at the values of ε of the graph and of the slope, by ε; None until all are known."""
+        """The splits by ε, for the graph and for the slope; None until all are known."""
         # Without separatrices at ε = 0 nothing can split.
         first = self.work.need(Task(_split, self.torus, 0.0), preview=None)
         if not isinstance(first, Split):
@@ -70,7 +75,7 @@ class HessSplit(Part[Host]):
 
     @property
     def split(self) -> Split | None:
-        """The split of this state; None if unknown."""
+        """The split of the current state; None if unknown."""
         return self._split_at(self.away)
 
     @property
@@ -87,29 +92,29 @@ class HessSplit(Part[Host]):
     def caption(self) -> Caption:
         """Return the caption of the picture."""
         if self._found is None:
-            return Caption(self.work.awaited())
+            return Caption(self.work.pending_caption())
         if self.split is None or self.slope is None:
-            return Caption("No separatrices are found here.")
+            return Caption("No separatrices found here.")
         value, error = self.split.value, self.split.error
         place = f"at l = {digits(self.split.l)}; as ε → 0: {digits(self.slope[0], 4)} ε."
         if self.away and abs(value) <= error:
-            return Caption("No split is seen.", f"Less than {digits(error, 1)} {place}")
+            return Caption("No split is visible.", f"Less than {digits(error, 1)} {place}")
         if abs(value) <= error:
             return Caption("The separatrices are not split.", f"Less than {digits(error, 1)} {place}")
         return Caption("The separatrices are split.", f"By {digits(value)} ± {digits(error, 1)} {place}")
 
     @property
     def message(self) -> str:
-        """The reason why the graph is empty; an empty string if it is not."""
+        """The reason why the graph is empty; otherwise an empty string."""
         return "" if self.splits else next(iter(self._reasons), "")
 
-    def derived(self) -> Iterator[str]:
+    def quantities(self) -> Iterator[str]:
         """Yield the slope of the split at ε = 0."""
         if self.has_result("_found") and self.slope is not None:
             yield f"split/ε → {with_error(*self.slope)}"
 
     def notes(self) -> Iterator[str]:
-        """Yield the reasons why splits on the graph are missing."""
+        """Yield the reasons for missing splits in the graph."""
         if self.has_result("_found") and self.splits:
             yield from (f"Some splits are not known. {reason}" for reason in self._reasons)
 
@@ -134,7 +139,7 @@ split_picture = Plot[HessSplit](
     name="split",
     title="Split of the separatrices",
     caption=HessSplit.caption,
-    folded="Show the split of the separatrices",
+    button="Show the split of the separatrices",
     axes=("ε", "split in L/G"),
     first=Axes((-_WIDE, _WIDE), (-1.0, 1.0)),
     message=lambda s: s.message,

@@ -13,7 +13,7 @@ from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.specs import Values
 from hess_explorer.scenes.framework.part import Host, Part
 from hess_explorer.scenes.framework.sliders import places
-from hess_explorer.scenes.framework.windows import Window, boxed, inside, window_of
+from hess_explorer.scenes.framework.windows import Window, box_window, inside, window_of
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import (
@@ -61,9 +61,18 @@ def window_over(plane: str) -> Any:
 
 @dataclass(frozen=True, eq=False)
 class RotationMap(Part[Host]):
-    """The rotation number over a plane of `PLANES`, coarse first, and a line through the torus on show.
+    """The rotation number over two parameters of a torus, with coarse cells first.
 
-    line : the parameter that changes along the line; text : the window in a link.
+    Attributes
+    ----------
+    plane : str
+        The two parameters, one of `PLANES`.
+    torus : Torus
+        The current torus.
+    line : str
+        Parameter that changes along the line through the torus.
+    text : str
+        The window as text of a link.
     """
 
     plane: str
@@ -85,11 +94,11 @@ class RotationMap(Part[Host]):
 
     @property
     def _beside(self) -> Torus:
-        """The torus with the map's own parameters set to 0: a cache key that is constant within the plane."""
+        """The torus with both parameters of the map set to 0, as a cache key."""
         return self.torus.at(**dict.fromkeys(self.sides, 0.0))
 
     def rows(self, plan: Plan, part: slice = slice(None)) -> Task[TorusValues]:
-        """Return the computation of some rows of the fine map."""
+        """Return the task of some rows of the fine map."""
         cells = plan.grid(_FINE)
         first, last, _ = part.indices(cells[1])
         return Task(mechanics.rows, self.plane, self._beside, self.window, cells, first, last, plan.level)
@@ -112,9 +121,9 @@ class RotationMap(Part[Host]):
 
     @cached_property
     def _grids(self) -> tuple[CellGrid, CellGrid]:
-        """ρ and ln(|t|/2), positive in lock zones, over the window; cells without a torus continue the nearest one.
+        """ρ and ln(|t|/2) over the window; the latter is positive in Arnold tongues.
 
-        So both can be interpolated up to the edge.
+        Cells without a torus repeat the nearest one, so that both can be interpolated up to the edge.
         """
         from scipy.ndimage import distance_transform_edt  # slow import
 
@@ -130,12 +139,12 @@ class RotationMap(Part[Host]):
         return rho, zones
 
     def lock(self, plan: Plan) -> Task[Array]:
-        """Return the computation of |t| = 2 in the map, (n, 2)."""
+        """Return the task of the curve |t| = 2 in the map, with points (n, 2)."""
         window = *self.window[0], *self.window[1]
         return Task(mechanics.lock_curve, self.plane, self._beside, window, plan.level, plan.side(_ON_CURVE))
 
     def _boundary(self) -> list[Array]:
-        """Return |t| = 2 in the map, once known."""
+        """Return the curve |t| = 2 in the map; empty until known."""
         found = None if self.work.dragging else self.work.need(self.lock(self.work.plan(Kind.CURVE)), preview=None)
         if found is None or not len(found):
             return []
@@ -148,12 +157,12 @@ class RotationMap(Part[Host]):
         return across, up
 
     def _here(self) -> list[tuple[float, float]]:
-        """Return the torus on show if the window contains it."""
+        """Return the place of the current torus if the window contains it."""
         (x0, x1), (y0, y1) = self.window
         return inside([self._place], ((x0, y0), (x1, y1)))
 
     def _across(self) -> list[Array]:
-        """Return the line within the window, if it lies in the plane."""
+        """Return the part of the line in the window, if it lies in the plane."""
         if self.line not in self.sides:
             return []
         fixed = 1 - self.sides.index(self.line)
@@ -176,7 +185,7 @@ class RotationMap(Part[Host]):
         return [np.array([[end, one] for one in y]) for end in self.torus.range_of(self.plane[0]) if x0 < end < x1]
 
     def _impossible(self) -> Regions:
-        """Return the part of the window without tori."""
+        """Return the forbidden region of the window."""
         (x0, x1), (y0, y1) = x, y = self.window
         if self.plane == "h, f":
             return impossible(self._upper, Axes(x, (min(y0, -y1), max(y1, -y0)))) if x1 > -1.0 else [[rectangle(x, y)]]
@@ -188,9 +197,9 @@ class RotationMap(Part[Host]):
         """Return the parameters of the torus at a place of the map."""
         return dict(zip(self.sides, (x, y), strict=True))
 
-    def boxed(self, corners: Corners) -> Values:
+    def box_window(self, corners: Corners) -> Values:
         """Return the window that a box selects."""
-        return boxed(corners, _corners(self.plane, BOUNDS), "part_" + "".join(self.sides))
+        return box_window(corners, _corners(self.plane, BOUNDS), "part_" + "".join(self.sides))
 
     def status(self) -> Iterator[str]:
         """Yield the size and the error of the map."""
@@ -209,7 +218,7 @@ rotation_map = Plot[RotationMap](
     x=lambda s: s.window[0],
     y=lambda s: s.window[1],
     on_click=RotationMap.choose,
-    on_box=RotationMap.boxed,
+    on_box=RotationMap.box_window,
     layers=(
         image("rho", lambda s: s._grids[0], palette=theme.TURN_MAP, low=-0.5, high=0.5, cyclic=True, legend=(TURNS,)),
         image(

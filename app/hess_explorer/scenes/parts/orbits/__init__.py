@@ -1,1 +1,1 @@
-"""Parts about one orbit."""
+"""Parts for one orbit."""

@@ -11,7 +11,7 @@ import numpy as np
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.scene import State
-from hess_explorer.scenes.framework.trial import Refused, Trial, measured
+from hess_explorer.scenes.framework.trial import Refusal, Trial, level_costs
 from hess_explorer.scenes.framework.work import Work
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
@@ -32,9 +32,16 @@ _LINES = (("solid", 1.5), ("dashed", 2.0), ("dotted", 3.0), ("solid", 4.0))
 
 @dataclass(frozen=True)
 class Costs:
-    """Time and error of every level, for each kind of computation; measured in the background.
+    """Time and error of every level for each kind of computation, measured in the background.
 
-    shown : the `bare` state; trials : its computations.
+    Attributes
+    ----------
+    work : Work
+        Computation of the state.
+    shown : State
+        The `bare` state to measure.
+    trials : tuple of Trial
+        Its computations.
     """
 
     work: Work
@@ -42,13 +49,13 @@ class Costs:
     trials: tuple[Trial[Any], ...]
 
     @cached_property
-    def results(self) -> dict[Trial[Any], tuple[LevelCost, ...] | Refused | None]:
-        """The samples of each trial, one per level, or the reason why there are none; None until known."""
-        return {trial: self.work.need(Task(measured, trial, self.shown), preview=None) for trial in self.trials}
+    def results(self) -> dict[Trial[Any], tuple[LevelCost, ...] | Refusal | None]:
+        """The measurements of each trial, one per level, or the reason why there are none; None until known."""
+        return {trial: self.work.need(Task(level_costs, trial, self.shown), preview=None) for trial in self.trials}
 
     @cached_property
     def samples(self) -> dict[Trial[Any], tuple[LevelCost, ...]]:
-        """The samples measured so far, of the trials and levels with an error."""
+        """The measurements so far, of the trials and levels with an error."""
         return {
             trial: samples
             for trial, found in self.results.items()
@@ -62,7 +69,7 @@ class Costs:
 
     @cached_property
     def curves(self) -> dict[Trial[Any], tuple[Array, Array]]:
-        """Errors, in units of the largest invisible error, and milliseconds of the measured levels, by trial."""
+        """Errors, in units of the largest invisible error, and times in milliseconds of the levels, by trial."""
         return {
             trial: (
                 np.clip([one.error / trial.seen for one in samples], *_ERRORS),
@@ -81,15 +88,15 @@ class Costs:
         ]
 
     def level(self, name: str) -> Sequence[Sequence[float]] | None:
-        """Return the errors and milliseconds of one level for all kinds; None without samples."""
+        """Return the errors and times in milliseconds of one level for all kinds; None without measurements."""
         return [*zip(*self._at(dict.fromkeys(self.trials, name)), strict=True)] or None
 
     def rings(self) -> list[tuple[float, float]]:
-        """Return the point of each curve beyond which more accuracy is invisible."""
+        """Return the point of each curve beyond which additional accuracy is invisible."""
         return self._at(self.enough)
 
     def about(self) -> Caption:
-        """Return the caption: the cheapest level that is accurate enough for each trial, as far as measured."""
+        """Return the caption: the cheapest sufficient level for each trial that has been measured."""
         if self.work.dragging:
             return Caption("Measured when a slider is released.")
         known = [found for found in self.results.values() if found is not None]
@@ -97,10 +104,10 @@ class Costs:
             return Caption("Being measured.", f"{len(known)} of {len(self.results)} so far.")
         sentences = []
         for trial, found in self.results.items():
-            if isinstance(found, Refused):
+            if isinstance(found, Refusal):
                 sentences.append(f"{trial.kind} cannot be measured: {found.reason}")
             elif trial not in self.samples:
-                sentences.append(f"{trial.kind} has no error to measure: all of it is chaotic, or there is nothing.")
+                sentences.append(f"{trial.kind} has no error to measure: everything is chaotic, or nothing is drawn.")
         if self.enough:
             least = ", ".join(f"{trial.kind} {name}" for trial, name in self.enough.items())
             sentences.insert(0, f"Cheapest levels without a visible error: {least}.")
@@ -108,7 +115,7 @@ class Costs:
         return Caption(numbers=sentence[:1].upper() + sentence[1:])
 
     def rows(self) -> Iterator[str]:
-        """Yield the milliseconds and errors of the levels, a line for each kind."""
+        """Yield the times in milliseconds and the errors of the levels, one line per kind."""
         for trial, samples in self.samples.items():
             times, errors = (
                 ", ".join(digits(value, 2) for value in values)
@@ -139,7 +146,7 @@ def costs_picture(trials: Sequence[Trial[Any]], folded: bool) -> Plot[Costs]:
         y=_MS,
         x_ticks=_TICKS,
         y_tick_count=5,
-        folded="Measure all that is computed" if folded else "",
+        button="Measure all that is computed" if folded else "",
         layers=(
             line("visible", lambda s: ((1.0, 1.0), _MS), color=theme.MUTED, dash="dotted", width=1.0),
             *(kind(trial, *look) for trial, look in zip(trials, _LINES, strict=False)),

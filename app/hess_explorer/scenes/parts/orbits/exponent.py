@@ -1,4 +1,4 @@
-"""The largest Lyapunov exponent of the orbit on show."""
+"""The largest Lyapunov exponent of the orbit."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ class _Host(Host, Protocol):
 
     @property
     def periodic_orbit(self) -> Periodic:
-        """The periodic orbit on show, if any."""
+        """The current periodic orbit, if any."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,13 +56,13 @@ class OrbitExponent(Part[_Host]):
 
     @property
     def growth(self) -> tuple[float, float] | None:
-        """ln|μ₁|/T and ln|μ₁μ₂|/T of the periodic orbit on show; None without one."""
+        """ln|μ₁|/T and ln|μ₁μ₂|/T of the current periodic orbit; None without one."""
         return self.host.periodic_orbit.growth
 
     @property
     def later(self) -> bool:
-        """True if nothing is computed now: a slider is held, or a periodic orbit is shown or searched for."""
-        return self.work.dragging or self.host.periodic_orbit.looking or self.growth is not None
+        """True if the exponent has to wait: during a drag, or if a periodic orbit is shown or searched for."""
+        return self.work.dragging or self.host.periodic_orbit.is_searching or self.growth is not None
 
     @cached_property
     def _answer(self) -> spectrum.Exponent | NotFound | None:
@@ -75,7 +75,7 @@ class OrbitExponent(Part[_Host]):
 
     @property
     def result(self) -> spectrum.Exponent | None:
-        """The exponent of an orbit that is not periodic; None until known, and if the motion ends early."""
+        """The exponent of a non-periodic orbit; None until known, and if the motion ends early."""
         return None if isinstance(self._answer, NotFound) else self._answer
 
     def at(self, plan: Plan) -> spectrum.Exponent:
@@ -106,7 +106,7 @@ class OrbitExponent(Part[_Host]):
             return Caption("From the multipliers of the periodic orbit.", f"ln|μ₁|/T = {digits(self.growth[0])}.")
         found = self._answer
         if found is None:
-            return Caption(self.work.awaited())
+            return Caption(self.work.pending_caption())
         if isinstance(found, NotFound):
             return Caption("No exponent: the motion ends early.")
         end = float(found.times[-1])
@@ -121,21 +121,21 @@ class OrbitExponent(Part[_Host]):
 
 
 def _exponent(body: Body, start: Start, duration: float, level: Level) -> spectrum.Exponent | NotFound:
-    """Return the exponent, or the reason why the motion ends early: other tasks go on."""
+    """Return the exponent, or the reason why the motion ends early, so that other tasks continue."""
     try:
         return spectrum.lyapunov_exponent(body, start, duration, level)
     except MotionEnds as error:
         return NotFound(str(error))
 
 
-def exponent_picture(folded: str = "") -> Plot[Any]:
+def exponent_picture(button: str = "") -> Plot[Any]:
     """Return the picture of the mean growth rate over time."""
     return Plot(
         name="exponent",
         title="Largest Lyapunov exponent",
         caption=lambda s: s.exponent.caption,
         axes=("t", "λ"),
-        folded=folded,
+        button=button,
         first=Axes((0.0, 200.0), (0.0, 1.0)),
         x=lambda s: (0.0, s.exponent.host.long),
         y=lambda s: s.exponent.axis,

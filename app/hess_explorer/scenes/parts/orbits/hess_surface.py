@@ -1,4 +1,4 @@
-"""The torus of a motion of the Hess case as a surface in three dimensions, with its density if that is asked for."""
+"""The torus of a motion of the Hess case as a surface in space, optionally shaded by its invariant density."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def shaded_by() -> Any:
         "Torus in space",
         (PLAIN, INVARIANT),
         PLAIN,
-        doc="The torus is greener where its invariant density is larger. There is one where no limit cycle exists.",
+        doc="Greener where the invariant density is larger. It exists only without limit cycles.",
     )
 
 
@@ -50,7 +50,7 @@ class OnTorus(Host, Protocol):
         """The energy.  Raises `ModelError`."""
 
     @property
-    def turning(self) -> TurningPoints | None:
+    def turning_points(self) -> TurningPoints | None:
         """The turning points of n3; None on the separatrix.  Raises `ModelError`."""
 
     @property
@@ -64,7 +64,7 @@ class OnTorus(Host, Protocol):
 
 @dataclass(frozen=True, eq=False)
 class HeavyTorus(Part[Host]):
-    """The torus of the Hess manifold with the integrals of a heavy body."""
+    """The torus of the Hess manifold at the integrals of a heavy body."""
 
     heavy: HeavyHess
 
@@ -79,10 +79,10 @@ class HeavyTorus(Part[Host]):
         return self.heavy.bridge.in_units_of_b(self.heavy.h, self.heavy.f)[0]
 
     @cached_property
-    def turning(self) -> TurningPoints | None:
+    def turning_points(self) -> TurningPoints | None:
         """The turning points of n3; None on the separatrix."""
         try:
-            return self.heavy.turning
+            return self.heavy.turning_points
         except Separatrix:
             return None
 
@@ -105,8 +105,14 @@ class HeavyTorus(Part[Host]):
 class HessSurface(Part[OnTorus]):
     """The torus as a surface, and the curves on it.
 
-    shaded : whether by its invariant density; orbit() : the orbit on show as reduced states (n, 5) in units b = 1, and
-    its times (n,); says() : the second part of the caption.
+    Attributes
+    ----------
+    shaded : bool
+        True to shade it by its invariant density.
+    orbit : callable
+        `orbit()` returns the orbit as reduced states (n, 5) in units b = 1, and its times (n,).
+    says : callable
+        `says()` returns the second part of the caption.
     """
 
     shaded: bool
@@ -117,18 +123,18 @@ class HessSurface(Part[OnTorus]):
     def section(self) -> CrossSection | None:
         """The cross-section of the surface; None if no motion has these integrals."""
         try:
-            return cross_section(self.host.h, self.host.turning, POINTS)
+            return cross_section(self.host.h, self.host.turning_points, POINTS)
         except ModelError:
             return None
 
     @cached_property
     def density(self) -> tuple[Complex | None, str]:
-        """The points ζ_s of the invariant density along the cross-section, or None and the reason."""
+        """The points ζ of the invariant density along the cross-section, or None; and the reason for None."""
         if not self.shaded or self.section is None:
             return None, ""
         map_ = self.host.map
         # The verdict says why.
-        if map_ is None or torus_density.reason_for_no_density(map_, self.host.turning):
+        if map_ is None or torus_density.reason_for_no_density(map_, self.host.turning_points):
             return None, "No density."
         try:
             return self.work.need(Task(density_along, map_, POINTS, self.host.level)), ""
@@ -136,7 +142,7 @@ class HessSurface(Part[OnTorus]):
             return None, str(error)
 
     def curves(self) -> dict[str, Curve]:
-        """Return the orbit and the limit cycles, by their looks."""
+        """Return the orbit and the limit cycles by style."""
         if self.section is None:
             return {}
         states, times = self.orbit()
@@ -146,10 +152,10 @@ class HessSurface(Part[OnTorus]):
         return found
 
     def caption(self) -> Caption:
-        """Return the caption: what the surface is, its formula, and why it has no density."""
+        """Return the caption: kind and formula of the surface, or the reason why it has no density."""
         if self.section is None:
             return Caption("No torus.", "The Hess manifold has no motion with these h and f.")
-        return about(self.host.map, self.host.turning, self.says(), self.density[1])
+        return about(self.host.map, self.host.turning_points, self.says(), self.density[1])
 
 
 surface_picture = TorusInSpace[HessSurface](

@@ -38,33 +38,35 @@ class Precision:
     motion: Motion
 
     @cached_property
-    def followed(self) -> Motion:
-        """The measured motion: its span is limited."""
-        return replace(self.motion, span=min(self.motion.span, mechanics.longest_span(*self.motion.named[:3])))
+    def limited_motion(self) -> Motion:
+        """The measured motion, with a limited duration."""
+        return replace(self.motion, span=min(self.motion.span, mechanics.longest_span(*self.motion.arguments[:3])))
 
     @cached_property
-    def measured(self) -> tuple[mechanics.WorkPoint, ...]:
-        """Error and cost of every level, and of SciPy's methods unless they take long."""
+    def work_points(self) -> tuple[mechanics.WorkPoint, ...]:
+        """Error and cost of every level, and of SciPy's methods unless they are slow."""
         others = (
             ()
-            if self.work.dragging or mechanics.others_take_long(*self.followed.named)
-            else self.work.need(Task(mechanics.measure_others, *self.followed.named, SAMPLES))
+            if self.work.dragging or mechanics.others_take_long(*self.limited_motion.arguments)
+            else self.work.need(Task(mechanics.measure_others, *self.limited_motion.arguments, SAMPLES))
         )
-        return self.work.need(Task(mechanics.measure_levels, *self.followed.named, SAMPLES)) + others
+        return self.work.need(Task(mechanics.measure_levels, *self.limited_motion.arguments, SAMPLES)) + others
 
     @cached_property
-    def growing(self) -> mechanics.ErrorGrowth:
+    def growth(self) -> mechanics.ErrorGrowth:
         """Errors and drifts over time."""
-        return self.work.need(Task(mechanics.growth, *self.followed.named, self.followed.weights, SAMPLES))
+        return self.work.need(
+            Task(mechanics.growth, *self.limited_motion.arguments, self.limited_motion.weights, SAMPLES)
+        )
 
     @cached_property
     def times(self) -> Array:
         """The times (n,) of the measured errors, in the units of the scene."""
-        return self.growing.times * self.followed.unit
+        return self.growth.times * self.limited_motion.unit
 
     @property
     def _taylor(self) -> list[mechanics.WorkPoint]:
-        return [point for point in self.measured if point.method == "Taylor"]
+        return [point for point in self.work_points if point.method == "Taylor"]
 
     @property
     def _here(self) -> mechanics.WorkPoint:
@@ -72,12 +74,12 @@ class Precision:
 
     @property
     def _drifts(self) -> Mapping[str, Array]:
-        return self.growing.drifts[self.work.chosen]
+        return self.growth.drifts[self.work.chosen]
 
     # ---- pictures -----------------------------------------------------------------------------------------------
 
     def _of_method(self, method: str) -> Curve:
-        own = [point for point in self.measured if point.method == method]
+        own = [point for point in self.work_points if point.method == method]
         return clipped(np.array([point.error for point in own]), _FLOOR), np.array([point.ms for point in own])
 
     def _at_level(self, name: str) -> Curve:
@@ -102,9 +104,9 @@ class Precision:
         """Return the columns that the moving points follow."""
         return {
             "t": column(self.times),
-            "growth": column(clipped(self.growing.errors[self.work.chosen], _FLOOR)),
+            "growth": column(clipped(self.growth.errors[self.work.chosen], _FLOOR)),
             "drift": column(clipped(np.max([*self._drifts.values()], axis=0), _FLOOR)),
-            "pixels": column(clipped(self.growing.pixels[self.work.chosen], _PIXEL_FLOOR)),
+            "pixels": column(clipped(self.growth.pixels[self.work.chosen], _PIXEL_FLOOR)),
         }
 
     def choose(self, x: float, y: float) -> Mapping[str, str]:
@@ -118,13 +120,13 @@ class Precision:
     def _about_cost(self) -> Caption:
         here = self._here
         numbers_text = f"{self.work.chosen}: {digits(here.ms, 2)} ms, error {digits(here.error, 2)}"
-        other = mechanics.quickest_other(self.measured, 10.0 * here.error)
+        other = mechanics.quickest_other(self.work_points, 10.0 * here.error)
         if other is not None:
             numbers_text += f"; {other.method}: {digits(other.ms / here.ms, 2)} × as long, {digits(other.error, 2)}"
         return Caption(numbers=f"{numbers_text}.")
 
     def _about_growth(self) -> Caption:
-        own, promise = float(self.growing.errors[self.work.chosen][-1]), level(self.work.chosen).promise
+        own, promise = float(self.growth.errors[self.work.chosen][-1]), level(self.work.chosen).promise
         return Caption(numbers=f"{self.work.chosen}: {digits(own, 2)} at the end; promised {digits(promise)} (dotted).")
 
     def _about_drift(self) -> Caption:
@@ -134,7 +136,7 @@ class Precision:
         return Caption(numbers=f"{self.work.chosen}: largest drift {largest}.")
 
     def _about_pixels(self) -> Caption:
-        t, pixels = self.times, self.growing.pixels[self.work.chosen]
+        t, pixels = self.times, self.growth.pixels[self.work.chosen]
         wrong = np.flatnonzero(pixels > 1.0)
         if wrong.size:
             until = digits(float(t[wrong[0]]))
@@ -144,9 +146,9 @@ class Precision:
             f"Error below one pixel until t = {digits(float(t[-1]))} (at most {digits(pixels.max(), 2)}).",
         )
 
-    def derived(self) -> Iterator[str]:
+    def quantities(self) -> Iterator[str]:
         """Yield the system, its parameters and the initial state."""
-        motion, system = self.followed, self.followed.system
+        motion, system = self.limited_motion, self.limited_motion.system
         yield f"System: {system.title}"
         yield f"Equations: {system.source} ({', '.join(system.labels)} in the LaTeX source)"
         named = ((system.parameters, motion.parameters, ""), (system.variables, motion.state, "(0)"))
@@ -155,16 +157,16 @@ class Precision:
 
     def status(self) -> Iterator[str]:
         """Yield the cost and error of every level, if they have been measured."""
-        for point in self._taylor if "measured" in vars(self) else ():
+        for point in self._taylor if "work_points" in vars(self) else ():
             yield f"{point.setting} {digits(point.ms, 2)} ms, error {digits(point.error, 2)}"
 
     def notes(self) -> Iterator[str]:
-        """Yield the limits of the measurement and their reasons."""
-        motion = self.followed
+        """Yield the limits of the measurement with reasons."""
+        motion = self.limited_motion
         if motion.span < self.motion.span:
             yield f"Measured up to t = {digits(motion.span * motion.unit)}: a longer span takes seconds."
-        if "measured" in vars(self) and mechanics.others_take_long(*motion.named):
-            yield "SciPy's methods are left out, as they are slow over this time span: choose a shorter one."
+        if "work_points" in vars(self) and mechanics.others_take_long(*motion.arguments):
+            yield "SciPy's methods are slow over this time span and were omitted: choose a shorter one."
 
 
 PRECISION_PICTURES: tuple[Plot[Precision], ...] = (
@@ -196,7 +198,7 @@ PRECISION_PICTURES: tuple[Plot[Precision], ...] = (
         dot=("t", "growth"),
         layers=(
             limit(lambda s: level(s.work.chosen).promise),
-            *curves_of_levels(lambda s, name: s._over_time(s.growing.errors[name])),
+            *curves_of_levels(lambda s, name: s._over_time(s.growth.errors[name])),
         ),
     ),
     Plot(
@@ -223,7 +225,7 @@ PRECISION_PICTURES: tuple[Plot[Precision], ...] = (
         dot=("t", "pixels"),
         layers=(
             limit(lambda s: 1.0),
-            *curves_of_levels(lambda s, name: s._over_time(s.growing.pixels[name], _PIXEL_FLOOR)),
+            *curves_of_levels(lambda s, name: s._over_time(s.growth.pixels[name], _PIXEL_FLOOR)),
         ),
     ),
 )

@@ -1,4 +1,4 @@
-"""Proved error bounds of the orbit on show: its distance from the true orbit at each sample."""
+"""Proved error bounds on the orbit: its distance from the true orbit at each sample."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ import numpy as np
 from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.part import Host, Part
 from hess_explorer.scenes.framework.scene import Motion
-from hess_explorer.scenes.framework.sliders import HIDDEN, SHOWN, proved_error_shown
+from hess_explorer.scenes.framework.sliders import HIDDEN, SHOWN, show_proved_error
 from hess_explorer.views.space.poisson_sphere import Circle
 from hess_explorer.views.text import digits
 from hess_mechanics.dynamics.tube import ProvedOrbit, tube
@@ -21,7 +21,7 @@ from hess_mechanics.numerics.balls import has_flint
 from hess_mechanics.numerics.results import Array, Orbit
 from hess_mechanics.suslov_hess.torus import Track
 
-__all__ = ["HIDDEN", "SHOWN", "OrbitProof", "ProvedError", "hull", "proved_error", "proved_error_shown"]
+__all__ = ["HIDDEN", "SHOWN", "OrbitProof", "ProvedError", "hull", "proved_error", "show_proved_error"]
 
 _DIGITS, _MOST_WORK = 16, 1e6
 """Digits and work limit of a tube: far below double round-off; about 1.5 s of CPU time, 4 s for the ball."""
@@ -32,9 +32,16 @@ _BOXES, _CIRCLES = 300, 16
 
 @dataclass(frozen=True)
 class ProvedError:
-    """A proved error: its entry in the status line, and regions that hold the true orbit where it is visibly off.
+    """A proved error, and regions that enclose the true orbit where the error is visible.
 
-    band : convex polygons (n, 2) of (ω1, ω2); around : pairs of a centre γ and an angular radius.
+    Attributes
+    ----------
+    sentence : str
+        Entry in the status line.
+    band : tuple of array (n, 2)
+        Convex polygons in (ω1, ω2).
+    around : tuple
+        Pairs of a centre γ (3,) and an angular radius in radians.
     """
 
     sentence: str
@@ -45,7 +52,7 @@ class ProvedError:
 class _Host(Host, Protocol):
     @property
     def finding(self) -> Task[Orbit | Track]:
-        """The computation of the orbit on show, an `Orbit` or a `Track`.  Raises `ModelError`."""
+        """The task of the orbit, an `Orbit` or a `Track`.  Raises `ModelError`."""
 
     def motion(self) -> Motion:
         """Return the motion of the orbit.  Raises `ModelError`."""
@@ -53,9 +60,14 @@ class _Host(Host, Protocol):
 
 @dataclass(frozen=True, eq=False)
 class OrbitProof(Part[_Host]):
-    """The proved error of the orbit on show, for a traced system.
+    """The proved error of the orbit of a traced system.
 
-    certain : `SHOWN` or `HIDDEN`; units : factors from ω1 and ω2 of the computation to those of the picture.
+    Attributes
+    ----------
+    certain : str
+        `SHOWN` or `HIDDEN`.
+    units : tuple
+        Factors from ω1 and ω2 of the computation to those of the picture.
     """
 
     certain: str
@@ -63,7 +75,7 @@ class OrbitProof(Part[_Host]):
 
     @cached_property
     def error(self) -> ProvedError | None:
-        """The proved error; None until known, if it is hidden, and while a slider is held."""
+        """The proved error; None until known, if it is hidden, and during a drag."""
         if self.work.dragging or self.certain != SHOWN:
             return None
         if not has_flint():
@@ -72,12 +84,12 @@ class OrbitProof(Part[_Host]):
 
     @property
     def band(self) -> list[list[Array]]:
-        """Polygons that hold the true orbit, for a `region`, where its error is visible."""
+        """Polygons that enclose the true orbit where the error is visible, for a `region`."""
         return [] if self.error is None else [[one] for one in self.error.band]
 
     @property
     def around(self) -> list[Circle]:
-        """Circles on the sphere that hold the true orbit at some samples."""
+        """Circles on the sphere that enclose the true orbit at some samples."""
         found = () if self.error is None else self.error.around
         return [Circle(gamma, float(np.cos(radius)), "muted") for gamma, radius in found]
 
@@ -88,7 +100,7 @@ class OrbitProof(Part[_Host]):
 
 
 def proved_error(finding: Task[Orbit | Track], motion: Motion, units: tuple[float, float]) -> ProvedError:
-    """Return the error of the computed orbit that the tube of its motion proves."""
+    """Prove the error of an orbit by a rigorous enclosure (tube) of its motion."""
     found: Orbit | Track = finding.get()
     orbit, omega, gamma = (
         (found.orbit, found.omega, found.gamma)
@@ -131,7 +143,7 @@ def proved_error(finding: Task[Orbit | Track], motion: Motion, units: tuple[floa
 
 
 def _drawn(sizes: Array) -> list[int]:
-    """Return the samples with a visible error, up to the first one whose error would fill the picture."""
+    """Return the indices of samples with a visible error, up to the first error that would fill the picture."""
     far = np.flatnonzero(sizes > _FAR)
     end = int(far[0]) if far.size else len(sizes)
     return [int(i) for i in np.flatnonzero(sizes[:end] > _HALF)]

@@ -38,7 +38,10 @@ class _Host(Sectioned, Protocol):
 class OrbitRegime(Part[_Host]):
     """The kind of motion that starts at a place of a section, with its attractor and its repeller.
 
-    long : the averaging time of the divergence.
+    Attributes
+    ----------
+    long : float
+        The averaging time of the divergence.
     """
 
     long: float
@@ -66,10 +69,10 @@ class OrbitRegime(Part[_Host]):
 
     @property
     def caption(self) -> Caption:
-        """The caption: the kind of motion, conservative or dissipative."""
+        """The caption: kind of motion, and whether it is conservative or dissipative."""
         found = self.kind
         if found is None:
-            return Caption(self.work.awaited())
+            return Caption(self.work.pending_caption())
         motion = found.motion
         kind = f"Period {motion.period}" if motion.period else motion.kind.words.capitalize()
         if not found.comparisons:
@@ -89,9 +92,9 @@ class OrbitRegime(Part[_Host]):
 
 
 def sets_of(map_: ReturnMap, start: Place, transient: int, kept: int) -> tuple[Array, Array]:
-    """Return the attractor and repeller (n, d) that the orbits from `start` reach; empty if they do not return.
+    """Return the attractor and the repeller (n, d) of the orbit from `start`; empty if it does not return.
 
-    Raises `OutsideRegion`, `WorkLimit`.
+    Raises `OutsideRegion` if no motion is possible there, and `WorkLimit`.
     """
     attractor, repeller = (
         frozen(one.orbit(np.array(start), transient + kept)[transient:].copy()) for one in (map_, map_.inverse())
@@ -100,7 +103,7 @@ def sets_of(map_: ReturnMap, start: Place, transient: int, kept: int) -> tuple[A
 
 
 def _dynamics(map_: ReturnMap, start: Place, transient: int, kept: int, duration: float) -> Dynamics:
-    """Classify the orbit from `start`; without comparisons if it does not return."""
+    """Classify the orbit from `start`, without comparing its sets if it does not return."""
     motion = regime(map_, start, transient, min(kept, 400), duration)
     try:
         return comparison(map_, motion, start, transient, kept)
@@ -109,6 +112,6 @@ def _dynamics(map_: ReturnMap, start: Place, transient: int, kept: int, duration
 
 
 def few(points: Array) -> Array | None:
-    """Return the distinct places (2, m) if there are few, to be drawn as large marks; else None."""
+    """Return the distinct places (2, m) if there are few of them, to be drawn as large marks; otherwise None."""
     _, first = np.unique(np.round(points, 4), axis=0, return_index=True)
     return points[first].T if 0 < len(first) <= _MANY else None

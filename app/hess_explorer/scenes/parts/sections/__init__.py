@@ -1,4 +1,4 @@
-"""Sections: their orbits, and the results on them."""
+"""Sections: their orbits, and results about them."""
 
 from hess_explorer.scenes.parts.sections.branch import (
     SectionBranch,

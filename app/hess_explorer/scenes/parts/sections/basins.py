@@ -1,4 +1,4 @@
-"""Basins on a section of the Suslov problem: the attractor and the time of arrival of each pixel, and its bounds."""
+"""Basins in a section of the Suslov problem: attractor and arrival time of each pixel, and the basin boundaries."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import numpy as np
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.part import Host, Part
-from hess_explorer.scenes.framework.periodic_search import Closed, Search, branch_of, sought
+from hess_explorer.scenes.framework.periodic_search import ClosedOrbit, Search, branch_of, find_orbit
 from hess_explorer.scenes.framework.trial import Trial
 from hess_explorer.scenes.framework.windows import Window, pixels_in
 from hess_explorer.scenes.parts.sections.section import Section
@@ -45,7 +45,7 @@ _MOST = 20_000
 _SPREAD = evenly(20_000).T
 """Points of the unit square at which cells are measured."""
 _TRIED = 8
-"""Places of the boundary from which saddles are sought."""
+"""Number of boundary points at which the search for saddles starts."""
 _NUMBERS = {2: "Two", 3: "Three", 4: "Four", 5: "Five"}
 
 
@@ -64,8 +64,8 @@ class _Host(Host, Protocol):
 
 
 @dataclass(frozen=True)
-class _Sought:
-    """Basins on a window of a section, with (m, n) pixels; the divergence is averaged over the time `long`."""
+class _BasinGrid:
+    """Basins in a window of (m, n) pixels of a section; the divergence is averaged over the time `long`."""
 
     section: SuslovSection
     window: Window
@@ -78,17 +78,17 @@ class _Sought:
         """The orbits from the cells."""
         return SectionOrbits(self.section, self.level)
 
-    def divided(self, stage: int, before: Arrivals | None) -> Mask:
-        """Return the mask (n, m) of the cells of a stage to compute."""
+    def new_cells(self, stage: int, before: Arrivals | None) -> Mask:
+        """Return the mask (n, m) of the cells to compute in a stage."""
         m, n = (side >> (_STAGES - 1 - stage) for side in self.pixels)
         return divided(before, (m, n), stage < _EVERYWHERE, _MOST)
 
     def arrivals(self, there: Attractors, mask: Mask, i: int) -> Arrivals:
-        """Return the arrivals from one part of the cells of a mask (n, m)."""
+        """Return the arrivals of one part of the cells in a mask (n, m)."""
         return arrivals_of_cells(self.orbits, there.sets, self.window, mask, slice(i, None, _PARTS))
 
     def attractors(self) -> Attractors:
-        """Return the attractors of the whole section, whatever the window."""
+        """Return the attractors of the whole section."""
         return Task(attractors, self.section, self.long, self.level).get()
 
 
@@ -102,24 +102,24 @@ class _Piece:
 
 @dataclass(frozen=True, eq=False)
 class SectionBasins(Part[_Host]):
-    """The basins of a section of the Suslov problem, the boundaries refined to the pixel, and the saddles there."""
+    """The basins in a section of the Suslov problem, refined to the pixel, and the saddles on their boundaries."""
 
     section: Section
 
     @property
     def is_on(self) -> bool:
-        """True if they are shown: the section is not alone then."""
+        """True if basins are shown, in addition to the orbits of the section."""
         return not self.section.alone
 
-    def sought(self, plan: Plan) -> _Sought:
+    def target(self, plan: Plan) -> _BasinGrid:
         """Return the basins to compute at a level."""
         long = self.work.plan(Kind.EXPONENT).share * self.host.long
-        return _Sought(self.host.poincare, self.section.frame, plan.grid(_PIXELS), long, plan.level)
+        return _BasinGrid(self.host.poincare, self.section.frame, plan.grid(_PIXELS), long, plan.level)
 
     @cached_property
-    def _what(self) -> _Sought | None:
-        """The basins to compute; None if none are shown, and while a slider is held."""
-        return self.sought(self.work.plan(Kind.BASINS)) if self.is_on and not self.work.dragging else None
+    def _what(self) -> _BasinGrid | None:
+        """The basins to compute; None if none are shown, and during a drag."""
+        return self.target(self.work.plan(Kind.BASINS)) if self.is_on and not self.work.dragging else None
 
     @cached_property
     def stage(self) -> int:
@@ -137,7 +137,7 @@ class SectionBasins(Part[_Host]):
 
     @cached_property
     def arrivals(self) -> Arrivals | None:
-        """The attractor and the time of arrival of each cell (n, m); coarse until all stages are known."""
+        """Attractor and arrival time of each cell (n, m); coarse until all stages are known."""
         if self._what is None or self.stage < 0 or not self._what.attractors().count:
             return None
         return self.work.need(Task(_cells, self._what, self.stage))
@@ -147,11 +147,11 @@ class SectionBasins(Part[_Host]):
         """The attractors of the section; None until known."""
         return None if self._what is None or self.stage < 0 else self._what.attractors()
 
-    # ---- what bounds them ---------------------------------------------------------------------------------------
+    # ---- boundaries ---------------------------------------------------------------------------------------------
 
     @cached_property
     def _searches(self) -> tuple[Search, ...]:
-        """The searches that find the saddles on the boundaries; empty until these are known."""
+        """The searches for saddles on the boundaries; empty until these are known."""
         if self._what is None or not self.known:
             return ()
         return self.work.need(Task(_saddles, self._what), preview=None) or ()
@@ -159,8 +159,8 @@ class SectionBasins(Part[_Host]):
     @cached_property
     def saddles(self) -> list[PeriodicOrbit]:
         """The saddles on the boundaries."""
-        found = [self.work.need(Task(sought, *search), preview=None) for search in self._searches]
-        return [one.orbit for one in found if isinstance(one, Closed)]
+        found = [self.work.need(Task(find_orbit, *search), preview=None) for search in self._searches]
+        return [one.orbit for one in found if isinstance(one, ClosedOrbit)]
 
     @cached_property
     def manifolds(self) -> list[Manifold]:
@@ -184,17 +184,17 @@ class SectionBasins(Part[_Host]):
         if self._what is None:
             return None
         if self.attractors is None:
-            return Caption(self.work.awaited(), "Basins: attractors of 256 orbits first.")
+            return Caption(self.work.pending_caption(), "Basins: attractors of 256 orbits first.")
         largest, count = self.attractors.largest, self.attractors.count
         if largest is None:
             return Caption("No motion returns to the section.")
         div = f"mean div = {digits(largest.mean, 2)} ± {digits(largest.error, 1)}"
         if not count or self.arrivals is None:
-            return Caption("No attractor is seen.", f"{div}.")
+            return Caption("No attractor is visible.", f"{div}.")
         numbers = self.arrivals.number
         there = numbers[numbers != NOWHERE]
         if not there.size:
-            return Caption("Nothing moves in this window.")
+            return Caption("No motion is possible in this window.")
         m, n = numbers.shape[::-1]
         said = "" if self.known else f" So far {m} × {n} cells."
         lost = 100.0 * float(np.mean(there == LOST))
@@ -209,7 +209,7 @@ class SectionBasins(Part[_Host]):
         )
 
     def status(self) -> Iterator[str]:
-        """Yield how much the basins depend on the size of the cells, once all are known, and the manifolds' error."""
+        """Yield the effect of the cell size on the basins, once all cells are known, and the error of the manifolds."""
         if self.has_result("arrivals") and self.arrivals is not None and self.known:
             cells = resolved(self.arrivals.number)
             n, m = cells.shape
@@ -222,49 +222,49 @@ class SectionBasins(Part[_Host]):
             )
 
 
-def _piece(what: _Sought, stage: int, i: int) -> _Piece:
-    """Return the arrivals from one part of the new cells of a stage."""
-    mask = what.divided(stage, _before(what, stage))
+def _piece(what: _BasinGrid, stage: int, i: int) -> _Piece:
+    """Return the arrivals of one part of the new cells of a stage."""
+    mask = what.new_cells(stage, _before(what, stage))
     return _Piece(stage, what.arrivals(what.attractors(), mask, i))
 
 
-def _before(what: _Sought, stage: int) -> Arrivals | None:
+def _before(what: _BasinGrid, stage: int) -> Arrivals | None:
     found: Arrivals | None = None if stage == 0 else Task(_cells, what, stage - 1).get()
     return found
 
 
-def _cells(what: _Sought, stage: int) -> Arrivals:
-    """Return the arrivals from all cells (n, m) of a stage."""
+def _cells(what: _BasinGrid, stage: int) -> Arrivals:
+    """Return the arrivals of all cells (n, m) of a stage."""
     before = _before(what, stage)
     pieces = [(slice(i, None, _PARTS), Task(_piece, what, stage, i).get().arrivals) for i in range(_PARTS)]
-    return joined(before, what.divided(stage, before), pieces)
+    return joined(before, what.new_cells(stage, before), pieces)
 
 
-def _at_once(what: _Sought) -> Arrivals:
-    """Return the arrivals from the pixels (n, m), all computed now."""
+def _at_once(what: _BasinGrid) -> Arrivals:
+    """Compute the arrivals of all pixels (n, m) at once."""
     there, cells = attractors(what.section, what.long, what.level), None
     for stage in range(_STAGES):
-        mask = what.divided(stage, cells)
+        mask = what.new_cells(stage, cells)
         cells = joined(cells, mask, [(slice(i, None, _PARTS), what.arrivals(there, mask, i)) for i in range(_PARTS)])
     assert cells is not None
     return cells
 
 
-def _sampled(what: _Sought) -> Arrivals:
-    """Return the arrivals from points spread over the window, the truth for cells of every size."""
+def _sampled(what: _BasinGrid) -> Arrivals:
+    """Compute the arrivals of points spread over the window, as a reference for cells of any size."""
     low, high = np.array(what.window)
     there = attractors(what.section, what.long, what.level)
     return arrivals(what.orbits, there.sets, *(low + _SPREAD * (high - low)).T)
 
 
 def _error(cells: Array, truth: Array) -> float:
-    """Return the percentage of the points of the truth that lie in a cell (n, m) of another colour."""
+    """Return the percentage of reference points that lie in a cell (n, m) of another colour."""
     columns, rows = (_SPREAD * cells.shape[::-1]).astype(int).T
     return 100.0 * float(np.mean(cells[rows, columns] != truth))
 
 
-def _saddles(what: _Sought) -> tuple[Search, ...]:
-    """Return searches, each of which finds a saddle on a boundary: none is found twice."""
+def _saddles(what: _BasinGrid) -> tuple[Search, ...]:
+    """Return searches that find distinct saddles on the boundaries."""
     number = Task(_cells, what, _STAGES - 1).get().number
     left, right = number[:, :-1], number[:, 1:]
     pairs = np.argwhere((left != right) & (left >= 0) & (right >= 0))
@@ -295,7 +295,7 @@ def basins_trial() -> Trial[Any]:
     return Trial(
         Kind.BASINS,
         ("section",),
-        lambda s, plan: (_sampled if plan.level.aside else _at_once)(s.basins.sought(plan)).number.astype(float),
+        lambda s, plan: (_sampled if plan.level.aside else _at_once)(s.basins.target(plan)).number.astype(float),
         lambda s, cells, truth: _error(cells, truth),
         unit="% of the cells that change",
         seen=3.0,

@@ -43,7 +43,7 @@ _FARTHEST = (-1e5, 1e5)
 
 
 def parameter_of_branch(symbols: tuple[str, ...]) -> Any:
-    """Declare the parameter over which the branch is continued; the default is the first symbol."""
+    """Declare the parameter of the branch; the default is the first symbol."""
     return choice(
         "Branch over",
         symbols,
@@ -67,7 +67,7 @@ def end_of_branch(word: str) -> Any:
 
 
 def coordinate_of_branch(names: tuple[str, str]) -> Any:
-    """Declare the coordinate of the section that is drawn upwards."""
+    """Declare the coordinate of the section on the vertical axis."""
     return choice(
         "Branch upwards",
         names,
@@ -91,17 +91,24 @@ class _Section(Sectioned, Protocol):
 
     def limits(self) -> Mapping[str, Slider]: ...
 
-    def changed(self, values: Values) -> Self: ...
+    def with_values(self, values: Values) -> Self: ...
 
     def start_at(self, x: float, y: float) -> Values:
-        """Return the values with which the chosen orbit starts at a place of the section."""
+        """Return the parameter values with which the orbit starts at a place of the section."""
 
 
 @dataclass(frozen=True, eq=False)
 class SectionBranch(Continuation[_Section]):
     """The branch of the periodic orbit of a section over a parameter.
 
-    along : symbols of the section's parameters → their names; besides : choices that the section also depends on.
+    Attributes
+    ----------
+    orbit : SectionPeriodicOrbit
+        The periodic orbit to continue.
+    along : mapping of str to str
+        Names of the section's parameters by symbol.
+    besides : tuple of str
+        Choices on which the section also depends.
     """
 
     orbit: SectionPeriodicOrbit
@@ -115,12 +122,12 @@ class SectionBranch(Continuation[_Section]):
 
     @property
     def at(self) -> float:
-        """The value of the parameter in this state."""
+        """The current value of the parameter."""
         return float(getattr(self.host, self.name))
 
     @property
     def side(self) -> int:
-        """Index of the coordinate drawn upwards."""
+        """Index of the coordinate on the vertical axis."""
         return self.host.poincare.names.index(self.host.upwards)
 
     @cached_property
@@ -141,7 +148,7 @@ class SectionBranch(Continuation[_Section]):
     @cached_property
     def begin(self) -> Begin | None:
         """The start of the branch; None without a periodic orbit."""
-        if self.orbit.host.aim is None or self.orbit.closed is None:
+        if self.orbit.host.aim is None or self.orbit.closed_orbit is None:
             return None
         low, high = self.ends
         family = Family.of(self.host, self.name, self.host.over, (*self.along.values(), *self.besides))
@@ -151,18 +158,18 @@ class SectionBranch(Continuation[_Section]):
 
     @property
     def here(self) -> Array | None:
-        """The places (2, m) of the orbit on show in the picture; None without one."""
-        closed = self.orbit.closed
+        """The places (2, m) of the periodic orbit in the picture; None without one."""
+        closed = self.orbit.closed_orbit
         return None if closed is None else np.array([(self.at, place[self.side]) for place in closed.orbit.places]).T
 
     @property
     def _whole(self) -> Range:
-        """The range of the coordinate drawn upwards."""
+        """The full range of the coordinate on the vertical axis."""
         return self.host.poincare.window[self.side]
 
     @cached_property
     def upwards_range(self) -> Range | None:
-        """The vertical range: it fits the known branch; None before any piece is known, the whole one without any."""
+        """The vertical range of the known branch; None until a piece is known, the full range without a branch."""
         if self.message:
             return self._whole
         if not self.branches:
@@ -182,12 +189,12 @@ class SectionBranch(Continuation[_Section]):
         return (self.ends[0], low), (self.ends[1], high)
 
     def choose(self, x: float, y: float) -> Values:
-        """Return the parameter values that show the branch's orbit at (x, y) and keep the visible range."""
+        """Return the parameter values that show the orbit of the branch at (x, y), with the same visible range."""
         found = self.chosen(x, y)
         if found is None:
             return {}
         value, place, period = found
-        there = self.host.changed({self.name: value})
+        there = self.host.with_values({self.name: value})
         low, high = self.ends
         return {
             self.name: value,
@@ -197,7 +204,7 @@ class SectionBranch(Continuation[_Section]):
             "high": high,
         }
 
-    def boxed(self, corners: Corners) -> Values:
+    def box_window(self, corners: Corners) -> Values:
         """Return the range that a box selects."""
         x0, _, x1, _ = corners
         return {} if x0 == x1 or not self.branches else {"low": min(x0, x1), "high": max(x0, x1)}
@@ -208,26 +215,26 @@ class SectionBranch(Continuation[_Section]):
     def caption(self) -> Caption:
         """The caption of the picture."""
         if not self.orbit.is_on:
-            return Caption("No periodic orbit is chosen.", "Choose one; then a click on its branch shows that orbit.")
-        return Caption(self.work.awaited("A periodic orbit is")) if self.orbit.looking else super().caption
+            return Caption("No periodic orbit is chosen.", "Choose one, then click its branch to select an orbit.")
+        return Caption(self.work.pending_caption("A periodic orbit is")) if self.orbit.is_searching else super().caption
 
     @property
     def message(self) -> str:
-        """The reason why the picture is empty; an empty string if it is not."""
+        """The reason why the picture is empty; otherwise an empty string."""
         if not self.orbit.is_on:
-            return "Choose a Periodic orbit, and its branch is continued here"
-        found = self.orbit.looking or self.orbit.closed is not None
-        return "" if found else "No periodic orbit is found from here"
+            return "Choose a Periodic orbit to show its branch here"
+        found = self.orbit.is_searching or self.orbit.closed_orbit is not None
+        return "" if found else "No periodic orbit found near this point"
 
     def means(self) -> Mapping[str, str]:
-        """Return the meanings of the choices of the branch: each scene has its own."""
+        """Return the meanings of the choices of the branch, which differ between scenes."""
         return dict.fromkeys(("over", "low", "high", "upwards"), f"branch of {type(self.host).__name__}")
 
     def idle(self) -> Mapping[str, float]:
-        """Return the ends of the range if there is no branch."""
+        """Return the ends of the range if there is no branch, because they have no effect."""
         return {} if self.orbit.is_on else {"low": self.host.low, "high": self.host.high}
 
-    def carried(self, before: Self) -> Mapping[str, float]:
+    def adjustments(self, before: Self) -> Mapping[str, float]:
         """Return the default range after a change of the parameter."""
         return {} if self.host.over == before.host.over else {"low": 0.0, "high": 0.0}
 
@@ -249,17 +256,17 @@ def branch_picture() -> Picture[Any]:
         name="branch",
         title="Branch of the periodic orbit",
         caption=lambda s: s.caption,
-        folded="Show the branch of the periodic orbit",
+        button="Show the branch of the periodic orbit",
         axes=lambda s: (s.host.over, s.host.upwards),
         message=lambda s: s.message,
         on_click=SectionBranch.choose,
-        on_box=SectionBranch.boxed,
+        on_box=SectionBranch.box_window,
         on_hover=SectionBranch.about,
         x=lambda s: s.ends,
         y=lambda s: s.upwards_range,
         layers=(
             curves(
-                "value", within=at_the_value, color=theme.INK, width=1.5, label="state on show", tag="state on show"
+                "value", within=at_the_value, color=theme.INK, width=1.5, label="current state", tag="current state"
             ),
             *view.layers(itself),
             points(
@@ -269,7 +276,7 @@ def branch_picture() -> Picture[Any]:
                 color=theme.INK,
                 hollow=True,
                 edge_width=2.0,
-                label="the periodic orbit on show",
+                label="current periodic orbit",
             ),
         ),
     ).of(lambda s: s.branch)

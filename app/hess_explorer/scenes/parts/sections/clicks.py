@@ -1,4 +1,4 @@
-"""The starts of orbits chosen by clicks in a section whose window is filled with others."""
+"""Starts of orbits chosen by clicks, in a section whose window is filled with other orbits."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ from typing import Any, Protocol
 import numpy as np
 
 from hess_explorer.compute.cache import Task
-from hess_explorer.protocol.specs import Places, Values, places, written
+from hess_explorer.protocol.specs import Places, Values, places, places_text
 from hess_explorer.scenes.framework.orbit_batches import in_batches
 from hess_explorer.scenes.framework.part import Host, Part, Start
-from hess_explorer.scenes.framework.periodic_search import Closed
+from hess_explorer.scenes.framework.periodic_search import ClosedOrbit
 from hess_explorer.scenes.framework.sliders import number, specs_of
-from hess_explorer.scenes.framework.windows import Window, boxed
+from hess_explorer.scenes.framework.windows import Window, box_window
 from hess_explorer.scenes.parts.sections.section import Section
 from hess_explorer.views.text import digits
 from hess_mechanics.dynamics.return_map import PoincareSection
@@ -57,7 +57,7 @@ def points_of_each(default: float) -> Any:
 
 class _Filled(PoincareSection, Protocol):
     def impossible(self, window: Window) -> Array:
-        """Return cells (m, n) over the window: 1 if no motion is possible."""
+        """Return cells (m, n) over the window: 1 in the forbidden region."""
 
 
 class _Host(Host, Protocol):
@@ -74,15 +74,22 @@ class _Host(Host, Protocol):
         """The places of the chosen orbits."""
 
     @property
-    def closed(self) -> Closed | None:
-        """The periodic orbit, if known."""
+    def closed_orbit(self) -> ClosedOrbit | None:
+        """The periodic orbit; None if unknown."""
 
 
 @dataclass(frozen=True)
 class _Chosen:
-    """The starts of the orbits chosen by clicks; the last orbit is on show.
+    """The starts of the orbits chosen by clicks; the last one is the current orbit.
 
-    refused : the place chosen for the orbit on show, if no motion is possible there.
+    Attributes
+    ----------
+    places : sequence of tuple
+        Places in the section.
+    states : sequence of tuple
+        States (d,) at these places.
+    refused : tuple or None
+        Chosen place of the current orbit, if no motion is possible there.
     """
 
     places: Sequence[Place]
@@ -92,9 +99,14 @@ class _Chosen:
 
 @dataclass(frozen=True, eq=False)
 class Clicks(Part[_Host]):
-    """The places at which clicks in a section start orbits.
+    """Orbits that start where the user has clicked in a section.
 
-    excuse : the reason why some places have no orbit; remedy : the choices that give all of them one.
+    Attributes
+    ----------
+    excuse : str
+        Reason why some places have no orbit.
+    remedy : str
+        Choices with which all places have an orbit.
     """
 
     excuse: str
@@ -105,13 +117,13 @@ class Clicks(Part[_Host]):
         """The parameter of the places."""
         return next(one for one in specs_of(type(self.host)) if isinstance(one, Places) and one.name == "starts")
 
-    def admitted(self, notes: list[str]) -> Values:
+    def corrections(self, notes: list[str]) -> Values:
         """Return at least one start."""
         return {"starts": self.host.starts or self._spec.default}
 
     @cached_property
     def picked(self) -> _Chosen:
-        """The chosen starts with a motion; if the last one has none, a single other start replaces them all.
+        """The chosen starts with a motion; if the last one has none, another start replaces all of them.
 
         Raises `InvalidParameter` if no motion is possible in the window.
         """
@@ -130,26 +142,26 @@ class Clicks(Part[_Host]):
 
     @property
     def rings(self) -> list[Place]:
-        """The places where the orbits on show start."""
-        closed = self.host.closed
+        """The places where the chosen orbits start."""
+        closed = self.host.closed_orbit
         return [*self.picked.places] if closed is None else [*self.picked.places[:-1], _place(closed.orbit.places[0])]
 
     @cached_property
     def impossible(self) -> Array:
-        """Cells (m, n) over the window: 1 if no motion is possible."""
+        """Cells (m, n) over the window: 1 in the forbidden region."""
         return self.work.need(Task(type(self.host.poincare).impossible, self.host.poincare, self.host.section.frame))
 
     def add(self, x: float, y: float) -> Values:
         """Return the starts with another orbit added at (x, y)."""
-        return {"starts": written([*self.picked.places, self._inside(x, y)])}
+        return {"starts": places_text([*self.picked.places, self._inside(x, y)])}
 
     def move(self, x: float, y: float) -> Values:
-        """Return the starts with the orbit on show moved to (x, y)."""
-        return {"starts": written([*places(self.host.starts)[:-1], self._inside(x, y)])}
+        """Return the starts with the current orbit moved to (x, y)."""
+        return {"starts": places_text([*places(self.host.starts)[:-1], self._inside(x, y)])}
 
     def look_closer(self, corners: tuple[float, float, float, float]) -> Values:
         """Return the window that a box selects."""
-        return boxed(corners, (self._spec.low, self._spec.high))
+        return box_window(corners, (self._spec.low, self._spec.high))
 
     def _inside(self, x: float, y: float) -> Place:
         (x0, y0), (x1, y1) = self._spec.low, self._spec.high
@@ -159,8 +171,8 @@ class Clicks(Part[_Host]):
         names = self.host.poincare.names
         return ", ".join(f"{name} = {digits(value)}" for name, value in zip(names, place, strict=True))
 
-    def derived(self) -> Iterator[str]:
-        """Yield the place where the orbit on show starts."""
+    def quantities(self) -> Iterator[str]:
+        """Yield the start of the current orbit."""
         yield f"chosen: {self._at(self.rings[-1])}"
 
     def notes(self) -> Iterator[str]:
@@ -173,9 +185,16 @@ class Clicks(Part[_Host]):
 
 
 def filled(state: Any, held: int, **more: Any) -> Section:
-    """Return the section of a state whose `orbits` fill its `window`, among those of its `clicks`.
+    """Return the section of a state, with the orbits of its `clicks` and `orbits` others that fill the window.
 
-    held : the largest number of orbits while a slider is held; more : as of `Section`.
+    Parameters
+    ----------
+    state : FilledState
+        The state.
+    held : int
+        Largest number of orbits during a drag.
+    **more
+        Other arguments of `Section`.
     """
 
     def seeds(section: Section) -> list[tuple[Start, ...]]:

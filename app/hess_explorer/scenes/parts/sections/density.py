@@ -1,4 +1,4 @@
-"""A section shaded by the density of a million crossings, which grow while one looks."""
+"""A section shaded by the density of a million crossings, computed in stages."""
 
 from __future__ import annotations
 
@@ -37,10 +37,16 @@ _LEVEL = plan(Kind.SECTION, "draft").level
 class SectionDensity(Part[Section]):
     """Crossings of orbits spread over the window, counted in its pixels.
 
-    The orbits are followed in stages, each of which doubles their lengths.
+    Each stage doubles the length of the orbits.
 
-    is_on : show it; kinds : their number, by default one for each direction of time; kind_of(states) : the kinds (k,)
-    of orbits, by default in turn.
+    Attributes
+    ----------
+    is_on : bool
+        True to show the density.
+    kinds : int
+        Number of kinds of orbits; by default one for each direction of time.
+    kind_of : callable or None
+        `kind_of(states)` returns the kinds (k,) of orbits; by default they alternate.
     """
 
     is_on: bool
@@ -64,7 +70,7 @@ class SectionDensity(Part[Section]):
 
     @cached_property
     def _found(self) -> list[Visits | None]:
-        """The newest known visits of each group of orbits; none while a slider is held."""
+        """The newest visits of each group of orbits; empty during a drag."""
         if not self.is_on or self.work.dragging:
             return []
         where = self.host.poincare, self.host.frame
@@ -91,7 +97,7 @@ class SectionDensity(Part[Section]):
 
     @cached_property
     def counts(self) -> tuple[Array, ...]:
-        """Crossings (n, m) in each pixel by the orbits of each kind; empty until some are known."""
+        """Number of crossings in each pixel, (n, m), for each kind of orbits; empty until some are known."""
         counts = np.zeros((len(self._ways), *_PIXELS[::-1]), np.uint32)
         for (kind, _), one in zip(self._kinds, self._found, strict=False):
             if one is not None:
@@ -105,7 +111,7 @@ class SectionDensity(Part[Section]):
 
     @property
     def said(self) -> str:
-        """The number of crossings in words; an empty string until some are known."""
+        """The number of crossings as a phrase; an empty string until some are known."""
         return f"{self.points:,} points; " if self.points else ""
 
     def status(self) -> Iterator[str]:
@@ -116,14 +122,14 @@ class SectionDensity(Part[Section]):
 
 
 def _starts(section: PoincareSection, window: Window) -> tuple[Start, ...]:
-    """Return starts spread evenly over the places of the window that motions cross."""
+    """Return evenly spread starts in the part of the window that motions cross."""
     return section.spread(_ORBITS, window)
 
 
 def _stage(
     section: PoincareSection, window: Window, starts: tuple[Start, ...], forward: bool, later: bool, number: int
 ) -> Visits:
-    """Return the visits of some orbits up to a stage, or with `later` in this stage alone."""
+    """Return the visits of some orbits up to a stage, or with `later` in this stage only."""
     if number == 0:
         return visits(section, window, _PIXELS, starts, _FIRST, forward, _LEVEL)
     before: Visits = Task(_stage, section, window, starts, forward, later, number - 1).get()

@@ -1,4 +1,4 @@
-"""The Lyapunov exponent of the orbit on show and the mean divergence along it, in one picture."""
+"""The Lyapunov exponent of the orbit and the mean divergence along it, in one picture."""
 
 from __future__ import annotations
 
@@ -25,11 +25,11 @@ __all__ = ["Divergence", "divergence_picture"]
 
 @dataclass(frozen=True, eq=False)
 class Divergence(OrbitExponent):
-    """The exponent with the mean divergence along an orbit of the Suslov problem, shown once both are known."""
+    """The exponent and the mean divergence along an orbit of the Suslov problem; shown when both are known."""
 
     @cached_property
     def divergence(self) -> MeanDivergence | None:
-        """The mean divergence over time; None until known, while a slider is held, and for a periodic orbit."""
+        """The mean divergence over time; None until known, during a drag, and for a periodic orbit."""
         if self.later:
             return None
         duration = self.work.plan(Kind.EXPONENT).share * self.host.long
@@ -37,7 +37,7 @@ class Divergence(OrbitExponent):
 
     @property
     def both(self) -> tuple[tuple[Array, Array], ...]:
-        """Times and values of the exponent and of the mean divergence, from the multipliers of a periodic orbit."""
+        """Times and values of the exponent and of the mean divergence; empty until both are known."""
         if self.growth is not None:
             return tuple((np.array([0.0, self.host.long]), np.full(2, rate)) for rate in self.growth)
         found, course = self.result, self.divergence
@@ -62,7 +62,7 @@ class Divergence(OrbitExponent):
             )
         found, course = self.result, self.divergence
         if found is None or course is None:
-            return Caption(self.work.awaited())
+            return Caption(self.work.pending_caption())
         return Caption(
             numbers=f"λ = {with_error(found.value, found.spread)}, "
             f"div = {digits(float(course.mean[-1]), 3)} after t = {digits(float(course.times[-1]))}."

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from hess_explorer.compute.cache import Task
-from hess_explorer.scenes.framework.cells import CELLS, COARSE, DENSITY, Arguments, changed, found_by_rows
+from hess_explorer.scenes.framework.cells import CELLS, COARSE, DENSITY, Arguments, cells_by_rows, change_percentage
 from hess_explorer.scenes.framework.part import Part
 from hess_explorer.scenes.framework.sliders import choice
 from hess_explorer.scenes.framework.trial import Trial
@@ -33,8 +33,8 @@ _TURNS = 300.0
 
 
 def colouring(has_density: bool = True) -> Any:
-    """Declare the colouring under the points of a section."""
-    dense = "Density: a million crossings in place of the points. " if has_density else ""
+    """Declare the choice of colours under the points of a section."""
+    dense = "Density: a million crossings instead of the points. " if has_density else ""
     return choice(
         "Under the points",
         (DENSITY, MEGNO, "nothing") if has_density else ("nothing", MEGNO),
@@ -49,7 +49,13 @@ _WAYS = ((1.0, 1.0), (-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0))
 
 @dataclass(frozen=True, eq=False)
 class Indicator(Part[Section]):
-    """The cells of a section coloured by MEGNO; is_on : show them."""
+    """The cells of a section coloured by MEGNO.
+
+    Attributes
+    ----------
+    is_on : bool
+        True to show the cells.
+    """
 
     is_on: bool
 
@@ -59,7 +65,7 @@ class Indicator(Part[Section]):
         return self.work.need(Task(time_of, self.host.poincare, _TURNS))
 
     def rows(self, plan: Plan, coarse: int = 1) -> list[Arguments]:
-        """Return the arguments of `row_of_cells` for each row of cells as wide as `coarse` of the finest."""
+        """Return the arguments of `row_of_cells` for each row; cells are as wide as `coarse` of the finest ones."""
         m, n = plan.grid(CELLS)
         cells = m // coarse, n // coarse
         frame = self.host.frame
@@ -68,17 +74,17 @@ class Indicator(Part[Section]):
 
     @cached_property
     def _cells(self) -> tuple[Array, int] | None:
-        """The rows (3, m) of `row_of_cells`, and the number of rows still coarse; None until coarse ones are known."""
+        """The rows (3, m) of `row_of_cells`, and the number of coarse rows; None until all coarse rows are known."""
         if not self.is_on or self.work.dragging:
             return None
         plan = self.work.plan(Kind.INDICATOR)
-        return found_by_rows(
+        return cells_by_rows(
             self.work, row_of_cells, (self.rows(plan, COARSE), self.rows(plan)), lambda: self.host.known
         )
 
     @property
     def kinds(self) -> Array | None:
-        """Cells (n, m) of the kinds of `megno_map`."""
+        """Kinds of the cells (n, m), as in `megno_map`."""
         return None if self._cells is None else self._cells[0][:, 1]
 
     @property
@@ -87,11 +93,11 @@ class Indicator(Part[Section]):
         if not self.is_on or self.work.dragging:
             return None
         if self._cells is None or self._cells[1]:
-            return Caption(self.work.awaited(), f"MEGNO after t = {digits(self.time)}: first coarse cells.")
+            return Caption(self.work.pending_caption(), f"MEGNO after t = {digits(self.time)}: first coarse cells.")
         kinds = self._cells[0][:, 1]
         there = kinds[kinds >= 0.0]
         if not there.size:
-            return Caption("Nothing moves in this window.")
+            return Caption("No motion is possible in this window.")
         ended = there == ENDED
         chaotic, shrinks, ends = (
             100.0 * float(np.mean(one)) for one in (there % 2.0 == 1.0, (there >= 2.0) & ~ended, ended)
@@ -112,10 +118,10 @@ class Indicator(Part[Section]):
 
 
 def _aside(frame: Window, cells: tuple[int, int], row: int) -> Window:
-    """Return the window in which the centres of a row of cells (m, n) lie a quarter of a cell aside.
+    """Return the window in which the centres of a row of cells (m, n) are shifted by a quarter of a cell.
 
-    A truth at the centres themselves would not see the size of the cells.  These are centres of a grid twice as fine,
-    one of four in each cell, in another direction from row to row.
+    A reference at the centres themselves would not depend on the size of the cells.  The shifted centres belong to a
+    grid twice as fine; the direction of the shift changes from row to row.
     """
     (x0, y0), (x1, y1) = frame
     right, up = (
@@ -135,7 +141,7 @@ def indicator_trial() -> Trial[Any]:
         Kind.INDICATOR,
         ("section",),
         lambda s, plan: np.stack([row_of_cells(*row)[1] for row in s.megno.rows(plan)]),
-        lambda s, cells, truth: changed(cells, truth),
+        lambda s, cells, truth: change_percentage(cells, truth),
         unit="% of the cells that change",
         seen=3.0,
         shown=lambda s: s.megno.is_on,

@@ -46,10 +46,16 @@ class _Host(Host, Protocol):
 
 @dataclass(frozen=True, eq=False)
 class BodyOrbit(Part[_Host]):
-    """The orbit on show, from `start`.
+    """The orbit of a body from `start`.
 
-    accuracy : its level, if it is not the chosen one; most : the largest number of samples; max_step : its longest
-    step, 0 without a limit.
+    Attributes
+    ----------
+    accuracy : callable or None
+        `accuracy()` returns its level; by default the chosen one.
+    most : int
+        Largest number of samples.
+    max_step : float
+        Largest step size; 0 for no limit.
     """
 
     accuracy: Callable[[], Level] | None = None
@@ -58,7 +64,7 @@ class BodyOrbit(Part[_Host]):
 
     @property
     def finding(self) -> Task[results.Orbit]:
-        """The computation of its samples."""
+        """The task of its samples."""
         host = self.host
         level = self.work.level if self.accuracy is None else self.accuracy()
         step = self.max_step or None
@@ -66,7 +72,7 @@ class BodyOrbit(Part[_Host]):
 
     @cached_property
     def path(self) -> results.Orbit:
-        """Its samples: `times` (n,) and `states` (n, d)."""
+        """The sampled orbit: `times` (n,) and `states` (n, d)."""
         return self.work.need(self.finding)
 
     def motion(self) -> Motion:
@@ -76,29 +82,29 @@ class BodyOrbit(Part[_Host]):
 
     @property
     def caption(self) -> Caption:
-        """The caption: the time span, or the part of it after which the motion ends."""
+        """The caption: the time span, and whether the motion ends early."""
         ends = "Ends early." if self.path.reason else ""
         return Caption(ends, f"From t = 0 to t = {digits(float(self.path.times[-1]))}.")
 
     def notes(self) -> Iterator[str]:
-        """Yield the reason why the motion ends before its time span does, with time and place."""
+        """Yield the reason why the motion ends early, with time and place."""
         if self.has_result("path") and self.path.reason:
             yield self.path.reason
 
     def status(self) -> Iterator[str]:
-        """Yield the size, cost and error."""
+        """Yield the size, cost and error of the orbit."""
         if self.has_result("path"):
             yield orbit_status(self.path)[0]
 
     @property
     def columns(self) -> Columns:
-        """The track of the orbit: t and each variable, by name."""
+        """The columns of the orbit by name: t and each variable."""
         states = zip(self.host.body.system.variables, self.path.states.T, strict=True)
         return {"t": column(self.path.times), **{name: column(values) for name, values in states}}
 
 
 def orbit_picture(x: str, y: str, title: str = "The orbit", name: str = "orbit") -> Picture[Any]:
-    """Return the picture of the orbit in the plane of two variables; the scene has `columns` as its track "orbit"."""
+    """Return the picture of the orbit in the plane of two variables; the scene needs `columns` as track "orbit"."""
 
     def room_for(name: str) -> Callable[[Any], Range]:
         return lambda s: with_room(s.orbit.columns[name], 0.06, 1e-3)

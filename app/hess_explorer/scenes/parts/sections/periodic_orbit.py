@@ -1,4 +1,4 @@
-"""The periodic orbit found by Newton's method from the chosen place, and the manifolds of a saddle."""
+"""The periodic orbit that Newton's method finds near the chosen place, and the manifolds of a saddle."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ from hess_explorer.scenes.framework.periodic_search import (
     NONE,
     PERIODS,
     BranchChoice,
-    Closed,
+    ClosedOrbit,
     NotFound,
     Search,
     branch_of,
     crossings_between,
-    sought,
+    find_orbit,
 )
 from hess_explorer.scenes.framework.sliders import choice, number
 from hess_explorer.scenes.framework.windows import pixels_in
@@ -47,13 +47,13 @@ _WHOLE = 3
 
 
 def which() -> Any:
-    """Declare the choice of a periodic orbit in place of the chosen one, with its period."""
+    """Declare the choice of a periodic orbit, by its period, in place of the chosen orbit."""
     return choice(
         "Periodic orbit",
         (NONE, *PERIODS),
         NONE,
         group="State",
-        doc="Replaces the chosen orbit by the periodic one that Newton's method finds from there. The period is "
+        doc="Replaces the chosen orbit by a periodic one that Newton's method finds near it. The period is "
         "its number of points in the section. A saddle shows its manifolds.",
     )
 
@@ -74,9 +74,14 @@ def length_of_manifolds() -> Any:
 
 @dataclass(frozen=True, eq=False)
 class SectionPeriodicOrbit(Part[Section]):
-    """A periodic orbit shown in place of the chosen orbit of a section.
+    """A periodic orbit in place of the chosen orbit of a section.
 
-    period : one of `PERIODS`, or `NONE`; reach : the length of the manifolds of a saddle.
+    Attributes
+    ----------
+    period : str
+        One of `PERIODS`, or `NONE`.
+    reach : float
+        Length of the manifolds of a saddle, in units of the axes.
     """
 
     period: str
@@ -89,7 +94,7 @@ class SectionPeriodicOrbit(Part[Section]):
 
     @property
     def _search(self) -> Search | None:
-        """The arguments of `sought`; None if there is nothing to search for."""
+        """The arguments of `find_orbit`; None if there is nothing to search for."""
         if not self.is_on or self.host.aim is None:
             return None
         # The error of an unstable orbit grows along it.
@@ -98,25 +103,25 @@ class SectionPeriodicOrbit(Part[Section]):
         return ReturnMap(self.host.poincare, level), self.host.aim, PERIODS[self.period], held
 
     @cached_property
-    def _result(self) -> Closed | NotFound | None:
+    def _result(self) -> ClosedOrbit | NotFound | None:
         if self._search is None:
             return None
-        task = Task(sought, *self._search)
+        task = Task(find_orbit, *self._search)
         return self.work.need(task, preview=task if self.work.dragging else None)
 
     @property
-    def looking(self) -> bool:
-        """True while a requested periodic orbit is not known yet."""
+    def is_searching(self) -> bool:
+        """True until the requested periodic orbit is known."""
         return self._search is not None and self._result is None
 
     @property
-    def closed(self) -> Closed | None:
+    def closed_orbit(self) -> ClosedOrbit | None:
         """The periodic orbit; None if none is requested or known."""
-        return self._result if isinstance(self._result, Closed) else None
+        return self._result if isinstance(self._result, ClosedOrbit) else None
 
     @property
     def _drawn(self) -> tuple[Search, list[BranchChoice], float] | None:
-        """Cache key of a saddle's manifolds: the search, the branches, a pixel; None for any other orbit."""
+        """Cache key of a saddle's manifolds: search, branches, size of a pixel; None for any other orbit."""
         orbit = self._saddle
         if orbit is None or self._search is None:
             return None
@@ -160,43 +165,45 @@ class SectionPeriodicOrbit(Part[Section]):
 
     @property
     def homoclinic(self) -> list[Intersection]:
-        """The certain crossings of the drawn manifolds of a saddle."""
+        """The reliable crossings of the drawn manifolds of a saddle."""
         return [one for some in self._met or () for one in some if one.certain]
 
     @property
     def _saddle(self) -> mechanics.PeriodicOrbit | None:
         """The periodic orbit, if its manifolds are drawn."""
-        wanted = self.closed is not None and self.closed.orbit.kind.startswith("saddle") and self.reach > 0.0
-        return self.closed.orbit if self.closed is not None and wanted else None
+        wanted = (
+            self.closed_orbit is not None and self.closed_orbit.orbit.kind.startswith("saddle") and self.reach > 0.0
+        )
+        return self.closed_orbit.orbit if self.closed_orbit is not None and wanted else None
 
     @property
     def growth(self) -> tuple[float, float] | None:
-        """ln|μ₁|/T and ln|μ₁μ₂|/T of the periodic orbit, its growth rate and mean divergence; None without one."""
-        if self.closed is None:
+        """Growth rate ln|μ₁|/T and mean divergence ln|μ₁μ₂|/T of the periodic orbit; None without one."""
+        if self.closed_orbit is None:
             return None
-        sizes = np.abs(self.closed.orbit.multipliers)
+        sizes = np.abs(self.closed_orbit.orbit.multipliers)
         with np.errstate(divide="ignore"):
-            logarithms = np.log(sizes) / self.closed.time
+            logarithms = np.log(sizes) / self.closed_orbit.time
         # If the flow preserves volume, the sum is round-off only.
         return float(logarithms[0]), round(float(logarithms.sum()), 9) + 0.0
 
     # ---- words --------------------------------------------------------------------------------------------------
 
     def idle(self) -> Mapping[str, float]:
-        """Return the length of the manifolds if none are requested."""
+        """Return the length of the manifolds if it has no effect."""
         return {} if self.is_on or not self.host.alone else {"reach": self.reach}
 
     @property
     def caption(self) -> Caption | None:
-        """The caption of the section if a periodic orbit is requested, else None."""
+        """The caption of the section if a periodic orbit is requested; otherwise None."""
         if not self.is_on or self.host.aim is None:
             return None
-        if self.looking:
+        if self.is_searching:
             return Caption("Searching for a periodic orbit.")
-        if self.closed is None:
+        if self.closed_orbit is None:
             which = "No periodic orbit" if self.period == ANY else f"No orbit of {self.period}"
-            return Caption(f"{which} found from here.", "The chosen orbit is shown.")
-        orbit = self.closed.orbit
+            return Caption(f"{which} found near this point.", "The chosen orbit is shown.")
+        orbit = self.closed_orbit.orbit
         # An imaginary part within the error counts as 0: at a double multiplier 1 its sign depends on round-off.
         first = complex(orbit.multipliers[0])
         multipliers = (
@@ -209,15 +216,15 @@ class SectionPeriodicOrbit(Part[Section]):
             f"Multipliers μ = {multipliers}, to {digits(orbit.multiplier_error, 1)}.",
         )
 
-    def derived(self) -> Iterator[str]:
+    def quantities(self) -> Iterator[str]:
         """Yield the period T, the error of the places, the symmetries and the drawn manifolds."""
-        if self.closed is None:
+        if self.closed_orbit is None:
             return
-        orbit = self.closed.orbit
-        yield f"T = {digits(self.closed.time)}, periodic; places to {digits(orbit.error_estimate, 1)}"
+        orbit = self.closed_orbit.orbit
+        yield f"T = {digits(self.closed_orbit.time)}, periodic; places to {digits(orbit.error_estimate, 1)}"
         yield from (f"symmetric under: {name}" for name in orbit.symmetric)
         if self._saddle is not None and self._branches is None:
-            yield self.work.awaited("Its manifolds are")
+            yield self.work.pending_caption("Its manifolds are")
         elif self._branches:
             whole = sum(_ended(one) == AT_ITS_LENGTH for one in self._branches)
             yield f"{whole} of {len(self._branches)} branches of its manifolds are {digits(self.reach)} long"
@@ -225,8 +232,8 @@ class SectionPeriodicOrbit(Part[Section]):
 
     def status(self) -> Iterator[str]:
         """Yield the cost of Newton's method and the error of the manifolds."""
-        if self.closed is not None:
-            orbit = self.closed.orbit
+        if self.closed_orbit is not None:
+            orbit = self.closed_orbit.orbit
             yield (
                 f"Newton's method: {orbit.iterations} steps, condition {digits(orbit.condition, 2)} ({orbit.status})"
             )
@@ -258,12 +265,12 @@ class SectionPeriodicOrbit(Part[Section]):
             yield f"The manifolds are drawn for one of its {orbit.period} points; those of the others are their images."
 
     def _about_crossings(self) -> str:
-        """Return the number of homoclinic points and their error, in words."""
+        """Return a sentence on the number of homoclinic points and their error."""
         if self._met is None:
-            return self.work.awaited("Where they cross is")
+            return self.work.pending_caption("Where they cross is")
         found = self.homoclinic
         if not found:
-            return "No homoclinic point is seen on the drawn parts of the manifolds"
+            return "No homoclinic point is visible on the drawn parts of the manifolds"
         least = "at least " if any(len(some) == MOST_CROSSINGS for some in self._met) else ""
         return (
             f"{least}{len(found)} homoclinic point{'s' * (len(found) > 1)} on the drawn parts of the manifolds, to "
@@ -292,10 +299,10 @@ class _Bounds(Protocol):
 
 
 def periodic_layers(bounds: Callable[[Any], _Bounds | None] = lambda s: None) -> Layers[Any]:
-    """Return the layers of the periodic orbit in a section, and of what bounds the basins there."""
+    """Return the layers of the periodic orbit in a section, and of the saddles and manifolds of basin boundaries."""
 
     def orbits(s: Any) -> list[mechanics.PeriodicOrbit]:
-        closed, bounding = s.periodic_orbit.closed, bounds(s)
+        closed, bounding = s.periodic_orbit.closed_orbit, bounds(s)
         own = [] if closed is None else [closed.orbit]
         return own if bounding is None else [*own, *bounding.saddles]
 

@@ -1,4 +1,4 @@
-"""The pictures of a section, of a state with the parts `section`, `density`, `megno`, `periodic_orbit` and `clicks`."""
+"""Pictures of a section, for a state with the parts `section`, `density`, `megno`, `periodic_orbit` and `clicks`."""
 
 from __future__ import annotations
 
@@ -32,8 +32,12 @@ def _density(labels: tuple[str, ...], colors: tuple[str, ...]) -> Layers[Any]:
 def section_layers(*parts: str, **more: Any) -> Layers[Any]:
     """Return the layers of a section with one kind of orbits.
 
-    parts : names of the parts of the state that it shows besides, by default all; more : other arguments of
-    `section_plane.layers`.
+    Parameters
+    ----------
+    *parts : str
+        Names of the other parts of the state to show; by default all.
+    **more
+        Other arguments of `section_plane.layers`.
     """
     parts = parts or ("megno", "density", "periodic_orbit")
 
@@ -49,7 +53,7 @@ def section_layers(*parts: str, **more: Any) -> Layers[Any]:
 
 
 def section_picture(**more: Any) -> Plot[Any]:
-    """Return the picture of a section, in which a click starts the orbit; more : other arguments of `Plot`."""
+    """Return the picture of a section, in which a click starts the orbit; further arguments as of `Plot`."""
 
     def side(axis: int) -> Callable[[Any], tuple[float, float]]:
         return lambda s: tuple(corner[axis] for corner in s.section.frame)
@@ -68,7 +72,7 @@ def section_picture(**more: Any) -> Plot[Any]:
 
 
 def _unseen(s: Any) -> str:
-    """Return the message for a window without points, once all are computed; else an empty string."""
+    """Return the message for a window without points when all are computed; otherwise an empty string."""
     low, high = np.array(s.section.frame)
     drawn = s.section.own, s.section.points(), s.section.points(False)
     if (
@@ -92,8 +96,20 @@ def filled_picture(
 ) -> Plot[Any]:
     """Return the picture of a section filled with two kinds of orbits, in which clicks start others.
 
-    full : the whole section; labels : labels of the two kinds; under : layers below all others; over : those of the
-    periodic orbit; between : as in `layered_section.layers`; more : other arguments of `Plot`.
+    Parameters
+    ----------
+    full : tuple
+        Window of the whole section.
+    labels : tuple of str
+        Labels of the two kinds.
+    under : sequence of Layer
+        Layers below all others.
+    between : sequence of Layer
+        Layers between the two kinds, as in `layered_section.layers`.
+    over : sequence of Layer, optional
+        Layers of the periodic orbit.
+    **more
+        Other arguments of `Plot`.
     """
     (x0, y0), (x1, y1) = full
 
@@ -126,9 +142,12 @@ def filled_picture(
 
 
 def section_trials(**most: float) -> tuple[Trial[Any], Trial[Any]]:
-    """Return the trials of a section and of its cells of MEGNO, `section` and `megno` of a state.
+    """Return the trials of a section and of its cells of MEGNO.
 
-    most : limits of further parameters for which levels are compared.
+    Parameters
+    ----------
+    **most : float
+        Upper limits of further parameters in the comparison of levels.
     """
     return (
         Trial(

@@ -1,4 +1,4 @@
-"""Rotation numbers of orbits that start on a line across a section g = π/2, shown as they become known."""
+"""Rotation numbers of orbits that start on a line across a section g = π/2."""
 
 from __future__ import annotations
 
@@ -51,9 +51,15 @@ class _Host(Host, Protocol):
 class RotationAcross(Part[_Host]):
     """Rotation numbers along a line across the Andoyer–Deprit section.
 
-    first() : the place of the first chosen start.
-    about_middle : True counts turns about the middle of the window, on a line from there to the right; False counts
-    them by the angle l, on a vertical line through that start, which further starts do not move.
+    Attributes
+    ----------
+    section : Section
+        The section.
+    first : callable
+        `first()` returns the place of the first chosen start.
+    about_middle : bool
+        True to count turns about the centre of the window, on a line from the centre to the right; False to count them
+        by the angle l, on a vertical line through the first start.
     """
 
     section: Section
@@ -76,7 +82,7 @@ class RotationAcross(Part[_Host]):
         return (0.5 * (l0 + l1), middle), (l1, middle)
 
     def _pieces(self, plan: Plan) -> list[tuple[list[float], Task[OrbitBatch]]]:
-        """Return the positions of all starts along the line, some together, and the computation of their orbits."""
+        """Return groups of starts along the line, each with the task of its orbits."""
         crossings = max(self.work.plan(Kind.SECTION).part(self.host.count), plan.part(_ON_LINE))
         starts = self.work.need(Task(on_line, self.host.poincare, self.ends, self._count(plan)))
         return [
@@ -103,7 +109,7 @@ class RotationAcross(Part[_Host]):
 
     @cached_property
     def profile(self) -> RotationProfile:
-        """The known rotation numbers along the line; of few, short orbits while a slider is held."""
+        """The known rotation numbers along the line; from a few short orbits during a drag."""
         return self._profile(self._known, self.work.plan(Kind.ROTATION))
 
     @property
@@ -126,14 +132,10 @@ class RotationAcross(Part[_Host]):
         return self._profile([(shares, task.now()) for shares, task in self._pieces(plan)], plan)
 
     def message(self) -> str:
-        """Return the reason why the picture is empty; an empty string if it is not, or until all is known."""
+        """Return the reason why the picture is empty; an empty string if it is not, or until all orbits are known."""
         if self.profile.numbers.size or not self._complete:
             return ""
-        return (
-            "No closed curve here makes a turn"
-            if self.profile.librations.size
-            else "No orbit on the line is a closed curve"
-        )
+        return "No closed curve on the line rotates" if self.profile.librations.size else "No closed curve on the line"
 
     @property
     def along(self) -> Range:
@@ -146,14 +148,14 @@ class RotationAcross(Part[_Host]):
         return ("L/G" if self.axis else "l"), "ρ"
 
     def parts_at_sea(self, axes: Axes) -> list[list[Array]]:
-        """Return the chaotic parts of the line as rectangles."""
+        """Return rectangles over the chaotic parts of the line."""
         low, high = axes.y
         return [[np.array([[a, low], [b, low], [b, high], [a, high]])] for a, b in self.profile.sea]
 
     def caption(self) -> Caption:
         """Return the caption of the picture."""
         if not self.profile.numbers.size:
-            return Caption(self.message() + "." if self._complete else self.work.awaited())
+            return Caption(self.message() + "." if self._complete else self.work.pending_caption())
         rho = self.profile.numbers
         # A line across the whole section meets orbits of many kinds: ρ is no single function of the place.
         turning = self.profile.extremum if self.about_middle else None
@@ -196,7 +198,7 @@ def _branches(found: RotationProfile) -> list[Array]:
 
 
 def rotation_picture() -> Picture[Any]:
-    """Return the picture of ρ along the line: its branches, the orbits it comes from, and the parts without it."""
+    """Return the picture of ρ along the line: its branches, the measured orbits, and the parts without ρ."""
     return Plot(
         name="rotation",
         title="Rotation number across the section",

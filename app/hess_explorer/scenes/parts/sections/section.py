@@ -25,7 +25,7 @@ from hess_mechanics.errors import OutsideRegion, WorkLimit
 from hess_mechanics.numerics.accuracy import STANDARD, Kind, Level, Plan
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["Known", "Section", "Seeds", "about_section", "crossings_of_each", "first_place", "start_on"]
+__all__ = ["KnownOrbits", "Section", "Seeds", "about_section", "crossings_of_each", "first_place", "start_on"]
 
 _FEW, _LEAST = 30, 20
 """Crossings of each orbit while a slider is dragged, and until all are known; and their least number at any level."""
@@ -34,7 +34,7 @@ _ON = 1e-9
 _ORBITS, _MOST_STEPS = 20, 100_000
 """Defaults: number of other orbits, and largest number of Taylor steps of each."""
 _COMPARED = 3
-"""Batches that are computed twice for an error estimate, in addition to the orbit on show."""
+"""Batches that are computed twice for an error estimate, in addition to the current orbit."""
 
 
 def crossings_of_each() -> Any:
@@ -52,7 +52,7 @@ def crossings_of_each() -> Any:
 
 
 def start_on(section: PoincareSection, text: str) -> Start:
-    """Return the state at the last place of a link's text.  Raises `OutsideRegion`, also if there is no place."""
+    """Return the state (d,) at the last place in a text.  Raises `OutsideRegion` without a place or a motion there."""
     states, there = section.states_at(*np.array(places(text)[-1:]).reshape(-1, 2).T)
     if not there.any():
         names = " and ".join(section.names)
@@ -68,13 +68,13 @@ def crossings_from(
     level: Level,
     most_steps: int = _MOST_STEPS,
 ) -> OrbitBatch:
-    """Return so many crossings of the orbits from some states; their kinds are their directions of time."""
+    """Return `crossings` crossings of each orbit from some states; the kind of an orbit is its direction of time."""
     found = section_crossings(section, starts, crossings, level, not forward, most_steps=most_steps)
     return batch_of(section, found, forward)
 
 
 def _all_over(section: Section) -> list[tuple[Start, ...]]:
-    """Return starts spread over the visible window, where motions cross it: one batch."""
+    """Return one batch of starts spread over the part of the visible window that motions cross."""
     starts = section.poincare.spread(_ORBITS, section.frame)
     return [starts] if starts else []
 
@@ -102,11 +102,19 @@ class _Host(Sectioned, Protocol):
 
 
 @dataclass(frozen=True)
-class Known:
-    """The orbits of a section as far as they are known.
+class KnownOrbits:
+    """The known orbits of a section.
 
-    own, others : batches of the chosen orbits and of the others, None if not known yet; few : fewer crossings of the
-    others, until all are known; reason : why all of it is left out, else an empty string.
+    Attributes
+    ----------
+    own : list of OrbitBatch or None
+        Batches of the chosen orbits; None for an unknown batch.
+    others : list of OrbitBatch or None
+        Batches of the other orbits; None for an unknown batch.
+    few : list of OrbitBatch or None
+        Fewer crossings of the other orbits, until all batches are known.
+    reason : str
+        Reason why the section is omitted, otherwise an empty string.
     """
 
     own: list[OrbitBatch | None]
@@ -129,14 +137,27 @@ class Known:
 class Section(Part[_Host]):
     """A section with chosen orbits among others, computed in batches.
 
-    chosen() : the states from which the chosen orbits start, by default the given one; the last one is on show.
-    compute(section, starts, crossings, forward, level, most_steps) : the `OrbitBatch` of these starts.
-    most_steps : largest number of Taylor steps of each orbit.
-    seeds : the starts of the others; ways : their directions of time, True is forward.
-    later : draw only the later half of the crossings.
-    whole() : the window of the whole picture, by default that of the section.
-    at_once : compute the chosen orbits, and a few crossings of the others, before anything is shown.
-    alone : whether nothing else is shown in the window, such as basins.
+    Attributes
+    ----------
+    chosen : callable or None
+        `chosen()` returns the initial states (d,) of the chosen orbits, by default the given one; the last one is the
+        current orbit.
+    compute : callable
+        `compute(section, starts, crossings, forward, level, most_steps)` returns the `OrbitBatch` of these starts.
+    seeds : callable
+        `seeds(section)` returns the starts of the other orbits, in batches.
+    most_steps : int
+        Largest number of Taylor steps of each orbit.
+    ways : tuple of bool
+        Directions of time of the other orbits; True is forward.
+    later : bool
+        True to draw only the second half of the crossings.
+    whole : callable or None
+        `whole()` returns the window of the whole picture; by default that of the section.
+    at_once : bool
+        True to compute the chosen orbits, and a few crossings of the others, before anything is drawn.
+    alone : bool
+        True if the window shows nothing else, such as basins.
     """
 
     chosen: Callable[[], Sequence[Start]] | None = None
@@ -160,18 +181,18 @@ class Section(Part[_Host]):
         (x0, x1), (y0, y1) = self.poincare.window
         return window_of(self.host.window, ((x0, y0), (x1, y1)) if self.whole is None else self.whole())
 
-    def admitted(self, notes: list[str]) -> Values:
+    def corrections(self, notes: list[str]) -> Values:
         """Return a valid window."""
         return {"window": tidy_window(self.host.window)} if self.host.window else {}
 
     @property
     def starts(self) -> Sequence[Start]:
-        """The states from which the chosen orbits start; the last one is on show.  Raises `ModelError`."""
+        """The initial states of the chosen orbits; the last one is the current orbit.  Raises `ModelError`."""
         return (self.host.given,) if self.chosen is None else self.chosen()
 
     @cached_property
     def aim(self) -> Place | None:
-        """The place where the last chosen orbit starts, or else first crosses the section; None without one."""
+        """The place where the current orbit starts in the section or first crosses it; None without one."""
         start = self.starts[-1]
         try:
             return _first_place(self.poincare, start, lambda: self.work.need(self.batch((start,))))
@@ -183,7 +204,7 @@ class Section(Part[_Host]):
     def batch(
         self, starts: tuple[Start, ...], forward: bool = True, crossings: int = 0, level: Level | None = None
     ) -> Task[OrbitBatch]:
-        """Return the computation of the orbits from some states, by default as they are shown."""
+        """Return the task of the orbits from some states, by default with the settings of the picture."""
         plan = self.work.plan(Kind.SECTION)
         how = crossings or self._count, forward, level or plan.level, self.most_steps
         return Task(self.compute, self.poincare, starts, *how)
@@ -198,14 +219,14 @@ class Section(Part[_Host]):
         return int(min(crossings, _FEW)) if self.work.dragging else self.work.plan(Kind.SECTION).part(crossings, _LEAST)
 
     @cached_property
-    def known(self) -> Known:
-        """The orbits as far as they are known."""
-        states = self.starts if self.host.periodic_orbit.closed is None else self.starts[:-1]
+    def known(self) -> KnownOrbits:
+        """The known orbits."""
+        states = self.starts if self.host.periodic_orbit.closed_orbit is None else self.starts[:-1]
         held = self.work.dragging
         try:
             own = [self.batch((state,)) for state in states]
             others = self._filling()
-            known = Known(
+            known = KnownOrbits(
                 [self.work.need(task, preview=task if held or self.at_once else None) for task in own],
                 [self.work.need(task, preview=task if held else None) for task in others],
             )
@@ -214,7 +235,7 @@ class Section(Part[_Host]):
                 known = replace(known, few=few)
         except WorkLimit:
             much = f"{self._count} crossings take an orbit more than {self.most_steps} steps here"
-            return Known([], [], reason=f"The section is left out: {much}: choose fewer of them.")
+            return KnownOrbits([], [], reason=f"The section is omitted: {much}: choose fewer crossings.")
         return known
 
     @cached_property
@@ -226,9 +247,16 @@ class Section(Part[_Host]):
         return orbit[len(orbit) // 2 :] if self.later or later else orbit
 
     def points(self, first: bool = True, ends: bool = False, later: bool = False) -> Array:
-        """Return the drawn points (n, 2) of the other orbits of one kind, those that end early or the rest.
+        """Return the drawn points (n, 2) of the other orbits of one kind.
 
-        later : the later half of their crossings, whatever is drawn.
+        Parameters
+        ----------
+        first : bool
+            True for the first of two kinds.
+        ends : bool
+            True for orbits that end early, False for all others.
+        later : bool
+            True for only the second half of the crossings, even if all are drawn.
         """
         if (first, ends, later) not in self._points:
             self._points[first, ends, later] = joined(
@@ -244,19 +272,19 @@ class Section(Part[_Host]):
         return {}
 
     def orbits_at(self, plan: Plan) -> list[Array]:
-        """Return all orbits of the section (n, 2), the chosen ones first; computed at once."""
+        """Compute all orbits (n, 2) of the section at once; the chosen ones come first."""
         how = plan.part(self.host.count, _LEAST), plan.level
         tasks = [*(self.batch((state,), True, *how) for state in self.starts), *self._filling(*how)]
         return [orbit for task in tasks for orbit in task.now().orbits]
 
     @cached_property
     def _right(self) -> tuple[int, int | None] | None:
-        """The last crossing right to half a pixel: of the orbit on show, and the median of some others, if any.
+        """The last crossing right to half a pixel, of the current orbit, and the median of some others, if any.
 
-        Compares with a second run at a hundredth of the tolerance; None until it is known, and while a slider is held.
+        This compares with a second run at a hundredth of the tolerance; None until known, and during a drag.
         """
         periodic, own = self.host.periodic_orbit, self.known.own
-        if self.work.dragging or periodic.looking or periodic.closed is not None or not own:
+        if self.work.dragging or periodic.is_searching or periodic.closed_orbit is not None or not own:
             return None
         level, step = self.work.plan(Kind.SECTION).level.tighter(), len(self.ways)
         tasks = [self.batch((self.starts[-1],), level=level), *self._filling(level=level)[::step][:_COMPARED]]
@@ -273,7 +301,7 @@ class Section(Part[_Host]):
     # ---- words --------------------------------------------------------------------------------------------------
 
     def status(self) -> Iterator[str]:
-        """Yield the size, cost and drift of the section, and the accuracy of the orbit on show."""
+        """Yield the size, cost and drift of the section, and the accuracy of the current orbit."""
         if self.has_result("known") and not self.known.reason:
             known = [*self.known.chosen, *self.known.batches]
             points = len(self.own) + len(self.points()) + len(self.points(False))
@@ -282,14 +310,14 @@ class Section(Part[_Host]):
             yield from accuracy_status(self._right, self._count)
 
     def notes(self) -> Iterator[str]:
-        """Yield the reason why the section is left out, or why a chosen orbit ends early."""
+        """Yield the reason why the section is omitted, or why a chosen orbit ends early."""
         if self.has_result("known"):
             reasons = (reason for batch in self.known.chosen for reason in batch.reasons)
             yield from filter(None, (self.known.reason, *reasons))
 
 
 def about_section(section: Section) -> Caption:
-    """Return the caption of a section: the number of crossings, or the reason why it is left out."""
+    """Return the caption of a section: the number of crossings, or the reason why it is omitted."""
     if section.known.reason:
         return Caption(numbers=section.known.reason)
     reasons = [reason for batch in section.known.batches for reason in batch.reasons]
@@ -302,7 +330,7 @@ def about_section(section: Section) -> Caption:
 
 
 def _first_place(section: PoincareSection, state: Start, crossed: Callable[[], OrbitBatch]) -> Place | None:
-    """Return the place of a state on the section, or else of the first crossing; None without one."""
+    """Return the place of a state in the section, or of its first crossing; None without one."""
     given = np.array([state])
     place = section.places_of(given)
     states, there = section.states_at(*place.T)
@@ -312,5 +340,5 @@ def _first_place(section: PoincareSection, state: Start, crossed: Callable[[], O
 
 
 def first_place(section: PoincareSection, state: Start) -> Place | None:
-    """Return the place where the motion of a state starts, or else first crosses the section; None if it does not."""
+    """Return the place where a motion starts in the section or first crosses it; None if it never does."""
     return _first_place(section, state, lambda: crossings_from(section, (state,), 1, True, STANDARD))

@@ -1,4 +1,4 @@
-"""The section workbench: states with a section, its orbits, and the results on them."""
+"""States with a section, its orbits, and results about them."""
 
 from __future__ import annotations
 
@@ -6,12 +6,12 @@ from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from functools import cached_property
 
-from hess_explorer.protocol.specs import Value, Values, written
+from hess_explorer.protocol.specs import Value, Values, places_text
 from hess_explorer.scenes.framework.cells import DENSITY
 from hess_explorer.scenes.framework.part import Start, part
-from hess_explorer.scenes.framework.periodic_search import Closed
+from hess_explorer.scenes.framework.periodic_search import ClosedOrbit
 from hess_explorer.scenes.framework.scene import Motion, State
-from hess_explorer.scenes.framework.sliders import accuracy_level, exponent_time, proved_error_shown, time_span
+from hess_explorer.scenes.framework.sliders import accuracy_level, exponent_time, show_proved_error, time_span
 from hess_explorer.scenes.framework.solid_body import Solid, constrained_solid
 from hess_explorer.scenes.parts.orbits.exponent import OrbitExponent
 from hess_explorer.scenes.parts.orbits.proof import OrbitProof
@@ -33,10 +33,10 @@ PLAIN: dict[str, Value] = {"periodic": NONE, "indicator": DENSITY}
 
 @dataclass(frozen=True)
 class SectionState(State, ABC):
-    """A state with an orbit from its section, or the periodic orbit in place of it, among others.
+    """A state with an orbit that starts in a section, or a periodic orbit in its place, among other orbits.
 
-    A scene adds its parameters, its `poincare`, its `body` if that is not the section, and the `weights` of the
-    variables, in pixels per unit.  Its orbit starts at the `place`, a parameter of places, or at another `given`.
+    A scene adds its parameters, `poincare`, `body` if it is not the section, and `weights`, the pixels per unit of each
+    variable.  The orbit starts at the parameter `place`, or at another state `given`.
     """
 
     periodic: str = which()
@@ -44,7 +44,7 @@ class SectionState(State, ABC):
     count: float = crossings_of_each()
     reach: float = length_of_manifolds()
     span: float = time_span(40.0, 200.0, what="the chosen orbit")
-    certain: str = proved_error_shown()
+    certain: str = show_proved_error()
     accuracy: str = accuracy_level()
     place: str = ""
     window: str = ""
@@ -77,32 +77,32 @@ class SectionState(State, ABC):
         return self.indicator == DENSITY and self.section.alone
 
     @property
-    def closed(self) -> Closed | None:
-        """The periodic orbit, if known."""
-        return self.periodic_orbit.closed
+    def closed_orbit(self) -> ClosedOrbit | None:
+        """The periodic orbit; None if unknown."""
+        return self.periodic_orbit.closed_orbit
 
     @property
     def start(self) -> Start:
-        """The initial state of the orbit on show."""
-        return self.given if self.closed is None else self.closed.state
+        """The initial state (d,) of the orbit."""
+        return self.given if self.closed_orbit is None else self.closed_orbit.state
 
     @property
     def duration(self) -> float:
-        """The length of the orbit in time."""
-        return self.span if self.closed is None else self.closed.time
+        """The duration of the orbit."""
+        return self.span if self.closed_orbit is None else self.closed_orbit.time
 
     @cached_property
     def solid(self) -> Solid:
-        """The body along the orbit, of the Suslov problem unless a scene has another one."""
+        """The body along the orbit; by default a body of the Suslov problem."""
         return constrained_solid(self.work, self.body, self.orbit.path)
 
     def motion(self) -> Motion | None:
-        """Return the orbit on show."""
+        """Return the motion of the orbit."""
         return self.orbit.motion()
 
     def start_at(self, x: float, y: float) -> Values:
         """Return the parameters of an orbit that starts at a place of the section."""
-        return {"place": written([(x, y)])}
+        return {"place": places_text([(x, y)])}
 
     @property
     def special(self) -> Caption | None:
@@ -112,7 +112,7 @@ class SectionState(State, ABC):
 
 @dataclass(frozen=True)
 class FilledState(SectionState):
-    """A state with a section whose window is filled with orbits; clicks start others there."""
+    """A state with a section whose window is filled with orbits; clicks start further ones."""
 
     orbits: float = orbits_spread(40.0, 120.0, 300.0)
     count: float = points_of_each(200.0)
