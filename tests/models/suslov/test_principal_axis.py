@@ -2,7 +2,7 @@
 
 import numpy as np
 import sympy
-from pytest import approx, mark
+from pytest import approx
 from scipy.integrate import solve_ivp
 
 from hess_mechanics import SuslovBody, level, systems
@@ -28,15 +28,11 @@ def random_points(count, seed=0):
         yield [*rng.normal(size=2), *(gamma / np.linalg.norm(gamma))], p
 
 
-def test_the_brackets_give_the_equations_of_motion():
-    for y, p in random_points(50):
-        P, gradient = np.array(poisson_matrix(y, p), float), np.array(energy_gradient(y, p))
-        assert approx(-P.T) == P
-        assert y[4] * P @ gradient == approx(SUSLOV.field(y, p), abs=1e-13)
-
-
-def test_the_jacobi_identity_and_the_casimir_function():
+def test_the_brackets_give_the_equations_of_motion_and_obey_the_jacobi_identity_with_a_casimir_function():
     P = sympy.Matrix(poisson_matrix(STATE, PRINCIPAL))
+    rates = STATE[4] * P * sympy.Matrix(energy_gradient(STATE, PRINCIPAL))
+    assert sympy.simplify(rates - sympy.Matrix(SUSLOV.field(STATE, PRINCIPAL))) == sympy.zeros(5, 1)
+    assert sympy.simplify(P + P.T) == sympy.zeros(5)
 
     def jacobiator(i, j, k):
         turns = ((i, j, k), (j, k, i), (k, i, j))
@@ -48,11 +44,9 @@ def test_the_jacobi_identity_and_the_casimir_function():
                 assert sympy.simplify(jacobiator(i, j, k)) == 0
     F1 = sympy.Matrix([0, 0, *(2 * g for g in STATE[2:])])
     assert sympy.simplify(P * F1) == sympy.zeros(5, 1)
-    for y, p in random_points(20, seed=2):
-        assert np.linalg.matrix_rank(np.array(poisson_matrix(y, p), float), tol=1e-9) == 4
-        # γ3 P has a limit on the equator, of rank 2.
-        near = np.array(poisson_matrix([*y[:4], 1e-12], p), float)
-        assert np.linalg.matrix_rank(1e-12 * near, tol=1e-9) == 2
+    assert P.rank() == 4
+    # γ3 P has a limit on the equator, of rank 2.
+    assert sympy.simplify(STATE[4] * P).subs(STATE[4], 0).rank() == 2
 
 
 def test_liouvilles_equation():
@@ -70,8 +64,8 @@ def test_liouvilles_equation():
 # ---- both times along a motion ----------------------------------------------------------------------------------
 
 
-@mark.parametrize("span", [30.0, -7.0])
-def test_tau_is_the_integral_of_gamma3(span):
+def test_tau_is_the_integral_of_gamma3():
+    span = -30.0
     found = conformal(GENERAL, START, span, "reference")
     run = solve_ivp(
         lambda _, y: [*SUSLOV.field(y[:5], GENERAL.parameters), y[4]],

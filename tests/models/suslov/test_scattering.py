@@ -7,14 +7,12 @@ from pytest import approx, mark
 
 from hess_mechanics import SuslovBody, solve
 from hess_mechanics.errors import WorkLimit
-from hess_mechanics.numerics.accuracy import LEVELS, Status
+from hess_mechanics.numerics.accuracy import LEVELS
 from hess_mechanics.suslov.free import equilibria, passage
 from hess_mechanics.suslov.scattering import cos_chi, scattering, start
-from support.mechanics import PROMISE, angle_between, every_level
+from support.mechanics import PROMISE, angle_between
 from support.refusals import refused
-from support.thorough import sample
 
-FIGURE = SuslovBody(3.56, 1.0, 0.0, 0.8)
 GENERIC = SuslovBody(2.0, 1.0, 0.3, 0.5)
 every_arc = mark.parametrize("arc", [1, -1])
 
@@ -29,15 +27,9 @@ REFERENCE = [
 ]
 
 
-@every_arc
-@every_level
-@mark.parametrize(("tensor", "exact"), sample(REFERENCE, 4))
-def test_cos_chi_is_that_of_the_reference(tensor, exact, name, arc):
-    found = scattering(SuslovBody(*tensor), name, arc)
-    assert abs(found.cos_chi - exact) <= max(found.error_estimate, 5e-14) <= PROMISE[name]
-    assert found.status is Status.OK
+@mark.parametrize(("tensor", "exact"), REFERENCE)
+def test_cos_chi_is_that_of_the_reference(tensor, exact):
     assert cos_chi(SuslovBody(*tensor)) == approx(exact, abs=5e-14)
-    assert found.cos_chi**2 + found.sin_chi**2 == approx(1.0, abs=2 * PROMISE[name])
 
 
 def test_the_closed_form_of_every_tensor_agrees_with_the_integration():
@@ -51,6 +43,7 @@ def test_the_closed_form_of_every_tensor_agrees_with_the_integration():
             found = scattering(body, name, int(rng.choice([-1, 1])))
             error = abs(found.cos_chi - exact)
             assert error <= 2 * PROMISE[name]
+            assert found.cos_chi**2 + found.sin_chi**2 == approx(1.0, abs=2 * PROMISE[name])
             total += 1
             wrong += error > found.error_estimate
     assert wrong <= 0.01 * total
@@ -61,7 +54,7 @@ def test_the_closed_form_of_every_tensor_agrees_with_the_integration():
 
 @mark.parametrize(
     ("body", "distance", "arc"),
-    [(FIGURE, 1e-5, 1), (GENERIC, 0.2, -1), (GENERIC, 1e-5, 1), (SuslovBody(1.0, 1.5, 0.7, 0.0), 1e-5, -1)],
+    [(GENERIC, 0.2, -1), (GENERIC, 1e-5, 1), (SuslovBody(1.0, 1.5, 0.7, 0.0), 1e-5, -1)],
 )
 def test_the_start_leads_to_the_predicted_circle(body, distance, arc):
     # By the general solver, which knows nothing of the passage.
@@ -118,7 +111,6 @@ def test_the_matrix_gives_the_harmonic_formula(arc):
 
 
 test_refusals = refused(
-    (lambda: scattering(SuslovBody(2.0, 1.0, 0.3, 0.5, b1=1.0), "draft"), "Set b1 = b2"),
     (lambda: scattering(SuslovBody(2.0, 1.0, 0.0, 1e-06), "draft"), "choose larger I13, I23", WorkLimit),
     (lambda: scattering(GENERIC, "draft", 0), "\\+1 or −1"),
     (lambda: scattering(GENERIC, "draft", 1, 1.23), "choose one above 0 and up to 1.227"),

@@ -63,8 +63,8 @@ def test_below_the_lowest_energy_nothing_is_possible_and_above_it_something(k):
 
 
 test_what_is_no_point_or_too_much_is_refused = refused(
-    *((lambda delta=delta: SEEN.state_at(0.5, delta), "at ψ = 0.5, δ = ", OutsideRegion) for delta in (0.0, pi)),
-    *((lambda k=k: SuslovSection(BODY, 1.0, k), "choose 1, 2 or 3") for k in (0, 4)),
+    (lambda: SEEN.state_at(0.5, pi), "at ψ = 0.5, δ = ", OutsideRegion),
+    (lambda: SuslovSection(BODY, 1.0, 4), "choose 1, 2 or 3"),
     (lambda: section_crossings(SEEN, SEEN.spread(2), 1000, PRECISE, most_steps=500), "a shorter", WorkLimit),
     (lambda: section_crossings(SEEN, SEEN.spread(2), 10**7, PRECISE), "number of crossings", WorkLimit),
 )
@@ -77,7 +77,6 @@ test_what_is_no_point_or_too_much_is_refused = refused(
     ("k", "above", "window"),
     [
         (1, 1e-9, WHOLE),
-        (2, 0.1, ((-0.2, 0.5), (2.9, 1.0))),
         (3, 1e-4, ((-0.2, 0.5), (2.9, 1.0))),
         (3, 30.0, ((-3.0 * pi, 0.0), (3.0 * pi, 2.0))),
     ],
@@ -100,7 +99,7 @@ def test_seeds_are_as_many_as_asked_for_wherever_the_energy_allows_any(k, above,
 # ---- points ------------------------------------------------------------------------------------------------------
 
 
-@mark.parametrize(("k", "forward", "count"), [(1, True, 3), (2, False, 8), (3, True, 8), (3, False, 8)])
+@mark.parametrize(("k", "forward", "count"), [(1, True, 3), (2, False, 8), (3, True, 8)])
 def test_the_first_points_are_those_of_scipy(k, forward, count):
     body = SuslovBody(1.5, 3.0, 0.4, 0.4, -0.5, -0.5, 0.7)
     start = SuslovSection(body, 0.4, k).state_at(-0.3, 0.9)
