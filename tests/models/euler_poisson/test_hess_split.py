@@ -1,5 +1,6 @@
 """Separatrices of the Hess manifold: unsplit in the Hess case; their splitting against Melnikov's integral."""
 
+from dataclasses import replace
 from math import exp, pi, remainder, sin, sqrt
 
 import numpy as np
@@ -78,8 +79,8 @@ def test_the_saddles_are_the_cycles_of_the_moebius_matrix():
 
 def test_where_there_is_nothing_to_split_that_is_said():
     with raises(OutsideRegion, match="no limit cycles"):
-        split_at(HessTorus((1.0, 1.5, 2.0), -sqrt(0.5), 0.2, 1.0), 0.0, PRECISE)
+        split_at(replace(TORI[1], h=0.2), 0.0, PRECISE)
     with raises(OutsideRegion, match="no motion with these h and f"):
-        split_at(HessTorus((1.0, 1.5, 2.0), -sqrt(0.5), 0.0, 1.0), 0.0, PRECISE)
+        split_at(replace(TORI[1], h=0.0), 0.0, PRECISE)
     with raises(NotConverged):
-        split_at(HessTorus((1.0, 1.5, 2.0), -sqrt(0.5), 0.8, 1.0), 0.1, PRECISE)
+        split_at(replace(TORI[1], h=0.8), 0.1, PRECISE)
