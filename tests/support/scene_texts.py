@@ -31,7 +31,7 @@ from hess_mechanics.suslov.plane_potential import POTENTIALS
 from hess_mechanics.suslov_hess.rotation_number import TURNS, plateaus
 from support.deviations import deviations
 from support.diagrams import settled
-from support.lesson_on_doubling import cascade, cascade_of_the_ball, feigenbaum
+from support.lesson_on_doubling import FEIGENBAUM, cascade, cascade_of_the_ball
 from support.lessons_on_tori import ends, on_the_wall, threshold
 from support.lessons_on_tori import torus as torus_of
 from support.mechanics import followed
@@ -267,7 +267,7 @@ DIAGRAMS = {
     "at least six of eight orbits": (regime._ENOUGH, regime._MEMBERS),
     "within which 95 %": (100.0 * point_sets._QUANTILE,),
     "beyond three standard errors": (birkhoff.ERRORS,),
-    "Feigenbaum's $\\delta=4.6692$": lambda s: (feigenbaum(),),
+    "Feigenbaum's $\\delta=4.6692$": (FEIGENBAUM,),
 }
 """Rows of both orbit diagrams."""
 SHARED = {
