@@ -5,7 +5,6 @@ from math import acos, cos, hypot, pi, sin, sqrt
 
 import numpy as np
 from pytest import approx, mark
-from scipy.integrate import solve_ivp
 
 import oracle
 from hess_mechanics import level
@@ -14,7 +13,7 @@ from hess_mechanics.chaplygin_ball.energy_surface import Strip
 from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody
 from hess_mechanics.errors import WorkLimit
 from hess_mechanics.numerics.accuracy import LEVELS, Status
-from support.mechanics import scipy_states
+from support.mechanics import followed, scipy_states
 from support.refusals import refused
 from support.thorough import sample
 
@@ -83,15 +82,10 @@ def test_the_start_is_where_motions_of_its_circle_pass_but_for_the_square_of_the
     axes = np.array([xi, eta, (0.0, 0.0, 1.0)])
     assert np.all(np.linalg.norm(states[:, 2:] - circle @ axes, axis=1) <= 1.5 * np.abs(distance))
     # Long before, by SciPy, all motions at once: it takes as long for forty as for two.
-    run = solve_ivp(
-        lambda _, y: np.ravel(SYSTEM.field(y.reshape(5, -1), body.parameters)),
-        (0.0, -50.0),
-        states.T.ravel(),
-        method="DOP853",
-        rtol=1e-11,
-        atol=1e-14,
+    (before,) = followed(
+        lambda _, y: np.ravel(SYSTEM.field(y.reshape(5, -1), body.parameters)), states.T.ravel(), [-50.0], atol=1e-14
     )
-    along, across, up = axes @ run.y[:, -1].reshape(5, -1)[2:]
+    along, across, up = axes @ before.reshape(5, -1)[2:]
     away = np.abs(np.arctan2(np.hypot(across, up), along) - theta)
     assert np.all(away <= errors)
     # A hundred times less at a tenth of the distance, as far as the integrator sees.

@@ -53,15 +53,13 @@ def goryachev_chaplygin(y):
 @mark.parametrize(
     ("body", "integral"),
     [
-        param(HeavyBody((1.0, 1.6, 2.3), (0.0, 0.0, 0.0), 1.0), lambda y: np.sum(y[:3] ** 2, 0), id="Euler"),
-        param(HeavyBody((1.5, 1.5, 0.9), (0.0, 0.0, 0.7), 2.0), lambda y: 10.0 * y[2], id="Lagrange"),
         param(HeavyBody((1.0, 1.0, 2.0), (1.0, 0.0, 0.0), 0.8), kovalevskaya, id="Kovalevskaya"),
         param(HeavyBody((1.0, 1.0, 4.0), (1.0, 0.0, 0.0), 0.8), goryachev_chaplygin, id="Goryachev–Chaplygin, f = 0"),
     ],
 )
 def test_the_integrable_tops_keep_their_integrals(body, integral):
     random = np.random.default_rng(8)
-    for f in (0.0, 0.0, 0.3, -0.7):
+    for f in (0.0, -0.7):
         gamma, M = random.normal(size=(2, 3))
         gamma /= np.linalg.norm(gamma)
         M -= (M @ gamma - f) * gamma

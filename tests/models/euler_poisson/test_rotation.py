@@ -49,13 +49,3 @@ def test_numbers_on_both_sides_of_a_half_are_one_curve_and_what_is_far_apart_sta
     assert (near, parts) == (approx([0.4131, 0.4507, 0.4853, 0.5087], abs=1e-5), 1)
     far, parts = numbers(0.3507, 0.0131, -0.3153, 0.4513)
     assert (far, parts) == (approx([0.3507, 0.0131, -0.3153, 0.4513], abs=1e-5), 2)
-
-
-def test_parts_of_the_line_at_sea_reach_half_way_to_the_closed_curves():
-    ends = ((0.0, -1.0), (0.0, 1.0))
-    chaos = np.random.default_rng(3).uniform(-1.0, 1.0, (400, 2)) * (pi, 1.0)
-    curve, short = rotating(0.3 * GOLDEN), rotating(0.3)[:10]
-    orbits = [chaos, chaos, curve, chaos, short, chaos]
-    found = rotation_along(ends, (np.arange(6) + 0.5) / 6, orbits, about_first=False, count=6)
-    assert found.sea == approx(np.array([[-1.0, -1.0 / 3.0], [0.0, 1.0 / 3.0], [2.0 / 3.0, 1.0]]))
-    assert found.places == approx([-1.0 / 6.0])

@@ -4,7 +4,6 @@ from math import asin, cos, sqrt
 
 import numpy as np
 from pytest import approx, mark
-from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
 from hess_mechanics import level, solve
@@ -15,6 +14,7 @@ from hess_mechanics.euler_poisson.loxodromic_pendulum import LoxodromicPendulum,
 from hess_mechanics.rigid_body.attitude import Attitude, orthonormal
 from hess_mechanics.suslov_hess import equations as hess
 from hess_mechanics.suslov_hess.equations import WITH_ATTITUDE, HessBody
+from support.mechanics import followed
 from support.refusals import refused
 
 START = np.array([0.3, 0.9, 0.6, 0.0, 0.8])
@@ -31,8 +31,8 @@ def turned(velocity, field, start, times):
         u, s = y[d : d + 3], y[d + 3]
         return [*field(x), *(0.5 * (s * w + np.cross(w, u))), -0.5 * w @ u]
 
-    found = solve_ivp(rates, (0.0, times[-1]), [*start, 0.0, 0.0, 0.0, 1.0], "DOP853", times, rtol=3e-14, atol=1e-15)
-    return found.y[:d].T, Rotation.from_quat(found.y[d:].T).as_matrix()
+    found = followed(rates, [*start, 0.0, 0.0, 0.0, 1.0], times, 3e-14, 1e-15)
+    return found[:, :d], Rotation.from_quat(found[:, d:]).as_matrix()
 
 
 # --- The attitude ------------------------------------------------------------------------------------

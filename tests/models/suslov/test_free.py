@@ -81,11 +81,9 @@ def test_fixed_points_are_those_of_the_corrected_formula():
 def test_arcs_run_from_the_unstable_to_the_stable_point():
     points = equilibria(GENERIC, 1.3)
     for arc, sigma in zip(arcs(GENERIC, 1.3, 61), (1, -1), strict=True):
-        assert arc[0] == approx(points.unstable, abs=1e-14)
-        assert arc[-1] == approx(points.stable, abs=1e-14)
+        assert arc[[0, -1]] == approx(np.array([points.unstable, points.stable]), abs=1e-14)
         assert arc[:, 0] ** 2 + arc[:, 1] ** 2 / 2 == approx(np.full(61, 1.3), rel=1e-14)
-        s = 0.3 * arc[1:-1, 0] + 0.5 * arc[1:-1, 1]
-        assert np.all(sigma * s > 0)
+        assert np.all(sigma * arc[1:-1] @ (0.3, 0.5) > 0)
         assert passage(GENERIC, arc[20]).arc == sigma
 
 

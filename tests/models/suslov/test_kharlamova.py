@@ -3,7 +3,7 @@
 The arcs are held against the general Suslov system, integrated without anything of them.
 """
 
-from math import acosh, exp, hypot, inf, pi, sqrt
+from math import acosh, exp, inf, sqrt
 
 import numpy as np
 from pytest import approx, mark
@@ -23,7 +23,6 @@ from support.refusals import refused
 
 SUSLOV = systems()["suslov"]
 FLOOR = level("reference")
-LEMNISCATE = 2.62205755429211981
 
 
 def random_orbits(count, seed=1):
@@ -66,16 +65,6 @@ def test_orbits_run_on_their_arc_and_turn_where_it_ends():
         length = found.tau[1] - found.tau[0]
         assert found.tau == approx((tau.min(), tau.max()), abs=1e-3 * length)
         assert found.height(np.array(found.tau)) ** 2 == approx(np.zeros(2), abs=1e-13)
-
-
-def test_periods_that_are_known():
-    # Without a field (dτ/dt)² = 1 − |u0 + v0 τ|²: an oscillator of the frequency |ω|.
-    free = PlaneBody(1.5, 0.7, 0.0, 0.0)
-    y = state_at(free, (0.3, -0.4), (0.8, 0.5))
-    assert arc(free, y).period == approx(2.0 * pi / hypot(y[0], y[1]), rel=1e-15)
-    # From rest at the pole, |b| = 1: 2∫dx/√(1 − x⁴) times √(2 I/|b|).
-    body = PlaneBody(2.0, 2.0, 0.6, -0.8)
-    assert arc(body, state_at(body, (0.0, 0.0), (0.0, 0.0))).period == approx(4.0 * LEMNISCATE, rel=1e-15)
 
 
 # ---- What touches the equator, and what stands on it ------------------------------------------------------------

@@ -14,14 +14,12 @@ from hess_mechanics import (
     f_max,
     level,
     rotation_numbers,
-    systems,
 )
 from hess_mechanics.errors import Separatrix, WorkLimit
 from hess_mechanics.suslov_hess.mode_locking import rotation_number_window
 from support.mechanics import angle_between, lifted_return
 from support.refusals import refused
 
-HESS = systems()["hess"]
 REFERENCE, STANDARD, DRAFT = level("reference"), level("standard"), level("draft")
 PHASES = np.linspace(-3.0, 3.0, 13)
 

@@ -43,18 +43,6 @@ def test_in_the_angle_of_the_measure_the_map_is_a_rotation(a, h, f):
     assert slope / (2.0 * pi) == approx(measure.density(PHASES), rel=1e-7)
 
 
-@mark.parametrize("a", [2.0, 4.0])
-def test_where_zeta_is_close_to_the_circle_the_density_is_still_a_peak_of_area_1(a):
-    # At f = 0, h < 1 the gap falls exponentially with a.
-    measure = invariant_measure(circle_map(a, 0.9, 0.0, REFERENCE))
-    assert 1e-9 < measure.gap < 1e-2
-    centre = pi if measure.zeta < 0.0 else 0.0
-    away = measure.gap * np.tan(np.linspace(-0.4999, 0.4999, 100_001) * pi)
-    away = away[np.abs(away) < pi]
-    values = measure.density(centre + away)
-    assert np.sum(0.5 * (values[1:] + values[:-1]) * np.diff(away)) == approx(1.0, abs=2e-3)
-
-
 # ---- on the torus -----------------------------------------------------------------------------------------------
 
 
