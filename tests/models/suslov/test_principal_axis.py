@@ -56,10 +56,11 @@ def test_liouvilles_equation():
 
 def test_tau_is_the_integral_of_gamma3():
     found = conformal(GENERAL, START, -30.0, "reference")
+    some = [0, 10, 50, -1]
     exact = followed(
-        lambda _, y: [*SUSLOV.field(y[:5], GENERAL.parameters), y[4]], [*START, 0.0], found.orbit.times[::10], 1e-12
+        lambda _, y: [*SUSLOV.field(y[:5], GENERAL.parameters), y[4]], [*START, 0.0], found.orbit.times[some], 1e-12
     )
-    assert found.tau[::10] == approx(exact[:, 5], abs=1e-9)
+    assert found.tau[some] == approx(exact[:, 5], abs=1e-9)
     _, _, g1, g2, g3 = found.orbit.states.T
     assert found.brackets == approx(np.column_stack([g2 / (1.5 * g3), -g1 / g3]), rel=1e-12)
     assert found.residual < 1e-12
