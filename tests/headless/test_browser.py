@@ -1,6 +1,6 @@
 """Search order for the browser; a missing browser is always reported."""
 
-import builtins
+import sys
 
 import pytest
 from playwright.sync_api import Error
@@ -38,21 +38,8 @@ def test_a_wrong_variable_is_an_error_and_not_passed_over(machine, monkeypatch):
         find_browser("")
 
 
-class NoChromium:
-    """Playwright on a machine where it has no Chromium of its own."""
-
-    executable_path = "/nowhere/chrome"
-
-    def __enter__(self):
-        self.chromium = self
-        return self
-
-    def __exit__(self, *_):
-        pass
-
-
 def test_no_browser_is_loud(machine, monkeypatch):
-    monkeypatch.setattr("playwright.sync_api.sync_playwright", NoChromium)
+    monkeypatch.setattr("playwright.sync_api.sync_playwright", Playwright())
     with (
         pytest.raises(BrowserError, match="No Chromium was found: run `playwright install chromium`"),
         headless_browser(),
@@ -61,27 +48,28 @@ def test_no_browser_is_loud(machine, monkeypatch):
 
 
 def test_missing_playwright_says_how_to_install_it(monkeypatch):
-    real = builtins.__import__
-
-    def without_playwright(name, *rest):
-        if name.startswith("playwright"):
-            raise ImportError(name)
-        return real(name, *rest)
-
-    monkeypatch.setattr(builtins, "__import__", without_playwright)
+    monkeypatch.setitem(sys.modules, "playwright.sync_api", None)
     with pytest.raises(BrowserError, match="pip install playwright"), headless_browser():
         pass
 
 
-class Playwright(NoChromium):
-    """Its Chromium starts only without a sandbox, or not at all."""
+class Playwright:
+    """It has no Chromium of its own, and another starts only without a sandbox, or not at all."""
 
-    def __init__(self, complaint):
+    executable_path = "/nowhere/chrome"
+
+    def __init__(self, complaint=""):
         self.complaint = complaint
         self.sandboxed = []
+        self.chromium = self
 
     def __call__(self):
         return self
+
+    __enter__ = __call__
+
+    def __exit__(self, *_):
+        pass
 
     def launch(self, *, executable_path, args, chromium_sandbox):
         self.sandboxed.append(chromium_sandbox)

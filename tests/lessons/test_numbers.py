@@ -9,13 +9,11 @@ from hess_explorer.lessons import shipped, tries
 from hess_explorer.lessons.lesson import LessonStep, StateLink
 from hess_explorer.lessons.reading import without_tries
 from hess_explorer.scenes import scenes
-from hess_mechanics import circle_map, level
 from hess_mechanics.chaplygin_ball.ball_scattering import ball_scattering
 from hess_mechanics.chaplygin_ball.equations import BallBody
 from support import lesson_on_constraints, lesson_on_doubling, lesson_on_evidence, lessons_on_tori, scene_texts
 from support.numbers import mistakes
 
-PRECISE = level("precise")
 OF_LESSONS = lessons_on_tori.ROWS | {
     one.NAME: one.ROWS for one in (lesson_on_constraints, lesson_on_doubling, lesson_on_evidence)
 }
@@ -46,22 +44,9 @@ def test_a_number_in_a_text_is_what_it_is_computed_to_be(name, phrase):
 # Statements of the lessons in words.
 
 
-def test_for_f_0_the_map_is_the_same_at_every_energy_over_the_separatrix():
-    phases = np.linspace(-3.0, 3.0, 41)
-    first, *others = (circle_map(0.3, h, 0.0, PRECISE).theta(phases) for h in (1.2, 1.5, 3.0, 20.0))
-    for other in others:
-        np.testing.assert_allclose(np.exp(1j * other), np.exp(1j * first), atol=1e-10)
-
-
 def test_the_ball_of_the_scattering_lesson_gives_no_single_cosine():
     values = shipped()["scattering-by-a-nonholonomic-top"].steps[-1].at.values
-    assert values["D"] == 2.0
+    body = BallBody(*(values[name] for name in ("I11", "I22", "I13", "I23", "D")))
     phases = np.linspace(-math.pi, math.pi, 16, endpoint=False)
-
-    def beside_a_cosine(D):
-        body = BallBody(values["I11"], values["I22"], values["I13"], values["I23"], D)
-        found = ball_scattering(body, values["theta"], phases, values["h"], 1e-4, level("draft"))
-        return np.abs(np.fft.rfft(np.cos(found.theta_plus)))[2:].max() / phases.size
-
-    assert beside_a_cosine(2.0) > 1e-3
-    assert beside_a_cosine(0.0) < 1e-5
+    found = ball_scattering(body, values["theta"], phases, values["h"], 1e-4, "draft")
+    assert np.abs(np.fft.rfft(np.cos(found.theta_plus)))[2:].max() > 1e-3 * phases.size

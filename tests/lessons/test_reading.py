@@ -67,43 +67,22 @@ def test_a_lesson_is_read_as_it_is_written():
 MISTAKES = [
     ("title: Two cycles are born\n", "", 1, "no title"),
     ("minutes: 10", "minutes: 1e9", 3, "up to 600"),
-    ("minutes: 10", "author: me", 3, "choose from title, minutes"),
-    ("---\ntitle", "title", 1, "front matter"),
     ("\n## ", "\n# ", 1, "there is no step"),
     ('state: "?scene=suslov-hess&h=0.2&f=0.5"\n', "", 9, "the first step needs a state"),
     ('"?scene=suslov-hess&h=0.2', '"?scene=nowhere&h=0.2', 9, "one of suslov-hess"),
     ("&h=0.2&f=0.5", "&h=1e9&f=0.5", 9, "h must lie between"),
-    ("&h=0.2&f=0.5", "&g=0.2", 9, "suslov-hess has no parameter 'g'"),
-    ("&h=0.2&f=0.5", "&h=0.2" + "0" * 2000, 9, "longer than 2000"),
     ("look: circle", "look: circel", 10, "look must be one of body, omega"),
-    ("look: circle", "glance: circle", 10, "choose from state, example, look, pictures, animate"),
     ("look: circle", "controls: h", 10, "a list of at most 6 names"),
-    ("look: circle", "controls: [[h]]", 10, "a name in controls must be one of I22"),
-    ("look: circle", "pictures: circle", 10, "like pictures: [body, omega]"),
-    ("look: circle", "pictures: [section]", 10, "a name in pictures must be one of body"),
-    ("look: circle", "hide: {picture: [circle], layer: stable}", 10, "picture of hide must be one of omega"),
     ("look: circle", "hide: {picture: bifurcation, layer: rotation}", 10, "layer of hide must be one of"),
-    ("look: circle", "example: S", 10, "exactly one example"),
     ("look: circle", "look: [circle", 11, "not YAML"),
     ("look: circle", "look: &a circle\nmore: *a", 9, "references"),
-    ("name: h,", "name: k,", 11, "name of animate must be one of time, I22"),
-    ("to: 1.5", "to: .nan", 11, "numbers from"),
-    ("seconds: 8", "seconds: 0", 11, "up to 600"),
     (", seconds: 8", "", 11, "animate needs"),
-    ("layer: stable", "layer: truth", 12, "layer of predict must be one of diagonal"),
     ("scene=suslov-hess&h=1.5&f=0.6", "scene=scattering&k=1", 12, "the same scene"),
     ("### Question", "### Quiz", 16, "Question and Answer"),
-    ("### Answer\n", "", 16, "both a question and an answer"),
-    ("## Next", "##", 20, "no title"),
-    ("$a<b$", "$\\frac$", 14, "cannot be set"),
-    ("$a<b$", "a\n$\\lamda$", 15, "\\lamda is not a known command"),
     ("$a<b$", "a\n$$\n\\omgea\n$$", 15, "\\omgea is not a known command"),
-    ("$a<b$", "$\\frac{1}$", 14, "the argument of a command is missing"),
     ("It stays.", "It\nstays $5", 22, "a dollar stands alone"),
     ("It stays.", "It\n<b>stays</b>.", 22, "'<b>' is HTML"),
     ("It stays.", "[It](javascript:stays)", 21, "'javascript:stays' leads nowhere"),
-    ("It stays.", "[It](?scene=suslov-hess&h=1e9)", 21, "h must lie between"),
-    ("It stays.", "[It](?h=1)", 21, "needs a scene"),
     ("It stays.", "```step\nlook: omega\n```\n```step\n```", 24, "two fences named step"),
 ]
 
@@ -127,7 +106,6 @@ def test_a_file_that_is_no_lesson_is_told_of(tmp_path):
             read_file(path)
 
     refused("UTF-8", WHOLE.encode("utf-16"))
-    refused("front matter", b"")
     refused("more than 256 kB", WHOLE.encode() + b" " * MAX_BYTES)
     refused(f"at most {MAX_STEPS}", (WHOLE + "\n## Again\nx\n" * MAX_STEPS).encode())
     with pytest.raises(LessonError, match="cannot be read"):
@@ -148,15 +126,10 @@ def test_html_of_a_lesson_is_text_and_it_asks_no_other_host():
     assert "<math" in html
     assert len(problems(text)) == 6
     # The library that sets formulas leaves what is in \\text as it is.
-    for formula in (
-        r"\text{<img src=x onerror=a()>}",
-        r"\text{<script>a()</script>}",
-        r"\text{</math><b>x</b>}",
-        r"\text{<mtext href='javascript:a()'>x</mtext>}",
-    ):
+    for formula in (r"$\text{<script>a()</script>}$", r"$\text{<mtext href='javascript:a()'>x</mtext>}$"):
         with pytest.raises(BadFormula):
-            to_html(f"${formula}$")
-        assert "cannot be set" in problems(f"${formula}$")[0]
+            to_html(formula)
+        assert "cannot be set" in problems(formula)[0]
 
 
 def test_what_can_be_shown_is_no_problem():
@@ -173,6 +146,8 @@ def test_what_can_be_shown_is_no_problem():
     assert html.count("<td>") == 2
     assert '<a href="?scene=suslov-hess&amp;h=1.5">c</a>' in html
     assert '<a href="https://a.org" target="_blank" rel="noopener">' in html
+    # A displayed formula can stand in a line.
+    assert ' and <span class="math"><math' in html and 'display="block"' in html
 
 
 def test_the_mistakes_of_a_file_are_found_and_one_of_the_settings_of_each_step(tmp_path):
@@ -190,17 +165,10 @@ state: "?scene=suslov-hess&h=0.2&f=5"
 """
     path.write_text(text + more, encoding="utf-8")
     assert sorted(one.line for one in examine(path)[1]) == [3, 14, 14, 16, 25, 29, 31]
-    # Without a first state, the other steps have no mistake of their own.
-    path.write_text(WHOLE.replace("state:", "stat:"), encoding="utf-8")
-    assert [one.line for one in examine(path)[1]] == [9]
 
 
 # The first bytes of a file, by its type.
-IMAGES = {
-    "png": b"\x89PNG\r\n\x1a\n" + bytes(8),
-    "jpeg": b"\xff\xd8\xff\xe0" + bytes(8),
-    "webp": b"RIFF\0\0\0\0WEBP" + bytes(8),
-}
+IMAGES = {"png": b"\x89PNG\r\n\x1a\n", "jpeg": b"\xff\xd8\xff\xe0", "webp": b"RIFF\0\0\0\0WEBP"}
 
 
 def with_image(folder, markdown):
@@ -231,19 +199,14 @@ def test_other_images_are_refused_with_their_reason(tmp_path):
     (folder / "text.png").write_text("png")
     (folder / "good.png").write_bytes(IMAGES["png"] + bytes(MAX_ONE - 100))
     for target, why in {
-        "../outside.png": "outside the folder",
         "link.png": "outside the folder",
         "%2e%2e/outside.png": "outside the folder",
         "/etc/hostname": "a file beside the lesson",
         "https://there/y.png": "a file beside the lesson",
-        "data:image/png;base64,AAAA": "a file beside the lesson",
-        "file:///etc/hostname": "a file beside the lesson",
         "large.png": "more than 300 kB",
         "drawing.png": "is an SVG: png, jpeg and webp are allowed",
         "text.png": "none of these: png",
         "none.png": "no such file",
-        "%00.png": "cannot be read|no such file",
-        ".": "no such file",
     }.items():
         with pytest.raises(LessonError, match=f"line 21: .*({why})"):
             read_file(with_image(folder, f"![A wheel]({target})"))
@@ -287,11 +250,3 @@ def test_every_step_is_admitted_unchanged_and_drawn(lesson, step):
 def test_words_of_a_scene_are_whole_without_what_can_be_tried():
     words = "### What you see\na\n\n### Try this\n#### One\nb\n### The equations\nc"
     assert without_tries(words) == "### What you see\na\n\n### The equations\nc"
-    assert without_tries("### What you see\na") == "### What you see\na"
-
-
-def test_a_displayed_formula_can_stand_in_a_line():
-    html = to_html("There $$x^2$$ is.")
-    assert html.startswith('<p>There <span class="math"><math') and html.endswith("</span> is.</p>\n")
-    assert 'display="block"' in html
-    assert "$" not in html

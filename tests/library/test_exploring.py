@@ -12,7 +12,6 @@ import hess_explorer as hess
 from hess_explorer.headless.browser import wait_ready
 from hess_explorer.library import exploring
 from hess_explorer.server.liveness import is_alive
-from hess_mechanics.errors import InvalidParameter
 
 
 def wait_reached(shown, h):
@@ -51,8 +50,3 @@ def test_a_scene_is_reached_by_its_port_and_in_a_hub_or_colab_by_another_address
     monkeypatch.setitem(sys.modules, "google.colab.output", colab)
     assert exploring._reached(8123) == "https://port.colab.example/"
     assert asked == ["google.colab.kernel.proxyPort(8123)"]
-
-
-def test_what_cannot_be_starts_nothing():
-    with pytest.raises(InvalidParameter, match="no parameter 'height_of_it'"):
-        hess.explore("suslov-hess", height_of_it=1.0)

@@ -8,10 +8,10 @@ from scipy.integrate import solve_ivp
 
 import hess_explorer as hess
 from hess_explorer.__main__ import main
-from hess_explorer.export.picture_data import complete
-from hess_explorer.scenes import add, scenes
-from hess_mechanics import System, lyapunov_exponent
+from hess_explorer.scenes import add
+from hess_mechanics import System
 from hess_mechanics.errors import InvalidParameter
+from support.refusals import refused
 from support.view import View
 
 # One system, so that its equations are compiled once.
@@ -62,8 +62,6 @@ def test_a_section_at_a_level_has_periodic_orbits_and_their_branch():
     """On the straight orbits y = ±x/√3 py² is a quarter of p²: py = √(E/2) at the origin."""
     sliders = {"E": (0.01, 0.16), "y": (-0.5, 0.6)}
     scene = hess.scene(HENON, ["section y py at x = 0 on E", "branch", "x y"], sliders=sliders)
-    assert {"i_E", "p_lam", "place", "over"} <= (names := {spec.name for spec in scene.specs})
-    assert "y_x" not in names
     assert scene.defaults()["place"] == "0.1,0.2"
     # A motion that does not begin on the section has the place of its first crossing, here found by SciPy.
     other = hess.scene(HENON, ["section x px at y = 0 on E"]).defaults()["place"]
@@ -88,36 +86,15 @@ def test_a_section_at_a_level_has_periodic_orbits_and_their_branch():
     assert px == approx(np.sqrt(0.16 - py**2))
 
 
-def test_a_box_shows_its_part_of_the_section_and_cells_of_megno_there():
-    scene = hess.scene(HENON, ["section y py at x = 0 on E"], sliders={"y": (-0.6, 1.2), "py": (-0.7, 0.7)})
-    (view,) = scene.views
-    chosen = view.on_box(scene.of(scene.defaults()), (0.3, -0.1, -2.0, 0.2))
-    assert chosen == {"window": "-0.6,-0.1;0.3,0.2"}
-    few = {"count": 60.0, "accuracy": "draft"}
-    # Two oscillators: every motion is regular, and stays on an ellipse about the origin.
-    shown = View(scene, {**few, **chosen, "p_lam": 0.0, "indicator": "MEGNO"})
-    assert (view.x(shown.result), view.y(shown.result)) == ((-0.6, 0.3), (-0.1, 0.2))
-    kinds = shown.result.megno.kinds
-    assert set(kinds.ravel().tolist()) <= {-1.0, 0.0}
-    assert "100 % of the cells regular" in shown.text["section"]
-    assert sum(len(batch.orbits) for batch in shown.result.section.known.batches) > 5
-    whole = View(scene, {**few, "p_lam": 0.0}).result.section.points()
-    within = [np.mean((p[:, 0] < 0.3) & (abs(p[:, 1] - 0.05) < 0.15)) for p in (shown.result.section.points(), whole)]
-    assert within[0] > 1.5 * within[1]
-
-
 def test_a_motion_that_escapes_is_drawn_to_its_end_and_other_pictures_stay():
     scene = hess.scene(HENON, ["section y py at x = 0 on E", "x y", "exponent"])
     shown = View(scene, {"i_E": 0.2, "place": "0.5,0.3", "indicator": "MEGNO", "accuracy": "draft", "count": 10.0})
     (reason,) = shown.report.notes
     end = float(re.search(r"at t = ([\d.]+): the motion escapes", reason)[1])
     assert end - 1.5 < shown.data["data-orbit"]["t"][-1] < end
-    assert "Ends early." in shown.text["x-y"]
-    assert "No exponent: the motion ends early." in shown.text["exponent"]
-    assert "the motion ends early" in shown.text["section"]
+    assert "No exponent" in shown.text["exponent"]
     assert (shown.result.megno.kinds == 4.0).any()
     assert np.isfinite(shown.data["section-ended"]["x"]).all()
-    assert all(label in scene.legend for label in ("motion ends early", "orbits that end early"))
 
 
 def test_it_has_a_slider_for_each_parameter_and_initial_value_and_the_presets_asked_for():
@@ -130,7 +107,7 @@ def test_it_has_a_slider_for_each_parameter_and_initial_value_and_the_presets_as
         "y_py": (0.2, (-0.8, 1.2)),
     }
     assert [(one.name, one.values) for one in SCENE.presets] == [("Two oscillators", {"p_lam": 0.0})]
-    assert hess.scene(HENON).pictures == ("x-y",)
+    assert hess.scene(HENON, ["x y", "chart"]).pictures == ("x-y", "chart")
 
 
 @mark.parametrize(
@@ -140,17 +117,11 @@ def test_it_has_a_slider_for_each_parameter_and_initial_value_and_the_presets_as
         ({"pictures": ["x"]}, "'x' is not a picture. Write the names of two"),
         ({"pictures": ["x y", "x y"]}, "each picture may occur once"),
         ({"pictures": ["section at x = a"]}, "not a valid expression"),
-        ({"pictures": ["section y q"]}, "coordinates among y, px, py"),
         ({"pictures": ["section on F"]}, "has no 'F': choose among E"),
         ({"pictures": ["branch"]}, "a branch needs a section"),
-        ({"sliders": {"q": (0, 1)}}, "has no 'q': choose among lam, x, y, px, py"),
         ({"sliders": {"lam": (1, 1)}}, "two different ends"),
         ({"pictures": "x y"}, "pictures = 'x y' is not a sequence"),
-        ({"sliders": {"lam": 3}}, r"is not a sequence of 2. Write it like \(1.5, 1.5\)"),
-        ({"sliders": {"lam": (0, "b")}}, "= 'b' is not a number"),
         ({"presets": ["A"]}, "is not a mapping"),
-        ({"presets": {"A": {"lam": float("nan")}}}, "is not a finite number"),
-        ({"text": 3}, "text = 3 is not a text"),
     ],
 )
 def test_what_the_system_does_not_have_is_refused(given, message):
@@ -158,54 +129,22 @@ def test_what_the_system_does_not_have_is_refused(given, message):
         hess.scene(HENON, **given)
 
 
-def test_what_is_no_system_or_too_small_for_a_section_is_refused():
-    with raises(InvalidParameter, match="system = None is not a System"):
-        hess.scene(None)
-    with raises(InvalidParameter, match="needs a system of three or more variables"):
-        hess.scene(System("one", lambda y, p: (-y[0],), variables="x"), ["section"])
-    with raises(InvalidParameter, match=r"There is no scene .*: choose one of suslov-hess"):
-        hess.state(HENON)
+def simple(name, variable):
+    return System(name, lambda y, p: (-y[0],), variables=[variable])
 
 
-def test_a_name_that_cannot_stand_in_a_link_is_refused():
-    with raises(InvalidParameter, match="'x-y' cannot be used in a link"):
-        hess.scene(System("s", lambda y, p: (y[0],), variables=["x-y"]))
-
-
-def test_an_added_scene_comes_first_and_its_name_must_be_new():
-    with raises(InvalidParameter, match=r"mine.py is 3, not a scene: create one with hess.scene"):
-        add(3, "mine.py")
-    with raises(InvalidParameter, match="same name"):
-        add(hess.scene(System("suslov", lambda y, p: (y[0],), variables="x")), "mine.py")
-    assert next(iter(scenes())) == "suslov-hess"
-
-
-@mark.parametrize(
-    ("text", "message"),
-    [
-        (None, "No such file"),
-        ("SCENE = 3", "is 3, not a scene"),
-        ("x =", "invalid syntax"),
-        ("", "is None, not a scene"),
-    ],
+test_a_system_of_which_there_is_no_scene_is_refused = refused(
+    (lambda: hess.scene(simple("one", "x"), ["section"]), "needs a system of three or more variables"),
+    (lambda: hess.state(HENON), r"There is no scene .*: choose one of suslov-hess"),
+    (lambda: hess.scene(simple("s", "x-y")), "'x-y' cannot be used in a link"),
+    (lambda: add(hess.scene(simple("suslov", "x")), "mine.py"), "same name"),
 )
+
+
+@mark.parametrize(("text", "message"), [("SCENE = 3", "is 3, not a scene"), ("x =", "invalid syntax")])
 def test_a_file_without_a_scene_is_refused(tmp_path, capsys, text, message):
     path = tmp_path / "mine.py"
-    if text is not None:
-        path.write_text(text)
+    path.write_text(text)
     assert main(["serve", "--no-browser", "--scene", str(path)]) == 2
     said = capsys.readouterr().err
     assert "mine.py" in said and message in said
-
-
-def test_its_chart_is_a_number_of_the_motion_over_two_sliders():
-    scene = hess.scene(HENON, ["x y", "chart"])
-    assert scene.pictures == ("x-y", "chart")
-    values = {**scene.defaults(), "chart": "lyapunov", "long": 20.0, "chart_window": "0.5,0;1,0.1"}
-    state = complete(scene, values, ["chart"], lambda s: s.chart_part.caption)[0]
-    assert [side.name for side in state.chart_part.axes] == ["p_lam", "y_x"]
-    cells = state.chart_part.cells.cells
-    lam, x = (0.5 + 0.5 * 10.5 / 72, 0.1 * 20.5 / 72)
-    own = lyapunov_exponent(HENON.at([lam]), (x, *HENON.example[0][1:]), 20.0, "standard")
-    assert cells.shape == (72, 72)
-    assert cells[20, 10] == approx(own.value, rel=1e-9)

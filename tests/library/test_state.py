@@ -1,7 +1,6 @@
 """States of the explorer in Python: parameters by name, error messages, drawing, and the underlying mechanics."""
 
 import io
-import math
 import subprocess
 import sys
 import xml.etree.ElementTree as ET
@@ -17,7 +16,7 @@ import hess_explorer as hess
 from hess_explorer.export.picture_data import picture_data
 from hess_explorer.headless.drawing import png_of
 from hess_mechanics import BallBody, HeavyBody, HessBody, SuslovBody, basins, circle_map, level, return_map
-from hess_mechanics.errors import InvalidParameter, ModelError
+from hess_mechanics.errors import ModelError
 from hess_mechanics.euler_poisson import equations as euler_poisson
 
 DRAWN = [
@@ -31,7 +30,6 @@ def test_a_link_and_its_parameters_are_the_same_state():
     state = hess.from_link("https://example.org/x/?v=1&scene=suslov&b1=-0.5&starts=0.5,1;1,1&t=2.5")
     again = hess.state("suslov", b1=-0.5, starts=[(0.5, 1.0), (1, np.float64(1.0))], t=2.5)
     assert again.link == state.link == hess.from_link(state.link).link
-    assert "&t=2.5" in state.link
     assert (state.scene, state.notes) == ("suslov", ())
     assert state.but(b1=0.25, t=0.0).parameters == {**again.parameters, "b1": 0.25}
     noted = hess.from_link("h=-7&scene=suslov-hess", lenient=True)
@@ -47,45 +45,22 @@ def test_a_notebook_shows_a_state_by_its_parameters_and_link():
     assert said.count("<tr>") == len(found.parameters)
 
 
-@pytest.mark.parametrize(
-    "given, sentence",
-    [
-        (
-            {"height": 1.0},
-            "has no parameter 'height': choose one of I22, I23, b3, h, f, phi0, span, certain, shade, accuracy, "
-            "chart, chart_x, chart_y, chart_window, t, az, el.",
-        ),
-        ({"h": "high"}, "'high' is not a number: h (Energy h) must be a number between -1 and 1e6."),
-        ({"h": math.nan}, "h must be a finite number between -1 and 1e6."),
-    ],
-)
-def test_what_cannot_be_is_refused_with_a_sentence(given, sentence):
-    with pytest.raises(InvalidParameter) as refused:
-        hess.state("suslov-hess", **given)
-    assert sentence in str(refused.value)
-    assert str(refused.value).endswith(".")
-
-
 def test_scenes_pictures_layers_and_columns_that_are_not_there_are_named():
-    with pytest.raises(InvalidParameter, match="There is no scene 'hess': choose one of suslov-hess, free-suslov"):
-        hess.state("hess")
-    with pytest.raises(InvalidParameter, match="must be a list of pairs"):
-        hess.state("suslov", starts=[1.0, 2.0])
     state = hess.state("suslov-hess", accuracy="draft")
     for call, sentence in (
+        (lambda: hess.state("suslov-hess", height=1.0), "has no parameter 'height': choose one of I22, I23, b3, h"),
+        (
+            lambda: hess.state("suslov-hess", h="high"),
+            "'high' is not a number: h .* between -1 and 1e6",
+        ),
         (lambda: state.data("x"), "has no picture 'x': choose one of body"),
         (lambda: state.data("circle")["z"], "no column 'z': choose one of layer"),
         (lambda: state.data("circle").layer("z"), "no layer 'z': choose one of cobweb"),
         (lambda: state.save("x.doc", "circle"), "The file format '.doc' is not supported"),
-        (lambda: state.save(None), "None is not the name of a file"),
-        (lambda: state.save("x.mp4", "body", seconds=10**400), "1 to 60 seconds long, not 10000"),
-        (lambda: hess.from_link(None), "link = None is not a text"),
         (lambda: hess.state("suslov", starts=[(10**400, 1.0)]), "must be a list of pairs"),
     ):
         with pytest.raises(ModelError, match=sentence):
             call()
-    with pytest.raises(AttributeError, match="attribute stat"):
-        hess.stat  # noqa: B018
 
 
 def test_the_mechanics_behind_a_state_are_objects_of_the_library():
@@ -123,8 +98,6 @@ def test_a_figure_is_that_of_the_file_and_can_be_changed():
     found = picture_data(state.link, "circle").axes
     assert (axes.get_xlim(), axes.get_ylim()) == (found.x, found.y)
     assert figure.get_size_inches() == approx([60.0 / 25.4] * 2)
-    with pytest.raises(InvalidParameter, match="mm wide, not 1"):
-        state.figure("circle", width=1.0)
 
 
 @pytest.mark.parametrize("scene, picture, layer, columns", DRAWN)

@@ -11,7 +11,7 @@ from statistics import median
 if __name__ == "__main__":
     sys.path[:0] = [str(Path(__file__).parents[1])]
 
-from hess_explorer.headless.browser import launched, wait_ready
+from hess_explorer.headless.browser import headless_browser, wait_ready
 from hess_explorer.headless.screenshot import server_process
 from hess_explorer.scenes import scenes
 from manual.timing import report, wait_idle
@@ -73,7 +73,7 @@ def in_the_page(tab):
 
 def main():
     """Measure all, and write the table."""
-    with launched() as browser, tempfile.TemporaryDirectory() as folder:
+    with headless_browser() as browser, tempfile.TemporaryDirectory() as folder:
         os.environ["NUMBA_CACHE_DIR"] = folder
         rows = [("command to painted pictures, nothing compiled", f"{start(browser):.2f} s")]
         compile_everything = "from hess_explorer.server.warm import compile_all; compile_all()"

@@ -14,7 +14,7 @@ from hess_explorer.protocol.specs import ChoiceSpec
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.trial import bare
 from hess_explorer.views.text import digits
-from hess_mechanics.dynamics.trade import enough, measure
+from hess_mechanics.dynamics.trade import measure
 from hess_mechanics.numerics.accuracy import DRAFT, LEVELS, MEANINGS, PLANS, REFERENCE, Kind
 from manual.timing import report
 

@@ -18,7 +18,6 @@ def test_a_slider_has_readable_values_and_that_of_the_state():
     assert {0.2, 0.5, 1.2, 3.5} <= {*values}
     assert list(values) == sorted(values)
     assert all(len(f"{value:g}") <= 5 for value in values)
-    assert len(read_slider("h=0.2:3.5", SCENE, BASE, 40)[1]) in (40, 41)
     # Steps that are small beside the values keep their digits.
     assert len({*across(1.0, 1.0001, 11, 1.0)}) == 11
 
@@ -27,7 +26,6 @@ def test_a_slider_has_readable_values_and_that_of_the_state():
     ("text", "why"),
     [
         ("h", "is no slider: write NAME=LOW:HIGH:COUNT"),
-        ("h=a:b:3", "are not numbers"),
         ("h=1:nan:3", "must increase"),
         ("h=-1e9:1:3", "within"),
         ("h=1:2:9999", "2 to 400 values"),
@@ -58,12 +56,7 @@ def test_lines_go_through_the_state_and_a_grid_has_all_combinations():
 def test_the_number_of_states_is_bounded():
     with pytest.raises(InvalidParameter, match=f"at most {MOST_STATES}"):
         planned("h=1.2&f=0.3", ["h=0:3:400", "f=0:1:100"], grid=True)
-    with pytest.raises(InvalidParameter, match="once"):
-        planned("h=1.2&f=0.3", ["h=0:3", "h=1:2"])
 
 
 def test_a_choice_has_no_slider():
     assert slider_of(SCENE, "accuracy", BASE, 10) == ()
-    slider = slider_of(SCENE, "f", BASE, 10)
-    low, high, _ = SCENE.limits(BASE)["f"]
-    assert (slider[0], slider[-1]) == pytest.approx((low, high), abs=1e-3 * (high - low))

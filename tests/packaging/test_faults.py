@@ -3,14 +3,9 @@
 from manual.mutate import ROOT, faults, not_found_once
 
 
-def test_every_fault_can_be_seeded():
-    assert len(faults([])) >= 58
+def test_every_fault_can_be_seeded_and_names_tests_that_are_there():
     assert not_found_once(faults([])) == []
-
-
-def test_every_fault_changes_something_and_names_tests_that_are_there():
     for fault in faults([]):
-        assert fault.old != fault.new, fault.name
         files = [word for word in fault.tests if word.startswith("tests/")]
         assert files, fault.name
         assert all((ROOT / file).exists() for file in files), fault.name

@@ -25,34 +25,21 @@ PIECES = [
 ]
 
 
-@mark.parametrize(
-    ("text", "expected"),
-    [
-        ("", {}),
-        ("3", {}),
-        ("0.5*g1^2 - g3", {(2, 0, 0): 0.5, (0, 0, 1): -1.0}),
-        ("(g1 + g2)**2/2 − γ₃", {(2, 0, 0): 0.5, (1, 1, 0): 1.0, (0, 2, 0): 0.5, (0, 0, 1): -1.0}),
-        ("g1 - g1 + 7", {}),
-        ("-g1*g2*g3^4", {(1, 1, 4): -1.0}),
-    ],
-)
-def test_a_formula_is_its_coefficients(text, expected):
-    assert polynomial(text) == approx(expected)
+def test_a_formula_is_its_coefficients():
+    expected = {(2, 0, 0): 0.5, (1, 1, 0): 1.0, (0, 2, 0): 0.5, (0, 0, 4): -1.0}
+    assert polynomial("(g1 + g2)**2/2 − γ₃^4 + 7") == approx(expected)
+    assert polynomial("g1 - g1 + 7") == polynomial("") == {}
 
 
 @mark.parametrize(
     ("text", "message"),
     [
         ("g1^7", "whole numbers"),
-        ("g1^4*g1^3", "degree"),
         ("(g1*g2)^4", "degree"),
         ("1/g1", "divides by something other than a number"),
-        ("g1^0.5", "whole numbers from 0 to 6"),
         ("2^g1", "whole numbers"),
         ("g4", "not a polynomial: use numbers, g1, g2, g3"),
-        ("sin(g1)", "not a polynomial"),
         ("1e9*g1", "larger than 1e"),
-        ("9**9**9", "whole numbers"),
         ("g1+" * MOST, f"longer than {MOST}"),
     ],
 )
@@ -61,9 +48,7 @@ def test_what_is_no_polynomial_is_refused(text, message):
         polynomial(text)
 
 
-@mark.parametrize(
-    "text", ["cos(W*t)", "cos(W*t) + 0.5*sin(2*W*t)", "-sin(Ωt)*cos(5*Ω*t)/3 + 2", "(cos(W*t) - 1)^3", ""]
-)
+@mark.parametrize("text", ["cos(W*t) + 0.5*sin(2*W*t)", "-sin(Ωt)*cos(5*Ω*t)/3 + 2", "(cos(W*t) - 1)^3", ""])
 def test_a_drive_has_the_values_of_its_formula(text):
     found = drive(text)
     python = text.replace("^", "**").replace("Ωt", "Ω*t").replace("Ω", "W") or "0"
@@ -81,8 +66,6 @@ def test_a_drive_has_the_values_of_its_formula(text):
         ("cos(t)", "not a drive: use numbers and cos"),
         ("W*t", "use t only inside cos and sin"),
         ("cos(7*W*t)", "n from 1 to 6"),
-        ("sin(cos(W*t))", "n from 1"),
-        ("1/cos(W*t)", "divides by something other than a number"),
         ("cos(4*W*t)*sin(3*W*t)", "degree"),
     ],
 )

@@ -49,13 +49,8 @@ def test_the_scale_of_turns_ends_where_it_begins():
     # Across ±1/2 it goes on as elsewhere.
     assert steps[-1] <= 1.5 * np.median(steps)
     assert steps.max() < 0.03
-    # Half a turn apart it differs, and as clearly in lightness or between blue and yellow.
-    apart = np.roll(scale, 128, axis=0) - scale
-    assert np.abs(apart @ (0.2126, 0.7152, 0.0722)).max() > 0.6
-    assert np.abs(apart[64, 2]) > 0.4
-    lightness = [luminance(colour) for colour in theme.TURN_MAP]
-    assert abs(int(np.argmax(lightness)) - 128) <= 4
-    assert int(np.argmin(lightness)) in (0, 1, 255)
+    # Half a turn apart it differs clearly.
+    assert np.linalg.norm(np.roll(scale, 128, axis=0) - scale, axis=1).min() > 0.4
 
 
 # How eyes without one kind of cones mix linear red, green and blue (Machado, Oliveira and Fernandes 2009).

@@ -5,7 +5,6 @@ from math import acos, cos, hypot, pi, sin, sqrt
 
 import numpy as np
 from pytest import approx, mark
-from scipy.integrate import solve_ivp
 
 import oracle
 from hess_mechanics import level
@@ -14,14 +13,14 @@ from hess_mechanics.chaplygin_ball.energy_surface import Strip
 from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody
 from hess_mechanics.errors import WorkLimit
 from hess_mechanics.numerics.accuracy import LEVELS, Status
-from support.mechanics import scipy_states
+from support.mechanics import followed, scipy_states
 from support.refusals import refused
 from support.thorough import sample
 
 PHASES = np.linspace(0.0, 2.0 * pi, 128, endpoint=False)
 CAPTION = BallBody(1.0, 1.5, 0.7, 1.2, 10.0)
 
-TENSORS = [(3.56, 1.0, 0.0, 0.8), (1.64, 1.0, 0.0, 0.8), (1.0, 1.5, 0.7, 1.2), (3.0, 2.0, -0.4, 0.9)]
+TENSORS = [(1.64, 1.0, 0.0, 0.8), (1.0, 1.5, 0.7, 1.2), (3.0, 2.0, -0.4, 0.9)]
 
 
 def harmonics(result):
@@ -32,7 +31,7 @@ def harmonics(result):
     return c0, hypot(c, s), np.max(np.abs(columns @ (c0, c, s) - values))
 
 
-@mark.parametrize("tensor", TENSORS)
+@mark.parametrize("tensor", sample(TENSORS, 2))
 @mark.parametrize(("theta", "distance", "h"), [(0.4, 1e-7, 1.5), (2.2, -1e-7, 1e6), (1.0, 1e-7, 1e-6)])
 def test_without_the_inner_ball_scattering_is_the_rotation_of_the_free_suslov_problem(tensor, theta, distance, h):
     # Γ⁺ = cos χ Γ⁻ + sin χ √(1 − Γ⁻²) cos(φ − φ*), the same at every energy.
@@ -64,7 +63,6 @@ def test_scattering_agrees_with_a_plain_integrator(body):
 BODIES = [
     CAPTION,
     BallBody(1.64, 1.0, 0.0, 0.8, 2.0),
-    BallBody(2.0, 1.0, -0.3, 0.5, 0.0),
     BallBody(0.3, 1.5, 3.0, 4.0, 30.0),
 ]
 
@@ -84,15 +82,10 @@ def test_the_start_is_where_motions_of_its_circle_pass_but_for_the_square_of_the
     axes = np.array([xi, eta, (0.0, 0.0, 1.0)])
     assert np.all(np.linalg.norm(states[:, 2:] - circle @ axes, axis=1) <= 1.5 * np.abs(distance))
     # Long before, by SciPy, all motions at once: it takes as long for forty as for two.
-    run = solve_ivp(
-        lambda _, y: np.ravel(SYSTEM.field(y.reshape(5, -1), body.parameters)),
-        (0.0, -50.0),
-        states.T.ravel(),
-        method="DOP853",
-        rtol=1e-11,
-        atol=1e-14,
+    (before,) = followed(
+        lambda _, y: np.ravel(SYSTEM.field(y.reshape(5, -1), body.parameters)), states.T.ravel(), [-50.0], atol=1e-14
     )
-    along, across, up = axes @ run.y[:, -1].reshape(5, -1)[2:]
+    along, across, up = axes @ before.reshape(5, -1)[2:]
     away = np.abs(np.arctan2(np.hypot(across, up), along) - theta)
     assert np.all(away <= errors)
     # A hundred times less at a tenth of the distance, as far as the integrator sees.
@@ -110,20 +103,13 @@ def test_where_the_line_is_left_within_a_fraction_of_a_turn_the_errors_say_what_
     assert np.all((errors > 0.0) & (errors < 1e-2))
 
 
-def scattered(body=CAPTION, theta=1.0, phis=PHASES, h=10.0, distance=1e-4, **options):
-    return ball_scattering(body, theta, phis, h, distance, "standard", **options)
-
-
-def test_within_the_limit_of_work_the_computation_succeeds():
-    assert scattered(most_steps=300_000).cost.steps < 300_000
+def scattered(body=CAPTION, theta=1.0, distance=1e-4, **options):
+    return ball_scattering(body, theta, PHASES, 10.0, distance, "standard", **options)
 
 
 test_what_cannot_be_or_takes_too_long_is_refused_in_a_sentence = refused(
     (lambda: scattered(theta=-0.1), "0 ≤ θ⁻ ≤ π"),
     (lambda: scattered(distance=0.5), "from 1e-10 to 0.1"),
-    (lambda: scattered(h=0.0), "choose h > 0"),
-    (lambda: scattered(BallBody(1.0, 1.0, 0.0, 0.0, 1.0)), "I13 or I23"),
-    (lambda: scattered(BallBody(1.0, 1.0, 0.1, 0.0, 1.0, 0.0, 0.0, 1.0)), "b1 = b2 = b3 = 0"),
     (lambda: scattered(most_steps=1000), "smaller 𝒟", WorkLimit),
     (
         lambda: scattered(BallBody(1.0, 1.5, 1e-3, 0.0, 300.0), distance=1e-10),

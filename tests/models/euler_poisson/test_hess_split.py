@@ -1,6 +1,7 @@
 """Separatrices of the Hess manifold: unsplit in the Hess case; their splitting against Melnikov's integral."""
 
-from math import exp, pi, remainder, sin, sqrt
+from dataclasses import replace
+from math import exp, sin, sqrt
 
 import numpy as np
 from pytest import approx, mark, raises
@@ -10,7 +11,7 @@ from hess_mechanics import HeavyBody, circle_map
 from hess_mechanics.errors import NotConverged, OutsideRegion
 from hess_mechanics.euler_poisson.andoyer import AndoyerSection, hess_curve
 from hess_mechanics.euler_poisson.hess_isomorphism import Bridge
-from hess_mechanics.euler_poisson.hess_split import HessTorus, saddles, slope_of, split_at
+from hess_mechanics.euler_poisson.hess_split import HessTorus, slope_of, split_at
 from hess_mechanics.numerics.accuracy import PRECISE
 from support.thorough import sample
 
@@ -63,23 +64,10 @@ def test_the_separatrices_part_as_melnikovs_integral_says(torus):
         assert abs(one.value) > 1e3 * one.error
 
 
-def test_the_saddles_are_the_cycles_of_the_moebius_matrix():
-    torus = TORI[1]
-    body = HeavyBody.hess(torus.moments, torus.strength)
-    found, P = saddles(torus, PRECISE), torus.map_at(0.0, PRECISE)
-    for places, repels in ((found.repels, True), (found.attracts, False)):
-        assert places[0, 1] == approx(hess_curve(body, places[:1, 0])[0], abs=1e-9)
-        assert P.after(places[0], len(places)) == approx(places[0], abs=1e-7)
-        # Along the Hess curve one repels and the other attracts.
-        l = places[0, 0] + 1e-4
-        moved = P.image(np.array([l, hess_curve(body, np.array([l]))[0]]))
-        assert (abs(remainder(moved[0] - places[0, 0], 2.0 * pi)) > 1e-4) is repels
-
-
 def test_where_there_is_nothing_to_split_that_is_said():
     with raises(OutsideRegion, match="no limit cycles"):
-        split_at(HessTorus((1.0, 1.5, 2.0), -sqrt(0.5), 0.2, 1.0), 0.0, PRECISE)
+        split_at(replace(TORI[1], h=0.2), 0.0, PRECISE)
     with raises(OutsideRegion, match="no motion with these h and f"):
-        split_at(HessTorus((1.0, 1.5, 2.0), -sqrt(0.5), 0.0, 1.0), 0.0, PRECISE)
+        split_at(replace(TORI[1], h=0.0), 0.0, PRECISE)
     with raises(NotConverged):
-        split_at(HessTorus((1.0, 1.5, 2.0), -sqrt(0.5), 0.8, 1.0), 0.1, PRECISE)
+        split_at(replace(TORI[1], h=0.8), 0.1, PRECISE)

@@ -18,7 +18,6 @@ START = (0.5, 1.2, 0.6, 0.0, 0.8)
 @pytest.mark.parametrize(
     ("body", "rates", "span", "least"),
     [
-        (BODY, lambda t, y: field(BODY, y), 120.0, 6),
         (BODY, lambda t, y: field(BODY, y), -100.0, 6),
         (BALL, ball_rates(vars(BALL)), 40.0, 3),
     ],

@@ -1,20 +1,18 @@
 """The scattering of the free Suslov problem: values, closed forms, phases, orbits, refusals."""
 
-from math import atan2, cos, hypot, log, pi, sqrt
+from math import atan2, cos, hypot, pi
 
 import numpy as np
 from pytest import approx, mark
 
 from hess_mechanics import SuslovBody, solve
 from hess_mechanics.errors import WorkLimit
-from hess_mechanics.numerics.accuracy import LEVELS, Status
+from hess_mechanics.numerics.accuracy import LEVELS
 from hess_mechanics.suslov.free import equilibria, passage
 from hess_mechanics.suslov.scattering import cos_chi, scattering, start
-from support.mechanics import PROMISE, angle_between, every_level
+from support.mechanics import PROMISE, angle_between
 from support.refusals import refused
-from support.thorough import sample
 
-FIGURE = SuslovBody(3.56, 1.0, 0.0, 0.8)
 GENERIC = SuslovBody(2.0, 1.0, 0.3, 0.5)
 every_arc = mark.parametrize("arc", [1, -1])
 
@@ -29,15 +27,9 @@ REFERENCE = [
 ]
 
 
-@every_arc
-@every_level
-@mark.parametrize(("tensor", "exact"), sample(REFERENCE, 4))
-def test_cos_chi_is_that_of_the_reference(tensor, exact, name, arc):
-    found = scattering(SuslovBody(*tensor), name, arc)
-    assert abs(found.cos_chi - exact) <= max(found.error_estimate, 5e-14) <= PROMISE[name]
-    assert found.status is Status.OK
+@mark.parametrize(("tensor", "exact"), REFERENCE)
+def test_cos_chi_is_that_of_the_reference(tensor, exact):
     assert cos_chi(SuslovBody(*tensor)) == approx(exact, abs=5e-14)
-    assert found.cos_chi**2 + found.sin_chi**2 == approx(1.0, abs=2 * PROMISE[name])
 
 
 def test_the_closed_form_of_every_tensor_agrees_with_the_integration():
@@ -51,6 +43,7 @@ def test_the_closed_form_of_every_tensor_agrees_with_the_integration():
             found = scattering(body, name, int(rng.choice([-1, 1])))
             error = abs(found.cos_chi - exact)
             assert error <= 2 * PROMISE[name]
+            assert found.cos_chi**2 + found.sin_chi**2 == approx(1.0, abs=2 * PROMISE[name])
             total += 1
             wrong += error > found.error_estimate
     assert wrong <= 0.01 * total
@@ -61,7 +54,7 @@ def test_the_closed_form_of_every_tensor_agrees_with_the_integration():
 
 @mark.parametrize(
     ("body", "distance", "arc"),
-    [(FIGURE, 1e-5, 1), (GENERIC, 0.2, -1), (GENERIC, 1e-5, 1), (SuslovBody(1.0, 1.5, 0.7, 0.0), 1e-5, -1)],
+    [(GENERIC, 0.2, -1), (GENERIC, 1e-5, 1), (SuslovBody(1.0, 1.5, 0.7, 0.0), 1e-5, -1)],
 )
 def test_the_start_leads_to_the_predicted_circle(body, distance, arc):
     # By the general solver, which knows nothing of the passage.
@@ -91,13 +84,6 @@ def test_a_small_distance_only_shifts_the_phase(arc):
         near = scattering(GENERIC, "reference", arc, distance)
         shift = near.phi_star - asymptotic.phi_star
         assert near.theta_plus(1.1, phi + shift) == approx(asymptotic.theta_plus(1.1, phi), abs=10 * distance + 1e-12)
-        # The shift is Φ(u0) = −K ln cosh u0 + σc gd u0: for the moments 2, 1, 0.3, 0.5 by hand.
-        J, w = sqrt(0.34), (0.09 + 2 * 0.25) / 0.34
-        K, kappa = 2 / (J * w), sqrt(2) / J
-        c = kappa * 0.15 / 0.34 * (1 - 2) / w
-        u0 = -log(2 * kappa / (K * distance)) if distance > 1e-100 else -(log(2 * kappa / K) - log(distance))
-        turned = -K * (abs(u0) - log(2)) - arc * c * pi / 2
-        assert angle_between(shift, -turned) < 20 * distance + 1e-11
 
 
 @every_arc
@@ -118,7 +104,6 @@ def test_the_matrix_gives_the_harmonic_formula(arc):
 
 
 test_refusals = refused(
-    (lambda: scattering(SuslovBody(2.0, 1.0, 0.3, 0.5, b1=1.0), "draft"), "Set b1 = b2"),
     (lambda: scattering(SuslovBody(2.0, 1.0, 0.0, 1e-06), "draft"), "choose larger I13, I23", WorkLimit),
     (lambda: scattering(GENERIC, "draft", 0), "\\+1 or −1"),
     (lambda: scattering(GENERIC, "draft", 1, 1.23), "choose one above 0 and up to 1.227"),

@@ -1,25 +1,20 @@
-"""Sections of the Suslov problem with gravity: their coordinates, points, divergence, exponents and basins.
+"""Sections of the Suslov problem with gravity: their coordinates, seeds and points.
 
 The equations are written out here and integrated by SciPy; nothing is compared with itself.
 """
 
-from math import hypot, pi
+from math import pi
 
 import numpy as np
 from pytest import approx, mark, raises
 
-from hess_mechanics import SuslovBody, ensemble
-from hess_mechanics.dynamics.attraction import arrivals
-from hess_mechanics.dynamics.basins import SectionOrbits, attractors
+from hess_mechanics import SuslovBody
 from hess_mechanics.dynamics.return_map import section_crossings
 from hess_mechanics.errors import OutsideRegion, WorkLimit
-from hess_mechanics.numerics.accuracy import DRAFT, PRECISE
+from hess_mechanics.numerics.accuracy import PRECISE
 from hess_mechanics.suslov.suslov_section import SuslovSection
-from support.deviations import deviations
-from support.diagrams import settled
 from support.mechanics import scipy_crossings
 from support.refusals import refused
-from support.suslov import divergence as divergence_of_field
 from support.suslov import energy, field
 
 BODY = SuslovBody(1.5, 3.0, 0.4, -0.7, -0.5, 0.6, 0.7)
@@ -63,8 +58,8 @@ def test_below_the_lowest_energy_nothing_is_possible_and_above_it_something(k):
 
 
 test_what_is_no_point_or_too_much_is_refused = refused(
-    *((lambda delta=delta: SEEN.state_at(0.5, delta), "at ψ = 0.5, δ = ", OutsideRegion) for delta in (0.0, pi)),
-    *((lambda k=k: SuslovSection(BODY, 1.0, k), "choose 1, 2 or 3") for k in (0, 4)),
+    (lambda: SEEN.state_at(0.5, pi), "at ψ = 0.5, δ = ", OutsideRegion),
+    (lambda: SuslovSection(BODY, 1.0, 4), "choose 1, 2 or 3"),
     (lambda: section_crossings(SEEN, SEEN.spread(2), 1000, PRECISE, most_steps=500), "a shorter", WorkLimit),
     (lambda: section_crossings(SEEN, SEEN.spread(2), 10**7, PRECISE), "number of crossings", WorkLimit),
 )
@@ -77,7 +72,6 @@ test_what_is_no_point_or_too_much_is_refused = refused(
     ("k", "above", "window"),
     [
         (1, 1e-9, WHOLE),
-        (2, 0.1, ((-0.2, 0.5), (2.9, 1.0))),
         (3, 1e-4, ((-0.2, 0.5), (2.9, 1.0))),
         (3, 30.0, ((-3.0 * pi, 0.0), (3.0 * pi, 2.0))),
     ],
@@ -91,7 +85,6 @@ def test_seeds_are_as_many_as_asked_for_wherever_the_energy_allows_any(k, above,
         return
     assert len(found) == len({tuple(state) for state in found}) == 25
     psi, delta = SuslovSection(BODY, 0.0, k).places_of(found).T
-    assert SuslovSection(BODY, E, k).states_at(psi, delta)[0] == approx(found, abs=1e-7 * max(1.0, E))
     turns = np.abs(psi[:, None] + 2.0 * pi * np.arange(-3, 4) - 0.5 * (psi0 + psi1))
     assert np.all(turns.min(axis=1) <= (psi1 - psi0) / 2 + 1e-9)
     assert np.all((delta > delta0) & (delta < delta1 + 1e-9))
@@ -100,7 +93,7 @@ def test_seeds_are_as_many_as_asked_for_wherever_the_energy_allows_any(k, above,
 # ---- points ------------------------------------------------------------------------------------------------------
 
 
-@mark.parametrize(("k", "forward", "count"), [(1, True, 3), (2, False, 8), (3, True, 8), (3, False, 8)])
+@mark.parametrize(("k", "forward", "count"), [(1, True, 3), (2, False, 8), (3, True, 8)])
 def test_the_first_points_are_those_of_scipy(k, forward, count):
     body = SuslovBody(1.5, 3.0, 0.4, 0.4, -0.5, -0.5, 0.7)
     start = SuslovSection(body, 0.4, k).state_at(-0.3, 0.9)
@@ -110,41 +103,3 @@ def test_the_first_points_are_those_of_scipy(k, forward, count):
     _, exact = scipy_crossings(lambda y: field(body, y), start, lambda y: y[k + 1], 120.0 * sense, sense)
     # A sea: neighbours part between crossings.
     assert found == approx(exact[:count], abs=1e-6)
-
-
-# ---- exponents ---------------------------------------------------------------------------------------------------
-
-
-@mark.chaotic
-def test_the_chaotic_seas_of_the_scenes_keep_no_volume():
-    """The example “A chaotic sea” of the orbit diagram."""
-    body = SuslovBody(1.5, 1.7, 0.1, -0.3, -1.7, 1.0, 2.0)
-    section = SuslovSection(body, 1.9 - hypot(body.b1, body.b2, body.b3), 3)
-    starts = [section.state_at(*place) for place in settled(section, 48, 1, 100)[:, 0]]
-    slopes = np.array([divergence_of_field(body, one) for one in np.eye(5)])
-    for expected, sense in ((-0.0069, 1.0), (0.0064, -1.0)):
-        times = sense * np.linspace(0.0, 2000.0, 8001)
-        # Without a transient: backward in time motions leave the attractor for the repeller.
-        means = [np.mean(orbit[2000:] @ slopes) for orbit in ensemble(body, starts, times, DRAFT).states]
-        assert sense * deviations(means, 0.0) < -5.0
-        assert abs(deviations(means, expected, 4e-4)) < 5.0
-
-
-# ---- basins ------------------------------------------------------------------------------------------------------
-
-
-def test_the_basins_of_the_example_are_those_that_scipy_finds():
-    body = SuslovBody(1.5, 1.0, 0.4, 0.0, 0.3, -0.5, 1.0)
-    orbits = SectionOrbits(SuslovSection(body, 1.842, 3), DRAFT)
-    starts = orbits.section.spread(6)
-    which = arrivals(
-        orbits, attractors(orbits.section, 1000.0, DRAFT).sets, *orbits.section.places_of(np.array(starts)).T
-    )
-    assert set(which.number) == {0, 1}
-    exact = []
-    for start in starts:
-        times, states = scipy_crossings(lambda y: field(body, y), start, lambda y: y[4], 400.0, 1, rtol=1e-8, atol=1e-9)
-        exact.append(states[times > 300.0, 0].mean())
-    # The first attractor is the one with ω₁ > 0 in the mean.
-    assert np.array_equal(np.array(exact) < 0.0, which.number)
-    assert np.ptp(exact) > 0.1

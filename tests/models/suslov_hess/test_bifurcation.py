@@ -1,11 +1,11 @@
 """The region of (h, f), its edge, and the turning points, against multiple precision."""
 
 from functools import cache
-from math import cos, log10, nan, pi, sin, sqrt
+from math import copysign, cos, log10, nan, pi, sin, sqrt
 
 import mpmath
 import numpy as np
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 from pytest import approx, mark
 
@@ -34,25 +34,13 @@ shares = st.one_of(
 tori = st.tuples(energies, shares).filter(lambda t: abs(t[1]) > 1e-140 or (t[1] == 0 and t[0] != 1.0))
 
 CASES = [
-    (0.5, 0.5),
-    (1.5, 0.6),
-    (-0.5, -0.2),
-    (3.0, 1e-12),
     (0.3, 1e-300),
     (2.0, 0.0),
     (1.0, 1e-100),
-    (1 + 1e-12, 1e-12),
-    (1 - 1e-12, 0.0),
     (1 - 2**-53, 1e-20),
     (-1 + 1e-12, 1e-13),
     (-1 + 2**-53, 0.0),
     (1e8, 1e-5),
-    (1e8, 14000.0),
-    *(
-        (h, f_max(h) * (1 - inside))
-        for h in (-1 + 1e-12, -0.8956597165020208, 1.0, 1e6)
-        for inside in (0.0, 1e-15, 1e-9)
-    ),
 ]
 
 
@@ -82,39 +70,24 @@ def values_of(h, n0, n1, n2):
     }
 
 
-def double_root(h):
-    """n3 > 0 on the curve: 3n² + 2hn = 1, without cancellation."""
-    root = mpmath.sqrt(h * h + 3)
-    return 1 / (h + root) if h > 0 else (root - h) / 3
-
-
 @cache
-def exact_f_max(h):
+def edge(h):
+    """Return the largest f and the values there: n3 > 0 with 3n² + 2hn = 1, without cancellation."""
     with mpmath.workdps(60 + int(6 * log10(abs(h) + 10))):
         h = mpmath.mpf(h)
-        n = double_root(h)
-        return mpmath.sqrt(2 * (h + n) * (1 - n * n))
-
-
-def exact_neighbours(h, f):
-    """The exact values for f and for f two units in the last place away, cut at the edge: no double knows better."""
-    values = [exact(h, f)]
-    for factor in (1 - 2 * ULP, 1 + 2 * ULP):
-        values.append(exact(h, f * factor) if abs(f * factor) < exact_f_max(h) else on_the_edge(h))
-    return values
-
-
-@cache
-def on_the_edge(h):
-    with mpmath.workdps(60 + int(6 * log10(abs(h) + 10))):
-        h = mpmath.mpf(h)
-        n = double_root(h)
-        return values_of(h, -h - 2 * n, n, n)
+        root = mpmath.sqrt(h * h + 3)
+        n = 1 / (h + root) if h > 0 else (root - h) / 3
+        return mpmath.sqrt(2 * (h + n) * (1 - n * n)), values_of(h, -h - 2 * n, n, n)
 
 
 def check_against_multiple_precision(h, f):
     found = turning_points(h, f)
-    oracle = exact_neighbours(h, f) if abs(f) < exact_f_max(h) else [on_the_edge(h), exact(h, f * (1 - 4 * ULP))]
+    largest, on_the_edge = edge(h)
+    oracle = [on_the_edge, exact(h, f * (1 - 4 * ULP))]
+    if abs(f) < largest:
+        # No double knows better than two units in the last place of f.
+        near = [f * (1 + k * ULP) for k in (-2, 0, 2)]
+        oracle = [exact(h, one) if abs(one) < largest else on_the_edge for one in near]
     for i, name in enumerate(oracle[0]):
         value = found.roots[i] if i < 3 else getattr(found, name)
         low, high = min(each[name] for each in oracle), max(each[name] for each in oracle)
@@ -126,7 +99,7 @@ def check_against_multiple_precision(h, f):
 
 @given(energies)
 def test_the_largest_f_is_that_of_multiple_precision(h):
-    assert f_max(h) == approx(float(exact_f_max(h)), rel=2e-15)
+    assert f_max(h) == approx(float(edge(h)[0]), rel=2e-15)
 
 
 @mark.parametrize(("h", "f"), CASES)
@@ -141,6 +114,7 @@ def test_turning_points_and_the_period_keep_their_accuracy_everywhere(torus):
 
 
 @given(tori, st.floats(-pi, pi))
+@example((0.5, 0.0), 0.7)
 def test_the_state_at_the_lower_turn_is_on_the_torus_and_turns_there(torus, phi):
     h, share = torus
     f = share * f_max(h)
@@ -149,11 +123,13 @@ def test_the_state_at_the_lower_turn_is_on_the_torus_and_turns_there(torus, phi)
     hess = systems()["hess"]
     found = hess.integrals(y, (0.7, 1.0))
     assert found["E"] == approx(h, abs=1e-15 * (abs(h) + 10))
-    assert found["F1"] == approx(1.0, abs=1e-14)
     assert found["F2"] == approx(f, rel=1e-6 if abs(share) > 0.999 else 1e-13, abs=1e-300)
     assert hess.field(y, (0.7, 1.0))[4] == approx(0.0, abs=1e-15 * (1 + turning.initial_rho))
     assert y[4] == turning.roots[1] <= turning.roots[2]
-    assert y[:2] == approx(sqrt(turning.w_squared) * np.array([sin(phi), cos(phi)]), rel=1e-14, abs=1e-300)
+    direction = np.array([sin(phi), cos(phi)])
+    assert y[:2] == approx(sqrt(turning.w_squared) * direction, rel=1e-14, abs=1e-300)
+    # At f = 0 it is the limit from above.
+    assert y[2:4] == approx(copysign(sqrt(turning.sine_squared), f) * direction, rel=1e-14, abs=1e-300)
 
 
 @given(st.floats(0.0, 1.0, exclude_min=True).filter(lambda n: n > 1e-6))
@@ -163,16 +139,6 @@ def test_points_of_the_curve_are_where_the_cubic_has_a_double_root(n):
     assert 2 * (h + n) * (1 - n * n) - f * f == approx(0.0, abs=1e-14 * size)  # p(n) = 0
     assert 2 * (1 - n * n) - 4 * n * (h + n) == approx(0.0, abs=1e-14 * size)  # p'(n) = 0
     assert f >= 0
-    if h > -1.0:
-        # dh along the curve at fixed f is what the rounding of h does to f: small next to (−1, 0) only.
-        assert f == approx(f_max(h), rel=1e-14, abs=4 * ULP / max(1 - n, ULP))
-
-
-@mark.parametrize("h", [-0.5, 0.3, 0.7])
-def test_at_f_0_the_state_is_the_limit_from_above(h):
-    above, at = (turning_points(h, f).state_at_lower_turn(0.7) for f in (1e-12, 0.0))
-    assert np.allclose(at, above, atol=1e-9)
-    assert np.hypot(*at[2:4]) > 0.7
 
 
 def test_a_curve_begins_at_the_bottom_and_ends_at_its_energy():
@@ -186,12 +152,10 @@ def test_a_curve_begins_at_the_bottom_and_ends_at_its_energy():
 test_values_without_a_torus_or_an_edge_raise_a_sentence = refused(
     (lambda: turning_points(-1.0, 0.0), "choose h > −1", OutsideRegion),
     (lambda: turning_points(0.0, 0.9), r"choose \|f\| ≤ 0.87738267", OutsideRegion),
-    (lambda: turning_points(2.0, 1e300), r"choose \|f\|", OutsideRegion),
     (lambda: turning_points(1.0, 1e-300), "no return. Move h or f a little", Separatrix),
     (lambda: turning_points(nan, 0.0), "h is not a finite number"),
     (lambda: turning_points(1e13, 0.0), "choose h ≤ 1e12"),
     (lambda: f_max(-1.0), "h", OutsideRegion),
-    (lambda: curve(-1.0), "h", OutsideRegion),
 )
 
 

@@ -3,10 +3,9 @@
 from math import inf, sqrt
 
 import numpy as np
-from pytest import approx, mark, raises
+from pytest import approx, mark
 
 from hess_mechanics import level, solve, systems, turning_points
-from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.suslov_hess.embedding import cross_section, embed
 
 HESS = systems()["hess"]
@@ -48,5 +47,3 @@ def test_at_f_0_and_on_the_separatrix_the_surface_reaches_the_centre_and_changes
             assert beside.radius == approx(found.radius, abs=2e-3)
             assert beside.height == approx(found.height, abs=2e-3)
     assert found.times.tolist() == [0.0] + 32 * [inf]
-    with raises(InvalidParameter, match="three points"):
-        cross_section(0.5, None, 2)

@@ -1,6 +1,6 @@
 """The Suslov–Hess case: the body, and the map between `Biz131` and `eq01`."""
 
-from math import atan2, copysign, hypot, sqrt, tan
+from math import copysign, hypot, sqrt
 
 import numpy as np
 from hypothesis import given
@@ -16,18 +16,16 @@ SUSLOV, HESS = systems()["suslov"], systems()["hess"]
 moment = st.floats(0.05, 20.0)
 product = st.floats(-30.0, 30.0)
 field_strength = st.floats(-10.0, 10.0)
-with_field = field_strength.filter(lambda b3: abs(b3) > 1e-3)
 states = st.lists(st.floats(-3.0, 3.0), min_size=5, max_size=5).map(np.array)
 bodies = st.builds(HessBody, moment, product, field_strength)
-bodies_in_a_field = st.builds(HessBody, moment, product, with_field)
+bodies_in_a_field = bodies.filter(lambda body: abs(body.b3) > 1e-3)
 
 
 @given(bodies)
 def test_derived_values_satisfy_the_conditions_of_hess(body):
-    product_of_moments = body.I11 * body.I22
-    assert product_of_moments == approx(body.I22**2 + body.I23**2, rel=1e-14)  # bizi1
+    assert approx(body.I22**2 + body.I23**2, rel=1e-14) == body.I11 * body.I22  # bizi1
     assert abs(body.I22 * body.b2 + body.I23 * body.b3) <= 1e-14 * abs(body.I23 * body.b3) + 1e-300  # bizi2
-    assert tan(atan2(body.I23, body.I22)) == approx(body.a, rel=1e-13)
+    assert body.a * body.I22 == approx(body.I23, rel=1e-13)
     assert body.b**2 * (body.I22**2 + body.I23**2) == approx(body.b3**2, rel=1e-13, abs=1e-300)
     assert body.b * body.b3 <= 0
     assert body.suslov.parameters == (body.I11, body.I22, 0.0, body.I23, 0.0, body.b2, body.b3)
@@ -46,6 +44,7 @@ def test_the_third_coordinate_of_the_centre_of_mass_has_b2_where_the_paper_print
 def test_the_suslov_field_and_integrals_become_the_reduced_ones(body, y):
     # The map is linear, so that it takes the field as it takes the state.
     image = body.to_reduced(np.array(SUSLOV.field(y, body.suslov.parameters)))
+    assert body.from_reduced(body.to_reduced(y)) == approx(y, abs=1e-14 * (1.0 + np.max(np.abs(y))))
     expected = np.array(HESS.field(body.to_reduced(y), (body.a, body.b)))
     size = (1.0 + abs(body.a) + abs(body.b)) * (1.0 + np.max(np.abs(body.to_reduced(y)))) ** 2
     assert np.max(np.abs(image - expected)) < 1e-13 * size
@@ -63,6 +62,7 @@ def test_in_units_of_b_the_field_and_the_integrals_have_b_one(body, y):
     nu, sign = sqrt(abs(body.b)), copysign(1.0, body.b)
     assert body.frequency_unit == approx(nu, rel=1e-15)
     unit = body.in_units_of_b(y)
+    assert body.from_units_of_b(unit) == approx(y, rel=1e-14)
     image = body.in_units_of_b(np.array(HESS.field(y, (body.a, body.b)))) / nu
     expected = np.array(HESS.field(unit, (body.a, 1.0)))
     size = (1.0 + abs(body.a)) * (1.0 + np.max(np.abs(unit))) ** 2
@@ -72,20 +72,8 @@ def test_in_units_of_b_the_field_and_the_integrals_have_b_one(body, y):
     assert in_units["F2"] == approx(sign * own["F2"] / nu, abs=1e-13 * size)
 
 
-@given(bodies_in_a_field, states)
-def test_the_map_to_the_reduced_variables_and_the_change_of_units_have_inverses(body, y):
-    size = 1.0 + np.max(np.abs(y))
-    assert body.from_reduced(body.to_reduced(y)) == approx(y, abs=1e-14 * size)
-    assert body.from_units_of_b(body.in_units_of_b(y)) == approx(y, rel=1e-14)
-
-
-WITHOUT = HessBody(1.0, 0.5, 0.0)
-
 test_what_makes_no_body_or_has_no_units_of_b_is_refused = refused(
-    (lambda: WITHOUT.frequency_unit, "b3 = 0", NoField),
-    (lambda: WITHOUT.in_units_of_b(np.ones(5)), "b3 = 0", NoField),
-    (lambda: WITHOUT.from_units_of_b(np.ones(5)), "b3 = 0", NoField),
+    (lambda: HessBody(1.0, 0.5, 0.0).in_units_of_b(np.ones(5)), "b3 = 0", NoField),
     (lambda: HessBody(1e-200, 1e200, 1.0), "choose"),
-    (lambda: HessBody(1e-320, 0.0, 1e300), "choose"),
     (lambda: HessBody(-1.0, 0.5, 1.0), "choose I22 > 0", NotPositiveDefinite),
 )

@@ -16,13 +16,7 @@ from support.refusals import refused
 
 HESS = systems()["hess"]
 REFERENCE = level("reference")
-ELLIPTIC = [
-    (0.5, 0.5, 0.5),
-    (1.0, -0.5, -0.3),
-    (0.0, 0.7, 0.4),
-    (-0.6, 0.2, 0.5),
-]
-every_torus = mark.parametrize(("a", "h", "f"), ELLIPTIC)
+every_torus = mark.parametrize(("a", "h", "f"), [(0.5, 0.5, 0.5), (-0.6, -0.5, -0.3)])
 PHASES = np.linspace(-3.1, 3.1, 41)
 
 
@@ -47,24 +41,6 @@ def test_in_the_angle_of_the_measure_the_map_is_a_rotation(a, h, f):
     around = (seen_from(PHASES + sign * step, measure.zeta) for sign in (1, -1))
     slope = np.angle(np.exp(1j * np.subtract(*around))) / (2.0 * step)
     assert slope / (2.0 * pi) == approx(measure.density(PHASES), rel=1e-7)
-
-
-@mark.parametrize("a", [2.0, 4.0])
-def test_where_zeta_is_close_to_the_circle_the_density_is_still_a_peak_of_area_1(a):
-    # At f = 0, h < 1 the gap falls exponentially with a.
-    measure = invariant_measure(circle_map(a, 0.9, 0.0, REFERENCE))
-    assert 1e-9 < measure.gap < 1e-2
-    centre = pi if measure.zeta < 0.0 else 0.0
-    away = measure.gap * np.tan(np.linspace(-0.4999, 0.4999, 100_001) * pi)
-    away = away[np.abs(away) < pi]
-    values = measure.density(centre + away)
-    assert np.sum(0.5 * (values[1:] + values[:-1]) * np.diff(away)) == approx(1.0, abs=2e-3)
-
-
-test_where_there_are_limit_cycles_there_is_none = refused(
-    (lambda: invariant_measure(circle_map(0.5, 1.5, 0.6, REFERENCE)), "choose a torus with .trace. < 2"),
-    (lambda: invariant_measure(circle_map(2.0, 0.4, 0.2, REFERENCE)), "choose a torus with .trace. < 2"),
-)
 
 
 # ---- on the torus -----------------------------------------------------------------------------------------------
@@ -98,12 +74,9 @@ def test_the_unrolled_density_is_normalised_and_carried_along_by_the_flow(a, h, 
 
 
 test_where_nothing_can_be_drawn_it_is_said_why = refused(
-    (lambda: density_on_torus(circle_map(0.5, 1.5, 0.6, REFERENCE), REFERENCE), "choose a torus"),
+    (lambda: invariant_measure(circle_map(0.5, 1.5, 0.6, REFERENCE)), "choose a torus with .trace. < 2"),
     (lambda: density_on_torus(circle_map(0.5, 0.3, 0.0, REFERENCE), REFERENCE), "Choose another f"),
     # w underflows.
-    (
-        lambda: zeta_at(circle_map(0.0, 0.0, 5e-324, REFERENCE), [0.0, 1.0], REFERENCE),
-        "Choose another f",
-    ),
+    (lambda: zeta_at(circle_map(0.0, 0.0, 5e-324, REFERENCE), [0.0, 1.0], REFERENCE), "Choose another f"),
     (lambda: density_on_torus(circle_map(4.0, 0.9, 0.0, REFERENCE), REFERENCE), "choose a smaller .a."),
 )

