@@ -151,9 +151,12 @@ def two():
 def test_systems_of_one_name_have_each_its_own_file(tmp_path, monkeypatch):
     """Numba tells kernels apart by their files."""
     monkeypatch.setattr(jit, "CACHE_FOLDER", tmp_path)
-    for field in (lambda y, p: (p[0] * y[0],), lambda y, p: (-p[0] * y[0],)):
+    # A field whose code was run without a name belongs to no module.
+    nameless = eval("lambda y, p: (p[0] * y[0] + 1,)", {})
+    assert nameless.__module__ is None
+    for field in (lambda y, p: (p[0] * y[0],), lambda y, p: (-p[0] * y[0],), nameless):
         assert callable(System("same", field, "x", {"a": 0.5}).orbit)
-    assert len(list(tmp_path.rglob("same_orbit-*.py"))) == 2
+    assert len(list(tmp_path.rglob("same_orbit-*.py"))) == 3
 
 
 class Cancelled(Exception):
