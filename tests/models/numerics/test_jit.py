@@ -77,6 +77,15 @@ def test_a_change_makes_stale_what_it_is_part_of_and_nothing_else(copied, hashes
     assert (before["all"] != after["all"]) == bool(changed)
 
 
+def test_hashes_that_cannot_be_read_are_found_anew(copied, hashes):
+    right = hashes()
+    (file,) = copied[1].glob("sources-*.json")
+    whole = file.read_text()
+    for said in ("", "[]", '{"errors.py": [1, 2]}'):
+        file.write_text(said)
+        assert (hashes(), file.read_text()) == (right, whole)
+
+
 # ---- whose folder it is -----------------------------------------------------------------------------------------
 
 
