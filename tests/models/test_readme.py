@@ -1,6 +1,5 @@
 """Checks of models/README.md: its example runs, its table is complete, kernels have their own files."""
 
-import ast
 import re
 from pathlib import Path
 
@@ -41,17 +40,3 @@ def test_files_cite_labels_of_the_table_only():
     label = re.compile(r"`((?:Biz|biz|bizi|eqs?|Geq|hh|gess|klas|m15|fig|g2p)[-\w*.]*\d[-\w*.]*)`")
     cited = {(one, path.name) for path in FILES for one in label.findall(path.read_text(encoding="utf-8"))}
     assert not {(one, name) for one, name in cited if one not in LABELS}
-
-
-def decorators(text):
-    functions = (node for node in ast.walk(ast.parse(text)) if isinstance(node, ast.FunctionDef))
-    return {ast.unparse(decorator) for function in functions for decorator in function.decorator_list}
-
-
-def test_kernels_are_in_files_told_apart_by_name():
-    for path in FILES:
-        text = path.read_text(encoding="utf-8")
-        has_kernels = bool(decorators(text) & {"kernel", "inner", "part", "as_written"})
-        assert has_kernels == path.name.endswith("kernels.py"), path
-        # mypy's patterns cannot tell them by the end of their names: each says so itself.
-        assert text.startswith("# mypy: allow-untyped-defs\n") == has_kernels, path

@@ -13,9 +13,10 @@ from pytest import approx, mark
 from hess_mechanics import circle_map, level, systems, turning_points
 from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.euler_poisson.hess_isomorphism import Bridge
+from hess_mechanics.suslov_hess.equations import WITH_ATTITUDE
 from hess_mechanics.suslov_hess.invariant_measure import invariant_measure
-from oracle import turning_roots
-from support.mechanics import followed
+from oracle import derivative_of_flow, turning_roots
+from support.mechanics import scipy_states
 
 SUSLOV, HESS, HEAVY = (systems()[name] for name in ("suslov", "hess", "euler-poisson"))
 FLOOR = level("reference")
@@ -130,15 +131,12 @@ def returns(a, h, f):
     ψ : angle of the axis n3 about the vertical, whose increase must be the precession.
     """
     T, precession = period_and_precession(h, f)
-
-    def rates(_, y):
-        """`eq01` with b = 1 and a direction fixed in space; ω = (w1, w2, −a w2)."""
-        return [*HESS.field(y[:5], (a, 1.0)), *np.cross(y[5:], [y[0], y[1], -a * y[1]])]
-
     for phi in (-2.0, 0.3, 1.7):
         start = turning_points(h, f).state_at_lower_turn(phi)
         side = np.cross(start[2:], [0.0, 0.0, 1.0])
-        states = followed(rates, [*start, *(side / np.linalg.norm(side))], T * np.arange(TURNS + 1), rtol=1e-12)
+        # With a direction that is fixed in space.
+        start = [*start, *(side / np.linalg.norm(side))]
+        states = scipy_states(WITH_ATTITUDE, start, (a, 1.0), T * np.arange(TURNS + 1))
         n, e, z = states[:, 2:5], states[:, 5:], states[:, 1] + 1j * states[:, 0]
         psi = np.angle(e[:, 2] + 1j * np.cross(n, e)[:, 2])
         assert np.exp(1j * (psi - psi[0])) == approx(np.exp(1j * precession * np.arange(TURNS + 1)), abs=1e-9)
@@ -168,21 +166,6 @@ def test_where_cycles_are_one_angle_is_asymptotic_and_two_frequencies_are_left(a
         assert away[-1] / away[-2] == approx(math.exp(stable.log_multiplier), rel=0.05)
 
 
-def monodromy(body, start, time):
-    """∂y(time)/∂y(0) of the Euler–Poisson equations, from their linear equations."""
-    symbols = sp.symbols("y0:6")
-    field = sp.Matrix(HEAVY.field(symbols, body.parameters))
-    slope = sp.lambdify(symbols, field.jacobian(symbols))
-
-    def rates(t, z):
-        y, columns = z[:6], z[6:].reshape(6, 6)
-        return [*HEAVY.field(y, body.parameters), *(np.array(slope(*y), float) @ columns).ravel()]
-
-    end = followed(rates, [*start, *np.eye(6).ravel()], [time], rtol=1e-12)[-1]
-    assert end[:6] == approx(start, abs=1e-8)
-    return end[6:].reshape(6, 6)
-
-
 def test_a_cycle_repels_across_the_hess_manifold_as_much_as_it_attracts_along_it():
     # The multipliers are inverse: neither is stronger, so the manifold is not normally hyperbolic.
     bridge = Bridge.of_heavy(BODIES[0])
@@ -192,7 +175,7 @@ def test_a_cycle_repels_across_the_hess_manifold_as_much_as_it_attracts_along_it
     across_of = {}
     for point in circle_map(bridge.hess.a, h, f, FLOOR).fixed_points:
         reduced = bridge.hess.from_units_of_b(turning.state_at_lower_turn(point.phi))
-        matrix = monodromy(bridge.heavy, bridge.from_reduced(reduced), time)
+        matrix = derivative_of_flow(HEAVY, bridge.from_reduced(reduced), bridge.heavy.parameters, time)
         normal = np.array([*bridge.heavy.r, 0.0, 0.0, 0.0])
         carried = normal @ matrix
         across = (carried @ normal) / (normal @ normal)
@@ -246,33 +229,6 @@ def test_with_I23_0_they_are_those_of_the_chaplygin_sleigh():
     rates = SUSLOV.field([OMEGA, SPEED / rho, 0, 0, 1], (J + m * c**2, m * rho**2, m * c * rho, 0, 0, 0, 0))
     assert sp.simplify(rates[0] + m * c * SPEED * OMEGA / (J + m * c**2)) == 0
     assert sp.simplify(rho * rates[1] - c * OMEGA**2) == 0
-
-
-def test_the_track_on_a_sphere_becomes_that_of_the_sleigh_as_the_sphere_grows():
-    m, c, J, omega, v = 1.3, 0.4, 0.7, 1.1, 0.2
-
-    def sleigh(_, y):
-        w, speed, angle = y[:3]
-        accelerations = [-m * c * w * speed / (J + m * c * c), c * w**2]
-        return [*accelerations, w, speed * math.cos(angle), speed * math.sin(angle)]
-
-    x, y = followed(sleigh, [omega, v, 0.0, 0.0, 0.0], [8.0])[-1, 3:]
-
-    def distance(rho):
-        p = (J + m * c * c, m * rho * rho, m * c * rho, 0.0, 0.0, 0.0, 0.0)
-
-        def body(_, z):
-            # Three directions fixed in space: each obeys the equation of γ.
-            turning = np.cross(z[2:].reshape(3, 3), [z[0], z[1], 0.0])
-            return [*SUSLOV.field([*z[:2], 0.0, 0.0, 1.0], p)[:2], *turning.ravel()]
-
-        end = followed(body, [omega, v / rho, *np.eye(3).ravel()], [8.0], rtol=1e-13, atol=1e-15)[-1, 2:]
-        # Direction of the body's first axis: on a sphere of this radius, seen from outside at its start.
-        place = rho * end.reshape(3, 3)[:, 0]
-        return math.hypot(-place[2] - x, place[1] - y)
-
-    assert distance(100.0) < 0.05
-    assert distance(100.0) / distance(1000.0) == approx(100.0, rel=0.05)
 
 
 def test_the_motion_that_attracts_is_closed_on_some_groups_and_not_on_others():

@@ -111,17 +111,6 @@ def test_a_result_prints_on_ten_lines(name):
         assert not is_dataclass(result) or len(str(result)) < 1000
 
 
-def test_every_accuracy_is_a_level_or_its_name():
-    """By their annotations; the type checker verifies that each function reads either."""
-    accuracies = {
-        name: inspect.signature(getattr(hm, name)).parameters["accuracy"].annotation
-        for name in FUNCTIONS
-        if "accuracy" in inspect.signature(getattr(hm, name)).parameters
-    }
-    assert len(accuracies) > 15
-    assert set(accuracies.values()) == {"Accuracy"}
-
-
 def test_a_level_of_ones_own_is_used_as_it_is():
     own = Level("own", 1e-5, 1e-7, 14)
     assert plan(Kind.BASINS, own).level is own

@@ -130,32 +130,6 @@ def map_of_vanishing_f(a, h, f=0.0):
         return MoebiusMap(mpmath.cosh(slide) * mpmath.expj(-jump / 2), mpmath.mpc(0, -mpmath.sinh(slide)))
 
 
-def map_without_a(h, f, digits=60):
-    """a = 0: a rotation through −∮ f/|w|² dt, a complete elliptic integral of the third kind."""
-    with mpmath.workdps(digits):
-        h, f = mpmath.mpf(h), mpmath.mpf(f)
-        n0, n1, n2, period = roots_and_period(h, f)
-        m = (n2 - n1) / (n2 - n0)
-        # n3 = n2 − (n2 − n1) sn²
-        mean = mpmath.ellippi((n2 - n1) / (h + n2), m) / mpmath.ellipk(m) / (h + n2)
-        return MoebiusMap(mpmath.expj(-f * period * mean / 4), mpmath.mpc(0))
-
-
-def map_on_the_curve(a, n):
-    """On `Geq3`: n3 = n and |w| are constant, φ̇ = −a|w| cos φ − f/|w|², for one period of small oscillations of n3.
-
-    There 2(h+n) = (1−n²)/n and f = (1−n²)/√n; p = 2(h+n)(1−n²) − f² has p'' = −2(1+3n²)/n: the period is
-    2π√(n/(1+3n²)).
-    """
-    n = mpmath.mpf(n)
-    speed = mpmath.sqrt((1 - n * n) / n)
-    time = 2 * mpmath.pi * mpmath.sqrt(n / (1 + 3 * n * n))
-    turn, slide = (1 - n * n) / mpmath.sqrt(n) / speed**2 / 2, a * speed / 2
-    rate = mpmath.sqrt(mpmath.mpc(turn**2 - slide**2))
-    cosine, sine = mpmath.cos(rate * time), mpmath.sin(rate * time) / rate
-    return MoebiusMap(mpmath.mpc(mpmath.re(cosine), -turn * mpmath.re(sine)), mpmath.mpc(0, -slide * mpmath.re(sine)))
-
-
 def stable_cycle(a, h, f, nodes=256):
     """(φ on the section, log of the trace) of a strongly attracting cycle, a > 0, in doubles.
 

@@ -6,10 +6,10 @@ import mpmath
 import numpy as np
 
 
-def pendulum(a, h, phi, times, since=0.0, digits=40):
+def pendulum(a, h, phi, times, digits=40):
     """The orbit of `eq01` with b = 1, f = 0: a loxodromic pendulum; doubles (n, 5).
 
-    θ̈ = −sin θ with θ(−since) = 0 and θ̇ > 0 there; φ slides by tan(φ/2 + π/4) ∝ e^{−aθ} from `phi` at time 0;
+    θ̈ = −sin θ with θ(0) = 0 and θ̇(0) > 0; φ slides by tan(φ/2 + π/4) ∝ e^{−aθ} from `phi` at time 0;
     w = θ̇ (sin φ, cos φ) and n = (−sin θ cos φ, sin θ sin φ, cos θ).  As φ, the double next to ±π/2 stands for ±π/2:
     a great circle.
     """
@@ -29,27 +29,16 @@ def pendulum(a, h, phi, times, since=0.0, digits=40):
             theta = 2 * (mpmath.asin(mpmath.ellipfun("sn", within, m=m)) + mpmath.pi * turns)
             return theta, 2 * k * mpmath.ellipfun("dn", within, m=m)
 
-        begin, _ = swing(mpmath.mpf(since))
         slides = abs(phi) != math.pi / 2
         phi = mpmath.mpf(phi) if slides else mpmath.sign(phi) * mpmath.pi / 2
         slope = mpmath.tan(phi / 2 + mpmath.pi / 4)
         rows = []
         for t in times:
-            theta, speed = swing(mpmath.mpf(t) + mpmath.mpf(since))
-            now = 2 * mpmath.atan(slope * mpmath.exp(a * (begin - theta))) - mpmath.pi / 2 if slides else phi
+            theta, speed = swing(mpmath.mpf(t))
+            now = 2 * mpmath.atan(slope * mpmath.exp(-a * theta)) - mpmath.pi / 2 if slides else phi
             s, c = mpmath.sin(now), mpmath.cos(now)
             rows.append([speed * s, speed * c, -mpmath.sin(theta) * c, mpmath.sin(theta) * s, mpmath.cos(theta)])
         return np.array(rows, dtype=float)
-
-
-def steady_rotation(omega, gamma, times, digits=40):
-    """The motion with constant ω = (ω1, ω2, 0), the state of `Biz131`, doubles (n, 5): γ(t) = e^{−t[ω]×} γ."""
-    w1, w2 = omega
-    with mpmath.workdps(digits):
-        back = mpmath.matrix([[0, 0, -w2], [0, 0, w1], [w2, -w1, 0]])
-        return np.array(
-            [[*omega, *(mpmath.expm(mpmath.mpf(t) * back) * mpmath.matrix(gamma))] for t in times], dtype=float
-        )
 
 
 def cos_chi(I11, I22, I13, I23, digits=40):

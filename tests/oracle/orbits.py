@@ -178,31 +178,18 @@ def orbit_in_decimals(system, state, parameters, times, digits):
         return taylor(system.field, y, p, t, order=round(1.15 * digits), tolerance=10.0**-digits)[:, :, 0]
 
 
-class Along:
-    """One orbit with this many digits at any times, each computed from the nearest known time.
-
-    What is asked for at each level of accuracy, whose times differ by little, takes hardly longer than for one.
-    """
-
-    def __init__(self, system, state, parameters, digits):
-        self.system, self.parameters, self.digits = system, parameters, digits
-        self.known = {Decimal(0): as_decimals(np.asarray(state).tolist())}
-
-    def at(self, times):
-        """States (n, d)."""
-        return np.array([self._at(Decimal(t)) for t in times]).reshape(len(times), -1)
-
-    def _at(self, time):
-        with decimal.localcontext(prec=self.digits):
-            since = min(self.known, key=lambda t: abs(t - time))
-            y, p = (np.reshape(values, (-1, 1)) for values in (self.known[since], as_decimals(list(self.parameters))))
-            found = taylor(
-                self.system.field, y, p, as_decimals([[time - since]]), round(1.15 * self.digits), 10.0**-self.digits
-            )
-            return self.known.setdefault(time, found[0, :, 0])
-
-
 def distances(computed, exact):
     """Return |computed − exact| as doubles, without rounding the exact values first."""
     computed = as_decimals(np.asarray(computed).tolist()) if exact.dtype == object else computed.astype(exact.dtype)
     return np.abs(computed - exact).astype(float)
+
+
+def derivative_of_flow(system, state, parameters, time):
+    """∂y(time)/∂y(0) by differences of the fourth order of orbits in long double."""
+    size, step = len(state), np.longdouble(1e-4)
+    shifts = step * np.kron(np.eye(size), np.array([[-2], [-1], [1], [2]]))
+    starts = np.array(state, np.longdouble) + shifts
+    p = np.repeat(np.array(parameters, np.longdouble)[:, None], len(starts), axis=1)
+    ends = taylor(system.field, starts.T, p, np.full((1, len(starts)), time, np.longdouble), 28, 1e-22)[0]
+    weights = np.array([1, -8, 8, -1], np.longdouble) / (12 * step)
+    return (ends.reshape(size, size, 4) @ weights).astype(float)

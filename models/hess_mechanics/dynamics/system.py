@@ -607,7 +607,8 @@ class System:
                 f"# The {task} of the system {self.name!r}, derived from its field.  The Taylor recursion:\n#\n"
                 f"{derived}\n\ndef {name}({arguments}):\n    return run({passed})\n"
             )
-            module = getattr(self.field, "__module__", __name__)
+            # Code run by `exec` without a `__name__` has no module.
+            module = getattr(self.field, "__module__", None) or __name__
             compiled = derived_kernel(name, source, module, **names)
             # The kernels of this package are compiled when it starts for the first time.
             if module.startswith("hess_mechanics."):

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from pytest import approx
 
-from hess_mechanics.dynamics.attraction import CROSSINGS, LOST, NOWHERE, Arrivals, arrivals, recurrent_sets
+from hess_mechanics.dynamics.attraction import CROSSINGS, LOST, NOWHERE, arrivals, recurrent_sets
 from hess_mechanics.dynamics.basin_boundary import arrivals_of_cells, divided, joined
 from hess_mechanics.dynamics.edge import saddle_between
 from hess_mechanics.errors import NotConverged
@@ -108,8 +108,6 @@ def test_cells_are_divided_along_the_boundaries_and_nowhere_else(sets):
     # A boundary in more cells than allowed stays as it is.
     assert not divided(cells, (256, 256), False, 100).any()
     assert divided(cells, (256, 256), True, 100).all()
-    one = Arrivals(np.zeros((4, 4), np.int16), np.zeros((4, 4), np.int16))
-    assert not divided(one, (8, 8), False, 100).any()
 
 
 def test_the_saddle_between_two_wells_is_the_one_on_their_boundary(sets):

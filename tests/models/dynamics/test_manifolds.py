@@ -29,6 +29,10 @@ def test_the_manifolds_of_a_bent_saddle_are_its_parabola_and_its_axis(side, stre
     assert unstable.multiplier == approx(2.5 if stretch > 0 else 1.7**2, abs=1e-12)
     # W(τ + 1) = F(W(τ)): where x is multiplied.
     assert unstable.at(3.3)[0] / unstable.at(2.3)[0] == approx(unstable.multiplier, abs=1e-12)
+    assert heights_at(unstable, 0, 1.1 * side) == approx([1.21], abs=1e-13)
+    assert heights_at(unstable, 1, 1.21) == approx([1.1 * side], abs=1e-13)
+    with raises(NotConverged, match="greater length"):
+        heights_at(unstable, 0, 5.0)
     stable = manifold(m, saddle, 2.0, stable=True, side=side)
     assert np.abs(stable.points[:, 0]).max() <= stable.error_estimate < 1e-12
     assert side * stable.points[-1, 1] >= 2.0
@@ -49,15 +53,6 @@ def test_points_are_as_dense_as_the_curvature_asks():
         assert off.max() <= sagitta
     assert counts[0] < 0.6 * counts[1]
     assert curve.end_reason == "At its length."
-
-
-def test_it_ends_after_so_many_returns():
-    m = henon(1.4)
-    saddle = find_periodic(m, (0.6, 0.2), 1)
-    whole, cut = (manifold(m, saddle, 12.0, returns=returns) for returns in (1_000_000, 400))
-    assert cut.end_reason == "After 400 returns of the map."
-    assert 0.0 < cut.length < 12.0 <= whole.length
-    assert np.array_equal(cut.points, whole.points[: len(cut.points)])
 
 
 def test_homoclinic_points_of_henon_are_homoclinic():
@@ -108,15 +103,6 @@ def test_separatrices_split_in_proportion_to_a_perturbation(mu=1.5):
     assert gaps[2][0] / gaps[1][0] == approx(2.0, abs=1e-2)
 
 
-def test_where_a_manifold_comes_to():
-    m = bent_saddle()
-    curve = manifold(m, find_periodic(m, (0.1, 0.2), 1), 3.0)
-    assert heights_at(curve, 0, 1.1) == approx([1.21], abs=1e-13)
-    assert heights_at(curve, 1, 1.21) == approx([1.1], abs=1e-13)
-    with raises(NotConverged, match="greater length"):
-        heights_at(curve, 0, 5.0)
-
-
 def test_what_has_no_manifolds_is_refused():
     with raises(InvalidParameter, match="Only a saddle"):
         manifold(henon(0.1), find_periodic(henon(0.1), (0.6, 0.2), 1), 1.0)
@@ -127,5 +113,7 @@ def test_what_has_no_manifolds_is_refused():
     with raises(InvalidParameter, match="The side must be 1"):
         manifold(m, saddle, 1.0, side=2)
     assert manifold(m, saddle, 1e9, most=40).end_reason == "After 40 points."
+    cut = manifold(m, saddle, 12.0, returns=400)
+    assert (cut.end_reason, 0.0 < cut.length < 12.0) == ("After 400 returns of the map.", True)
     with raises(NoReturn):
         manifold(pitchfork(1.5), find_periodic(pitchfork(1.5), (0.01, 0.0), 1), 1.0, stable=True)

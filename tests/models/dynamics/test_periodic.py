@@ -16,7 +16,6 @@ def test_the_fixed_point_of_the_map_of_henon(a, b=0.3):
     x = (-(1.0 - b) + math.sqrt((1.0 - b) ** 2 + 4.0 * a)) / (2.0 * a)
     found = find_periodic(henon(a, b), (0.6, 0.2), 1)
     exact = sorted((-a * x + sign * math.sqrt(a * a * x * x + b) for sign in (1, -1)), key=abs, reverse=True)
-    assert np.abs(found.places[0] - (x, b * x)).max() < 1e-14
     assert np.abs(found.multipliers - exact).max() < 1e-13
     assert np.abs(found.places[0] - (x, b * x)).max() <= found.error_estimate < 1e-14
     assert found.kind == ("stable node" if a < 0.3675 else "saddle with reflection")
@@ -30,10 +29,9 @@ def test_an_orbit_of_period_two_is_known_too(a=0.8, b=0.3):
     s, p = (1.0 - b) / a, ((1.0 - b) ** 2 - a) / a**2
     half = math.sqrt(s * s / 4 - p)
     assert sorted(found.places[:, 0]) == approx([s / 2 - half, s / 2 + half])
-    assert complex(found.multipliers.sum()).real == approx(4.0 * a * a * p + 2.0 * b, abs=1e-13)
-    assert complex(found.multipliers.prod()).real == approx(b * b, abs=1e-14)
+    assert found.multipliers.sum() == approx(4.0 * a * a * p + 2.0 * b, abs=1e-13)
+    assert found.multipliers.prod() == approx(b * b, abs=1e-14)
     assert found.period == 2
-    assert found.labels().facts["period"] == 2
 
 
 def test_the_multipliers_of_a_long_unstable_orbit_keep_the_small_one(a=1.4, b=0.3):
@@ -69,15 +67,24 @@ def test_near_looks_from_the_place_alone():
     assert np.abs(again.places - found.places).max() < 1e-12
 
 
-def test_types():
-    assert find_periodic(delayed_logistic(1.5), (0.3, 0.3), 1).kind == "stable focus"
-    assert find_periodic(delayed_logistic(2.1), (0.5, 0.5), 1).kind == "unstable focus"
-    assert find_periodic(delayed_logistic(2.0), (0.5, 0.4), 1).kind == "elliptic"
-    assert find_periodic(bent_saddle(), (0.1, 0.2), 1).kind == "saddle"
-    assert find_periodic(arnold(0.1), (0.3,), 1).kind == "stable node"
-    assert find_periodic(arnold(0.1), (2.9,), 1).kind == "unstable node"
-    assert kind_of(np.array([1.0 + 1e-9, 0.5], complex), 1e-8) == "parabolic"
-    assert kind_of(np.array([-1.0, 0.5], complex), 1e-8) == "parabolic with reflection"
+@mark.parametrize(
+    ("map_", "place", "kind"),
+    [
+        (delayed_logistic(1.5), (0.3, 0.3), "stable focus"),
+        (delayed_logistic(2.1), (0.5, 0.5), "unstable focus"),
+        (delayed_logistic(2.0), (0.5, 0.4), "elliptic"),
+        (bent_saddle(), (0.1, 0.2), "saddle"),
+        (arnold(0.1), (0.3,), "stable node"),
+        (arnold(0.1), (2.9,), "unstable node"),
+    ],
+)
+def test_types(map_, place, kind):
+    assert find_periodic(map_, place, 1).kind == kind
+
+
+def test_multipliers_of_1_have_types_of_their_own():
+    assert kind_of(np.array([1.0 + 1e-9, 0.5]), 1e-8) == "parabolic"
+    assert kind_of(np.array([-1.0, 0.5]), 1e-8) == "parabolic with reflection"
 
 
 def test_what_is_not_there_is_refused_with_what_to_do():

@@ -5,12 +5,12 @@ The truth is a closed form, a quadrature, or SciPy at 1e-13 with small steps.
 
 from functools import cache
 from itertools import pairwise
-from math import cos, erf, exp, expm1, inf, pi, sin, sqrt
+from math import cos, erf, exp, hypot, inf, pi, sin, sqrt
 
 import numpy as np
 import pytest
-from scipy.integrate import quad, solve_ivp
-from scipy.special import expit, gammaln, sici
+from scipy.integrate import quad
+from scipy.special import expit, sici
 
 from hess_mechanics import LEVELS, Plane, System, ensemble, section, solve
 from hess_mechanics.dynamics.system import Problem
@@ -18,24 +18,21 @@ from hess_mechanics.dynamics.variation import tangent
 from hess_mechanics.errors import InvalidParameter, ModelError, MotionEnds, WorkLimit
 from hess_mechanics.numerics import functions as f
 
-WRONG = 3.0
-KNOWN = {"near collision": 2e-11}
-"""Error of the truth, if it is above 1e-12: that of SciPy grows in a collision."""
 
-
-def by_scipy(field, p, start, t, longest=1e-3, atol=1e-15):
-    """The end state by SciPy, with small steps."""
-    options = {"method": "DOP853", "rtol": 1e-13, "atol": atol, "max_step": longest}
-    return solve_ivp(lambda _, y: field(y, p), (0.0, t), start, **options).y[:, -1]
-
-
-def decaying(source, width, t):
-    """u(t) of u̇ = −u + source((τ − 1)/width), u(0) = 1."""
-    ends = sorted({0.0, t, *np.clip(1.0 + width * np.array([-40, -10, -3, -1, 0, 1, 3, 10, 40]), 0.0, t)})
+def step_at(_, p, start, t):
+    """u(t) of u̇ = −u + expit((1 − τ)/width), u(0) = 1."""
+    ends = sorted({0.0, t, *np.clip(1.0 + p[0] * np.array([-40, -10, -3, -1, 0, 1, 3, 10, 40]), 0.0, t)})
     return exp(-t) + sum(
-        quad(lambda s: exp(s - t) * source((s - 1) / width), *part, epsabs=1e-14, epsrel=1e-13)[0]
+        quad(lambda s: exp(s - t) * expit((1 - s) / p[0]), *part, epsabs=1e-14, epsrel=1e-13)[0]
         for part in pairwise(ends)
     )
+
+
+def quarter(d):
+    """A quarter of the period of a spring whose energy is v²/2 + √(x² + d²), from x = 1 at rest."""
+    rate = lambda s: sqrt(2 * (hypot(1.0, d) + hypot(1.0 - s * s, d)) / (2.0 - s * s))  # noqa: E731
+    # By s² = 1 − x, with which dx/v has no pole.
+    return sum(quad(rate, *part, epsabs=1e-14)[0] for part in pairwise((0.0, 0.9, 0.99, 0.999, 1.0)))
 
 
 def friction_at(_, p, start, t):
@@ -58,70 +55,25 @@ def stiff_at(_, p, start, t):
     return ((k * cos(t) + sin(t) - k * exp(-k * t)) * k / (k * k + 1),)
 
 
-def small_spring_at(_, p, start, t):
-    """By −2 (1 − cos x)/x without cancellation."""
-    field = lambda y, p: (y[1], -4 * sin(y[0] / 2) ** 2 / y[0] if y[0] else 0.0)  # noqa: E731
-    return by_scipy(field, p, start, t, 0.01, 1e-13 * start[0])
-
-
-def membrane(y, p, exp=f.exp, ratio=lambda x: x / (1 - f.exp(-x))):
-    """The membrane of Hodgkin and Huxley as it is usually written, with 0/0 at V = −40 and V = −55."""
-    V, m, h, n = y
-    return (
-        p[0] - 120 * m**3 * h * (V - 50) - 36 * n**4 * (V + 77) - 0.3 * (V + 54.387),
-        ratio((V + 40) / 10) * (1 - m) - 4 * exp(-(V + 65) / 18) * m,
-        0.07 * exp(-(V + 65) / 20) * (1 - h) - h / (1 + exp(-(V + 35) / 10)),
-        0.1 * ratio((V + 55) / 10) * (1 - n) - 0.125 * exp(-(V + 65) / 80) * n,
-    )
-
-
-def membrane_at(_, p, start, t):
-    """By the ratios without 0/0."""
-    ratio = lambda x: x / -expm1(-x) if x else 1.0  # noqa: E731
-    return by_scipy(lambda y, p: membrane(y, p, exp, ratio), p, start, t, 0.02)
-
-
-def collision(y, p):
-    return y[2], y[3], *(-x / (y[0] ** 2 + y[1] ** 2 + p[0] ** 2) ** 1.5 for x in y[:2])
-
-
-def kinked_at(field, p, start, t):
-    """Of a field with a true kink 4√2 is the period."""
-    return by_scipy(field, p, start, t) if p[0] else start
-
-
 FIELDS = {
     # field, variables, truth of the leading variables, (parameters, start, time) of each motion
     "friction": (lambda y, p: (y[1], -f.tanh(y[1] / p[0])), "x v", friction_at,
                  [((eps,), (0.0, 2.0), t) for eps, t in ((0.1, 10.0), (0.01, 10.0), (0.001, 10.0), (0.01, 1.0))]),
-    "saturated spring": (lambda y, p: (y[1], -f.tanh(p[0] * y[0])), "x v", by_scipy,
-                         [((k,), (1.0, 0.0), 5.6) for k in (5.0, 19.0, 20.0, 40.0, 200.0)]),
-    "kinked spring": (lambda y, p: (y[1], -y[0] / f.sqrt(y[0] ** 2 + p[0] ** 2)), "x v", kinked_at,
-                      [((d,), (1.0, 0.0), t) for d, t in ((0.0, 4 * sqrt(2)), (1e-2, 5.0), (1e-3, 5.0))]),
+    "kinked spring": (lambda y, p: (y[1], -y[0] / f.sqrt(y[0] ** 2 + p[0] ** 2)), "x v", lambda _, p, start, t: start,
+                      [((d,), (1.0, 0.0), 4 * quarter(d)) for d in (0.0, 1e-2, 1e-3)]),
     "pulse": (lambda y, p: (-y[0] + f.exp(-(((y[1] - p[1]) / p[0]) ** 2)) / (p[0] * sqrt(pi)), 1), "u tau", pulse_at,
               [((s, at), (1.0, 0.0), at + 1.0)
                for s, at in ((0.1, 1.0), (0.02, 1.0), (0.005, 1.0), (1e-3, 1.0), (1e-4, 1.0), (0.005, 199.0))]),
     "step": (lambda y, p: (-y[0] + 1 / (1 + f.exp((y[1] - 1) / p[0])), 1), "u tau",
-             lambda _, p, start, t: (decaying(lambda x: expit(-x), *p, t),),
-             [((s,), (1.0, 0.0), 2.0) for s in (0.01, 1e-3, 1e-4)]),
-    "rational pulse": (lambda y, p: (-y[0] + p[0] / pi / ((y[1] - 1) ** 2 + p[0] ** 2), 1), "u tau",
-                       lambda _, p, start, t: (decaying(lambda x: 1 / (pi * p[0] * (x * x + 1)), *p, t),),
-                       [((s,), (1.0, 0.0), 2.0) for s in (1e-2, 1e-3, 1e-5)]),
+             step_at, [((s,), (1.0, 0.0), 2.0) for s in (0.01, 1e-3, 1e-4)]),
     "stiff": (lambda y, p: (-p[0] * (y[0] - f.cos(y[1])), 1), "v tau", stiff_at,
               [((k,), (0.0, 0.0), 2.0) for k in (10.0, 1e3, 1e4)]),
-    "cancelling": (lambda y, p: (y[1], -2 * (1 - f.cos(y[0])) / y[0]), "x v", small_spring_at,
-                   [((), (x, 0.0), t) for x, t in ((1e-6, 1.0), (1e-4, 1.0), (1e-2, 1.0), (1.0, 4.0))]),
     "large constant": (lambda y, p: (y[1], -((y[0] + p[0]) - p[0])), "x v",
                        lambda _, p, start, t: (start[0] * cos(t), -start[0] * sin(t)),
                        [((c,), (1e-6, 0.0), 1.0) for c in (1e8, 1e4)]),
     "sinc": (lambda y, p: (f.sin(y[1]) / y[1], 1), "u tau",
              lambda _, p, start, t: (sici(start[1] + t)[0] - sici(start[1])[0],),
              [((), (0.0, a), 2.5) for a in (-1.0, -1.0 + 1e-9, -1e-3)]),
-    "membrane": (membrane, "V m h n", membrane_at,
-                 [((current,), (V, 0.05, 0.6, 0.32), 20.0)
-                  for current, V in ((10.0, -65.0), (10.0, -55.0 + 1e-9), (0.0, -50.0))]),
-    "near collision": (collision, "x y vx vy", by_scipy,
-                       [((eps,), (1.0, 0.0, 0.0, 0.05), 3.0) for eps in (0.1, 0.02)]),
     "high power": (lambda y, p: (y[1] ** 40, 1), "x tau", lambda *_: (1 / 41,), [((), (0.0, 0.0), 1.0)]),
     "almost not analytic": (lambda y, p: (f.exp(-1 / y[1] ** 2), 1), "x tau",
                             lambda _, p, start, t: (quad(lambda x: exp(-1 / x**2) if x else 0.0, start[1], 1.0,
@@ -154,7 +106,7 @@ def test_no_result_is_ok_and_wrong_and_standard_is_right(row):
             assert level != "standard" or is_refused
             continue
         error = np.abs(found.states[-1, : expected.size] - expected).max()
-        allowed = WRONG * found.error_estimate + KNOWN.get(name, 1e-12) * max(1.0, np.abs(expected).max())
+        allowed = 3.0 * found.error_estimate + 1e-12 * max(1.0, np.abs(expected).max())
         assert error < allowed or found.status != "ok", (level, found.states[-1], expected, found.error_estimate)
         if level == "standard" and not is_refused:
             assert found.status == "ok" and error <= 2e-6
@@ -163,19 +115,12 @@ def test_no_result_is_ok_and_wrong_and_standard_is_right(row):
 # ---- the same for sections, ensembles and exponents ------------------------------------------------------------------
 
 
-def test_a_section_and_an_ensemble_of_a_saturated_spring_are_right():
-    """From x = 1 at rest the spring passes x = 0 after a quarter of its period, v̇ = −1 but for |x| of some 1/k."""
-    body = system("saturated spring", 1).at((200.0,))
-    quarter = quad(lambda x: 1 / sqrt(2 * log_ratio_of_cosh(200.0, x)), 0.0, 1.0, limit=400, epsabs=1e-12)[0]
+def test_a_section_and_an_ensemble_of_a_kinked_spring_are_right(d=1e-3):
+    body = system("kinked spring", 1).at((d,))
     found = section(body, (1.0, 0.0), Plane((1.0, 0.0), 0.0, 0), 6.0, "precise")
-    np.testing.assert_allclose(found.times, quarter * np.array([1, 3]), atol=1e-8)
-    both = ensemble(body, [(1.0, 0.0), (-1.0, 0.0)], [4 * quarter], "precise")
+    np.testing.assert_allclose(found.times, quarter(d) * np.array([1, 3]), atol=1e-8)
+    both = ensemble(body, [(1.0, 0.0), (-1.0, 0.0)], [4 * quarter(d)], "precise")
     np.testing.assert_allclose(both.states[:, -1], [(1.0, 0.0), (-1.0, 0.0)], atol=1e-8)
-
-
-def log_ratio_of_cosh(k, x):
-    """ln(cosh k/cosh kx)/k, without overflow: the kinetic energy at x."""
-    return ((1 - x) * k + np.log1p(np.exp(-2 * k)) - np.log1p(np.exp(-2 * k * x))) / k
 
 
 def test_neighbours_see_a_pulse_as_the_orbit_does():
@@ -189,38 +134,28 @@ def test_neighbours_see_a_pulse_as_the_orbit_does():
     np.testing.assert_allclose([found.states[0, 0], found.vectors[0, 0, 0]], exp(-1.0), rtol=1e-8)
 
 
-def test_the_runs_of_an_estimate_take_different_steps(monkeypatch):
-    """Even where one step is enough for each, as for τ̇ = 1."""
-    clock, longest = System("clock", lambda y, p: (1,), "tau"), []
-    kernel = clock.orbit
-    monkeypatch.setitem(vars(clock), "orbit", lambda *given: longest.append(given[5]) or kernel(*given))
-    assert solve(clock.at(), (0.0,), [3.0]).states[-1, 0] == 3.0
-    assert len(longest) == 2 and longest[0] == 3.0 and longest[1] == pytest.approx(0.618 * 3.0)
-
-
 # ---- limits ----------------------------------------------------------------------------------------------------------
 
 
 def test_a_pulse_between_two_checks_is_missed_until_max_step_is_below_its_width():
-    """The guide says so.  The pulse is a power of a sine that is small but for 0.2 of the period 100."""
-    pulses = System("pulses", lambda y, p: (f.sin(pi * y[1] / 100) ** 100_000, 1), "u tau")
-    area = 100 / sqrt(pi) * exp(gammaln(50_000.5) - gammaln(50_001))
+    """The guide says so.  The pulse is a power of a sine that is small but for 0.02 of the period 100."""
+    pulses = System("pulses", lambda y, p: (f.sin(pi * y[1] / 100) ** 100_000_000, 1), "u tau")
+    # By Laplace's method, to a relative 1/(4e8).
+    area = 100 / sqrt(5e7 * pi)
     missed, seen = (solve(pulses.at(), (0.0, 0.0), [100.0], max_step=step).states[-1, 0] for step in (None, 0.05))
-    assert seen == pytest.approx(area, rel=1e-8) and missed < area
+    assert seen == pytest.approx(area, rel=1e-8) and missed < 0.5 * area
 
 
 @pytest.mark.parametrize("level", LEVELS)
 def test_limits_of_steps_can_be_given(level):
-    pendulum = System("swing", lambda y, p: (y[1], -f.sin(y[0])), "angle speed")
-    freely = solve(pendulum.at(), (1.0, 0.0), [20.0], level)
-    shortly = solve(pendulum.at(), (1.0, 0.0), [20.0], level, max_step=0.01)
-    assert shortly.cost.steps > 20 / 0.01 > freely.cost.steps
+    motion = system("stiff", 1).at((10.0,)), (0.0, 0.0), [2.0], level
+    freely, shortly = solve(*motion), solve(*motion, max_step=0.001)
+    assert shortly.cost.steps > 2.0 / 0.001 > freely.cost.steps
     np.testing.assert_allclose(shortly.states, freely.states, atol=3 * freely.error_estimate + 1e-13)
     with pytest.raises(WorkLimit, match=r"needs more than 50 steps, which reach t = \d"):
-        solve(pendulum.at(), (1.0, 0.0), [20.0], level, max_step=0.01, max_steps=50)
-    for wrong in (0.0, -1.0):
-        with pytest.raises(InvalidParameter, match=r"max_step = .* is not positive"):
-            solve(pendulum.at(), (1.0, 0.0), [20.0], level, max_step=wrong)
+        solve(*motion, max_step=0.001, max_steps=50)
+    with pytest.raises(InvalidParameter, match=r"max_step = .* is not positive"):
+        solve(*motion, max_step=0.0)
 
 
 # ---- motions that end ------------------------------------------------------------------------------------------------
@@ -241,7 +176,7 @@ def test_one_orbit_that_escapes_leaves_the_others_complete(level):
     assert found.ends == pytest.approx([1.5, 1.5, 1.0], abs=LEVELS[level].promise + 1e-15)
     assert found.states[2, 0, 0] == pytest.approx(2.0, rel=1e-2) and np.isnan(found.states[2, 1, 0])
     assert found.last_states[2, 0] > 1e9 and np.isinf(found.errors[2]) and np.isfinite(found.error_estimate)
-    assert found.reasons[:2] == ("", "") and "y reached" in found.reasons[2] and "at t = 1:" in found.reasons[2]
+    assert [bool(reason) for reason in found.reasons] == [False, False, True]
 
 
 ENDS = {
@@ -249,10 +184,8 @@ ENDS = {
     "logarithm": (lambda y, p: (-1.0, f.log(y[0])), "s x", (1.0, 0.0), 2.0, "At t = 1 the field takes log of s"),
     "attraction": (lambda y, p: (y[1], -1 / y[0] ** 2), "r v", (1.0, 0.0), 2.0,
                    r"At t = 1\.11072 no step is short enough: the rate of"),
-    "centre": (lambda y, p: (y[1], -1 / y[0] ** 2), "r v", (0.0, 0.0), 2.0, r"the field divides by r \* r, which is 0"),
     "quotient": (lambda y, p: (y[0] / y[1], 0 * y[0]), "a b", (0.0, 0.0), 2.0, "the field divides by b, which is 0"),
     "root": (lambda y, p: (f.sqrt(y[0]),), "y", (0.0,), 2.0, r"At t = 0 the field divides by sqrt\(y\), which is 0"),
-    "negative": (lambda y, p: (f.log(y[0]),), "y", (-1.0,), 2.0, "At t = 0 the field takes log of y, which is -1"),
     "overflow": (lambda y, p: (f.exp(y[0]),), "y", (800.0,), 2.0, r"exceeds the range of double precision in exp\(y\)"),
 }  # fmt: skip
 

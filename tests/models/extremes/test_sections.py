@@ -35,12 +35,10 @@ CROSSINGS = [
     param(suslov(LOWEST + 1e-9, b3=0.0), 1, 3, id="E at the bottom + 1e-9"),
     param(suslov(1e6), 1, 3, id="E = 1e6"),
     param(suslov(1.0, I11=1e6, I22=1.0), 1, 3, id="I11/I22 = 1e6"),
-    param(suslov(0.3, I13=0.0, I23=0.0), 1, 3, id="I13 = I23 = 0"),
     param(suslov(0.3, k=1), 1, 2, id="γ1 = 0"),
     param(suslov(0.3), -1, 3, id="backward"),
     param(andoyer(50.0, 5.0, (0.7, BARRIER + 1e-9)), 1, 3, id="1e-9 off the Hess curve"),
     param(andoyer(50.0, 1e-9, (0.3, 0.4)), 1, 5, id="f = 1e-9"),
-    param(andoyer(50.0, 5.0, (-2.0, 0.999999)), 1, 3, id="x = 0.999999"),
     param(andoyer(1e6, 5.0, (0.3, 0.4)), 1, 5, id="h = 1e6"),
 ]
 
@@ -48,15 +46,23 @@ CROSSINGS = [
 @mark.parametrize(("case", "direction", "count"), CROSSINGS)
 def test_crossings_are_on_the_orbit_and_on_the_plane(case, direction, count):
     where, start, height = case
-    truth = oracle.Along(where.system, start, where.parameters, 36)
     problem = Problem.of(where.body, [start])
     unit = problem.nu if len(start) == 5 else problem.scale[0]
 
-    def error(name):
+    def crossings(name):
         found = section(where.body, start, where.surface, direction * 400.0 / problem.nu, name, count)
         assert found.times.size == count
-        exact = truth.at(found.times.tolist())
-        return max(off(found.states, exact, unit), np.max(np.abs(height(exact.astype(float)))))
+        return found
+
+    times = crossings("reference").times.tolist()
+    exact = oracle.orbit_in_decimals(where.system, start, where.parameters, times, 36)
+    rates = [where.system.field(y, where.parameters) for y in exact.astype(float).tolist()]
+
+    def error(name):
+        found = crossings(name)
+        # The orbit is straight between the times of a level and those of `reference`, but for the square of that.
+        there = exact + oracle.as_decimals((found.times - times)[:, None] * rates)
+        return max(off(found.states, there, unit), np.max(np.abs(height(there.astype(float)))))
 
     assert_promised(error)
 

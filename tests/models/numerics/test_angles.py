@@ -4,8 +4,8 @@ import math
 
 import numba
 import numpy as np
-import pytest
 from mpmath import mp
+from pytest import approx
 
 from hess_mechanics.numerics.angle_kernels import angle_of
 
@@ -40,11 +40,8 @@ def test_angles_in_all_directions_are_right_to_four_units_in_the_last_place():
             assert abs(mp.mpf(found) - reference) <= 4.0 * math.ulp(float(reference)), (x, y)
 
 
-@pytest.mark.parametrize("small", [1e-8, 1e-200, 1e-320])
-def test_an_angle_near_an_axis_keeps_its_small_part(small):
-    vectors = [(1.0, small), (1.0, -small), (-1.0, small), (small, 1.0), (-small, -1.0)]
-    assert angles(vectors) == pytest.approx([float(exact(*one)) for one in vectors], rel=5e-16, abs=0.0)
-
-
-def test_a_vector_of_length_zero_has_the_angle_zero():
+def test_an_angle_near_an_axis_keeps_its_small_part():
+    for small in (1e-8, 1e-200, 1e-320):
+        vectors = [(1.0, small), (1.0, -small), (-1.0, small), (small, 1.0), (-small, -1.0)]
+        assert angles(vectors) == approx([float(exact(*one)) for one in vectors], rel=5e-16, abs=0.0)
     assert angles([(0.0, 0.0), (-0.0, 0.0)]).tolist() == [0.0, 0.0]

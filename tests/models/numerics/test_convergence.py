@@ -7,15 +7,12 @@ import numpy as np
 import pytest
 
 import oracle
-from hess_mechanics import solve
-from hess_mechanics.numerics.accuracy import LEVELS
 from hess_mechanics.numerics.taylor_kernels import columns_of
 from hess_mechanics.numerics.unrolled import evaluation
-from support.mechanics import SYSTEMS, every_system
+from support.mechanics import SYSTEMS
 
 ORDERS = (1, 2, 5, 10, 18, 24)
 STEPS = ("0.04", "0.02", "0.01")
-TOLERANCES = (1e-4, 1e-6, 1e-8, 1e-10)
 
 
 def slope(x, y):
@@ -53,20 +50,3 @@ def test_the_local_error_of_one_step_has_the_order_of_the_series(truth, order):
             step = [c[0, i] + increments[i] for i in range(len(state))]
             errors.append(max(abs(left - right) for left, right in zip(step, exact[h], strict=True)))
     assert slope(STEPS, errors) == pytest.approx(order + 1, abs=0.1)
-
-
-def global_error(system, order, tolerance, end=10.0):
-    state, parameters = (np.array(values) for values in system.example)
-    out = np.empty((1, state.size))
-    steps, _ = system.orbit(state, parameters, np.array([end]), order, tolerance, end, 100_000, out)
-    return np.max(np.abs(out - solve(system.at(parameters), state, [end], "reference").states)), steps
-
-
-@pytest.mark.parametrize("order", sorted({rung.order for rung in LEVELS.values()}))
-@every_system
-def test_the_global_error_falls_with_the_tolerance(system, order):
-    errors = [global_error(system, order, tolerance)[0] for tolerance in TOLERANCES]
-    assert errors == sorted(errors, reverse=True)
-    # The step makes the terms of order N and N−1 equal the tolerance ε, so that the first term left
-    # out is between ε and ε^((N+1)/(N−1)).
-    assert 0.95 < slope(TOLERANCES, errors) < 1.35

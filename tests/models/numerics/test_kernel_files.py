@@ -105,24 +105,6 @@ def test_a_kernel_is_locked_until_its_code_is_stored_or_its_compilation_fails(ke
     assert (locked, kernel._cache._lock.is_locked) == ([True], False)
 
 
-@mark.parametrize("said", ["", "[]", '{"errors.py": [1, 2]}'])
-def test_hashes_that_cannot_be_read_are_found_anew(tmp_path, monkeypatch, said):
-    package, memory = tmp_path / "package", tmp_path / "memory"
-    for folder in (package, memory):
-        folder.mkdir()
-    (package / "errors.py").write_text("class Wrong(Exception):\n    pass\n")
-    monkeypatch.setattr(jit, "_PACKAGE", package)
-    monkeypatch.setattr(jit, "CACHE_FOLDER", memory)
-    # Not what is kept for this process.
-    sources = jit._sources.__wrapped__
-    right = sources()
-    (file,) = memory.glob("sources-*.json")
-    whole = file.read_text()
-    file.write_text(said)
-    assert sources() == right
-    assert file.read_text() == whole
-
-
 # ---- processes --------------------------------------------------------------------------------------------------
 
 
