@@ -196,9 +196,8 @@ def test_a_drag_is_computed_as_a_draft_and_again_as_chosen_when_it_ends(cache, c
 
 
 # No request depends on two other pictures: none, each alone, all but one, and all.
-SUBSETS = [
-    some for size in (0, 1, len(HESS.pictures) - 1, len(HESS.pictures)) for some in combinations(HESS.pictures, size)
-]
+SIZES = (0, 1, len(HESS.pictures) - 1, len(HESS.pictures))
+SUBSETS = [set(some) for size in SIZES for some in combinations(HESS.pictures, size)]
 
 
 @pytest.mark.parametrize("seen", SUBSETS, ids=lambda some: "+".join(sorted(some)) or "none")

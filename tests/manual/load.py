@@ -85,7 +85,7 @@ async def crowds(base, pid, counts, drag, seconds):
     names = [name for name, scene in scenes().items() if scene.origin is None]
     head = ["sessions", "dragging", "opened in", "median, p95", "of those who drag", "states a second", "cores"]
     print(table([*head, "memory before", "memory each"], []))
-    # Every process loads each scene once, not for a session: the first row is not shown.
+    # Every process loads each scene once, not for a session: the first row has that too.
     for count in (5 * len(names), *counts):
         await left(base)
         wait_idle(pid)

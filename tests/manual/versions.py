@@ -58,7 +58,7 @@ def smoke():
         # Warnings of a library are no errors of the explorer.
         assert "Traceback" not in log.read_text(), log.read_text()
     for words in (
-        ["circle-map", "--h", "1.5", "--f", "0.6", "--a", "0.5", "--phi", "0,1"],
+        ["circle-map", "--h", "1.5", "--f", "0.6", "--a", "0.5", "--phi", "1"],
         ["export", "--state", "h=1.2&f=0.3", "--picture", "circle", "--format", "csv"],
     ):
         done = subprocess.run([sys.executable, "-m", "hess_explorer", *words], capture_output=True, check=True)

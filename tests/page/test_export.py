@@ -82,7 +82,8 @@ def test_the_dialog_saves_what_is_on_the_screen_and_names_the_command(explorer, 
     dialog.get_by_label("Energy h").check()
     expect(dialog.locator(".states")).to_have_text("About 3 states.")
     assert "--vary h=-0.99:4:3" in " ".join(command_of(dialog))
-    name, path = saved(dialog)
+    # It yields to everything else, and other tests keep the machine busy.
+    name, path = saved(dialog, seconds=300.0)
     assert name == "suslov-hess.html"
     assert '"points": [[1.5], [-0.99], [1.505], [4.0]]' in path.read_text("utf-8")
     # The dialog reports formats that cannot be made, and nothing is saved.
@@ -97,7 +98,7 @@ def test_the_dialog_saves_what_is_on_the_screen_and_names_the_command(explorer, 
 
 
 def test_a_png_of_a_body_is_drawn_by_the_page_at_once_as_the_command_draws_it(explorer, dialog):
-    choose(dialog, picture="body", format="png", width="10")
+    choose(dialog, format="png", picture="body", width="10")
     dialog.get_by_role("button", name="Save file").click()
     assert dialog.locator(".param-width").evaluate("width => width.matches(':invalid:focus')")
     choose(dialog, width="62")
@@ -121,7 +122,7 @@ def test_a_png_of_a_body_is_drawn_by_the_page_at_once_as_the_command_draws_it(ex
 
 def test_a_film_is_made_with_progress_and_is_stopped(explorer, dialog):
     assert dialog.locator(".param-seconds").is_hidden()
-    choose(dialog, picture="sphere", format="webm", width="60", seconds="1")
+    choose(dialog, format="webm", picture="sphere", width="60", seconds="1")
     assert command_of(dialog)[-4:] == typed("--seconds 1 --out suslov-hess-sphere.webm")
     # All that is said while it is made.
     why = dialog.locator(".why")
@@ -129,7 +130,6 @@ def test_a_film_is_made_with_progress_and_is_stopped(explorer, dialog):
         window.heard = []
         new MutationObserver(() => window.heard.push(said.textContent)).observe(said, {childList: true})
     }""")
-    # Films yield to everything else, and other tests keep the machine busy.
     name, path = saved(dialog, seconds=300.0)
     assert name == "suslov-hess-sphere.webm"
     assert len(frames_of(path, 480)) == 25
