@@ -11,7 +11,7 @@ from hess_explorer.lessons.checks import problems_in
 from hess_explorer.lessons.images import MAX_ALL, MAX_ONE, Images
 from hess_explorer.lessons.lesson import Animation, HiddenLayer, LessonError
 from hess_explorer.lessons.markdown import BadFormula, to_html
-from hess_explorer.lessons.reading import MAX_BYTES, MAX_STEPS, examine, read, read_file, without_tries
+from hess_explorer.lessons.reading import MAX_BYTES, MAX_STEPS, examine, read, read_file
 from hess_explorer.page.lesson_description import describe_lesson
 from support.board import SCENES
 from support.view import View
@@ -245,8 +245,3 @@ def test_every_step_is_admitted_unchanged_and_drawn(lesson, step):
         for value in (step.animation.start, step.animation.end):
             ends = {**step.at.values, step.animation.name: value}
             assert scene.admit(ends) == (ends, [])
-
-
-def test_words_of_a_scene_are_whole_without_what_can_be_tried():
-    words = "### What you see\na\n\n### Try this\n#### One\nb\n### The equations\nc"
-    assert without_tries(words) == "### What you see\na\n\n### The equations\nc"

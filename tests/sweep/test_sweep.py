@@ -17,6 +17,7 @@ def test_values_are_those_of_the_computation_whatever_the_pieces(tori, in_pieces
     assert list(whole.data_vars) == ["trace", "rotation_number", "stable", "status"]
     alone = find("circle-map").compute({"a": 0.5, **{name: float(whole[name][5]) for name in "hf"}})
     here = whole.isel(h=5, f=5)
+    assert (whole.h[0], whole.h[-1]) == (-1.2, 2.0)
     assert (float(here.trace), float(here.rotation_number)) == (alone.of.trace, alone.of.rotation_number)
     assert (whole.trace.attrs["symbol"], whole.h.attrs["units"]) == ("|t|", "1")
 

@@ -11,6 +11,7 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 from hess_mechanics import section, solve, systems
+from hess_mechanics.dynamics.return_map import section_crossings
 from hess_mechanics.errors import OutsideRegion
 from hess_mechanics.euler_poisson.andoyer import SHEETS, AndoyerPlane, AndoyerSection, coordinates
 from hess_mechanics.euler_poisson.equations import SYSTEM, HeavyBody
@@ -181,6 +182,14 @@ def test_crossings_are_those_that_scipy_finds_from_the_angle(body, h, f):
             assert result.states == approx(states, abs=1e-6 * np.max(np.abs(states)))
         found += len(times)
     assert found >= 3
+
+
+def test_points_of_a_picture_are_the_crossings_of_the_orbit_one_after_the_other():
+    """Points are computed in parts; no point is missing or repeated where two parts meet."""
+    section_ = AndoyerSection(RIS, 0.0, 0.0)
+    (start,) = section_.spread(1)
+    exact = section(RIS, start, AndoyerPlane(0.0), 1e4, PRECISE, 100).states
+    assert section_crossings(section_, [start], 100, PRECISE).states[0] == approx(exact, abs=1e-5)
 
 
 # ---- Refusals ---------------------------------------------------------------------------------------------------

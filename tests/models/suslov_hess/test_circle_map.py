@@ -189,11 +189,3 @@ test_a_without_meaning_and_a_search_without_an_answer_raise_a_sentence = refused
     (lambda: critical_a(0.0, 1e-09, DRAFT), "No lock boundary crosses"),
     (lambda: critical_a(1.0, 0.0, DRAFT), "no return", Separatrix),
 )
-
-
-def test_where_theta_is_steep_its_graph_has_no_jumps_either():
-    theta = circle_map(3.0, 1.5, 0.6, REFERENCE)
-    phi, image = theta.graph
-    assert angle_between(image, theta.theta(phi)) == approx(0.0, abs=1e-9)
-    assert np.abs(np.diff(image)).max() < 0.07 > np.diff(phi).max()
-    assert np.ptp([phi, image], axis=1) == approx(2.0 * pi, abs=1e-9)
