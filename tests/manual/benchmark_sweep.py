@@ -66,7 +66,7 @@ def rows(title, by_hand, name, over, **fixed):
 def main():
     """Measure for some minutes."""
     lines = rows("ρ", tori_by_hand, "circle-map", TORI, a=0.5)
-    lines += rows("λ", motions_by_hand, "lyapunov suslov", MOTIONS, level="draft", duration=500.0)
+    lines += rows("λ", motions_by_hand, "lyapunov suslov", MOTIONS, accuracy="draft", duration=500.0)
     report(["what", "time", "beside by hand"], lines, README)
 
 
