@@ -12,7 +12,7 @@ export function render({ el }) {
   let since = null
   const bar = element("progress", { ariaLabel: "Computed" })
   const stop = button("button.param-stop", () => tell("stop"), { title: "Keep what is drawn (Escape)" }, "Stop")
-  const box = element("div.computing", { role: "status", hidden: true }, bar, stop)
+  const box = element("div.computing.idle", { role: "status" }, bar, stop)
   el.append(box)
   document.addEventListener("keydown", (event) => {
     if (event.key !== "Escape" || since === null) return
@@ -22,7 +22,7 @@ export function render({ el }) {
   listen({
     progress(progress) {
       since = progress && (since ?? performance.now())
-      box.hidden = progress === null || performance.now() - since < SHOWN_AFTER
+      box.classList.toggle("idle", progress === null || performance.now() - since < SHOWN_AFTER)
       if (progress !== null) [bar.value, bar.max] = progress
     },
   })
