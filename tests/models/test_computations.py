@@ -4,10 +4,10 @@ from math import atan2, cos, pi, sin, sqrt
 
 import holoviews as hv
 import numpy as np
-from pytest import approx, mark, raises
+from pytest import approx, raises
 
 import hess_mechanics as hm
-from hess_mechanics.errors import InvalidParameter, ModelError
+from hess_mechanics.errors import InvalidParameter
 
 SUSLOV = hm.SuslovBody(1.5, 1.0, 0.4, 0.0, 0.3, -0.5, 1.0)
 HEAVY = hm.HeavyBody.hess((1.0, 1.5, 2.0), 1.0)
@@ -42,25 +42,6 @@ def test_basins_clouds_and_maps_have_coordinates():
     assert list(frame) == ["point", "t", "ω1", "ω2", "γ1", "γ2", "γ3", "ln|s|"]
     assert len(frame) == 5 * cloud.times.size
     assert frame["ω2"][cloud.times.size] == cloud.omega[1, 0, 1]
-
-
-@mark.parametrize(
-    ("call", "sentence"),
-    [
-        (lambda: hm.solve(SUSLOV, STATE, "long"), "times = 'long' is not a number; write it like 1.5 or -2e-3."),
-        (lambda: hm.rotation_numbers("a", 1.0, 0.2), "a = 'a' is not a number"),
-        (
-            lambda: hm.section_orbits(hm.return_map(SUSLOV, E=1.8), starts=[1.0, 2.0]),
-            "is not a list of points; write them like [(0.0, 0.5)",
-        ),
-        (lambda: hm.rotation_along_line(HEAVY, -0.99, 0.0, ((0.0, 0.9), (0.1, 0.9))), "choose another line"),
-    ],
-)
-def test_what_cannot_be_is_refused_with_a_sentence(call, sentence):
-    with raises(ModelError) as refused:
-        call()
-    assert sentence in str(refused.value)
-    assert str(refused.value).endswith(".")
 
 
 def test_without_pandas_a_sentence_names_the_extra(monkeypatch):

@@ -1,6 +1,6 @@
 """Helpers of tests of chaotic motions: starts moved by a few ulps, and how sure a statement about an ensemble is."""
 
-from math import inf, sqrt
+from math import sqrt
 
 import numpy as np
 from pytest import approx, mark
@@ -16,27 +16,13 @@ from hess_mechanics import (
     systems,
 )
 from hess_mechanics.dynamics.basins import mean_divergence
-from hess_mechanics.dynamics.system import Problem
 from support.deviations import deviations, mean_of
-from support.moved import FARTHEST, from_moved_starts
+from support.moved import from_moved_starts
 
 BODY, START = systems()["suslov"].example_motion
 POINT = (0.3, 1.2)
 EQUATOR = Plane((0.0, 0.0, 0.0, 0.0, 1.0), 0.0, 0)
 MAP = return_map(SuslovBody(1.5, 1.0, 0.4, 0.0, 0.3, -0.5, 1.0), E=1.842, accuracy="draft")
-
-
-def test_every_component_moves_by_a_few_ulps_and_0_stays_0():
-    states = np.array([(0.5, -1.2, 0.6, 0.0, 0.8), (0.7, 3.0, 0.0, -0.8, 0.6), (0.5, -1.2, 0.6, 0.0, 0.8)])
-    plain = Problem.of(BODY, states).states
-    one, other = from_moved_starts(lambda: Problem.of(BODY, states).states, 2)
-    assert np.array_equal(Problem.of(BODY, states).states, plain)
-    assert np.array_equal(one == 0.0, plain == 0.0)
-    moves = plain != 0.0
-    away = np.abs(one[moves] / plain[moves] - 1.0) * 2.0**52
-    assert np.all((away >= 1.0) & (away <= FARTHEST + 1.0))
-    assert not np.any(one[moves] == other[moves])
-    assert np.array_equal(one[0], one[2])
 
 
 ENTRIES = {
@@ -54,12 +40,11 @@ def test_every_computation_of_a_motion_begins_at_a_moved_start(name):
     # A single number may be the same by chance, but not six times.
     for one in (plain, moved[0]):
         assert not all(np.array_equal(one, other) for other in moved)
+        np.testing.assert_allclose(moved[1], one, rtol=1e-4, atol=1e-4)
 
 
 def test_deviations_are_those_of_the_mean_of_a_share_and_of_one_value():
-    assert deviations([1.0, 2.0, 3.0], 1.0) == approx(sqrt(3.0))
     assert deviations([1.0, 2.0, 3.0], 1.0, of_each=True) == approx(1.0)
     assert deviations([1.0, 2.0, 3.0], 4.0, sqrt(2.0 / 3.0)) == approx(-2.0)
     assert deviations(np.ones(25, bool), 0.5) == approx(5.0)
-    assert deviations([2.0, 2.0], 3.0) == -inf
     assert mean_of([1.0, 2.0, 3.0]) == approx((2.0, sqrt(1.0 / 3.0)))

@@ -1,7 +1,6 @@
 """Ensembles equal single orbits: for every registered system, on any number of threads."""
 
 import re
-from functools import cache
 from itertools import product
 
 import numpy as np
@@ -24,14 +23,8 @@ def starts(system, count, seed=1):
     return state * random.uniform(0.5, 1.5, (count, state.size)) * random.choice([-1.0, 1.0], (count, state.size))
 
 
-def one_by_one(system, states, times, name="reference"):
-    return np.array([solve(system.at(system.example[1]), state, times, name).states for state in states])
-
-
-@cache
-def truth(system, count, times):
-    """`one_by_one` from `starts`, once for all levels."""
-    return one_by_one(system, starts(system, count), times)
+def one_by_one(system, states, times):
+    return np.array([solve(system.at(system.example[1]), state, times, "reference").states for state in states])
 
 
 def unit_of(system, states, parameters):
@@ -54,7 +47,7 @@ def test_the_orbits_of_an_ensemble_are_those_of_solve(system, name, times, count
     assert result.states.shape == (count, len(times), len(system.variables))
     assert np.array_equal(result.times, times)
     assert result.status is Status.OK
-    error = np.abs(result.states - truth(system, count, tuple(times)))
+    error = np.abs(result.states - one_by_one(system, states, times))
     # `solve` at its floor, too, errs: by round-off that the motion has had time to multiply.
     assert np.all(error <= (level(name).promise + 1e-13) * unit_of(system, states, system.example[1]))
 
@@ -70,35 +63,25 @@ def test_the_result_depends_neither_on_the_threads_nor_on_the_order_of_the_orbit
     assert np.array_equal(one.states, two.states)
     assert np.array_equal(one.errors, two.errors)
     assert (one.drift, one.status, one.cost.steps) == (two.drift, two.status, two.cost.steps)
-    for i in (7, 20, 149):
-        assert np.array_equal(one.states[i], one.states[0])
-    for order in (np.random.default_rng(4).permutation(150), np.arange(150)[::-1]):
-        other = ensemble(body, states[order], FORWARD, name, threads=2)
-        assert np.array_equal(other.states, one.states[order])
-        assert np.array_equal(other.errors, one.errors[order])
+    assert all(np.array_equal(one.states[i], one.states[0]) for i in (7, 20, 149))
+    order = np.random.default_rng(4).permutation(150)
+    other = ensemble(body, states[order], FORWARD, name, threads=2)
+    assert np.array_equal(other.states, one.states[order])
+    assert np.array_equal(other.errors, one.errors[order])
 
 
 @some_systems
 @every_level
-def test_orbits_of_very_different_energies_go_together(system, name):
-    # From a thousandth to thirty times the example's angular velocity: some take a step where others take hundreds.
-    state, parameters = (np.array(values) for values in system.example)
-    states = np.repeat(state[None], 19, axis=0)
-    states[:, : system.angular_velocities] *= np.geomspace(1e-3, 30.0, 19)[:, None]
-    times = np.linspace(0.0, 3.0, 31)
+def test_orbits_of_very_different_energies_go_together_with_estimates_of_their_own(system, name):
+    # From a thousandth to thirty times the angular velocities: some take a step where others take hundreds.
+    states = starts(system, 30, seed=7)
+    states[:, : system.angular_velocities] *= np.geomspace(1e-3, 30.0, 30)[:, None]
+    times, parameters = np.linspace(0.0, 3.0, 31), system.example[1]
     result = ensemble(system.at(parameters), states, times, name)
     assert result.status is Status.OK
-    error = np.abs(result.states - one_by_one(system, states, times))
-    assert np.all(error <= (level(name).promise + 1e-12) * unit_of(system, states, parameters))
-
-
-@some_systems
-@every_level
-def test_the_error_estimate_of_each_orbit_is_on_the_safe_side(system, name):
-    states = starts(system, 30, seed=7)
-    result = ensemble(system.at(system.example[1]), states, FORWARD, name)
-    true = np.abs(result.states - one_by_one(system, states, FORWARD)).max(axis=(1, 2))
-    assert result.errors.shape == (30,)
+    away = np.abs(result.states - one_by_one(system, states, times))
+    assert np.all(away <= (level(name).promise + 1e-12) * unit_of(system, states, parameters))
+    true = away.max(axis=(1, 2))
     assert np.all(true <= 10 * result.errors)
     # An estimate for each, and not one for all.
     assert np.ptp(result.errors) > 0.0
@@ -106,7 +89,6 @@ def test_the_error_estimate_of_each_orbit_is_on_the_safe_side(system, name):
     if name != "reference":
         assert np.median(result.errors) <= 1000 * np.median(true)
     # The drift is the largest of all orbits.
-    parameters = system.example[1]
     along = system.integrals(np.moveaxis(result.states, -1, 0), parameters)
     for key, initial in system.integrals(states.T, parameters).items():
         drift = np.abs(along[key] - initial[:, None]).max(axis=1) / np.maximum(1.0, np.abs(initial))
@@ -119,26 +101,20 @@ def test_an_equilibrium_among_moving_orbits_stays_where_it_is(system):
     states = starts(system, 10, seed=10)
     states[[2, 9]] = state
     result = ensemble(system.at(parameters), states, FORWARD, "standard")
-    assert np.array_equal(result.states[[2, 9]], np.broadcast_to(state, (2, FORWARD.size, len(state))))
-    for i in (0, 1, 8):
-        alone = solve(system.at(parameters), states[i], FORWARD, "reference").states
-        assert np.all(np.abs(result.states[i] - alone) <= 1e-6 * unit_of(system, states, parameters))
+    assert np.all(result.states[[2, 9]] == state)
 
 
 @some_systems
 @mark.parametrize("threads", [1, 2])
 def test_more_work_than_one_request_may_have_raises_a_sentence(system, threads):
     body, states = system.at(system.example[1]), starts(system, 70)
-    for end in (1e5, -1e5, 1e308):
+    for end in (-1e5, 1e308):
         found = ensemble(body, states, [end], "draft", threads=threads, max_steps=1000)
         assert {str(one) for one in found.statuses} == {"incomplete"} and np.all(np.abs(found.ends) < abs(end))
         for reason in found.reasons:
             assert re.search("more than 1000 steps, which reach t = .*: choose a shorter time span", reason)
-    for huge in (1e155, 1e308):
-        states[8, 0] = huge
-        with raises(ModelError, match=r"choose (less extreme parameters|a shorter time span)"):
-            ensemble(body, states, [1.0], "draft", threads=threads)
-    times = np.linspace(0.0, 1.0, 100_000)
-    count = MAX_NUMBERS // (times.size * len(system.variables)) + 1
-    with raises(WorkLimit, match=f"{count} orbits at {times.size} times are too many: choose fewer"):
-        ensemble(body, starts(system, count), times, "draft")
+    with raises(WorkLimit, match="are too many: choose fewer"):
+        ensemble(body, states, np.linspace(0.0, 1.0, MAX_NUMBERS // states.size + 1), "draft")
+    states[8, 0] = 1e155
+    with raises(ModelError, match=r"choose (less extreme parameters|a shorter time span)"):
+        ensemble(body, states, [1.0], "draft", threads=threads)

@@ -3,7 +3,7 @@
 import math
 
 import numpy as np
-from pytest import approx, mark
+from pytest import mark
 
 from hess_mechanics import HeavyBody, System, lyapunov_exponent, megno
 from hess_mechanics.dynamics.birkhoff import ensemble_mean, irregularity, window_rates
@@ -14,26 +14,16 @@ PENDULUM = System("pendulum of a test", lambda y, p: (y[1], -np.sin(y[0])), "x v
 SADDLE = System("saddle beside an oscillator", lambda y, p: (y[1], y[0], y[3], -p[0] * y[2]), "x v q p", {"k": 1.0}).at(
     (1.0,)
 )
-LORENZ = System(
-    "lorenz of these tests",
-    lambda y, p: (p[0] * (y[1] - y[0]), y[0] * (p[1] - y[2]) - y[1], y[0] * y[1] - p[2] * y[2]),
-    "x y z",
-    {"sigma": 10.0, "rho": 28.0, "beta": 8.0 / 3.0},
-).at((10.0, 28.0, 8.0 / 3.0))
-TOP = HeavyBody((1.3, 1.3, 0.9), (0.0, 0.0, 1.0), 0.7), (0.0, 0.0, 0.0, 0.0, 0.0, -1.0)
-"""A top at rest above its point of support."""
+TOP = HeavyBody((1.3, 1.3, 0.9), (0.0, 0.0, 1.0), 0.7)
+"""A top with its centre of mass on e3, which rests above the point of support."""
 
 
 @mark.parametrize(
     ("body", "state", "t", "reason"),
     [
         (PENDULUM, (math.pi, 0.0), 50.0, "two dimensions"),
-        # Its period is 14.3 times that of small swings.
-        (PENDULUM, (math.pi - 1e-9, 0.0), 20.0, "two dimensions"),
-        (*TOP, 50.0, "rests"),
-        (SADDLE, (0.0, 0.0, 0.0, 0.0), 50.0, "rests"),
+        (TOP, (0.0, 0.0, 0.0, 0.0, 0.0, -1.0), 50.0, "rests"),
         (SADDLE, (1.0, 0.0, 1.0, 0.0), 20.0, "escapes"),
-        (SADDLE, (1e-3, 0.0, 1.0, 0.0), 20.0, "escapes"),
         # The oscillator alone, whose neighbours leave along the saddle.
         (SADDLE, (0.0, 0.0, 1.0, 0.0), 20.0, "periodic"),
         # It comes to rest along the stable direction, to an error that grows to 1e-7.
@@ -48,18 +38,6 @@ def test_motions_that_rest_close_or_escape_are_not_chaotic_however_their_neighbo
     assert reason in found.no_chaos[0]
     assert not exponent.is_regular
     assert exponent.no_chaos == found.no_chaos[0]
-
-
-def test_recurrent_motions_keep_their_verdict():
-    # Lorenz: λ = 0.906, so Ȳ comes to about 45; fifty motions are none like another.
-    draw = np.random.default_rng(7)
-    starts = np.array([1.0, 2.0, 20.0]) + draw.uniform(-1.0, 1.0, (examples(8), 3))
-    found = megno(LORENZ, starts, 100.0)
-    assert found.chaotic.all()
-    assert set(found.no_chaos) == {""}
-    assert found.divergence == approx(-10.0 - 1.0 - 8.0 / 3.0, abs=1e-9)
-    assert np.all(np.abs(found.divergence + 10.0 + 1.0 + 8.0 / 3.0) <= 3.0 * found.divergence_error)
-    assert found.dissipative.all()
 
 
 def logistic(r, x, count):
@@ -108,9 +86,7 @@ def test_the_error_of_a_mean_knows_the_remainder_that_all_orbits_share():
 
 
 def test_the_error_of_a_mean_of_noise_holds_in_997_of_1000_cases():
-    draw, times = np.random.default_rng(10), np.linspace(0.0, 100.0, 1001)
-    count = examples(300)
-    off = []
+    draw, times, count, off = np.random.default_rng(10), np.linspace(0.0, 100.0, 1001), examples(300), []
     for _ in range(count):
         walks = np.cumsum(np.pad(draw.normal(size=(8, 1000)), ((0, 0), (1, 0))), axis=1)
         mean, error = ensemble_mean(np.array([window_rates(one, times) for one in walks]))

@@ -10,8 +10,7 @@ from oracle.labelled import MOTIONS, returns_of
 from support.moved import from_moved_starts
 from support.thorough import sample
 
-TRIED = sample(MOTIONS, 8)
-
+TRIED = sample(MOTIONS, 24)
 UNDECIDED = {"UNDECIDED", "NO_RETURN", "SETTLING"}
 """Kinds that claim nothing, by their names."""
 

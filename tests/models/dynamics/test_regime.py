@@ -1,28 +1,22 @@
 """Kinds of motions and dynamics known by other means: Möbius matrix, integrable cases, long runs."""
 
 import math
-from dataclasses import replace
 from functools import partial
 
 import numpy as np
-from pytest import mark, raises
+from pytest import mark
 from scipy.optimize import brentq
 
 from hess_mechanics import (
     HeavyBody,
     HessBody,
-    QuarticBody,
     SuslovBody,
     circle_map,
-    lyapunov_spectrum,
-    megno,
+    f_max,
     return_map,
 )
-from hess_mechanics.dynamics import return_map as return_map_module
 from hess_mechanics.dynamics.point_sets import SetDistance
-from hess_mechanics.dynamics.regime import Dynamics, MotionKind, dynamics_of, regime
-from hess_mechanics.errors import NoReturn
-from hess_mechanics.suslov_hess.bifurcation import f_max_each
+from hess_mechanics.dynamics.regime import Dynamics, MotionKind, Regime, dynamics_of, regime
 from hess_mechanics.suslov_hess.torus_section import TorusSection
 from support.deviations import deviations
 from support.diagrams import spread
@@ -32,17 +26,13 @@ from support.thorough import examples
 
 REVERSAL = SuslovBody(1.0, 3.0, 0.6, 0.6, 1.0, 0.7, 0.3)
 REVERSAL_E = 1.743
-STRANGE = SuslovBody(1.0, 2.5, 0.6, 0.6, -1.0, -0.5, 0.7)
-STRANGE_E = 0.681
-PLAIN = SuslovBody(1.5, 0.7, 0.0, 0.0, 1.4, -1.3, 0.8)
 
 
 @mark.chaotic
 def test_where_volume_is_kept_dynamics_are_conservative_and_curves_stay_curves():
-    P = return_map(PLAIN, E=1.5, accuracy="standard")
+    P = return_map(SuslovBody(1.5, 0.7, 0.0, 0.0, 1.4, -1.3, 0.8), E=1.5, accuracy="standard")
     sea = dynamics_of(P, (1.0, 1.0), 100, 2400, 300.0)
     assert (sea.motion.kind, sea.motion.divergence, sea.verdict) == (MotionKind.CHAOTIC, 0.0, "conservative")
-    assert all(one.settled for one in sea.comparisons)
     assert deviations([one.overlap for one in sea.comparisons], 0.8, of_each=True) > 5.0
     assert deviations([one.distance / (one.grain + one.error) for one in sea.comparisons], 1.0, of_each=True) < -5.0
     curve = regime(return_map(SuslovBody(1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0), E=0.4), (0.3, 1.2), duration=300.0)
@@ -71,42 +61,23 @@ def test_a_sea_whose_volume_shrinks_is_not_conservative_as_the_number_says():
 
 
 @mark.parametrize(
-    ("settled", "apart", "touching", "verdict"),
+    ("apart", "touching", "unsettled", "verdict"),
     [
-        (6, 6, 0, "dissipative"),
-        (5, 5, 0, "not told apart"),
-        (8, 7, 1, "not told apart"),
-        (8, 0, 8, "mixed"),
+        (6, 0, 2, "dissipative"),
+        (5, 0, 3, "not told apart"),
+        (7, 1, 0, "not told apart"),
+        (0, 8, 0, "mixed"),
     ],
 )
-def test_orbits_on_their_way_tell_nothing_and_the_others_must_agree(settled, apart, touching, verdict):
-    motion = replace(
-        regime(return_map(STRANGE, E=1.0), (1.0, 1.0), transient=50),
-        divergence=-0.1,
-        divergence_error=0.01,
+def test_orbits_on_their_way_tell_nothing_and_the_others_must_agree(apart, touching, unsettled, verdict):
+    P = return_map(REVERSAL, E=REVERSAL_E)
+    shrinks = Regime(P, MotionKind.CHAOTIC, np.zeros((1, 2)), 1.0, divergence=-0.1, divergence_error=0.01)
+    kinds = (
+        *[SetDistance(3.0, 0.01, 0.01, 0.0, True)] * apart,
+        *[SetDistance(0.5, 0.01, 0.01, 0.1, True)] * touching,
+        *[SetDistance(1.0, 0.2, 0.9, 0.0, False)] * unsettled,
     )
-    kinds = [SetDistance(3.0, 0.01, 0.01, 0.0, True)] * apart + [SetDistance(0.5, 0.01, 0.01, 0.1, True)] * touching
-    kinds += [SetDistance(1.0, 0.2, 0.9, 0.0, False)] * (8 - settled)
-    found = Dynamics(motion, np.zeros((1, 2)), np.zeros((1, 2)), tuple(kinds))
-    assert found.verdict == verdict
-
-
-def test_a_slow_motion_is_followed_until_it_returns():
-    """It returns every 26 units of time, and I11 = I22 has q₁p₂ − q₂p₁ for an integral."""
-    P = return_map(QuarticBody(1.3, 1.3, 1.0, 0.999))
-    found = regime(P, (0.01, 0.02))
-    assert found.kind in (MotionKind.QUASI_PERIODIC, MotionKind.PERIODIC)
-    assert len(found.places) >= 200
-
-
-def test_the_time_of_a_return_is_waited_for_as_long_as_its_place(monkeypatch):
-    """Newton's method gives up earlier, since it tries many places."""
-    P = return_map(QuarticBody(1.3, 1.3, 1.0, 0.999))
-    monkeypatch.setattr(return_map_module, "_LONGEST", 1.0)
-    with raises(NoReturn):
-        P.image((0.01, 0.02))
-    assert len(P.orbit(np.array((0.01, 0.02)), 1)) == 1
-    assert 20.0 < P.time_of(np.array((0.01, 0.02))) < 30.0
+    assert Dynamics(shrinks, shrinks.places, shrinks.places, kinds).verdict == verdict
 
 
 def test_what_is_not_seen_to_return_does_not_within_the_time_waited():
@@ -116,35 +87,24 @@ def test_what_is_not_seen_to_return_does_not_within_the_time_waited():
     assert found.kind is MotionKind.NO_RETURN
     # The start lies on the plane, so a crossing at t = 0 is the start itself.
     start = P.state_at(found.places[-1] if len(found.places) else np.array([1.0, 1.0]))
-    rates = partial(field, REVERSAL)
-    times, _ = scipy_crossings(rates, start, lambda y: y[2], found.t, 1, rtol=1e-10, atol=1e-11)
+    times, _ = scipy_crossings(partial(field, REVERSAL), start, lambda y: y[2], found.t, 1, rtol=1e-10, atol=1e-11)
     assert not np.any(times > 1e-3)
 
 
 @mark.parametrize(
-    ("body", "h", "f", "place", "case"),
+    ("moments", "r", "mu", "f", "case"),
     [
-        (HeavyBody((1.0, 0.625, 0.25), (0.0, 0.0, 1.0), 0.0), 1.5, 0.7, (0.001, 0.001), "Euler"),
-        (HeavyBody((1.0, 1.0, 2.0), (0.0, 0.0, 1.0), 1.0), 1.5, 0.5, (0.5, 0.3), "Lagrange"),
-        (HeavyBody((1.0, 1.0, 2.0), (1.0, 0.0, 0.0), 1.0), 1.5, 0.5, (0.5, 0.3), "Kovalevskaya"),
-        (HeavyBody((1.0, 1.0, 4.0), (1.0, 0.0, 0.0), 1.0), 1.5, 0.0, (0.5, 0.3), "Goryachev"),
+        ((1.0, 0.625, 0.25), (0.0, 0.0, 1.0), 0.0, 0.7, "Euler"),
+        ((1.0, 1.0, 2.0), (0.0, 0.0, 1.0), 1.0, 0.5, "Lagrange"),
+        ((1.0, 1.0, 2.0), (1.0, 0.0, 0.0), 1.0, 0.5, "Kovalevskaya"),
+        ((1.0, 1.0, 4.0), (1.0, 0.0, 0.0), 1.0, 0.0, "Goryachev"),
+        # A body next to it is in no such case.
+        ((1.0, 0.99, 3.0), (0.6, 0.0, 0.8), 1.0, 0.0, ""),
     ],
 )
-def test_integrable_cases_are_named_and_never_chaotic(body, h, f, place, case):
-    found = regime(return_map(body, h=h, f=f), place)
-    assert case in found.map_.section.integrable
-    assert found.kind in (MotionKind.FIXED_POINT, MotionKind.PERIODIC, MotionKind.QUASI_PERIODIC)
-    # A body next to it is in no such case.
-    assert HeavyBody((1.0, 0.99, 3.0), (0.6, 0.0, 0.8), 1.0).integrable_at(0.0) == ""
-
-
-def test_chaos_next_to_a_separatrix_needs_both_indicators_at_both_times():
-    """Euler's case without its name: MEGNO alone is above 3 there, and falls when the time is doubled."""
-    P = return_map(HeavyBody((1.0, 0.625, 0.25), (0.0, 0.0, 1.0), 0.0), h=1.5, f=0.7)
-    states = [P.state_at(np.array([0.001, 0.001]))]
-    early, late = (megno(P.section, states, t).values[0] for t in (200.0, 1600.0))
-    assert late < early
-    assert late < 3.0 < early
+def test_integrable_cases_are_named(moments, r, mu, f, case):
+    named = HeavyBody(moments, r, mu).integrable_at(f)
+    assert case in named and bool(named) == bool(case)
 
 
 def test_permanent_rotations_attract_and_repel_apart_from_each_other():
@@ -152,8 +112,7 @@ def test_permanent_rotations_attract_and_repel_apart_from_each_other():
     exact = np.array(list(permanent_rotations(REVERSAL, REVERSAL_E)))
     psi = np.arctan2(exact[:, 3], exact[:, 2])
     for places in (found.attractor, found.repeller):
-        away = apart(places[-1, 0], psi)
-        assert away.min() < 1e-3
+        assert apart(places[-1, 0], psi).min() < 1e-3
     # ω is along γ or against it: δ is 0 or π.
     senses = np.cos([found.attractor[-1, 1], found.repeller[-1, 1]])
     assert abs(senses.prod() + 1.0) < 1e-3
@@ -167,10 +126,6 @@ def test_permanent_rotations_attract_and_repel_apart_from_each_other():
 # ---- verdicts that are not too sure ---------------------------------------------------------------------------------
 
 
-BANDS = SuslovBody(1.1, 2.9, -0.9, 0.14022, -1.7, -1.6, 1.2), -0.3248, (0.7248, 1.8925)
-"""A body beyond its cascade of doublings, whose attractor consists of 32 narrow bands; energy and a point."""
-
-
 def torus(a, h, f):
     return return_map(HessBody(1.0, a, -math.hypot(1.0, a)), h=h, f=f)
 
@@ -180,16 +135,17 @@ def random_tori(count, kind):
     draw = np.random.default_rng(51)
     while count:
         a, h, f, phi = draw.uniform((0.05, -0.95, 0.02, -3.0), (1.0, 2.5, 1.0, 3.0))
-        exact = circle_map(a, h, f * float(f_max_each(np.array([h]))[0]), "precise")
+        exact = circle_map(a, h, f * f_max(h), "precise")
         if exact.kind == kind:
             count -= 1
             yield exact, phi
 
 
 def test_no_winding_torus_shrinks_or_grows_and_longer_runs_agree(monkeypatch):
-    issued = (circle_map(0.445, -0.24, 0.476, "precise"), -2.9), (circle_map(0.445, -0.24, 0.476, "precise"), 1.0)
     monkeypatch.setattr(TorusSection, "measure", "")
-    for exact, phi in (*issued, *random_tori(examples(10), "elliptic")):
+    # On the first one this was wrong once.
+    issued = circle_map(0.445, -0.24, 0.476, "precise")
+    for exact, phi in ((issued, -2.9), (issued, 1.0), *random_tori(examples(10), "elliptic")):
         P = torus(exact.a, exact.h, exact.f)
         for t in (200.0, 800.0):
             found = regime(P, (phi,), duration=t)
@@ -233,11 +189,6 @@ def test_an_orbit_that_nearly_closes_is_not_periodic():
     assert 1e-6 < abs(602.0 * rho - round(602.0 * rho)) < 1e-4
     found = regime(torus(a, h, f), (-2.4161720749348596,))
     assert (found.kind, found.period) == (MotionKind.QUASI_PERIODIC, 0)
-    # Every fifth point moves slowly round a point of an orbit of period 5.
-    P = return_map(HeavyBody((0.5, 0.5, 1.0), (1.0, 0.0, 0.0), 1.0), h=1.0001, f=1e-4)
-    found = regime(P, (1.5707, 0.001))
-    assert np.ptp(P.orbit(np.array((1.5707, 0.001)), 4000)[::5], axis=0).max() > 1e-3
-    assert (found.kind, found.period) == (MotionKind.QUASI_PERIODIC, 0)
 
 
 def test_a_slow_passage_is_no_fixed_point(monkeypatch):
@@ -251,14 +202,3 @@ def test_a_slow_passage_is_no_fixed_point(monkeypatch):
     slowest = slowest[np.abs(np.diff(slowest[:, 0])).argmin()]
     assert abs(P.image(slowest)[0] - slowest[0]) < 1e-4
     assert regime(P, slowest, transient=0).kind not in (MotionKind.FIXED_POINT, MotionKind.PERIODIC)
-
-
-@mark.chaotic
-@mark.parametrize("transient", [300, 5000, 20_000])
-def test_narrow_bands_beyond_a_cascade_are_chaotic_after_any_transient(transient):
-    body, E, place = BANDS
-    P = return_map(body, E=E)
-    found = regime(P, place, transient=transient)
-    assert found.kind is MotionKind.CHAOTIC
-    several = [lyapunov_spectrum(P.section, P.state_at(place), 2e4).values[0] for place in found.places[::-40][:6]]
-    assert deviations(several, 0.0) > 5.0

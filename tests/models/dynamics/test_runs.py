@@ -8,17 +8,15 @@ from support.mechanics import SYSTEMS
 from support.thorough import sample
 
 
-def crossings(system, level):
-    """Those of the plane at half the height of the last component."""
-    last = solve(*system.example_motion, np.linspace(0.0, 20.0, 201), "standard").states[:, -1]
-    normal = np.eye(len(system.variables))[-1]
-    return section(*system.example_motion, Plane(tuple(normal), 0.5 * (last.min() + last.max()), 0), 20.0, level)
+def equator(system):
+    """The plane in which the last component vanishes."""
+    return Plane(tuple(np.eye(len(system.variables))[-1]))
 
 
 RUNS = {
     "orbit": lambda system, level: solve(*system.example_motion, [20.0], level),
     "ensemble": lambda system, level: ensemble(system.at(system.example[1]), [system.example[0]] * 3, [20.0], level),
-    "section": crossings,
+    "section": lambda system, level: section(*system.example_motion, equator(system), 20.0, level),
 }
 every_run = mark.parametrize("run", RUNS.values(), ids=RUNS)
 some_systems = mark.parametrize("system", sample(SYSTEMS.values(), 2), ids=lambda system: system.name)

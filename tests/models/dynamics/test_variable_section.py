@@ -4,7 +4,7 @@ import re
 
 import numpy as np
 from pytest import approx, fixture, mark, raises
-from scipy.integrate import quad, solve_ivp
+from scipy.integrate import quad
 
 from hess_mechanics import (
     System,
@@ -22,12 +22,10 @@ from hess_mechanics import (
 from hess_mechanics.dynamics.ensemble import complete
 from hess_mechanics.dynamics.megno_map import ENDED, NOWHERE
 from hess_mechanics.dynamics.plane_section import AnglePlane
-from hess_mechanics.dynamics.return_map import ReturnMap
 from hess_mechanics.dynamics.sampling import sampled_orbit
-from hess_mechanics.dynamics.variable_section import variable_section
 from hess_mechanics.errors import InvalidParameter, NoReturn, OutsideRegion, WorkLimit
 from hess_mechanics.numerics.accuracy import STANDARD
-from support.mechanics import scipy_crossings
+from support.mechanics import scipy_crossings, scipy_states
 
 E = 1 / 12
 SYSTEM = System(
@@ -59,15 +57,12 @@ def test_a_section_has_defaults(returns):
     section = returns.section
     assert (section.names, section.solved, section.surface.normal) == (("y", "py"), ("px",), (1.0, 0.0, 0.0, 0.0))
     assert dict(section.constants) == {"lam": 1.0, "E": E}
-    assert section.at_constant("lam", 0.5).parameters == (0.5,)
     states, there = section.states_at(np.array([0.1, 0.2, 0.9]), np.array([0.05, 0.0, 0.5]))
     assert there.tolist() == [True, True, False]
     x, y, px, py = states[0]
     assert (x, y, py) == (0.0, 0.1, 0.05)
     assert px == approx(np.sqrt(2 * E - y**2 - py**2 + 2 * y**3 / 3), rel=1e-14)
     assert section.places_of(states)[1].tolist() == [0.2, 0.0]
-    free = return_map(DRIVEN.at(), surface=("v", 1.0))
-    assert (free.names, free.section.solved) == (("theta", "phase"), ())
 
 
 def test_the_image_of_a_place_is_the_next_crossing_by_another_integrator(returns):
@@ -91,14 +86,11 @@ def test_a_straight_orbit_is_found_and_continued(returns):
         assert place == approx([0.0, np.sqrt(value / 2)], abs=1e-9)
 
 
-@mark.parametrize("start", [(0.2, 0.5), (-3.0, -2.0)])
-def test_a_driven_pendulum_has_a_stroboscopic_map(start):
+def test_a_driven_pendulum_has_a_stroboscopic_map(start=(-3.0, -2.0)):
     strobe = return_map(DRIVEN.at(), surface=("phase", 5.0))
     assert (strobe.names, strobe.turns) == (("theta", "v"), (2 * np.pi, np.inf))
     period = 2 * np.pi / 0.7
-    found = solve_ivp(
-        lambda _, y: DRIVEN.field(y, (0.2, 0.5, 0.7)), (0.0, period), (*start, 5.0), "DOP853", rtol=1e-12, atol=1e-12
-    ).y[:, -1]
+    (found,) = scipy_states(DRIVEN, (*start, 5.0), (0.2, 0.5, 0.7), [period])
     theta, v = strobe.image(start)
     assert -np.pi <= theta <= np.pi
     assert (np.cos(theta), np.sin(theta), v) == approx((np.cos(found[0]), np.sin(found[0]), found[1]), abs=1e-8)
@@ -129,15 +121,6 @@ def test_a_uniform_rotation_passes_an_angle_once_a_turn(sense, end):
 
 
 @mark.parametrize(
-    ("angles", "words"),
-    [("q", "the angle q must be a variable"), ("v", "v is not an angle: a full turn changes")],
-)
-def test_what_is_no_angle_is_refused(angles, words):
-    with raises(InvalidParameter, match=words):
-        System("pendulum", lambda y, p: (y[1], -np.sin(y[0])), "theta v", angles=angles)
-
-
-@mark.parametrize(
     ("given", "words"),
     [
         ({"integrals": {"L": 1.0}}, "has no integral L: choose one of E"),
@@ -145,7 +128,6 @@ def test_what_is_no_angle_is_refused(angles, words):
         ({"E": E, "coordinates": "y x"}, "has one or two coordinates among y, px, py"),
         ({"E": E, "coordinates": "y"}, "values of more or fewer integrals"),
         ({"E": E, "surface": "y"}, "surface = 'y' is not a sequence of 2. Write it like .'x', 1.5."),
-        ({"E": E, "window": [(0.0, 1.0)]}, "a lower and a higher number for each of y, py"),
         ({"E": E, "window": [(0.0, 1.0), (1.0, 0.0)]}, "a lower and a higher number for each of y, py"),
         ({"E": E, "longest": -1.0}, "choose a positive number"),
     ],
@@ -155,35 +137,30 @@ def test_what_makes_no_section_is_refused(given, words):
         return_map(SYSTEM.at(), **given)
 
 
-# Around the orbit x = A sin φ, u = x − A sin φ obeys u̇ = μu − u³: a pitchfork at μ = 0.
-AROUND = {
-    "field": lambda y, p: (
+AROUND = System(
+    "around",
+    lambda y, p: (
         p[0] * (y[0] - p[1] * np.sin(y[1])) - (y[0] - p[1] * np.sin(y[1])) ** 3 + p[1] * p[2] * np.cos(y[1]),
         p[2],
     ),
-    "variables": "x φ",
-    "parameters": {"mu": -0.2, "A": 0.7, "W": 1.0},
-    "example": (0.1, 0.3),
-    "angles": "φ",
-}
+    "x φ",
+    {"mu": -0.2, "A": 0.7, "W": 1.0},
+    example=(0.1, 0.3),
+    angles="φ",
+)
+"""Around the orbit x = A sin φ, u = x − A sin φ obeys u̇ = μu − u³: a pitchfork at μ = 0."""
 
 
-def test_a_branch_point_of_a_strobe_is_located():
-    """A symmetry that shifts the phase is not sought, so that it is no pitchfork."""
-    strobe = return_map(System("around", **AROUND).at(), surface=("φ", 0.5))
-    orbit = periodic_orbit(strobe, (0.3,), 1)
+def test_a_periodic_orbit_of_a_strobe_is_continued_to_a_branch_point_with_its_time():
+    """A symmetry that shifts the phase is not sought, so that it is no pitchfork; the period is that of the drive."""
+    strobe = return_map(AROUND.at(), surface=("φ", 0.5))
+    orbit = periodic_orbit(strobe, 0.3, 1)
     assert orbit.places[0] == approx([0.7 * np.sin(0.5)], abs=1e-9)
     assert orbit.multipliers[0] == approx(np.exp(-0.2 * 2 * np.pi), rel=1e-8)
+    assert orbit.time == orbit.to_pandas().attrs["time"] == approx(2.0 * np.pi, rel=1e-12)
     (found,) = continued_orbit(strobe, orbit, "mu", 0.2).bifurcations
     # The equations are singular there: how far the bracket closes, and so the error, depends on roundings.
     assert found.kind == "branch point" and abs(found.value) <= found.error < 0.05 and abs(found.value) < 1e-6
-
-
-def test_periods_have_their_time():
-    """That of a strobe follows from the frequency of its drive."""
-    strobe = return_map(System("around", **AROUND).at(), surface=("φ", 0.5))
-    orbit = periodic_orbit(strobe, (0.3,), 1)
-    assert orbit.time == orbit.to_pandas().attrs["time"] == approx(2.0 * np.pi, rel=1e-12)
     table = continued_orbit(strobe, orbit, "W", 1.5, points=4).to_pandas()
     assert len(table) == 4
     assert table["time"].to_numpy() == approx(2.0 * np.pi / table["W"].to_numpy(), rel=1e-12)
@@ -219,76 +196,64 @@ def test_an_orbit_diagram_from_outside_of_the_section_is_refused(returns):
         orbit_diagram(returns, "E", [0.08, 0.09], (0.1, 5.0), transient=5, crossings=5)
 
 
-@mark.parametrize("place", [0.1, (0.1,), (0.1, 0.2, 0.3), "x", None, (10**400, 0.1)])
-def test_what_is_no_point_of_a_section_is_refused(returns, place):
+def test_what_is_no_point_of_a_section_is_refused(returns):
     for use in (returns.state_at, returns.image, returns.with_derivative, returns.time_of, returns.wait):
-        with raises(InvalidParameter, match="consists of 2 numbers here: y, py"):
-            use(place)
-
-
-def test_one_coordinate_may_be_a_bare_number():
-    strobe = return_map(System("around", **AROUND).at(), surface=("φ", 0.5))
-    assert strobe.image(0.3) == approx(strobe.image((0.3,)), abs=0.0)
-    assert periodic_orbit(strobe, 0.3, 1).period == 1
+        for place in (0.1, (0.1, 0.2, 0.3), "x", None, (10**400, 0.1)):
+            with raises(InvalidParameter, match="consists of 2 numbers here: y, py"):
+                use(place)
+    for angles, words in (("q", "the angle q must be a variable"), ("v", "v is not an angle: a full turn changes")):
+        with raises(InvalidParameter, match=words):
+            System("pendulum", lambda y, p: (y[1], -np.sin(y[0])), "theta v", angles=angles)
 
 
 def test_points_lie_in_a_window_that_crosses_half_a_turn():
     """A window that begins at 2 has them from 2 to 2 + 2π, up to full turns."""
-    window = ((2.0, 2.0 + 2.0 * np.pi), (-3.0, 3.0))
-    here = variable_section(DRIVEN.at(), {}, ("phase", 0.0), ("theta", "v"), window)
-    states = np.column_stack([np.linspace(-20.0, 20.0, 401), np.zeros(401), np.zeros(401)])
+    window = [(2.0, 2.0 + 2.0 * np.pi), (-3.0, 3.0)]
+    here = return_map(DRIVEN.at(), surface=("phase", 0.0), coordinates="theta v", window=window).section
+    states = np.linspace(-20.0, 20.0, 401)[:, None] * [1.0, 0.0, 0.0]
     places = here.places_of(states)
     assert (places[:, 0] >= 2.0).all()
     assert (places[:, 0] <= 2.0 + 2.0 * np.pi).all()
     assert np.exp(1j * places[:, 0]) == approx(np.exp(1j * states[:, 0]))
 
 
-HIGH = 0.2
-"""Above the energy 1/6 of the saddles motions escape."""
-
-
 def escape(start, until):
     """The time at which another integrator sees a motion escape, None if it does not; near a pole y is 6/τ²."""
-    far = lambda t, y: np.abs(y[:2]).max() - 1e8  # noqa: E731
-    far.terminal = True
-    found = solve_ivp(lambda t, y: SYSTEM.field(y, [1.0]), (0.0, until), start, "DOP853", rtol=1e-11, events=far)
-    return float(found.t[-1]) if found.t_events[0].size else None
+    times, _ = scipy_crossings(
+        lambda y: SYSTEM.field(y, [1.0]), start, lambda y: np.abs(y[:2]).max() - 1e8, until, most=True, rtol=1e-11
+    )
+    return float(times[0]) if times.size else None
 
 
 def test_a_motion_that_escapes_keeps_what_comes_before_and_loses_no_other():
-    here = variable_section(SYSTEM.at(), {"E": HIGH}, ("x", 0.0), ("y", "py"), ((-0.6, 1.2), (-0.7, 0.7)))
-    found = megno_map(ReturnMap(here, STANDARD), (6, 4), duration=12.0)
+    """Above the energy 1/6 of the saddles."""
+    map_ = return_map(SYSTEM.at(), E=0.2, coordinates="y py", window=[(-0.6, 1.2), (-0.7, 0.7)], accuracy="standard")
+    here, found = map_.section, megno_map(map_, (6, 4), duration=12.0)
     assert {NOWHERE, ENDED} < set(found.kind.ravel().tolist())
-    seen = {}
     for i, j in np.argwhere(found.kind != NOWHERE):
-        start = here.states_at(found.x[[j]], found.y[[i]])[0][0]
-        seen[i, j] = (start, escape(start, 12.0))
-        end = seen[i, j][1]
-        assert (found.kind[i, j] == ENDED) == np.isnan(found.values[i, j]) == (end is not None)
-        assert found.ends[i, j] == approx(12.0 if end is None else end, abs=1e-3)
-    start, end = next(one for one in seen.values() if one[1] is not None)
-    stays, _ = next(one for one in seen.values() if one[1] is None)
+        motion = here.states_at(found.x[[j]], found.y[[i]])[0][0]
+        time = escape(motion, 12.0)
+        assert (found.kind[i, j] == ENDED) == np.isnan(found.values[i, j]) == (time is not None)
+        assert found.ends[i, j] == approx(time or 12.0, abs=1e-3)
+        if time is None:
+            stays = motion
+        else:
+            start, end = motion, time
     # Exponents and the return map say when and where.
     place = here.places_of(start[None])[0]
     for ends in (
         lambda: lyapunov_exponent(SYSTEM.at(), start, 100.0),
         lambda: lyapunov_spectrum(SYSTEM.at(), start, 100.0),
         lambda: complete(megno(SYSTEM.at(), [start], 100.0)),
-        lambda: ReturnMap(here, STANDARD).orbit(place, 100),
+        lambda: map_.orbit(place, 100),
     ):
         with raises(WorkLimit, match=r"reached .* at t = .*escapes") as caught:
             ends()
         assert float(re.search(r"t = ([\d.]+)", str(caught.value))[1]) == approx(end, abs=1e-3)
     both = section_points(SYSTEM.at(), [start, stays], here.surface, 40.0, STANDARD, 5)
-    assert bool(both.reasons[0])
-    assert not both.reasons[1]
-    assert len(both.states[1]) == 5
-    # A crossing at a time of its own, before the end.
-    turned = solve_ivp(
-        lambda t, y: SYSTEM.field(y, [1.0]), (0.0, end - 0.5), start, "DOP853", rtol=1e-11, dense_output=True
-    )
-    crossed = np.diff(np.sign(turned.sol(np.linspace(1e-3, end - 0.5, 4001))[0])) > 0
-    assert 0 <= len(both.states[0]) - crossed.sum() <= 1
+    assert [bool(reason) for reason in both.reasons] == [True, False]
+    crossed, _ = scipy_crossings(lambda y: SYSTEM.field(y, [1.0]), start, lambda y: y[0], end - 0.5, 1)
+    assert [len(states) for states in both.states] == [len(crossed), 5]
     assert both.drift["E"] < 1e-6
     drawn = sampled_orbit(SYSTEM.at(), tuple(start), 100.0, (300.0,) * 4, STANDARD)
     assert (str(drawn.status), drawn.states.shape[1]) == ("incomplete", 4)
