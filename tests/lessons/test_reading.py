@@ -247,7 +247,7 @@ def test_other_images_are_refused_with_their_reason(tmp_path):
     }.items():
         with pytest.raises(LessonError, match=f"line 21: .*({why})"):
             read_file(with_image(folder, f"![A wheel]({target})"))
-    with pytest.raises(LessonError, match="has no words"):
+    with pytest.raises(LessonError, match="has no alternative text"):
         read_file(with_image(folder, "![](good.png)"))
     # The same image counts again, because the page gets it again.
     most = MAX_ALL // MAX_ONE

@@ -32,7 +32,7 @@ from hess_explorer.commands.compute import command_of
 from hess_explorer.commands.output import PATIENCE
 from hess_explorer.compute.budget import time_budget
 from hess_explorer.page.description import describe
-from hess_explorer.page.requested import linked
+from hess_explorer.page.requested import scene_and_values
 from hess_explorer.protocol.specs import CLIENT, ChoiceSpec, Formula, Link, NumberSpec, Places, places_text
 from hess_explorer.scenes import scenes
 from hess_explorer.server.warm import compute
@@ -206,7 +206,7 @@ def fuzz_links(random, count):
         query = link(random)
         with _watched(findings, query):
             there = Link(query)
-            found, values = linked(there, first)
+            found, values = scene_and_values(there, first)
             browser = Browser(found, values, there.notes)
             browser.session.background.stop()
             _checked(browser, findings, query)

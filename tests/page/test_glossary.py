@@ -7,13 +7,13 @@ import pytest
 from playwright.sync_api import expect
 
 from hess_explorer.page.description import describe
-from hess_explorer.page.glossary import explained, glossary
+from hess_explorer.page.glossary import explainer, glossary
 from hess_explorer.scenes import scenes
 from support.thorough import sample
 
 
 def test_a_term_is_explained_once_and_nothing_else_is_changed():
-    explain = explained()
+    explain = explainer()
     first, second = explain("A limit cycle & its multipliers"), explain("Limit cycles, multiplierless; a < b")
     assert first.count("<button") == 2
     assert glossary()["limit cycle"] in first

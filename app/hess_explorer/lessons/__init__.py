@@ -22,6 +22,6 @@ def shipped() -> Mapping[str, Lesson]:
 
 @cache
 def tries() -> Mapping[str, Lesson]:
-    """Return the "Try this" sections by scene, except for scenes that show another scene's state."""
+    """Return the "Try this" sections by scene, except for "Speed and accuracy" scenes."""
     found = {scene.name: read_tries(scene) for scene in scenes().values() if scene.origin is None}
     return {name: lesson for name, lesson in found.items() if lesson is not None}

@@ -46,7 +46,7 @@ computed states; in the explorer everything moves.</p>
 
 
 def pages(names: Sequence[str] = ()) -> dict[str, str]:
-    """Return the files of the pages by name: of lessons, and of scenes that look into no other scene.
+    """Return the paths of the pages of lessons and scenes by name.
 
     Parameters
     ----------
@@ -55,8 +55,8 @@ def pages(names: Sequence[str] = ()) -> dict[str, str]:
 
     Returns
     -------
-    dict
-        Name → path relative to the folder.
+    dict of str to str
+        Paths relative to the folder, by name.
 
     Raises
     ------
@@ -92,12 +92,12 @@ def build(
     home : str
         Address of the explorer, for the links in the pages.
     report : callable, optional
-        Gets the name of a page that is written, the number of written pages and of all pages.
+        Called with the name of a written page, the number of written pages and the total number.
 
     Returns
     -------
-    dict
-        Path relative to the folder → bytes.
+    dict of str to int
+        Sizes in bytes, by path relative to the folder.
 
     Raises
     ------

@@ -51,7 +51,7 @@ logger = logging.getLogger("hess_explorer")
 
 
 class Metrics(RequestHandler):
-    """GET /metrics: the counters of the worker that responds, which a label names, in the Prometheus text format."""
+    """GET /metrics: the counters of this worker in the Prometheus text format."""
 
     def initialize(self, capacity: Capacity, rooms: Rooms) -> None:
         """Store the counters of sessions and rooms."""
@@ -72,7 +72,7 @@ class Metrics(RequestHandler):
 
 
 def _is_news(record: logging.LogRecord) -> bool:
-    """Return False for the error of a page that closed while a response was being sent."""
+    """Return whether to log a record: not the error of a page that closed while a response was being sent."""
     return not (record.exc_info and isinstance(record.exc_info[1], WebSocketClosedError))
 
 
@@ -99,7 +99,7 @@ def _page(lessons: Sequence[Lesson], capacity: Capacity) -> Any:
 
 
 def _own_styles(document: Document) -> None:
-    """Let the style sheets refer to this server; Panel does it only in the process that writes the HTML."""
+    """Let style sheets refer to this server; Panel does so only in the process that writes the HTML."""
     for root in document.roots:
         patch_model_css(root, dist_url=LOCAL_DIST)
 
@@ -120,11 +120,11 @@ def create_server(
     workers: int = 1,
     **changed: Any,
 ) -> Server:
-    """Return a server that listens but is not started; the parameters are those of `serve`.
+    """Return a server that listens but is not started; parameters as in `serve`.
 
     Parameters
     ----------
-    changed
+    **changed
         Further options of `panel.io.server.get_server`.
     """
     capacity, rooms = Capacity(sessions), Rooms(_lessons(lessons))

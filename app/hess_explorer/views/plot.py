@@ -172,7 +172,7 @@ class Plot(Picture[S]):
         sentence = "" if self.message is None else self.message(state)
         sources = [self.source_of(layer) for layer in self.layers]
         columns = [{**drawn.get(source, {}), **found.get(source, {})} for source in sources]
-        labels = tags.placed(self.layers, columns, axes, self.log)
+        labels = tags.label_places(self.layers, columns, axes, self.log)
         found.update({f"{self.name}-{name}-label": one for name, one in labels.items()})
         return {**found, **self._words(self.names(state), sentence, axes)}
 

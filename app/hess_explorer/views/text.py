@@ -46,13 +46,13 @@ def ranging(low: float, high: float, count: int = 4) -> str:
 
 
 def staying(values: Array) -> str:
-    """Return the range of values (n,) in words."""
+    """Return "constant at …" or "between … and …" for values (n,)."""
     low, high = digits(float(values.min())), digits(float(values.max()))
     return f"constant at {low}" if low == high else f"between {low} and {high}"
 
 
 def conjugates(value: complex) -> str:
-    """Return a real number, or a complex pair as a ± bi."""
+    """Format a complex number: the real part if it is real, otherwise the conjugate pair as a ± bi."""
     return digits(value.real) if not value.imag else f"{digits(value.real)} ± {digits(abs(value.imag))}i"
 
 
