@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from hess_explorer.lessons import shipped
+from hess_explorer.lessons import package_lessons
 from hess_explorer.protocol.specs import places
 from hess_explorer.scenes import scenes
 from hess_mechanics import lyapunov_spectrum
@@ -14,7 +14,7 @@ from support.diagrams import settled as many
 from support.lesson_on_doubling import NAME, cascade, end, heavy_body, points_of
 from support.view import View
 
-STEPS = {step.title: step for step in shipped()[NAME].steps}
+STEPS = {step.title: step for step in package_lessons()[NAME].steps}
 
 
 @pytest.mark.parametrize(("title", "period"), [("Look only at the crossings", 1), ("Move one number", 2)])

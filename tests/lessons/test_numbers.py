@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from hess_explorer.lessons import shipped, tries
+from hess_explorer.lessons import package_lessons, tries
 from hess_explorer.lessons.lesson import LessonStep, StateLink
 from hess_explorer.lessons.reading import without_tries
 from hess_explorer.scenes import scenes
@@ -30,7 +30,7 @@ def steps_of(scene):
     return LessonStep("", words, StateLink(scene.name, scene.defaults())), *(lesson.steps if lesson else ())
 
 
-STEPS = {name: lesson.steps for name, lesson in shipped().items()} | {one.name: steps_of(one) for one in SCENES}
+STEPS = {name: lesson.steps for name, lesson in package_lessons().items()} | {one.name: steps_of(one) for one in SCENES}
 ROWS = OF_LESSONS | {one.name: scene_texts.SHARED | scene_texts.ROWS.get(one.name, {}) for one in SCENES}
 
 
@@ -63,7 +63,7 @@ def test_for_f_0_the_map_is_the_same_at_every_energy_over_the_separatrix():
 
 
 def test_the_ball_of_the_scattering_lesson_gives_no_single_cosine():
-    values = shipped()["scattering-by-a-nonholonomic-top"].steps[-1].at.values
+    values = package_lessons()["scattering-by-a-nonholonomic-top"].steps[-1].at.values
     assert values["D"] == 2.0
     phases = np.linspace(-math.pi, math.pi, 16, endpoint=False)
 

@@ -6,7 +6,7 @@ import re
 
 import pytest
 
-from hess_explorer.lessons import shipped, tries
+from hess_explorer.lessons import package_lessons, tries
 from hess_explorer.lessons.checks import problems_in
 from hess_explorer.lessons.images import MAX_ALL, MAX_ONE, Images
 from hess_explorer.lessons.lesson import Animation, HiddenLayer, LessonError
@@ -258,7 +258,7 @@ def test_other_images_are_refused_with_their_reason(tmp_path):
         read(WHOLE.replace("It stays.", "![A wheel](good.png)"), "mine")
 
 
-LESSONS = {lesson.name: lesson for lesson in (*shipped().values(), *tries().values())}
+LESSONS = {lesson.name: lesson for lesson in (*package_lessons().values(), *tries().values())}
 LINKED = [(lesson, step) for lesson in LESSONS.values() for step in lesson.steps]
 
 

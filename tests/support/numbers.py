@@ -7,7 +7,7 @@ from math import log10
 
 import numpy as np
 
-from hess_explorer.lessons import shipped
+from hess_explorer.lessons import package_lessons
 from hess_explorer.scenes import scenes
 from support.deviations import deviations
 
@@ -46,7 +46,7 @@ def of(*names):
 
 def elsewhere(lesson, title, *names):
     """Return parameters of another step of a lesson."""
-    return of(*names)(next(step for step in shipped()[lesson].steps if step.title == title))
+    return of(*names)(next(step for step in package_lessons()[lesson].steps if step.title == title))
 
 
 def claims(text):

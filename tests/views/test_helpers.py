@@ -9,15 +9,15 @@ import pytest
 from hess_explorer.scenes.framework import work
 from hess_explorer.views.layers import Axes
 from hess_explorer.views.plane import section_plane
-from hess_explorer.views.text import digits, ranging, with_error
+from hess_explorer.views.text import digits, range_text, with_error
 from hess_mechanics.parameters import plain
 
 
 def test_a_range_that_is_one_number_is_said_to_be_that():
-    assert ranging(-1.0, 2.5) == "from −1 to 2.5"
-    assert ranging(0.14159, 0.1416) == "= 0.1416"
-    assert ranging(0.14159, 0.1416, 6) == "from 0.14159 to 0.1416"
-    assert ranging(0.0, 0.0) == "= 0"
+    assert range_text(-1.0, 2.5) == "from −1 to 2.5"
+    assert range_text(0.14159, 0.1416) == "= 0.1416"
+    assert range_text(0.14159, 0.1416, 6) == "from 0.14159 to 0.1416"
+    assert range_text(0.0, 0.0) == "= 0"
 
 
 def test_a_number_is_written_as_one_writes_it():

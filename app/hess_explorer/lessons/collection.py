@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
-from hess_explorer.lessons import shipped
+from hess_explorer.lessons import package_lessons
 from hess_explorer.lessons.lesson import Lesson, LessonError
 from hess_explorer.lessons.reading import examine, name_of
 
@@ -41,7 +41,7 @@ def read_paths(paths: Iterable[Path]) -> tuple[tuple[Lesson, ...], list[LessonEr
 
 def examine_files(files: Iterable[Path]) -> Iterator[tuple[Path, Lesson | None, list[LessonError]]]:
     """Yield each file with its lesson, as far as it is valid, and its mistakes; names must be unique in links."""
-    taken = dict.fromkeys(shipped(), "a lesson of this package")
+    taken = dict.fromkeys(package_lessons(), "a lesson of this package")
     for file in files:
         lesson, mistakes = examine(file)
         other = taken.setdefault(name_of(file), str(file))

@@ -7,7 +7,7 @@ from html import escape
 from pathlib import Path
 from typing import Any
 
-from hess_explorer.lessons import shipped
+from hess_explorer.lessons import package_lessons
 from hess_explorer.offline.html import HOME
 from hess_explorer.offline.pages import COUNT, accumulates, lesson_page, state_page
 from hess_explorer.page.controls import slider_limits
@@ -63,7 +63,7 @@ def pages(names: Sequence[str] = ()) -> dict[str, str]:
     InvalidParameter
         If there is no such lesson or scene.
     """
-    every = {name: f"lessons/{name}.html" for name in shipped()}
+    every = {name: f"lessons/{name}.html" for name in package_lessons()}
     every |= {scene.name: f"scenes/{scene.name}.html" for scene in scenes().values() if not scene.origin}
     for name in names:
         if name not in every:
@@ -118,7 +118,7 @@ def build(
         sizes[path] = len(content)
 
     for done, (name, path) in enumerate(files.items(), 1):
-        lesson = shipped().get(name)
+        lesson = package_lessons().get(name)
         if lesson is None:
             write(path, _scene_page(scenes()[name], count, home))
         else:
@@ -151,8 +151,8 @@ def _parts(files: Mapping[str, str]) -> Iterator[str]:
     """Yield the lists of links: the lessons, then the scenes by group."""
     groups: dict[str, list[str]] = {}
     for name, path in files.items():
-        if name in shipped():
-            lesson = shipped()[name]
+        if name in package_lessons():
+            lesson = package_lessons()[name]
             group, title, words = "Lessons", lesson.title, f"{len(lesson.steps)} steps, {lesson.minutes:g} min"
         else:
             scene = scenes()[name]

@@ -52,7 +52,7 @@ def steps_of_plots(plots: Sequence[tuple[Plot[Any], Axes]]) -> dict[str, dict[st
     """
     found: dict[str, dict[str, float]] = {}
     for plot, axes in plots:
-        for layer in plot.painted:
+        for layer in plot.all_layers:
             steps = found.setdefault(plot.source_of(layer), {})
             for place, column in enumerate(layer.columns[:2]):
                 side, (low, high) = ("x", axes.x) if place == 0 else ("y", axes.y)

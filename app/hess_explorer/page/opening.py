@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 from urllib.parse import urlencode
 
-from hess_explorer.lessons import shipped
+from hess_explorer.lessons import package_lessons
 from hess_explorer.lessons.lesson import Lesson
 from hess_explorer.page.requested import scene_and_values
 from hess_explorer.protocol.specs import CLIENT, ChoiceSpec, Controlled, Link, Names, NumberSpec, Values
@@ -81,7 +81,7 @@ def opening(query: str, own: Sequence[Lesson] = (), *, lenient: bool = True) -> 
     InvalidParameter
         If the query is invalid and `lenient` is False.
     """
-    lessons = {**{lesson.name: lesson for lesson in own}, **shipped()}
+    lessons = {**{lesson.name: lesson for lesson in own}, **package_lessons()}
     link = Link(query, lenient)
     first = own[0].name if own and "scene" not in link.given else ""
     reading = lessons.get(str(link.value(ChoiceSpec("lesson", "Lesson", ("", *lessons), first))))

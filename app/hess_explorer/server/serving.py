@@ -21,7 +21,7 @@ from tornado.websocket import WebSocketClosedError
 
 from hess_explorer.compute.cache import CACHE
 from hess_explorer.compute.pool import POOL
-from hess_explorer.lessons import shipped
+from hess_explorer.lessons import package_lessons
 from hess_explorer.lessons.lesson import Lesson
 from hess_explorer.page.page import page
 from hess_explorer.rooms.messages import CODE
@@ -106,7 +106,7 @@ def _own_styles(document: Document) -> None:
 
 def _lessons(own: Sequence[Lesson]) -> Mapping[str, Lesson]:
     """Return the available lessons by name."""
-    return {**{lesson.name: lesson for lesson in own}, **shipped()}
+    return {**{lesson.name: lesson for lesson in own}, **package_lessons()}
 
 
 def create_server(

@@ -15,7 +15,7 @@ from hess_explorer.views.graphs.graph import over_time
 from hess_explorer.views.layers import Axes, Layer, Layers, Sign, Sources, column, levels, line, points
 from hess_explorer.views.picture import Picture
 from hess_explorer.views.plane.velocity_plane import centred, nice_above
-from hess_explorer.views.text import digits, ranging
+from hess_explorer.views.text import digits, range_text
 from hess_mechanics.chaplygin_ball.energy_surface import Strip, line_of_rest
 from hess_mechanics.chaplygin_ball.phase_cloud_density import BIN, SMALLEST, Clouds, Density
 from hess_mechanics.dynamics.sampling import PIXELS
@@ -75,7 +75,7 @@ def about_history(clouds: Clouds, of_patch: bool) -> Caption:
         text = f"The patch keeps {digits(course.volume[-1], 3)} of its volume"
     else:
         text = (
-            f"Mean of div v {ranging(course.divergence[0, 0], course.divergence[0, -1], 3)}; "
+            f"Mean of div v {range_text(course.divergence[0, 0], course.divergence[0, -1], 3)}; "
             f"mean of ln s(t)/s(0) at the end {digits(course.log_growth[0, -1], 3)}"
         )
     return Caption(numbers=f"{text}; the second cloud preserves volume." if clouds.other is not None else f"{text}.")

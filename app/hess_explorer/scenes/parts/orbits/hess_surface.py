@@ -23,12 +23,12 @@ from hess_mechanics.suslov_hess.circle_map import CircleMap
 from hess_mechanics.suslov_hess.embedding import CrossSection, cross_section, density_along, embed
 from hess_mechanics.suslov_hess.torus import Track
 
-__all__ = ["INVARIANT", "HeavyTorus", "HessSurface", "OnTorus", "shaded_by", "surface_picture"]
+__all__ = ["INVARIANT", "HeavyTorus", "HessSurface", "OnTorus", "shading", "surface_picture"]
 
 PLAIN, INVARIANT = "plain", "invariant density"
 
 
-def shaded_by() -> Any:
+def shading() -> Any:
     """Declare whether the torus in space shows the invariant density."""
     return choice(
         "Torus in space",
