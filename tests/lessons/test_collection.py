@@ -4,7 +4,7 @@ import re
 
 import pytest
 
-from hess_explorer.lessons import shipped
+from hess_explorer.lessons import package_lessons
 from hess_explorer.lessons.collection import MAX_LESSONS, read_paths
 from hess_explorer.lessons.lesson import LessonError
 from hess_explorer.page.opening import opening
@@ -38,14 +38,14 @@ def test_files_keep_their_order_and_a_folder_is_read_by_name(tmp_path):
 def test_own_lessons_are_offered_first_and_the_first_opens(tmp_path):
     own, _ = read_paths(written(tmp_path, "two.md", "one.md"))
     opened = opening("", own)
-    assert [*opened.lessons] == ["two", "one", *shipped()]
+    assert [*opened.lessons] == ["two", "one", *package_lessons()]
     assert opened.reading is own[0]
     assert opening("lesson=one", own).reading is own[1]
     assert opening("scene=suslov-hess", own).reading is None
 
 
 def test_files_with_mistakes_and_names_that_are_taken_are_left_out_and_the_others_are_read(tmp_path):
-    taken = next(iter(shipped()))
+    taken = next(iter(package_lessons()))
     files = written(tmp_path, "My lesson.md", "my-lesson.md", f"{taken}.md", "wrong.md", "last.md")
     files[3].write_text("")
     lessons, mistakes = read_paths(files)

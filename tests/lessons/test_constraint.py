@@ -6,14 +6,14 @@ import numpy as np
 import pytest
 from scipy.integrate import cumulative_trapezoid
 
-from hess_explorer.lessons import shipped
+from hess_explorer.lessons import package_lessons
 from hess_explorer.scenes import scenes
 from hess_mechanics import solve
 from hess_mechanics.suslov import free
 from support.lesson_on_constraints import cloud_body, free_body
 from support.suslov import divergence, energy
 
-STEPS = {step.title: step for step in shipped()["what-a-nonholonomic-constraint-does"].steps}
+STEPS = {step.title: step for step in package_lessons()["what-a-nonholonomic-constraint-does"].steps}
 
 
 def moved(body, start, times):

@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 
-from hess_explorer.lessons import shipped
+from hess_explorer.lessons import package_lessons
 from hess_explorer.scenes import scenes
 from support.deviations import deviations
 from support.diagrams import nearest, settled
 from support.lesson_on_doubling import NAME, end
 
-STEPS = {step.title: step for step in shipped()[NAME].steps}
+STEPS = {step.title: step for step in package_lessons()[NAME].steps}
 
 
 @pytest.mark.chaotic

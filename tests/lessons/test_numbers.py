@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from hess_explorer.lessons import shipped, tries
+from hess_explorer.lessons import package_lessons, tries
 from hess_explorer.lessons.lesson import LessonStep, StateLink
 from hess_explorer.lessons.reading import without_tries
 from hess_explorer.scenes import scenes
@@ -28,7 +28,7 @@ def steps_of(scene):
     return LessonStep("", words, StateLink(scene.name, scene.defaults())), *(lesson.steps if lesson else ())
 
 
-STEPS = {name: lesson.steps for name, lesson in shipped().items()} | {one.name: steps_of(one) for one in SCENES}
+STEPS = {name: lesson.steps for name, lesson in package_lessons().items()} | {one.name: steps_of(one) for one in SCENES}
 ROWS = OF_LESSONS | scene_texts.ROWS
 
 
@@ -45,7 +45,7 @@ def test_a_number_in_a_text_is_what_it_is_computed_to_be(name, phrase):
 
 
 def test_the_ball_of_the_scattering_lesson_gives_no_single_cosine():
-    values = shipped()["scattering-by-a-nonholonomic-top"].steps[-1].at.values
+    values = package_lessons()["scattering-by-a-nonholonomic-top"].steps[-1].at.values
     body = BallBody(*(values[name] for name in ("I11", "I22", "I13", "I23", "D")))
     phases = np.linspace(-math.pi, math.pi, 16, endpoint=False)
     found = ball_scattering(body, values["theta"], phases, values["h"], 1e-4, "draft")

@@ -6,7 +6,7 @@ import re
 
 import pytest
 
-from hess_explorer.lessons import shipped, tries
+from hess_explorer.lessons import package_lessons, tries
 from hess_explorer.lessons.checks import problems_in
 from hess_explorer.lessons.images import MAX_ALL, MAX_ONE, Images
 from hess_explorer.lessons.lesson import Animation, HiddenLayer, LessonError
@@ -210,7 +210,7 @@ def test_other_images_are_refused_with_their_reason(tmp_path):
     }.items():
         with pytest.raises(LessonError, match=f"line 21: .*({why})"):
             read_file(with_image(folder, f"![A wheel]({target})"))
-    with pytest.raises(LessonError, match="has no words"):
+    with pytest.raises(LessonError, match="has no alternative text"):
         read_file(with_image(folder, "![](good.png)"))
     # The same image counts again, because the page gets it again.
     most = MAX_ALL // MAX_ONE
@@ -221,7 +221,7 @@ def test_other_images_are_refused_with_their_reason(tmp_path):
         read(WHOLE.replace("It stays.", "![A wheel](good.png)"), "mine")
 
 
-LESSONS = {lesson.name: lesson for lesson in (*shipped().values(), *tries().values())}
+LESSONS = {lesson.name: lesson for lesson in (*package_lessons().values(), *tries().values())}
 LINKED = [(lesson, step) for lesson in LESSONS.values() for step in lesson.steps]
 
 

@@ -12,7 +12,7 @@ if __name__ == "__main__":
     sys.path[:0] = [str(Path(__file__).parents[1])]
 
 from hess_explorer.headless.browser import headless_browser
-from hess_explorer.lessons import shipped
+from hess_explorer.lessons import package_lessons
 from hess_explorer.offline.pages import lesson_page, state_page
 from manual.timing import report
 
@@ -66,7 +66,7 @@ def pages():
     """Yield name and contents of the measured pages."""
     count = 2 * COUNT
     yield f"*Suslov–Hess*, h with {count} values", state_page("h=1.2&f=0.3", sliders=[f"h=0.2:3.5:{count}"])[1]
-    lesson = shipped()["limit-cycles-and-locking"]
+    lesson = package_lessons()["limit-cycles-and-locking"]
     yield f"lesson *{lesson.title}*, {COUNT} values", lesson_page(lesson, COUNT)
 
 

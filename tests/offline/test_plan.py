@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from hess_explorer.offline.pages import planned
+from hess_explorer.offline.pages import page_family
 from hess_explorer.offline.plan import MOST_STATES, across, family, read_slider, slider_of
 from hess_explorer.scenes import scenes
 from hess_mechanics.errors import InvalidParameter
@@ -25,7 +25,7 @@ def test_a_slider_has_readable_values_and_that_of_the_state():
 @pytest.mark.parametrize(
     ("text", "why"),
     [
-        ("h", "is no slider: write NAME=LOW:HIGH:COUNT"),
+        ("h", "is not a slider: write NAME=LOW:HIGH:COUNT"),
         ("h=1:nan:3", "must increase"),
         ("h=-1e9:1:3", "within"),
         ("h=1:2:9999", "2 to 400 values"),
@@ -55,7 +55,7 @@ def test_lines_go_through_the_state_and_a_grid_has_all_combinations():
 
 def test_the_number_of_states_is_bounded():
     with pytest.raises(InvalidParameter, match=f"at most {MOST_STATES}"):
-        planned("h=1.2&f=0.3", ["h=0:3:400", "f=0:1:100"], grid=True)
+        page_family("h=1.2&f=0.3", ["h=0:3:400", "f=0:1:100"], grid=True)
 
 
 def test_a_choice_has_no_slider():

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from hess_explorer.lessons import shipped
+from hess_explorer.lessons import package_lessons
 from hess_explorer.offline.site import build, pages
 from hess_explorer.scenes import scenes
 from hess_mechanics.errors import InvalidParameter
@@ -41,9 +41,9 @@ def test_every_page_opens_and_its_sliders_move(site, browser):
         titles = page.locator("li a").all_inner_texts()
     for name, path in wanted.items():
         with opened(browser, (folder / path).as_uri(), (1280, 720)) as page:
-            if name in shipped():
-                assert shipped()[name].title in titles
-                assert page.locator(".lesson .count").inner_text() == f"1 / {len(shipped()[name].steps)}"
+            if name in package_lessons():
+                assert package_lessons()[name].title in titles
+                assert page.locator(".lesson .count").inner_text() == f"1 / {len(package_lessons()[name].steps)}"
                 continue
             assert scenes()[name].title in titles
             sliders = page.locator(".controls input.hand")

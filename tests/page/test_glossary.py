@@ -4,11 +4,11 @@ import re
 
 from playwright.sync_api import expect
 
-from hess_explorer.page.glossary import explained, glossary
+from hess_explorer.page.glossary import explainer, glossary
 
 
 def test_a_term_is_explained_once_and_nothing_else_is_changed():
-    explain = explained()
+    explain = explainer()
     first, second = explain("A limit cycle & its multipliers"), explain("Limit cycles, multiplierless; a < b")
     assert first.count("<button") == 2
     assert glossary()["limit cycle"] in first

@@ -8,7 +8,7 @@ import pytest
 from PIL import Image
 from playwright.sync_api import expect
 
-from hess_explorer.lessons import shipped, tries
+from hess_explorer.lessons import package_lessons, tries
 from hess_explorer.lessons.collection import read_paths
 from hess_explorer.lessons.reading import read
 from support.board import SCENES
@@ -51,7 +51,7 @@ def test_what_can_be_tried_is_done_for_one(explorer):
 
 
 def test_a_link_to_a_step_that_is_not_there_is_one_to_the_last_and_a_lesson_is_chosen_from_the_menu(explorer):
-    page, lessons = explorer.page, shipped()
+    page, lessons = explorer.page, package_lessons()
     explorer.goto(f"/?lesson={NAME}&step=99")
     assert page.locator(".lesson .title").inner_text() == lessons[NAME].steps[-1].title
     assert "step must lie between 1 and 8" in explorer.text("notes")
@@ -89,7 +89,7 @@ LINES = """item => {
 
 def test_a_lesson_in_a_narrow_and_a_wide_window_keeps_text_slider_and_pictures_in_sight(explorer):
     """One visit: from a guess that leaves no frame to pictures that have their new size."""
-    page, steps = explorer.page, shipped()[CYCLES].steps
+    page, steps = explorer.page, package_lessons()[CYCLES].steps
     explorer.begin_lesson(CYCLES, 5)
     sheet = page.locator("canvas.guess")
     sheet.press("ArrowRight")
@@ -203,7 +203,7 @@ SIZES = {"present": (1600, 950), "phone": (390, 844)}
 FAST = ((NAME, "present"),)
 GIVEN = [
     pytest.param(name, place, marks=() if (name, place) in FAST else pytest.mark.thorough)
-    for name in shipped()
+    for name in package_lessons()
     if name != "introduction"
     for place in SIZES
 ]
@@ -240,7 +240,7 @@ def assert_could_be_guessed(tab, prediction, axes):
 
 @pytest.mark.parametrize(("name", "place"), GIVEN)
 def test_a_lesson_is_given_from_start_to_end(request, name, place):
-    (width, height), lesson = SIZES[place], shipped()[name]
+    (width, height), lesson = SIZES[place], package_lessons()[name]
     tab = request.getfixturevalue("phone" if place == "phone" else "explorer")
     page = tab.page
     press = page.touchscreen.tap if place == "phone" else page.mouse.click

@@ -12,7 +12,7 @@ from PIL import Image
 from playwright.sync_api import expect
 
 from hess_explorer.export.picture_data import picture_data
-from hess_explorer.lessons import shipped
+from hess_explorer.lessons import package_lessons
 from hess_explorer.offline.pages import lesson_page, state_page
 from hess_explorer.scenes import scenes
 from support.accessible import assert_accessible
@@ -152,12 +152,12 @@ def test_the_file_says_what_it_cannot_show_and_keeps_its_place(browser, tmp_path
 
 
 # Of the first lesson the steps with a guess, a question and a slider.
-PART = replace(shipped()[FIRST], steps=shipped()[FIRST].steps[4:7])
+PART = replace(package_lessons()[FIRST], steps=package_lessons()[FIRST].steps[4:7])
 
 
 @pytest.mark.parametrize(
     "lesson",
-    [PART, *(pytest.param(one, marks=pytest.mark.thorough) for one in shipped().values())],
+    [PART, *(pytest.param(one, marks=pytest.mark.thorough) for one in package_lessons().values())],
     ids=lambda one: one.name,
 )
 def test_a_lesson_is_given_from_its_file(browser, tmp_path, lesson):

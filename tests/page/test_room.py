@@ -7,7 +7,7 @@ from playwright.sync_api import expect
 
 from hess_explorer.assets import modules_path
 from hess_explorer.headless.browser import wait_ready
-from hess_explorer.lessons import shipped
+from hess_explorer.lessons import package_lessons
 from hess_explorer.server.room_socket import SEVERAL
 from support.accessible import assert_accessible
 from support.asynchronous import finished
@@ -16,7 +16,9 @@ from support.page import PHONE, POINTS, TOUCHED, own_tab
 from support.room import Follower
 
 LESSON = next(
-    one for one in shipped().values() if any(step.prediction and step.prediction.what == "point" for step in one.steps)
+    one
+    for one in package_lessons().values()
+    if any(step.prediction and step.prediction.what == "point" for step in one.steps)
 )
 STEP = next(i for i, step in enumerate(LESSON.steps, 1) if step.prediction and step.prediction.what == "point")
 ASKED = LESSON.steps[STEP - 1].prediction

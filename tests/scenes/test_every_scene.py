@@ -696,14 +696,14 @@ def test_a_number_goes_along_to_another_scene_where_it_means_the_same_and_there_
         specs = [next(spec for spec in one.specs if spec.name == name) for one in (before, scene)]
         low, high = (max(specs[0].bounds[0], specs[1].bounds[0]), min(specs[0].bounds[1], specs[1].bounds[1]))
         value = next(x for x in (-0.7, 0.7, 1.3) if low <= x <= high and x != specs[0].default)
-        taken = scene.taken_over(scene.defaults(), before, {**before.defaults(), name: value})
+        taken = scene.transfer(scene.defaults(), before, {**before.defaults(), name: value})
         goes = frozenset((before.name, scene.name)) in together
         assert taken == ({**scene.defaults(), name: value} if goes else scene.defaults()), (before.name, scene.name)
 
 
 def test_a_number_that_is_not_possible_there_does_not_go_along():
     # b₃ = 0.7 of the general body is none of the Suslov–Hess case, where b₃ < 0.
-    taken = HESS.taken_over(HESS.defaults(), SCENES["suslov"], {**SCENES["suslov"].defaults(), "b3": 0.5, "I22": 1.0})
+    taken = HESS.transfer(HESS.defaults(), SCENES["suslov"], {**SCENES["suslov"].defaults(), "b3": 0.5, "I22": 1.0})
     assert taken == {**HESS.defaults(), "I22": 1.0}
 
 

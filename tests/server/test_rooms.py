@@ -8,7 +8,7 @@ import pytest
 from tornado.httpclient import HTTPClientError
 from tornado.websocket import WebSocketClosedError
 
-from hess_explorer.lessons import shipped
+from hess_explorer.lessons import package_lessons
 from hess_explorer.protocol.messages import ALIVE
 from hess_explorer.protocol.specs import encode
 from hess_explorer.rooms import room
@@ -21,7 +21,7 @@ from support.serving import served
 ENDED = "4001: The lecture has ended."
 NO_MESSAGE = "1007: This is no message of a room."
 
-LESSON = next(one for one in shipped().values() if any(step.prediction for step in one.steps))
+LESSON = next(one for one in package_lessons().values() if any(step.prediction for step in one.steps))
 STEP = next(i for i, step in enumerate(LESSON.steps, 1) if step.prediction)
 
 

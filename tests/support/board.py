@@ -7,7 +7,7 @@ from urllib.parse import parse_qs
 
 import numpy as np
 
-from hess_explorer.lessons import shipped
+from hess_explorer.lessons import package_lessons
 from hess_explorer.page.description import describe
 from hess_explorer.page.session import Session
 from hess_explorer.protocol.messages import Request, parse
@@ -215,7 +215,7 @@ class Browser:
         self.state = None
         self.entered, self.described, self.screens = [], [], {}
         self.scene = scene
-        self.session = Session(scene, values or scene.defaults(), list(notes), shipped(), scene.open_pictures)
+        self.session = Session(scene, values or scene.defaults(), list(notes), package_lessons(), scene.open_pictures)
         self._hear(self.session.answer(Request(requested=0)))
 
     def send(self, message):

@@ -5,7 +5,7 @@ from functools import cache
 
 import numpy as np
 
-from hess_explorer.lessons import shipped
+from hess_explorer.lessons import package_lessons
 from hess_explorer.protocol.specs import places
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.parts.orbits.regime import sets_of
@@ -27,7 +27,7 @@ def heavy_body(values):
 @cache
 def cascade():
     """The doublings of the first body of the lesson over I23."""
-    values = shipped()[NAME].steps[0].at.values
+    values = package_lessons()[NAME].steps[0].at.values
     body, E = heavy_body(values)
     map_ = return_map(body, E=E)
     orbit = periodic_orbit(map_, places(values["chosen"])[-1], 1)
@@ -69,7 +69,7 @@ def first_cascade(_step):
 
 def multipliers(_step):
     """Return the multiplier that is not the other one's inverse where the period doubles first."""
-    body, E = heavy_body(shipped()[NAME].steps[0].at.values)
+    body, E = heavy_body(package_lessons()[NAME].steps[0].at.values)
     map_ = return_map(replace(body, I23=float(cascade().values[0])), E=E)
     return (min(periodic_orbit(map_, tuple(cascade().places[0][0]), 1).multipliers.real),)
 

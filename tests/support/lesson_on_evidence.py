@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from hess_explorer.lessons import shipped
+from hess_explorer.lessons import package_lessons
 from hess_explorer.scenes import scenes
 from hess_mechanics import lyapunov_spectrum
 from hess_mechanics.dynamics import work_precision
@@ -17,7 +17,7 @@ from support.moved import from_moved_starts
 from support.numbers import DIGITS
 
 NAME = "how-do-we-know"
-STEPS = {step.title: step for step in shipped()[NAME].steps}
+STEPS = {step.title: step for step in package_lessons()[NAME].steps}
 
 
 def moved_growth(values, of):

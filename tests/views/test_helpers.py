@@ -9,13 +9,13 @@ from matplotlib.path import Path
 
 from hess_explorer.views.layers import Axes
 from hess_explorer.views.plane import section_plane
-from hess_explorer.views.text import digits, ranging, with_error
+from hess_explorer.views.text import digits, range_text, with_error
 from hess_mechanics.parameters import plain
 
 
 def test_a_range_that_is_one_number_is_said_to_be_that():
-    assert ranging(-1.0, 2.5) == "from −1 to 2.5"
-    assert ranging(0.14159, 0.1416) == "= 0.1416"
+    assert range_text(-1.0, 2.5) == "from −1 to 2.5"
+    assert range_text(0.14159, 0.1416) == "= 0.1416"
 
 
 def test_a_number_is_written_as_one_writes_it():

@@ -35,16 +35,16 @@ def _page(options: Options) -> bytes:
 
 
 def _lesson(options: Options) -> bytes:
-    from hess_explorer.lessons import shipped
+    from hess_explorer.lessons import package_lessons
     from hess_explorer.lessons.reading import read_file
     from hess_explorer.offline.html import HOME
     from hess_explorer.offline.pages import lesson_page
 
     path = Path(options.lesson)
-    lesson = read_file(path) if path.suffix == ".md" else shipped().get(options.lesson)
+    lesson = read_file(path) if path.suffix == ".md" else package_lessons().get(options.lesson)
     if lesson is None:
         raise CommandError(
-            f"There is no lesson {options.lesson!r}: name a Markdown file or one of {', '.join(shipped())}."
+            f"There is no lesson {options.lesson!r}: name a Markdown file or one of {', '.join(package_lessons())}."
         )
     report = _print if options.progress else None
     return lesson_page(lesson, options.values, home=options.page or HOME, report=report)

@@ -15,10 +15,10 @@ _GUIDE = Path(str(files("hess_explorer"))) / "docs/guides/lesson.md"
 
 
 def _check(files: list[Path]) -> None:
-    from hess_explorer.lessons.collection import examined, files_in
+    from hess_explorer.lessons.collection import examine_files, files_in
 
     count = 0
-    for path, lesson, problems in examined(files_in(files)):
+    for path, lesson, problems in examine_files(files_in(files)):
         for problem in sorted(problems, key=lambda one: one.line):
             print(f"{path}:{problem.line}: {problem.message}")
         if lesson is not None and not problems:

@@ -10,11 +10,11 @@ from hess_explorer.lessons.lesson import Lesson
 from hess_explorer.lessons.reading import read, read_tries
 from hess_explorer.scenes import scenes
 
-__all__ = ["shipped", "tries"]
+__all__ = ["package_lessons", "tries"]
 
 
 @cache
-def shipped() -> Mapping[str, Lesson]:
+def package_lessons() -> Mapping[str, Lesson]:
     """Return the lessons of this package by name, the longest first."""
     found = (read(path.read_text("utf-8"), path.stem) for path in Path(__file__).parent.glob("*.md"))
     return {lesson.name: lesson for lesson in sorted(found, key=lambda lesson: (-lesson.minutes, lesson.title))}
@@ -22,6 +22,6 @@ def shipped() -> Mapping[str, Lesson]:
 
 @cache
 def tries() -> Mapping[str, Lesson]:
-    """Return the "Try this" sections by scene, except for scenes that show another scene's state."""
+    """Return the "Try this" sections by scene, except for "Speed and accuracy" scenes."""
     found = {scene.name: read_tries(scene) for scene in scenes().values() if scene.origin is None}
     return {name: lesson for name, lesson in found.items() if lesson is not None}

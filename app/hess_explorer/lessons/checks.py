@@ -1,4 +1,4 @@
-"""Checks of a lesson's Markdown: unsupported elements are reported with their lines instead of being shown as text."""
+"""Check the Markdown of a lesson: report unsupported elements with their lines, instead of showing them as text."""
 
 from __future__ import annotations
 
@@ -23,8 +23,12 @@ def problems_in(text: str, line: int, images: Images) -> Iterator[LessonError]:
 
     Parameters
     ----------
+    text : str
+        The Markdown.
+    line : int
+        Line of its first line in the file, from 1.
     images : Images
-        Gets its images.
+        Receives the images of the text.
     """
     for token in strict_parser().parse(text):
         yield from _problems_of(token, line + (token.map[0] if token.map else 0), images)
@@ -54,7 +58,7 @@ def _check(token: Token, at: int, images: Images) -> None:
         formula(token.content, {"display_mode": _MATH[token.type]})
     elif token.type == "image":
         if not token.content.strip():
-            raise LessonError("the image has no words for those who do not see it: ![A wheel](wheel.png).", at)
+            raise LessonError("the image has no alternative text: write one, like ![A wheel](wheel.png).", at)
         images.add(str(token.attrs["src"]))
     elif token.type == "link_open":
         target = str(token.attrs["href"])

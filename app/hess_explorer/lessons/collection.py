@@ -1,21 +1,21 @@
-"""Lessons of the user: the files and folders that `serve --lesson` names."""
+"""The user's lessons: files and folders of `serve --lesson`."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
-from hess_explorer.lessons import shipped
+from hess_explorer.lessons import package_lessons
 from hess_explorer.lessons.lesson import Lesson, LessonError
 from hess_explorer.lessons.reading import examine, name_of
 
-__all__ = ["MAX_LESSONS", "examined", "files_in", "read_paths"]
+__all__ = ["MAX_LESSONS", "examine_files", "files_in", "read_paths"]
 
 MAX_LESSONS = 100
 
 
 def read_paths(paths: Iterable[Path]) -> tuple[tuple[Lesson, ...], list[LessonError]]:
-    """Return the lessons in files and folders, without the files that have mistakes, and these mistakes.
+    """Return the valid lessons in files and folders, and the mistakes in the other files.
 
     Parameters
     ----------
@@ -34,14 +34,14 @@ def read_paths(paths: Iterable[Path]) -> tuple[tuple[Lesson, ...], list[LessonEr
     LessonError
         If there are too many files, or a folder has none.
     """
-    found = [*examined(files_in(paths))]
+    found = [*examine_files(files_in(paths))]
     lessons = tuple(lesson for _, lesson, mistakes in found if lesson is not None and not mistakes)
     return lessons, [one for _, _, mistakes in found for one in mistakes]
 
 
-def examined(files: Iterable[Path]) -> Iterator[tuple[Path, Lesson | None, list[LessonError]]]:
-    """Yield each file with its lesson, as far as it can be read, and its mistakes; names differ, as links need."""
-    taken = dict.fromkeys(shipped(), "a lesson of this package")
+def examine_files(files: Iterable[Path]) -> Iterator[tuple[Path, Lesson | None, list[LessonError]]]:
+    """Yield each file with its lesson, as far as it is valid, and its mistakes; names must be unique in links."""
+    taken = dict.fromkeys(package_lessons(), "a lesson of this package")
     for file in files:
         lesson, mistakes = examine(file)
         other = taken.setdefault(name_of(file), str(file))
@@ -52,7 +52,7 @@ def examined(files: Iterable[Path]) -> Iterator[tuple[Path, Lesson | None, list[
 
 
 def files_in(paths: Iterable[Path]) -> Sequence[Path]:
-    """Return the files of lessons that are named or in a folder.  Raises `LessonError`."""
+    """Return the lesson files in a list of files and folders.  Raises `LessonError`."""
     files = [file for path in paths for file in _files(path)]
     if len(files) > MAX_LESSONS:
         raise LessonError(f"there are {len(files)} lessons; at most {MAX_LESSONS} are allowed.", 1, str(files[-1]))

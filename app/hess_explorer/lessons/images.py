@@ -1,4 +1,4 @@
-"""Images of a lesson: files beside it, which the page gets as `data:` URLs."""
+"""Images of a lesson: files in its folder, sent to the page as `data:` URLs."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _ALLOWED = "png, jpeg and webp"
 
 
 class ImageError(ValueError):
-    """An image cannot be shown; the message gives the reason and a remedy."""
+    """An image cannot be shown; the message contains the reason and a remedy."""
 
 
 class Images:

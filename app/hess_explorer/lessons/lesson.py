@@ -56,7 +56,7 @@ class HiddenLayer:
     Attributes
     ----------
     source : str
-        Data of the layer in the browser.
+        Data source of the layer in the browser.
     """
 
     picture: str
@@ -69,9 +69,16 @@ class Prediction:
 
     Attributes
     ----------
-    picture : the picture; source, columns : data of its hidden layer in the browser, positions (x, y) of points or
-    curves; what : "point" for one click, compared with the nearest point, "curve" for clicks along a curve; then : the
-    state in which the layer is shown.
+    picture : str
+        Name of the picture.
+    source : str
+        Data source of the hidden layer in the browser.
+    columns : tuple of str
+        Names of its columns with positions (x, y) of points or curves.
+    what : str
+        "point" for one click, compared with the nearest point; "curve" for clicks along a curve.
+    then : StateLink
+        State in which the layer is shown.
     """
 
     picture: str
@@ -121,11 +128,11 @@ class Lesson:
     Attributes
     ----------
     name : str
-        As in a link.
+        Name in links.
     minutes : float
-        Its duration, 0 if unknown.
+        Duration in minutes, 0 if unknown.
     images : mapping of str to str
-        Their URLs by target.
+        URLs of the images by target.
     """
 
     name: str

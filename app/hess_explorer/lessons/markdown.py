@@ -25,7 +25,7 @@ _COMMAND = re.compile(r"\\(?:[A-Za-z]+|.)")
 
 
 class BadFormula(ValueError):
-    """The formula cannot be converted, or contains more than MathML; the message says what to do."""
+    """The formula cannot be converted, or contains more than MathML; the message contains a remedy."""
 
 
 def formula(latex: str, options: Mapping[str, Any]) -> str:
@@ -61,7 +61,7 @@ def parser() -> MarkdownIt:
 
 @cache
 def strict_parser() -> MarkdownIt:
-    """Return a parser that finds what `parser` shows as text: HTML, links of any kind, signs without a backslash."""
+    """Return a parser that recognizes elements that `parser` shows as text: HTML, any link, unescaped signs."""
     found = _with_plugins(MarkdownIt("commonmark", {"html": True})).disable("text_join")
     found.validateLink = lambda url: True  # type: ignore[method-assign]
     return found
@@ -83,7 +83,7 @@ def _image(_: object, tokens: Sequence[Token], i: int, options: object, env: Map
 
 
 def _link(renderer: Any, tokens: Sequence[Token], i: int, options: Any, env: Any) -> str:
-    """Open pages of other hosts apart, so that the lesson stays."""
+    """Let links to other hosts open a new tab, so that the lesson stays open."""
     if not str(tokens[i].attrs["href"]).startswith("?"):
         tokens[i].attrSet("target", "_blank")
         tokens[i].attrSet("rel", "noopener")

@@ -88,7 +88,7 @@ def read_file(path: Path) -> Lesson:
 
 
 def examine(path: Path) -> tuple[Lesson | None, list[LessonError]]:
-    """Return the lesson in a file as far as it can be read, and its mistakes, one of the settings of each step."""
+    """Return the lesson in a file as far as it is valid, and its mistakes, at most one in the settings of a step."""
     lesson = None
     try:
         lesson, mistakes = _read(_text(path), name_of(path), Images(path.parent))
@@ -99,7 +99,7 @@ def examine(path: Path) -> tuple[Lesson | None, list[LessonError]]:
 
 
 def name_of(path: Path) -> str:
-    """Return the name in links of the lesson in a file."""
+    """Return the name of a lesson in links, from its file name."""
     return re.sub(r"[^a-z0-9]+", "-", path.stem.lower()).strip("-") or "lesson"
 
 
@@ -126,7 +126,7 @@ def read(text: str, name: str) -> Lesson:
 
 
 def _read(text: str, name: str, images: Images) -> tuple[Lesson, list[LessonError]]:
-    """Return the lesson in a text as far as it can be read, and its mistakes."""
+    """Return the lesson in a text as far as it is valid, and its mistakes."""
     mistakes: list[LessonError] = []
     title, minutes = "", 0.0
     try:
@@ -191,7 +191,7 @@ class _Part:
     line : int
         Number of its first line, from 1.
     fences : tuple
-        Named `step`.
+        Contents of its code fences named `step`.
     """
 
     title: str
@@ -222,7 +222,7 @@ class _Fields:
     Attributes
     ----------
     line : int
-        First line of all.
+        Line of the first setting.
     """
 
     values: Mapping[str, Any] = field(default_factory=dict)
@@ -272,8 +272,8 @@ def _steps(
 
     Parameters
     ----------
-    mistakes : list
-        Gets those of the steps that are left out.
+    mistakes : list of LessonError
+        Receives the mistakes of the omitted steps.
     """
     parts = list(_parts(text, level))
     steps: list[LessonStep] = []
@@ -306,13 +306,7 @@ def _settings(part: _Part) -> _Fields:
 
 
 def _state(fields: _Fields, place: StateLink | None) -> StateLink:
-    """Return the state of a step.
-
-    Parameters
-    ----------
-    place : StateLink or None
-        That of the step before.
-    """
+    """Return the state of a step, by default `place`, the state of the previous step."""
     get, line_of = fields.get, fields.line_of
     if "state" in fields.values:
         place = place_of(get("state"), line_of("state"))
@@ -326,13 +320,7 @@ def _state(fields: _Fields, place: StateLink | None) -> StateLink:
 
 
 def _step(part: _Part, level: int, fields: _Fields, place: StateLink) -> LessonStep:
-    """Return a step.
-
-    Parameters
-    ----------
-    level : int
-        That of the headings Question and Answer.
-    """
+    """Return a step; `level` is the level of the headings Question and Answer."""
     if not part.title:
         raise LessonError("the step has no title: write one after #.", part.line - 1)
     get, line_of = fields.get, fields.line_of

@@ -1,6 +1,6 @@
-"""The settings of a step: states, and what its fence `step` says beside them.
+"""The settings of a step in its code fence `step`.
 
-Each function reads one setting and raises `LessonError` with the line and what is allowed.
+Each function parses one setting, and raises `LessonError` with the line and the allowed values.
 """
 
 from __future__ import annotations
@@ -53,7 +53,7 @@ def is_number(value: Any) -> TypeGuard[float]:
 
 
 def only(value: Any, what: str, allowed: Sequence[str], line: int) -> dict[str, Any]:
-    """Return a mapping that has no other keys than those allowed."""
+    """Return a mapping that has only allowed keys."""
     if not isinstance(value, dict):
         raise LessonError(f"{what} must be a list of keys with values; the keys are {', '.join(allowed)}.", line)
     for key in value:
@@ -97,7 +97,7 @@ def example_of(begins: object, before: StateLink | None, line: int) -> StateLink
 
 
 def corrections(steps: Iterable[LessonStep]) -> Iterator[LessonError]:
-    """Yield the states that the scene would change, as a mistake with the nearest valid values."""
+    """Yield a mistake with the nearest valid values for each state that the scene would change."""
     for step in steps:
         for what, place in _places(step):
             scene = scenes()[place.scene]
@@ -130,7 +130,7 @@ def look_of(value: object, scene: Scene[Any], line: int) -> str:
 
 
 def pictures_of(value: object, scene: Scene[Any], line: int) -> tuple[str, ...]:
-    """Return the names of the pictures that are shown alone, none for the whole page."""
+    """Return the names of the pictures that are shown alone; empty for the whole page."""
     return () if value is None else _names_of(value, "pictures", scene.pictures, line)
 
 
@@ -149,7 +149,7 @@ def _names_of(value: object, key: str, allowed: Sequence[str], line: int) -> tup
 
 
 def animation_of(value: object, scene: Scene[Any], line: int) -> Animation | None:
-    """Return the animation of a step, None for none."""
+    """Return the animation of a step, or None."""
     if value is None:
         return None
     names = ("name", "from", "to", "seconds")
@@ -171,7 +171,7 @@ def animation_of(value: object, scene: Scene[Any], line: int) -> Animation | Non
 
 
 def hidden_of(value: object, scene: Scene[Any], line: int) -> HiddenLayer | None:
-    """Return the layer that a step leaves out, None for none."""
+    """Return the layer that a step hides, or None."""
     if value is None:
         return None
     plot, layer = _layer(only(value, "hide", ("picture", "layer"), line), "hide", scene, line)
@@ -179,7 +179,7 @@ def hidden_of(value: object, scene: Scene[Any], line: int) -> HiddenLayer | None
 
 
 def prediction_of(value: object, place: StateLink, line: int) -> Prediction | None:
-    """Return the prediction of a step, None for none."""
+    """Return the prediction of a step, or None."""
     if value is None:
         return None
     given = only(value, "predict", ("picture", "layer", "then"), line)
@@ -194,13 +194,7 @@ def prediction_of(value: object, place: StateLink, line: int) -> Prediction | No
 def _layer(
     given: dict[str, Any], key: str, scene: Scene[Any], line: int, glyphs: tuple[str, ...] | None = None
 ) -> tuple[Plot[Any], Layer[Any]]:
-    """Return the picture and the layer that a mapping names.
-
-    Parameters
-    ----------
-    glyphs : tuple of str or None
-        The allowed kinds of layers, by default all.
-    """
+    """Return the picture and the layer that a mapping names; `glyphs` are the allowed kinds of layers."""
     plots = {view.name: view for view in scene.views if isinstance(view, Plot)}
     plot = plots[_one_of(given.get("picture"), f"picture of {key}", tuple(plots), line)]
     layers = {

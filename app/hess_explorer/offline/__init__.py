@@ -1,1 +1,1 @@
-"""Pages in files: computed states that play without a server, for a state with sliders, a lesson, and a whole site."""
+"""Pages in files: computed states without a server, for a state with sliders, a lesson, or a whole site."""

@@ -1,4 +1,4 @@
-"""Write a page as one HTML file that works without a server: the modules of the page with computed states inside."""
+"""Write a page as one HTML file that works without a server: the modules of the page and computed states."""
 
 from __future__ import annotations
 
@@ -90,7 +90,7 @@ def document(
     bytes
         The file.
     """
-    index, strips = recording.packed()
+    index, strips = recording.pack()
     found = json.loads(lesson) if lesson else None
     program = f"hess-explorer {version('hess-explorer')}"
     model = {
@@ -99,7 +99,7 @@ def document(
         "sheets": styles(),
         "recording": {
             **index,
-            "scenes": recording.described(),
+            "scenes": recording.descriptions(),
             "steps": steps or {},
             "lessons": {found["name"]: found} if found else {},
         },

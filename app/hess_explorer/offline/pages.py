@@ -8,7 +8,7 @@ from typing import Any
 from hess_explorer.export.picture_data import Address, address, picture_of
 from hess_explorer.lessons.lesson import TIME, Lesson
 from hess_explorer.offline.html import HOME, document
-from hess_explorer.offline.plan import Family, across, family, read_slider, slider_of
+from hess_explorer.offline.plan import StateFamily, across, family, read_slider, slider_of
 from hess_explorer.offline.recording import Recording, Report
 from hess_explorer.page.lesson_description import describe_lesson
 from hess_explorer.protocol.specs import Values, encode
@@ -17,18 +17,18 @@ from hess_explorer.scenes.framework.part import part
 from hess_explorer.scenes.framework.scene import Scene
 from hess_mechanics.numerics.accuracy import DRAFT
 
-__all__ = ["COUNT", "accumulates", "lesson_page", "planned", "state_page"]
+__all__ = ["COUNT", "accumulates", "lesson_page", "page_family", "state_page"]
 
 COUNT = 40
 """Number of values of a slider by default."""
 
 
-def planned(query: str, sliders: Sequence[str], *, grid: bool = False, lenient: bool = False) -> Family:
+def page_family(query: str, sliders: Sequence[str], *, grid: bool = False, lenient: bool = False) -> StateFamily:
     """Return the states of a page before they are computed; the parameters and errors are those of `state_page`."""
     return _varied(address(query, lenient=lenient), sliders, grid)
 
 
-def _varied(at: Address, sliders: Sequence[str], grid: bool) -> Family:
+def _varied(at: Address, sliders: Sequence[str], grid: bool) -> StateFamily:
     """Return the states of sliders through a state."""
     return family(at.scene, at.values, [read_slider(text, at.scene, at.values, COUNT) for text in sliders], grid=grid)
 
@@ -96,9 +96,10 @@ def state_page(
 
 
 def _moving(scene: Scene[Any]) -> Values:
-    """Return the values that all states of a slider have but the first.
+    """Return values of parameters in all states of a slider except the first one.
 
-    Sections and diagrams shaded by density take seconds at full accuracy: their sliders move at the accuracy of a drag.
+    Sections and diagrams shaded by density take seconds at full accuracy, so their sliders move at the accuracy of a
+    drag.
     """
     return {"accuracy": DRAFT.name} if accumulates(scene) else {}
 
@@ -108,8 +109,8 @@ def accumulates(scene: Scene[Any]) -> bool:
     return isinstance(getattr(scene.state, "density", None), part)
 
 
-def _families(lesson: Lesson, count: int) -> list[Family]:
-    """Return the states of the steps, each once, with the sliders that its steps name or animate."""
+def _families(lesson: Lesson, count: int) -> list[StateFamily]:
+    """Return the distinct states of the steps, with the sliders that the steps name or animate."""
     found: dict[str, tuple[Scene[Any], Values, dict[str, set[float]]]] = {}
     for step in lesson.steps:
         scene = scenes()[step.at.scene]

@@ -16,7 +16,7 @@ from hess_explorer.protocol.specs import NumberSpec, Values
 from hess_explorer.scenes.framework.scene import Scene
 from hess_mechanics.errors import InvalidParameter
 
-__all__ = ["MOST_STATES", "Family", "across", "family", "read_slider", "slider_of"]
+__all__ = ["MOST_STATES", "StateFamily", "across", "family", "read_slider", "slider_of"]
 
 MOST_STATES = 4000
 """Maximum number of states of a file."""
@@ -28,13 +28,21 @@ _SLIDER = re.compile(r"(?P<name>\w+)=(?P<low>[^:=]+):(?P<high>[^:=]+)(?::(?P<cou
 
 
 @dataclass(frozen=True)
-class Family:
-    """The states among which the sliders of a file move.
+class StateFamily:
+    """The states through which the sliders of a file move.
 
     Attributes
     ----------
-    scene : the scene; base : the values of the first state; names : the varied parameters; points : their values,
-    those of the first state first; moving : values of parameters in all other states, such as the accuracy.
+    scene : Scene
+        The scene.
+    base : mapping of str
+        Values of the first state.
+    names : tuple of str
+        Names of the varied parameters.
+    points : tuple of tuple of float
+        Values of these parameters in each state, those of the first state first.
+    moving : mapping of str
+        Values of parameters in all other states, such as the accuracy.
     """
 
     scene: Scene[Any]
@@ -50,7 +58,7 @@ class Family:
 
 
 def across(low: float, high: float, count: int, own: float) -> tuple[float, ...]:
-    """Return about `count` values from low to high, rounded to digits that can be read, and the value `own`."""
+    """Return about `count` rounded values from low to high, and the value `own`."""
     decimals = _DIGITS - 1 - math.floor(math.log10(high - low))
     return tuple(sorted({own, *(float(one) for one in np.round(np.linspace(low, high, count), decimals))}))
 
@@ -77,12 +85,12 @@ def read_slider(text: str, scene: Scene[Any], base: Values, count: int) -> tuple
     Raises
     ------
     InvalidParameter
-        If the text is no such description.
+        If the text is invalid.
     """
     known = {spec.name: spec for spec in scene.specs if isinstance(spec, NumberSpec)}
     found = _SLIDER.fullmatch(text)
     if found is None:
-        raise InvalidParameter(f"{text!r} is no slider: write NAME=LOW:HIGH:COUNT, such as h=0.2:3.5:80.")
+        raise InvalidParameter(f"{text!r} is not a slider: write NAME=LOW:HIGH:COUNT, such as h=0.2:3.5:80.")
     name = found["name"]
     if name not in known:
         raise InvalidParameter(
@@ -102,7 +110,7 @@ def read_slider(text: str, scene: Scene[Any], base: Values, count: int) -> tuple
 
 
 def slider_of(scene: Scene[Any], name: str, values: Values, count: int) -> tuple[float, ...]:
-    """Return the values of the whole slider of a parameter in a state; none if it is no number."""
+    """Return the values of the whole slider of a parameter in a state; empty if it is not a number."""
     spec = next(spec for spec in scene.specs if spec.name == name)
     if not isinstance(spec, NumberSpec):
         return ()
@@ -117,7 +125,7 @@ def family(
     *,
     grid: bool = False,
     moving: Values | None = None,
-) -> Family:
+) -> StateFamily:
     """Return the states of sliders through a state.
 
     Parameters
@@ -156,7 +164,7 @@ def family(
         points = _snake(sides)
     else:
         points = [(*first[:i], value, *first[i + 1 :]) for i, side in enumerate(sides) for value in side]
-    return Family(scene, base, names, tuple(dict.fromkeys([first, *points])), moving or {})
+    return StateFamily(scene, base, names, tuple(dict.fromkeys([first, *points])), moving or {})
 
 
 def _snake(sides: Sequence[Sequence[float]]) -> list[tuple[float, ...]]:

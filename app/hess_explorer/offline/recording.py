@@ -1,4 +1,4 @@
-"""Computed states of a file: what the server would answer at each place of its sliders."""
+"""The computed states of a file: the responses of a server for each position of the sliders."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from hess_explorer.export.picture_data import complete
-from hess_explorer.offline.plan import Family
+from hess_explorer.offline.plan import StateFamily
 from hess_explorer.offline.strips import OfflineStrip, steps_of_plots
 from hess_explorer.page.controls import show_controls
 from hess_explorer.page.description import describe, without_gestures
@@ -34,8 +34,8 @@ _CLICKS = ("tap", "pan")
 """Mouse events of a plot that choose a computed state."""
 
 
-def _fixed(one: Family) -> str:
-    """Return the numbers that do not move in the file."""
+def _fixed(one: StateFamily) -> str:
+    """Return the constant numbers of a file as text."""
     idle = one.scene.idle(one.base)
     specs = [spec for spec in one.scene.specs if isinstance(spec, NumberSpec) and spec.name not in {*one.names, *idle}]
     return ", ".join(f"{spec.symbol} = {one.base[spec.name]:g}".replace("-", "−") for spec in specs)
@@ -50,7 +50,7 @@ class Recording:
     pictures : mapping
         The names of the pictures of each scene.
     report : callable, optional
-        Gets the number of computed states and that of all states.
+        Called with the number of computed states and the total number.
     """
 
     pictures: Mapping[str, Sequence[str]]
@@ -61,8 +61,8 @@ class Recording:
     _varied: dict[str, dict[str, tuple[float, float]]] = field(default_factory=dict)
     _columns: dict[str, dict[str, list[str]]] = field(default_factory=dict)
 
-    def record(self, families: Sequence[Family]) -> None:
-        """Compute the states of families, each state once.  Raises `ModelError` if a first state is impossible."""
+    def record(self, families: Sequence[StateFamily]) -> None:
+        """Compute the distinct states of families.  Raises `ModelError` if a first state is impossible."""
         queries = [{encode(one.scene.name, one.values(point)): point for point in one.points} for one in families]
         total = len({query for found in queries for query in found} - self._states.keys())
         done = 0
@@ -99,14 +99,14 @@ class Recording:
             self._strips.append(OfflineStrip())
         return self._strips[-1]
 
-    def _note_sliders(self, one: Family) -> None:
+    def _note_sliders(self, one: StateFamily) -> None:
         varied = self._varied.setdefault(one.scene.name, {})
         for name, values in zip(one.names, zip(*one.points, strict=True), strict=True):
             low, high = varied.get(name, (np.inf, -np.inf))
             varied[name] = min(low, *values), max(high, *values)
 
     def _compute(self, scene: Scene[Any], values: Values, strip: OfflineStrip, *, must: bool) -> None:
-        """Append a state, complete; where the model refuses it, its reason as on the page, unless it must be there."""
+        """Append a complete state, or the reason why it is impossible; raise an error for a state that `must` exist."""
         wire = Wire()
         stage = Stage(scene, wire)
         pictures = self.pictures[scene.name]
@@ -142,7 +142,7 @@ class Recording:
         strip.add(tree, block, steps_of_plots(axes))
 
     def _note_columns(self, scene: Scene[Any], sources: Mapping[str, Mapping[str, Any]]) -> None:
-        """Note the columns of each source, which a state that does not fill them must empty."""
+        """Record the columns of each data source, which other states have to empty."""
         canvases = {view.name for view in scene.views if not isinstance(view, Plot)}
         noted = self._columns.setdefault(scene.name, {})
         for source, columns in sources.items():
@@ -151,7 +151,7 @@ class Recording:
             noted[source] = [*dict.fromkeys([*noted.get(source, []), *new])]
 
     def _picks(self, name: str) -> dict[str, list[str]]:
-        """Return the plots with varied parameters as their axes: a click there chooses a computed state."""
+        """Return the plots whose axes are varied parameters; a click there selects a computed state."""
         varied = self._varied.get(name, {})
         handles = {
             view.name: view.handle.columns[:2]
@@ -160,8 +160,8 @@ class Recording:
         }
         return {plot: [*columns] for plot, columns in handles.items() if varied.keys() & {*columns}}
 
-    def described(self) -> dict[str, Any]:
-        """Return the descriptions of the scenes, with the pictures, sliders and gestures that the file has."""
+    def descriptions(self) -> dict[str, Any]:
+        """Return the descriptions of the scenes, with the pictures, sliders and gestures of the file."""
         return {name: self._described(name) for name in self.pictures}
 
     def _described(self, name: str) -> dict[str, Any]:
@@ -177,7 +177,7 @@ class Recording:
         ]
         return {**found, "presets": [], "tries": [], "essential": [*varied], "drawn": False, "handle": None}
 
-    def packed(self) -> tuple[dict[str, Any], list[str]]:
+    def pack(self) -> tuple[dict[str, Any], list[str]]:
         """Return the index of the states and the strips in base 64."""
         picks = {name: self._picks(name) for name in self.pictures}
         index = {"families": self._families, "picks": picks, "sources": self._columns}

@@ -7,7 +7,7 @@ from html import escape
 from pathlib import Path
 from typing import Any
 
-from hess_explorer.lessons import shipped
+from hess_explorer.lessons import package_lessons
 from hess_explorer.offline.html import HOME
 from hess_explorer.offline.pages import COUNT, accumulates, lesson_page, state_page
 from hess_explorer.page.controls import slider_limits
@@ -46,7 +46,7 @@ computed states; in the explorer everything moves.</p>
 
 
 def pages(names: Sequence[str] = ()) -> dict[str, str]:
-    """Return the files of the pages by name: of lessons, and of scenes that look into no other scene.
+    """Return the paths of the pages of lessons and scenes by name.
 
     Parameters
     ----------
@@ -55,15 +55,15 @@ def pages(names: Sequence[str] = ()) -> dict[str, str]:
 
     Returns
     -------
-    dict
-        Name → path relative to the folder.
+    dict of str to str
+        Paths relative to the folder, by name.
 
     Raises
     ------
     InvalidParameter
         If there is no such lesson or scene.
     """
-    every = {name: f"lessons/{name}.html" for name in shipped()}
+    every = {name: f"lessons/{name}.html" for name in package_lessons()}
     every |= {scene.name: f"scenes/{scene.name}.html" for scene in scenes().values() if not scene.origin}
     for name in names:
         if name not in every:
@@ -92,12 +92,12 @@ def build(
     home : str
         Address of the explorer, for the links in the pages.
     report : callable, optional
-        Gets the name of a page that is written, the number of written pages and of all pages.
+        Called with the name of a written page, the number of written pages and the total number.
 
     Returns
     -------
-    dict
-        Path relative to the folder → bytes.
+    dict of str to int
+        Sizes in bytes, by path relative to the folder.
 
     Raises
     ------
@@ -118,7 +118,7 @@ def build(
         sizes[path] = len(content)
 
     for done, (name, path) in enumerate(files.items(), 1):
-        lesson = shipped().get(name)
+        lesson = package_lessons().get(name)
         if lesson is None:
             write(path, _scene_page(scenes()[name], count, home))
         else:
@@ -151,8 +151,8 @@ def _parts(files: Mapping[str, str]) -> Iterator[str]:
     """Yield the lists of links: the lessons, then the scenes by group."""
     groups: dict[str, list[str]] = {}
     for name, path in files.items():
-        if name in shipped():
-            lesson = shipped()[name]
+        if name in package_lessons():
+            lesson = package_lessons()[name]
             group, title, words = "Lessons", lesson.title, f"{len(lesson.steps)} steps, {lesson.minutes:g} min"
         else:
             scene = scenes()[name]

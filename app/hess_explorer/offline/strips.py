@@ -1,9 +1,9 @@
 """Strips: the arrays of consecutive states, quantised, coded by differences, and compressed.
 
-An array becomes whole numbers q = 1 + round(x/step) − low, 0 for NaN.  They are coded by their differences: from the
-array at the same place in the state before if both have the same length, and along the array.  Neighbouring states and
-neighbouring points of a curve differ little, so the differences are small.  All are taken modulo 2³².  They are stored
-by bytes, the lowest ones of all arrays first, and compressed: without that order the files are 1.6 times as large.
+An array is quantised to whole numbers q = 1 + round(x/step) − low, and 0 for NaN.  They are coded by differences modulo
+2³²: from the same array of the previous state if both have the same length, and along the array.  These differences are
+small, because neighbouring states and neighbouring points of a curve differ little.  They are stored byte by byte, the
+lowest bytes of all arrays first, and compressed; without this order the files are 1.6 times as large.
 "offline/strip.js" reverses this.
 """
 
@@ -52,7 +52,7 @@ def steps_of_plots(plots: Sequence[tuple[Plot[Any], Axes]]) -> dict[str, dict[st
     """
     found: dict[str, dict[str, float]] = {}
     for plot, axes in plots:
-        for layer in plot.painted:
+        for layer in plot.all_layers:
             steps = found.setdefault(plot.source_of(layer), {})
             for place, column in enumerate(layer.columns[:2]):
                 side, (low, high) = ("x", axes.x) if place == 0 else ("y", axes.y)
@@ -62,13 +62,7 @@ def steps_of_plots(plots: Sequence[tuple[Plot[Any], Axes]]) -> dict[str, dict[st
 
 
 def _step(values: Array, column: str, known: float | None) -> float:
-    """Return the quantisation step of an array in single precision.
-
-    Parameters
-    ----------
-    known : float or None
-        That of its plot.
-    """
+    """Return the quantisation step of an array in single precision; `known` is the step of its plot, if any."""
     finite = values[np.isfinite(values)]
     if len(finite) == 0:
         return 1.0
@@ -86,7 +80,7 @@ def _step(values: Array, column: str, known: float | None) -> float:
 
 
 def _quantised(values: Array, step: float) -> tuple[int, np.ndarray]:
-    """Return the least multiple of the step, and the whole numbers (n,) of an array."""
+    """Quantise an array: return the least multiple of the step, and the whole numbers (n,)."""
     if step == EXACT:
         return 0, values.view(np.uint32)
     finite = np.isfinite(values)
@@ -140,7 +134,7 @@ class OfflineStrip:
         self._last = places
 
     def _array(self, values: Array, column: str, known: float | None, before: int | None) -> int:
-        """Store an array unless it equals the one before it; return its number."""
+        """Store an array unless it equals the previous one; return its number."""
         step = _step(values, column, known)
         if before is not None and len(self._wholes[before]) != len(values):
             before = None

@@ -16,7 +16,10 @@ class BackgroundTasks:
 
     Attributes
     ----------
-    background : computes the tasks; progress : (done, total) while tasks are running, else None.
+    background : Background
+        Computes the tasks.
+    progress : tuple of int or None
+        Numbers (done, total) while tasks are running, otherwise None.
     """
 
     def __init__(self) -> None:
@@ -29,7 +32,7 @@ class BackgroundTasks:
         self._stopped = False
 
     def stop(self) -> None:
-        """Stop the tasks and keep what is drawn, until another state is requested."""
+        """Stop the tasks and keep the drawn results, until another state is requested."""
         if self.progress is not None:
             self._stopped = True
             self._next = None
@@ -42,14 +45,14 @@ class BackgroundTasks:
         self.background.stop()
 
     def make_way(self) -> None:
-        """End the running tasks for another state, which they would slow down, and allow tasks again."""
+        """End the running tasks, which would slow down another state, and allow tasks again."""
         self._stopped = False
         self.background.stop()
 
     def ended(self, more: bool) -> bool:
-        """Return True if no task is running any more.
+        """Return whether no task is running any more.
 
-        Call it before the state is computed, because the last task may end during that computation.
+        Call this before the state is computed, because the last task may end during that computation.
 
         Parameters
         ----------
@@ -65,7 +68,7 @@ class BackgroundTasks:
         return self._next is None and not 0 < self.background.backlog == self._left
 
     def follow(self, report: Report, more: bool, ended: bool) -> list[str]:
-        """Plan the tasks that the report lists; return a note if they ended early.  `start` starts them."""
+        """Plan the tasks in a report, which `start` starts; return notes if they ended early."""
         left = len(report.todo)
         if not more:
             self._followed = set()

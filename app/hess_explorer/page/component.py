@@ -1,7 +1,7 @@
 """The Panel component of the page: one ES module that builds the whole page in the browser.
 
-"page/served.js" builds it, "page/shell.js" mounts its parts: the ES modules under `static/`.  They communicate only by
-the events of "base/bus.js".
+"page/served.js" builds it, "page/shell.js" mounts its parts: the ES modules under `static/`.  They communicate only
+through the events of "base/bus.js".
 """
 
 from __future__ import annotations

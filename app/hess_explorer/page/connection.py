@@ -60,7 +60,7 @@ class Connection:
 
     def _answer(self, request: Request) -> None:
         self._tell(self._session.answer(request))
-        # A page needs the cores to paint a new state, and asks again when it has.
+        # A page needs the cores to paint a new state, and sends the next request afterwards.
         if not self._session.is_new:
             self._session.start_tasks()
 

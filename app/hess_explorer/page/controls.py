@@ -16,7 +16,7 @@ CHOOSE = ""
 
 
 def slider_limits(spec: NumberSpec, limits: Mapping[str, tuple[float, float, float]]) -> tuple[float, float, float]:
-    """Return (low, high, step) of a slider: from `limits` if they depend on the state, else from the parameter."""
+    """Return (low, high, step) of a slider, from `limits` if it depends on the state, otherwise from the parameter."""
     return limits.get(spec.name, (*spec.softbounds, spec.step))
 
 

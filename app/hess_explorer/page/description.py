@@ -1,4 +1,4 @@
-"""Descriptions of scenes for the browser, sent once each: empty pictures, controls and texts."""
+"""Descriptions of scenes for the browser, each sent once: empty pictures, controls and texts."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from markdown_it.token import Token
 
 from hess_explorer.lessons import tries
 from hess_explorer.lessons.reading import without_tries
-from hess_explorer.page.glossary import explained
+from hess_explorer.page.glossary import explainer
 from hess_explorer.page.lesson_description import steps
 from hess_explorer.protocol.specs import ChoiceSpec, Controlled, NumberSpec
 from hess_explorer.scenes import scenes
@@ -57,7 +57,7 @@ def describe(name: str) -> str:
 
 
 def _handle(scene: Scene[Any]) -> dict[str, Any] | None:
-    """Return the handle that a newcomer should drag: a control, or a layer of a picture."""
+    """Return the suggested first drag: a control, or a layer of a picture."""
     picture, _, layer = scene.handle.partition("/")
     if not layer:
         name = scene.handle or next(iter(scene.essential), "")
@@ -68,14 +68,14 @@ def _handle(scene: Scene[Any]) -> dict[str, Any] | None:
 
 
 def _html(scene: Scene[Any]) -> str:
-    """Return the text of a scene as HTML with inline drawings, which take the colours of the page."""
+    """Return the text of a scene as HTML, with inline drawings in the colours of the page."""
 
     def drawing(_: object, tokens: Sequence[Token], i: int, *rest: object) -> str:
         return scene.drawing(str(tokens[i].attrs["src"]))
 
     markdown = MarkdownIt().enable("table")
     markdown.add_render_rule("image", drawing)
-    explain = explained()
+    explain = explainer()
     markdown.add_render_rule("text", lambda _, tokens, i, *rest: explain(tokens[i].content))
     html: str = markdown.render(with_formulas(scene.words if scene.origin else without_tries(scene.words)))
     return html

@@ -1,4 +1,4 @@
-"""Terms of the scenes' texts, explained at a tap or with Enter: "glossary.md"."""
+"""Explanations of the terms in the texts of scenes, from "glossary.md"."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from html import escape
 from itertools import count
 from pathlib import Path
 
-__all__ = ["explained", "glossary"]
+__all__ = ["explainer", "glossary"]
 
 _ENTRY = re.compile(r"^- \*\*(.+?)\*\*: (.+?)(?=\n- |\Z)", re.MULTILINE | re.DOTALL)
 
@@ -30,10 +30,10 @@ def _terms() -> re.Pattern[str]:
     return re.compile(rf"\b(?:{'|'.join(map(re.escape, longest))})\b", re.IGNORECASE)
 
 
-def explained() -> Callable[[str], str]:
-    """Return a function from pieces of a text to HTML, which explains each term where it stands first.
+def explainer() -> Callable[[str], str]:
+    """Return a function that converts pieces of a text to HTML and explains each term at its first occurrence.
 
-    A term is a button that opens its meaning. This needs no script, and works by mouse, keyboard and touch.
+    A term is a button that opens its meaning.  This needs no script, and works with mouse, keyboard and touch.
     """
     known: set[str] = set()
     numbers = count()

@@ -1,4 +1,4 @@
-"""Descriptions of lessons for the browser, sent once each."""
+"""Descriptions of lessons for the browser, each sent once."""
 
 from __future__ import annotations
 

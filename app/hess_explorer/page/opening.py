@@ -1,4 +1,4 @@
-"""Read the link of a page.  The document and the websocket both do this, with the same result."""
+"""Parse the link of a page.  The document and the websocket both do this, with the same result."""
 
 from __future__ import annotations
 
@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from typing import Any
 from urllib.parse import urlencode
 
-from hess_explorer.lessons import shipped
+from hess_explorer.lessons import package_lessons
 from hess_explorer.lessons.lesson import Lesson
-from hess_explorer.page.requested import linked
+from hess_explorer.page.requested import scene_and_values
 from hess_explorer.protocol.specs import CLIENT, ChoiceSpec, Controlled, Link, Names, NumberSpec, Values
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Scene
@@ -29,8 +29,20 @@ class Opening:
 
     Attributes
     ----------
-    scene, values : the initial state; notes : corrections of the link; lessons : available lessons; reading : the open
-    lesson; pictures : visible pictures; client : URL keys that the browser keeps.
+    scene : Scene
+        The initial scene.
+    values : mapping of str
+        Values of its parameters.
+    notes : list of str
+        Corrections of the link.
+    lessons : mapping of str to Lesson
+        Available lessons by name.
+    reading : Lesson or None
+        The open lesson.
+    pictures : tuple of str
+        Names of the visible pictures.
+    client : mapping of str
+        URL keys that the browser keeps.
     """
 
     scene: Scene[Any]
@@ -69,7 +81,7 @@ def opening(query: str, own: Sequence[Lesson] = (), *, lenient: bool = True) -> 
     InvalidParameter
         If the query is invalid and `lenient` is False.
     """
-    lessons = {**{lesson.name: lesson for lesson in own}, **shipped()}
+    lessons = {**{lesson.name: lesson for lesson in own}, **package_lessons()}
     link = Link(query, lenient)
     first = own[0].name if own and "scene" not in link.given else ""
     reading = lessons.get(str(link.value(ChoiceSpec("lesson", "Lesson", ("", *lessons), first))))
@@ -80,7 +92,7 @@ def opening(query: str, own: Sequence[Lesson] = (), *, lenient: bool = True) -> 
         place = reading.steps[at - 1].at
         scene, state = scenes()[place.scene], dict(place.values)
     else:
-        scene, state = linked(link, next(iter(scenes())))
+        scene, state = scene_and_values(link, next(iter(scenes())))
     link.require(scene.name, scene.specs)
     large = Names("large", "Enlarged pictures", scene.pictures, most=2)
     numbers = link.values(CLIENT)

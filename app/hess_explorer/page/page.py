@@ -72,7 +72,7 @@ def _page(query: str, own: Sequence[Lesson]) -> Explorer:
 
 
 def _entry(scene: Scene[Any]) -> dict[str, str | None]:
-    """Return the entry of a scene for the menu of scenes; a scene of one's own has no picture there."""
+    """Return the entry of a scene in the menu; only scenes of this package have an image."""
     picture = Path(scene.module).stem.replace("_", "-")
     return {
         "name": scene.name,

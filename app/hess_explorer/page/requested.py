@@ -9,10 +9,10 @@ from hess_explorer.protocol.specs import ChoiceSpec, Formula, Link, Value, Value
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Scene
 
-__all__ = ["RequestedState", "linked"]
+__all__ = ["RequestedState", "scene_and_values"]
 
 
-def linked(link: Link, here: str) -> tuple[Scene[Any], dict[str, Value]]:
+def scene_and_values(link: Link, here: str) -> tuple[Scene[Any], dict[str, Value]]:
     """Return the scene of a link, by default the scene `here`, and the values of its parameters."""
     scene = scenes()[str(link.value(ChoiceSpec("scene", "Scene", tuple(scenes()), here)))]
     return scene, link.values(scene.specs)
@@ -23,8 +23,14 @@ class RequestedState:
 
     Attributes
     ----------
-    notes : notes on corrected values, only for the last change.
-    carried : True if the values were carried over from a scene of another motion, and so may be impossible here.
+    scene : Scene
+        The scene.
+    values : dict of str
+        Values of its parameters.
+    notes : list of str
+        Notes on corrected values of the last change.
+    carried : bool
+        True if values were transferred from a scene with another motion, so that they may be impossible here.
     """
 
     def __init__(self, scene: Scene[Any], values: Values, notes: list[str]) -> None:
@@ -51,7 +57,7 @@ class RequestedState:
             self._set({name: value for name, value in adjustments.items() if name not in values})
 
     def change_scene(self, scene: Scene[Any]) -> None:
-        """Go to a scene as it was left, and carry over changed values of parameters with the same meaning."""
+        """Go to a scene in its last state, and transfer changed values of parameters with the same meaning."""
         if scene is self.scene:
             return
         # A scene and its "Speed and accuracy" scene share one state.
@@ -67,7 +73,7 @@ class RequestedState:
     def restore(self, query: str) -> None:
         """Go to the state of a link, or of an undo step."""
         link = Link(query)
-        scene, values = linked(link, self.scene.name)
+        scene, values = scene_and_values(link, self.scene.name)
         self.go(StateLink(scene.name, values))
         self.notes = link.notes
 
@@ -79,8 +85,8 @@ class RequestedState:
         else:
             self._enter(scene, place.values, [])
 
-    def start_anew(self) -> None:
-        """Go to the default state of the scene, because the carried values are impossible here."""
+    def restart(self) -> None:
+        """Go to the default state of the scene, because the transferred values are impossible here."""
         self._enter(self.scene, {}, ["The previous values are not possible here: this is the scene's default state."])
 
     def _set(self, values: Values) -> None:
@@ -91,6 +97,6 @@ class RequestedState:
                 continue
             value, note = spec.read(given)
             self.notes += [note] if note else []
-            # A formula that cannot be read leaves the one before.
+            # An invalid formula keeps the previous one.
             if note is None or not isinstance(spec, Formula):
                 self.values[name] = value

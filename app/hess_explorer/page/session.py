@@ -98,7 +98,7 @@ class Session:
         return self._tasks.background
 
     def answer(self, request: Request) -> Answer:
-        """Process a request and return the response; a request for a state always gets one."""
+        """Process a request and return the response; a requested state always gets one."""
         scene = self.scene
         try:
             # `hess_mechanics` checks its results for overflow itself, so NumPy's warnings would be noise.
@@ -112,7 +112,7 @@ class Session:
                     self._update(request.held)
         except ClientGone:
             raise
-        # Log any error, and leave neither a traceback nor an outdated picture on the page.
+        # Log any error; the page shows neither a traceback nor an outdated picture.
         except Exception:
             logger.exception("a state failed at %s", encode(self.scene.name, self.requested.values))
             self._tasks.drop()
@@ -199,7 +199,7 @@ class Session:
                     self.wire.say(f"error-{name}", str(refusal))
 
     def _pick(self, picked: PicturePoint | PictureBox) -> None:
-        """Set the values that a click or a box selects, or note why it selects none."""
+        """Set the values that a click or a box selects, or append the reason why it selects none."""
         try:
             chosen = (
                 self.stage.pick(picked.picture, picked.x, picked.y)
@@ -261,7 +261,7 @@ class Session:
         except ModelError as error:
             if wanted.carried:
                 # A scene that the user enters must not fail because of values chosen elsewhere.
-                wanted.start_anew()
+                wanted.restart()
                 return self._draw()
             report = self._refuse(str(error))
         wanted.carried = False

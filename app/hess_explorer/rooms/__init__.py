@@ -1,1 +1,1 @@
-"""Rooms: an audience follows the page of a lecturer on its own phones."""
+"""Rooms: followers see the page of a lecturer on their phones."""

@@ -1,4 +1,4 @@
-"""Draw what a lecturer shows, once for all followers of a room: one picture, as a whole state in one frame."""
+"""Draw the lecturer's picture once for all followers of a room, as a complete state in one frame."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from hess_explorer.protocol.messages import Answer, Request
 from hess_explorer.rooms.messages import Show
 from hess_explorer.scenes.framework.scene import Scene
 
-__all__ = ["Drawing", "Frames", "step_of"]
+__all__ = ["Frames", "RoomDrawing", "step_of"]
 
 _LEFT_OUT: dict[str, Any] = {
     "handle": None,
@@ -32,12 +32,14 @@ _LEFT_OUT: dict[str, Any] = {
 
 @dataclass(frozen=True)
 class Frames:
-    """The frames of a state: scene : description of the picture.
+    """The frames of a state.
 
     Attributes
     ----------
+    scene : bytes
+        Description of the picture.
     state : bytes
-        The state itself.
+        The state.
     """
 
     scene: bytes
@@ -50,10 +52,10 @@ def step_of(lessons: Mapping[str, Lesson], show: Show) -> LessonStep | None:
     return lesson.steps[show.step - 1] if lesson and 0 < show.step <= len(lesson.steps) else None
 
 
-class Drawing:
+class RoomDrawing:
     """Draws the states of one room, outside the thread of the event loop.
 
-    Each state is drawn whole, so that a follower who arrives late or misses a state needs no other one.
+    Each state is complete, so that a follower who arrives late or misses a state needs no other one.
     """
 
     def __init__(self, lessons: Mapping[str, Lesson]) -> None:
@@ -118,11 +120,11 @@ class Drawing:
         state = dataclasses.replace(state, scene=name)
         return Frames(
             Answer(scene=_describe(scene.name, picture)).encode(),
-            Answer(state=state, block=answer.block, show=self._told(scene, picture, step, show)).encode(),
+            Answer(state=state, block=answer.block, show=self._texts(scene, picture, step, show)).encode(),
         )
 
-    def _told(self, scene: Scene[Any], picture: str, step: LessonStep | None, show: Show) -> str:
-        """Return what followers read beside the picture, as JSON."""
+    def _texts(self, scene: Scene[Any], picture: str, step: LessonStep | None, show: Show) -> str:
+        """Return the texts beside the picture for followers, as JSON."""
         told: dict[str, Any] = {"scene": scene.title, "number": show.step, "revealed": show.revealed, "step": None}
         if step is not None:
             lesson = self._lessons[show.lesson]
@@ -136,7 +138,7 @@ class Drawing:
 
 
 def _picture(scene: Scene[Any], step: LessonStep | None, enlarged: str) -> str:
-    """Return the picture that followers see: that of a guess, the enlarged one, or the first."""
+    """Return the picture for followers: that of a prediction, the enlarged one, or the first one."""
     look = step.look if step is not None else ""
     guess = step.prediction.picture if step is not None and step.prediction else ""
     return next(name for name in (guess, enlarged, look, *scene.open_pictures) if name in scene.pictures)

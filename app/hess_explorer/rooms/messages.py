@@ -68,8 +68,16 @@ class Show:
 
     Attributes
     ----------
-    query : of the state; lesson, step : the step of a lesson, counted from 1, "" for none; revealed : True if its guess
-    is revealed; picture : the enlarged picture, "" for none.
+    query : str
+        Query of the state.
+    lesson : str
+        Name of the lesson, "" for none.
+    step : int
+        Number of its step, from 1.
+    revealed : bool
+        True if the prediction of the step is revealed.
+    picture : str
+        Name of the enlarged picture, "" for none.
     """
 
     query: str
@@ -96,7 +104,7 @@ Message = Open | Lead | Follow | Show | Guess | End
 
 
 def parse(message: Any) -> Message | None:
-    """Return the message in decoded JSON, or None if there is none."""
+    """Return the message that decoded JSON contains, or None if it is not a message."""
     match message:
         case {"open": True}:
             return Open()

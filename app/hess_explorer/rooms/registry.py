@@ -29,7 +29,7 @@ class Rooms:
         self._running: set[asyncio.Task[None]] = set()
 
     def find(self, code: str) -> Room | None:
-        """Return the room of a code."""
+        """Return the room with a code, or None."""
         return self._rooms.get(code)
 
     @property
@@ -38,7 +38,7 @@ class Rooms:
         return len(self._rooms) >= MOST_ROOMS
 
     def open(self, code: str) -> Room:
-        """Return a new room, which is removed when it ends."""
+        """Open a room, which is removed when it ends."""
         room = self._rooms[code] = Room(self._lessons)
         task = asyncio.get_running_loop().create_task(room.run())
         self._running.add(task)

@@ -12,7 +12,7 @@ from contextlib import suppress
 from typing import Protocol
 
 from hess_explorer.lessons.lesson import Lesson, Prediction
-from hess_explorer.rooms.drawing import Drawing, Frames, step_of
+from hess_explorer.rooms.drawing import Frames, RoomDrawing, step_of
 from hess_explorer.rooms.messages import Guess, Show
 
 __all__ = ["ENDED", "GRACE", "LONGEST", "MOST_FOLLOWERS", "PERIOD", "Member", "Room"]
@@ -57,7 +57,7 @@ class Room:
     def __init__(self, lessons: Mapping[str, Lesson]) -> None:
         self.key = secrets.token_urlsafe(32)
         self._lessons = lessons
-        self._drawing = Drawing(lessons)
+        self._drawing = RoomDrawing(lessons)
         self._made = self._left = time.monotonic()
         self._lead: Member | None = None
         self._followers: dict[Member, str] = {}
@@ -75,11 +75,11 @@ class Room:
         return len(self._followers)
 
     def opens_with(self, key: str) -> bool:
-        """Return True for the key of the lecturer; the time does not depend on the key."""
+        """Return whether this is the key of the lecturer, in a time that does not depend on the key."""
         return hmac.compare_digest(self.key.encode(), key.encode("utf-8", "replace"))
 
     def lead(self, member: Member) -> None:
-        """Make a websocket that of the lecturer; it replaces an earlier one."""
+        """Make a websocket the lecturer's; it replaces an earlier one."""
         if self._lead is not None:
             self._lead.close(*REPLACED)
         self._lead, self._told = member, None
@@ -103,20 +103,20 @@ class Room:
             self._news.set()
 
     def show(self, member: Member, show: Show) -> None:
-        """Show a state to all followers, if the lecturer asks for it."""
+        """Show a state to all followers, if the lecturer sends it."""
         if member is not self._lead or show == self._show:
             return
         before, self._show = self._show, show
         if before is None or (before.lesson, before.step) != (show.lesson, show.step):
             self._guesses.clear()
-        elif self._asked is not None and show.revealed and not before.revealed:
+        elif self._prediction is not None and show.revealed and not before.revealed:
             member.put("cloud", json.dumps({"cloud": [*self._guesses.values()]}))
         self._is_drawn = False
         self._news.set()
 
     def guess(self, member: Member, guess: Guess) -> None:
-        """Take the guess of a follower, once for each page, until it is revealed."""
-        name, asked, show = self._followers.get(member), self._asked, self._show
+        """Accept one guess of a follower's page, until the prediction is revealed."""
+        name, asked, show = self._followers.get(member), self._prediction, self._show
         if name is None or asked is None or show is None or show.revealed or guess.step != show.step:
             return
         if name in self._guesses or len(self._guesses) < MOST_FOLLOWERS:
@@ -124,14 +124,14 @@ class Room:
             self._news.set()
 
     def end(self, member: Member) -> None:
-        """End the room, if the lecturer asks for it."""
+        """End the room, if the lecturer requests it."""
         if member is self._lead:
             self._is_over = True
             self._news.set()
 
     @property
-    def _asked(self) -> Prediction | None:
-        """The guess that the current step asks for."""
+    def _prediction(self) -> Prediction | None:
+        """The prediction of the current step; None without one."""
         step = step_of(self._lessons, self._show) if self._show is not None else None
         return step.prediction if step is not None else None
 

@@ -36,7 +36,7 @@ from hess_explorer.views.maps import circle_map as circle
 from hess_explorer.views.plane import andoyer, torus_plane
 from hess_explorer.views.plane.velocity_plane import nice_above, picture
 from hess_explorer.views.plot import Plot
-from hess_explorer.views.text import digits, ranging
+from hess_explorer.views.text import digits, range_text
 from hess_mechanics import parameters as known
 from hess_mechanics.euler_poisson.andoyer import coordinates, hess_circle
 from hess_mechanics.euler_poisson.hess_isomorphism import Bridge, largest_distance, share_of
@@ -270,7 +270,7 @@ class BothSides(State):
 
     def _about_torus(self) -> Caption:
         h, f = digits(self.map.h), digits(self.map.f)
-        width = ranging(self.turning_points.initial_rho, self.turning_points.final_rho)
+        width = range_text(self.turning_points.initial_rho, self.turning_points.final_rho)
         return Caption(numbers=f"h = {h}, f = {f} in units b = 1; |w| {width}.")
 
     def _about_andoyer(self) -> Caption:

@@ -36,7 +36,7 @@ from hess_explorer.scenes.parts.orbits.hess_surface import (
     INVARIANT,
     HeavyTorus,
     HessSurface,
-    shaded_by,
+    shading,
     surface_picture,
 )
 from hess_explorer.scenes.parts.sections import (
@@ -47,8 +47,8 @@ from hess_explorer.scenes.parts.sections import (
     branch_picture,
     coordinate_of_branch,
     end_of_branch,
-    filled,
     filled_picture,
+    filled_section,
     orbits_spread,
     parameter_of_branch,
     points_of_each,
@@ -182,7 +182,7 @@ class EulerPoisson(FilledState):
         _LARGEST,
         doc="Where two momenta G have this energy at the same point of the section: the one with which orbits start.",
     )
-    shade: str = shaded_by()
+    shade: str = shading()
     starts: str = places("The places of the chosen orbits", 12, *_BOUNDS, "0,0.2")
     window: str = places("The window of the section", 2, *_BOUNDS)
 
@@ -220,7 +220,7 @@ class EulerPoisson(FilledState):
         """The splitting of the separatrices."""
         return HessSplit(self, HessTorus(self.moments, self.m, self.h, self.f), self.away)
 
-    section = part(lambda s: filled(s, 16, compute=_crossings, most_steps=200_000))
+    section = part(lambda s: filled_section(s, 16, compute=_crossings, most_steps=200_000))
 
     @part
     def clicks(self) -> Clicks:

@@ -24,7 +24,7 @@ from hess_explorer.views.layers import Columns, Range, column, curves
 from hess_explorer.views.plane import andoyer
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.space.poisson_sphere import Circle, Direction, Sphere, gamma_columns, parallels
-from hess_explorer.views.text import digits, ranging
+from hess_explorer.views.text import digits, range_text
 from hess_mechanics import parameters as known
 from hess_mechanics.euler_poisson import hess_manifold as mechanics
 from hess_mechanics.euler_poisson.andoyer import hess_circle
@@ -211,7 +211,9 @@ class HessLeak(State):
         return Caption(layer, "It stays there." if stays else "It changes layer later.")
 
     def _about_sphere(self) -> Caption:
-        return Caption("γ of the exact and the leaking orbit.", f"n₃ {ranging(*self.hess.turning_points.roots[1:])}.")
+        return Caption(
+            "γ of the exact and the leaking orbit.", f"n₃ {range_text(*self.hess.turning_points.roots[1:])}."
+        )
 
     def quantities(self) -> Iterator[str]:
         """Yield the reduced body and torus, the exact growth and the measured growth."""

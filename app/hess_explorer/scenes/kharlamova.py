@@ -158,14 +158,14 @@ class Kharlamova(State):
         return self.work.need(Task(mechanics.arc, self.body, self.start))
 
     @cached_property
-    def sampled(self) -> tuple[Orbit, Array]:
+    def samples(self) -> tuple[Orbit, Array]:
         """The orbit, and the mirror image (m, 5) of its past."""
         return self.work.need(Task(mechanics.sampled_orbit, self.body, self.start, self.span, self.level))
 
     @property
     def orbit(self) -> Orbit:
         """The orbit."""
-        return self.sampled[0]
+        return self.samples[0]
 
     @cached_property
     def closure_error(self) -> float:
@@ -200,7 +200,7 @@ class Kharlamova(State):
 
     def orbit_columns(self) -> Columns:
         """Return the columns of the orbit and of its mirror image, which the second moving point follows."""
-        orbit, mirror = self.sampled
+        orbit, mirror = self.samples
         q, mirror_q = (self.body.to_plane(states)[0] for states in (orbit.states, mirror))
         tau, mirror_tau = (mechanics.rescaled_time(self.arc, states) for states in (orbit.states, mirror))
         return plane_columns(
@@ -298,19 +298,19 @@ class Kharlamova(State):
             yield f"Back after T: {digits(self.closure_error, 1)}"
         else:
             yield "T = ∞" if self.arc.kind == "asymptotic" else "A fixed point"
-        if self.peek("sampled"):
+        if self.peek("samples"):
             largest = float(np.abs(divergence([*self.orbit.states.T], self.body.parameters)).max())
             yield f"div v = {digits(largest)} on the orbit: the standard measure"
         yield "In τ: Hamiltonian, measure γ₃ dω dγ"
 
     def status(self) -> Iterator[str]:
         """Yield the status of the orbit."""
-        if self.peek("sampled"):
+        if self.peek("samples"):
             yield from orbit_status(self.orbit)
 
     def notes(self) -> Iterator[str]:
         """Yield a warning if the orbit is too long to draw in detail."""
-        if self.peek("sampled") and self.orbit.times.size >= MOST_SAMPLES:
+        if self.peek("samples") and self.orbit.times.size >= MOST_SAMPLES:
             yield f"This long motion is drawn with only {MOST_SAMPLES} points: choose a shorter time span for details."
 
 

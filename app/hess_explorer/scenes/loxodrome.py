@@ -24,7 +24,7 @@ from hess_explorer.views.plane.velocity_plane import pixels_per_unit
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.space.body import BodyInSpace, Curve, Rod, Shape
 from hess_explorer.views.space.poisson_sphere import Circle, Mark
-from hess_explorer.views.text import digits, ranging, vector
+from hess_explorer.views.text import digits, range_text, vector
 from hess_mechanics import parameters as known
 from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.euler_poisson.loxodromic_pendulum import LoxodromicMotion, LoxodromicPendulum, loxodromic_motion
@@ -132,13 +132,13 @@ class Loxodrome(State):
         p, l = self.pendulum, self.pendulum_motion.l
         if p.h < 1.0:
             low, high = sorted(map(float, p.l_at(np.array([-p.amplitude, p.amplitude]))))
-            return Caption("The middle axis oscillates along a loxodrome.", f"l {ranging(low, high)}.")
+            return Caption("The middle axis oscillates along a loxodrome.", f"l {range_text(low, high)}.")
         if p.h == 1.0:
             top = float(p.l_at(np.array([math.pi]))[0])
             return Caption(
                 "The middle axis follows the loxodrome once.", f"l from {digits(l[0])} towards {digits(top)}."
             )
-        return Caption("The middle axis follows the whole loxodrome.", f"l {ranging(l[0], l[-1])}.")
+        return Caption("The middle axis follows the whole loxodrome.", f"l {range_text(l[0], l[-1])}.")
 
     def _about_angle(self) -> Caption:
         measured, theta = self.pendulum_motion.measured[1], self.pendulum.angle

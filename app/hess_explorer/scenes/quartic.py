@@ -35,7 +35,7 @@ from hess_explorer.views.layers import Axes
 from hess_explorer.views.plane import plane_domain, section_plane
 from hess_explorer.views.plane.velocity_plane import centred, nice_above
 from hess_explorer.views.space.poisson_sphere import Sphere, centre_of_mass, parallels
-from hess_explorer.views.text import digits, staying, vector
+from hess_explorer.views.text import digits, variation_text, vector
 from hess_mechanics.dynamics.cells import occupied_cells
 from hess_mechanics.errors import ModelError
 from hess_mechanics.numerics.results import Array
@@ -206,7 +206,9 @@ class Quartic(SectionState):
         return Caption(numbers=f"{counted}orbit in {visited} of {_CELLS * _CELLS} cells.")
 
     def _about_sphere(self) -> Caption:
-        return Caption("The motion of the body.", f"γ = (p₁, p₂, γ₃), γ₃ {staying(self.orbit.path.states[:, 4])}.")
+        return Caption(
+            "The motion of the body.", f"γ = (p₁, p₂, γ₃), γ₃ {variation_text(self.orbit.path.states[:, 4])}."
+        )
 
     def quantities(self) -> Iterator[str]:
         """Yield the moment of inertia, the energy, the start and the error of H = ½."""

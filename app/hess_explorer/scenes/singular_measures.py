@@ -21,7 +21,7 @@ from hess_explorer.views.layers import Columns, Range, column
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.space import cloud
 from hess_explorer.views.space.poisson_sphere import Direction, Sphere
-from hess_explorer.views.text import digits, ranging, vector
+from hess_explorer.views.text import digits, range_text, vector
 from hess_mechanics import parameters as known
 from hess_mechanics.chaplygin_ball.energy_surface import Strip
 from hess_mechanics.chaplygin_ball.equations import BallBody
@@ -184,7 +184,7 @@ class SingularMeasures(State):
 
     def _about_sphere(self) -> Caption:
         first, last = (float(((self.clouds.cloud.gamma[:, i] @ self.strip.xi) ** 2).mean()) for i in (0, -1))
-        return Caption("γ of the same points.", f"Mean of (γ, ξ)² {ranging(first, last, 3)}.")
+        return Caption("γ of the same points.", f"Mean of (γ, ξ)² {range_text(first, last, 3)}.")
 
     def _about_density(self) -> Caption:
         s, mean = self.clouds.density.passed_by_most

@@ -23,8 +23,8 @@ from hess_explorer.scenes.parts.sections import (
     Clicks,
     FilledState,
     Section,
-    filled,
     filled_picture,
+    filled_section,
     periodic_layers,
     section_trials,
     start_on,
@@ -160,7 +160,7 @@ class Suslov(FilledState):
     def section(self) -> Section:
         """The section."""
         ways = (True, False) if self.colours == _BOTH else (True,)
-        return filled(self, 12, ways=ways, later=self.drop == _LATE, alone=self.colours != "basins")
+        return filled_section(self, 12, ways=ways, later=self.drop == _LATE, alone=self.colours != "basins")
 
     clicks = part(lambda s: Clicks(s, "no motion has this energy"))
     orbit = part(lambda s: BodyOrbit(s, s.orbit_level))

@@ -26,7 +26,7 @@ from hess_explorer.scenes.framework.sliders import Slider, accuracy_level, numbe
 from hess_explorer.scenes.framework.solid_body import Solid, hess_solid, solid_body
 from hess_explorer.scenes.framework.trial import COLOUR_UNIT, Trial, boundary_error, colour_error, curve_error
 from hess_explorer.scenes.framework.work import orbit_status
-from hess_explorer.scenes.parts.orbits.hess_surface import INVARIANT, HessSurface, shaded_by, surface_picture
+from hess_explorer.scenes.parts.orbits.hess_surface import INVARIANT, HessSurface, shading, surface_picture
 from hess_explorer.scenes.parts.orbits.proof import OrbitProof, show_proved_error
 from hess_explorer.views.layers import CellGrid, Columns
 from hess_explorer.views.maps import bifurcation_diagram as diagram
@@ -86,7 +86,7 @@ class SuslovHess(State):
         doc="Duration of the orbit, in the time of the body (at most 100 returns).",
     )
     certain: str = show_proved_error()
-    shade: str = shaded_by()
+    shade: str = shading()
     accuracy: str = accuracy_level()
 
     def valid_state(self, notes: list[str]) -> SuslovHess:
@@ -142,10 +142,10 @@ class SuslovHess(State):
     @cached_property
     def track(self) -> Track:
         """The orbit."""
-        return self.work.need(self.finding)
+        return self.work.need(self.orbit_task)
 
     @property
-    def finding(self) -> Task[Track]:
+    def orbit_task(self) -> Task[Track]:
         """The task of the orbit."""
         return Task(track, self.body, self.h, self.f, self.phi0, self.span, self.level, self.half_width)
 

@@ -1,4 +1,4 @@
-"""Which kernels are compiled, and processes that compile others.  This module imports only Numba."""
+"""Track compiled kernels, and start processes that compile the others.  This module imports only Numba."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _MARK = None if CACHE_FOLDER is None else CACHE_FOLDER / f"complete-{_PLACE}-{so
 
 
 def all_compiled() -> bool:
-    """Return True if the kernels of all scenes are on disk."""
+    """Return whether the compiled kernels of all scenes are on disk."""
     return _MARK is not None and _MARK.exists()
 
 
@@ -56,7 +56,7 @@ def compiler(work: str, patience: int = 0) -> subprocess.Popen[bytes]:
     work : str
         Python statements that call the kernels.
     patience : int
-        By how much its priority is lowered.
+        Increment of its "nice" value, which lowers its priority.
 
     Returns
     -------

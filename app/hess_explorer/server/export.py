@@ -17,7 +17,7 @@ from hess_explorer.compute.budget import ClientGone, time_budget
 from hess_explorer.export.formats import FORMATS, SERVED_SECONDS, WIDTHS, FileRequest, formats_of
 from hess_explorer.export.notebook import PROGRAMS
 from hess_explorer.export.picture_data import address, compute
-from hess_explorer.offline.pages import planned, state_page
+from hess_explorer.offline.pages import page_family, state_page
 from hess_explorer.protocol.specs import MAX_QUERY, ChoiceSpec, NumberSpec, decode
 from hess_explorer.scenes import scenes
 from hess_explorer.server.home import home_of
@@ -49,7 +49,7 @@ _SECONDS = 10.0
 
 
 def _needs_browser(name: str, picture: str, kind: str) -> bool:
-    """Return whether a browser draws the file: a film, or a figure of a picture that is no plot."""
+    """Return whether a browser draws the file: a film, or a figure of anything but a plot."""
     scene = scenes().get(name, next(iter(scenes().values())))
     view = next((view for view in scene.views if view.name == picture), scene.views[0])
     return kind in formats_of("film") or (kind in formats_of("figure") and not isinstance(view, Plot))
@@ -73,13 +73,13 @@ class Export(RequestHandler):
         self._left = threading.Event()
 
     def on_connection_close(self) -> None:
-        """Cancel the export, because the client has gone."""
+        """Cancel the export, because the client has disconnected."""
         self._left.set()
         if self._task is not None:
             self._task.cancel()
 
     async def get(self) -> None:
-        """Respond with the file; with 400 and a message if it cannot be made, with 503 if too many requests wait."""
+        """Respond with the file; with 400 and a message if it cannot be created, with 503 if too many requests wait."""
         self._task = asyncio.current_task()
         self.set_header("X-Content-Type-Options", "nosniff")
         if len(self.request.query) > MAX_QUERY:
@@ -130,9 +130,9 @@ class Export(RequestHandler):
             return name, as_file(compute(where), request)
 
     async def _answer_slowly(self, query: str, picture: str, read: dict[str, Any], sliders: Sequence[str]) -> None:
-        """Send a slow file after lines that report its progress.  Raises `ModelError` if it cannot be made."""
+        """Send lines that report the progress, then the file.  Raises `ModelError` if it cannot be created."""
         grid = bool(sliders) and read["grid"] == "1"
-        # A file that cannot be made is refused at once, and not after those that wait.
+        # Reject an impossible file immediately, before it waits in the queue.
         await asyncio.get_running_loop().run_in_executor(_files, self._check_slow, query, picture, sliders, grid)
         options = {
             "state": query,
@@ -166,11 +166,11 @@ class Export(RequestHandler):
         self.flush()
 
     def _check_slow(self, query: str, picture: str, sliders: Sequence[str], grid: bool) -> None:
-        """Raise `InvalidParameter` if a slow file cannot be made."""
+        """Raise `InvalidParameter` if a slow file cannot be created."""
         if not sliders:
             address(query, picture, lenient=True)
             return
-        count = len(planned(query, sliders, grid=grid, lenient=True).points)
+        count = len(page_family(query, sliders, grid=grid, lenient=True).points)
         if count > _MOST_STATES:
             raise InvalidParameter(
                 f"These are {count} states; the server computes at most {_MOST_STATES}: choose fewer values, or use "

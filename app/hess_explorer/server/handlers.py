@@ -1,6 +1,6 @@
-"""Replace handlers of Bokeh's server by the explorer's own.
+"""Replace some handlers of Bokeh's server.
 
-The handlers are in the list `bokeh.server.urls.per_app_patterns`, which Bokeh documents and Panel changes as well.
+They are in the list `bokeh.server.urls.per_app_patterns`, which is documented by Bokeh and also changed by Panel.
 """
 
 from __future__ import annotations

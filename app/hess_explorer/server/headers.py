@@ -32,7 +32,7 @@ _END = "</head>"
 
 
 def _schemes(query: str) -> str:
-    """Return the element that names the theme of a link; the browser paints the first frame in it."""
+    """Return the meta element with the theme of a link, in which the browser paints the first frame."""
     theme = decode(query, (THEME,))[0]["theme"]
     schemes = "light dark" if theme == THEME.default else theme
     return f'<meta name="color-scheme" content="{schemes}">\n    '
@@ -43,10 +43,12 @@ def policy(nonce: str, embedders: tuple[str, ...]) -> str:
 
     Parameters
     ----------
+    nonce : str
+        Nonce of the scripts of this response.
     embedders : tuple of str
         Sites that may embed the page.
     """
-    # Without frame-ancestors any page may embed it, local files included, which "*" would exclude.
+    # Without frame-ancestors any page may embed it, including local files, which "*" would exclude.
     ancestors = "" if "*" in embedders else " ".join(embedders)
     return "; ".join(
         [
@@ -98,7 +100,7 @@ class GuardedDocument(DocHandler):
         self.set_header("Referrer-Policy", "same-origin")
 
     def write(self, chunk: str | bytes | dict[str, object]) -> None:
-        """Write a part of the page; add the program and the theme to its head, and the nonce to scripts.
+        """Write a chunk of the page; add start script and theme to its head, and the nonce to scripts.
 
         Tags in the data are escaped.
         """

@@ -1,4 +1,4 @@
-"""The address of the page as browsers reach it."""
+"""The public address of the page."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _PREFIX = re.compile(r"(/[\w.-]+)+", re.ASCII)
 
 
 def home_of(request: HTTPServerRequest) -> str:
-    """Return the address of the page, with a slash at its end, also behind a proxy that sets X-Forwarded headers."""
+    """Return the public address of the page, with a slash at the end; respects X-Forwarded headers of proxies."""
 
     def told(name: str, allowed: re.Pattern[str], otherwise: str) -> str:
         # Each proxy appends to the header; the first entry is the one that the browser talked to.

@@ -52,13 +52,13 @@ class Hosts(Matcher):
         self._names = {"localhost", "127.0.0.1", "::1", own, f"{own}.local", *map(_bare, (address, *further))}
 
     def match(self, request: HTTPServerRequest) -> dict[str, Any] | None:
-        """Return the arguments of the handler that refuses the request, or None if its host is allowed."""
+        """Return the arguments of the handler that rejects the request, or None if the host is allowed."""
         name = _bare(request.host_name)
         allowed = name in self._names or "*" in self._names or name == _local_address(request)
         return None if allowed else {}
 
     def guard(self, server: Server) -> None:
-        """Refuse all requests to a server for other hosts, whatever their path."""
+        """Reject all requests for other hosts."""
         # Bokeh's server does not expose its Tornado application, and a rule of the host must come before all paths.
         server._tornado.default_router.rules.insert(0, Rule(self, _Refused))
 
@@ -87,7 +87,7 @@ def _local_address(request: HTTPServerRequest) -> str:
 
 
 def is_allowed_origin(handler: RequestHandler, origin: str) -> bool:
-    """Return True for a page of this server, under the host of the request, and for the allowed origins."""
+    """Return whether the origin is this server, under the host of the request, or an allowed origin."""
     host, application = urlsplit(origin).netloc.lower(), cast(BokehTornado, handler.application)
     if host == handler.request.host.lower() or check_allowlist(host, [*application.websocket_origins]):
         return True

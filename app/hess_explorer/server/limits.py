@@ -1,7 +1,7 @@
 """Limit the sessions and the messages of a websocket, and close all websockets when the server shuts down.
 
-A page requests the next state only after the last one is painted.  A client that sends more than a page can is
-disconnected with a reason.
+A page requests the next state only after the last one is painted.  A client that exceeds this rate is disconnected with
+a reason.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ class Capacity:
         self.there = 0
 
     def take(self) -> bool:
-        """Count the session that is being opened until it is destroyed; return False if the server is full."""
+        """Count a new session until it is destroyed; return False if the server is full."""
         if self.there >= self.most:
             return False
         self.there += 1
@@ -49,7 +49,7 @@ class Capacity:
 
     @property
     def sentence(self) -> str:
-        """The message for users who find the server full."""
+        """The message of a server that is full."""
         return (
             f"The explorer is full: this server can have at most {self.most} open pages. Try again in a minute, or "
             "install the explorer on your own machine."
@@ -78,7 +78,7 @@ class RateLimit:
         self._over = False
 
     def takes(self, socket: WebSocketHandler, frame: str | bytes) -> bool:
-        """Return True if the frame is accepted; close the websocket if the rate or the size is too high."""
+        """Return whether a frame is accepted; close the websocket if the rate or the size is too high."""
         now = time.monotonic()
         self._room = min(self._burst, self._room + self._frames * self._rate * (now - self._since)) - 1.0
         self._since = now

@@ -8,7 +8,7 @@ __all__ = ["is_alive"]
 
 
 def is_alive(host: str, port: int) -> bool:
-    """Return True if an explorer responds at this address within 5 s."""
+    """Return whether an explorer responds at this address within 5 s."""
     connection = HTTPConnection(host, port, timeout=5)
     try:
         connection.request("GET", "/liveness")

@@ -1,4 +1,4 @@
-"""Serve the JavaScript modules and the pictures of the scenes, under a URL that changes with them."""
+"""Serve the JavaScript modules and the images of the scenes under a URL that contains their hash."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class _File(StaticFileHandler):
 
 
 class _Bundle(RequestHandler):
-    """Handler of a module that contains those that it imports."""
+    """Handler of a bundled module."""
 
     def get(self, path: str) -> None:
         self.set_header("Content-Type", "text/javascript; charset=utf-8")

@@ -1,4 +1,4 @@
-"""A process that ends with the one that started it.  This module imports nothing but the standard library."""
+"""End a child process with its parent.  This module imports only the standard library."""
 
 import os
 import signal
@@ -7,9 +7,9 @@ __all__ = ["end_with_stdin"]
 
 
 def end_with_stdin() -> None:
-    """End this process at the end of its standard input, which comes when the parent process exits.
+    """Exit at the end of standard input, which the parent process closes when it exits.
 
-    Run it in a separate thread.
+    Run this in a separate thread.
     """
     # Not `sys.stdin`: the interpreter would wait for its lock at exit.
     while os.read(0, 4096):

@@ -53,7 +53,7 @@ def _page() -> str:
 
 
 class RoomPage(RequestHandler):
-    """GET /r/CODE: the page of a follower; its websocket tells whether there is such a room."""
+    """GET /r/CODE: the page of a follower; its websocket reports whether the room exists."""
 
     def get(self, code: str) -> None:
         """Respond with the page."""

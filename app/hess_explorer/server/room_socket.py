@@ -31,7 +31,7 @@ NO_MESSAGE = 1007, "This is no message of a room."
 
 
 class Outbox:
-    """Messages to one websocket: while one is being sent, only the newest of each kind waits."""
+    """Messages to one websocket; while one is being sent, only the newest of each kind waits."""
 
     def __init__(self, socket: WebSocketHandler) -> None:
         self._socket = socket
@@ -55,7 +55,7 @@ class Outbox:
 class RoomSocket(WebSocketHandler):
     """The websocket of a lecturer or follower, at the URL of its room.
 
-    Messages are those of `hess_explorer.rooms.messages`.  The first one decides what the websocket is.
+    Messages are those of `hess_explorer.rooms.messages`.  The first one determines the role of the websocket.
     """
 
     # A phone that stops responding loses its place; it reconnects when it wakes up.
@@ -70,7 +70,7 @@ class RoomSocket(WebSocketHandler):
         self._outbox = Outbox(self)
 
     def check_origin(self, origin: str) -> bool:
-        """Return True for the allowed origins."""
+        """Return whether the origin is allowed."""
         return is_allowed_origin(self, origin)
 
     def open(self, code: str) -> None:

@@ -21,7 +21,7 @@ from tornado.websocket import WebSocketClosedError
 
 from hess_explorer.compute.cache import CACHE
 from hess_explorer.compute.pool import POOL
-from hess_explorer.lessons import shipped
+from hess_explorer.lessons import package_lessons
 from hess_explorer.lessons.lesson import Lesson
 from hess_explorer.page.page import page
 from hess_explorer.rooms.messages import CODE
@@ -51,7 +51,7 @@ logger = logging.getLogger("hess_explorer")
 
 
 class Metrics(RequestHandler):
-    """GET /metrics: the counters of the worker that responds, which a label names, in the Prometheus text format."""
+    """GET /metrics: the counters of this worker in the Prometheus text format."""
 
     def initialize(self, capacity: Capacity, rooms: Rooms) -> None:
         """Store the counters of sessions and rooms."""
@@ -72,7 +72,7 @@ class Metrics(RequestHandler):
 
 
 def _is_news(record: logging.LogRecord) -> bool:
-    """Return False for the error of a page that closed while a response was being sent."""
+    """Return whether to log a record: not the error of a page that closed while a response was being sent."""
     return not (record.exc_info and isinstance(record.exc_info[1], WebSocketClosedError))
 
 
@@ -99,14 +99,14 @@ def _page(lessons: Sequence[Lesson], capacity: Capacity) -> Any:
 
 
 def _own_styles(document: Document) -> None:
-    """Let the style sheets refer to this server; Panel does it only in the process that writes the HTML."""
+    """Let style sheets refer to this server; Panel does so only in the process that writes the HTML."""
     for root in document.roots:
         patch_model_css(root, dist_url=LOCAL_DIST)
 
 
 def _lessons(own: Sequence[Lesson]) -> Mapping[str, Lesson]:
     """Return the available lessons by name."""
-    return {**{lesson.name: lesson for lesson in own}, **shipped()}
+    return {**{lesson.name: lesson for lesson in own}, **package_lessons()}
 
 
 def create_server(
@@ -120,11 +120,11 @@ def create_server(
     workers: int = 1,
     **changed: Any,
 ) -> Server:
-    """Return a server that listens but is not started; the parameters are those of `serve`.
+    """Return a server that listens but is not started; parameters as in `serve`.
 
     Parameters
     ----------
-    changed
+    **changed
         Further options of `panel.io.server.get_server`.
     """
     capacity, rooms = Capacity(sessions), Rooms(_lessons(lessons))

@@ -34,7 +34,7 @@ def compute(name: str, folded: bool = True) -> None:
     name : str
         Name of the scene.
     folded : bool
-        True to include the pictures that are folded at first, and charts.
+        True to include charts and pictures that are hidden at first.
     """
     scene = scenes()[name]
     try:

@@ -33,7 +33,7 @@ class PanelSocket(WSHandler):
     """Panel's websocket with a rate limit; it is closed when the server shuts down."""
 
     def check_origin(self, origin: str) -> bool:
-        """Return True for the allowed origins."""
+        """Return whether the origin is allowed."""
         return is_allowed_origin(self, origin)
 
     def open(self) -> None:
@@ -68,13 +68,13 @@ class StateSocket(WebSocketHandler):
     ping_timeout = 0.0
 
     def initialize(self, capacity: Capacity, lessons: Sequence[Lesson], follow: Callable[[str], None] | None) -> None:
-        """Store the options of `serve`; the number of websockets has the same limit as the number of pages."""
+        """Store the options of `serve`; websockets have the same limit as pages."""
         self._most, self._lessons, self._follow = capacity.most, lessons, follow
         self._connection: Connection | None = None
         self._sent: Future[None] | None = None
 
     def check_origin(self, origin: str) -> bool:
-        """Return True for the allowed origins."""
+        """Return whether the origin is allowed."""
         return is_allowed_origin(self, origin)
 
     def open(self) -> None:

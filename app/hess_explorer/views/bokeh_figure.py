@@ -81,7 +81,7 @@ def build(plot: Plot[Any]) -> figure:
         assert isinstance(ticker, ContinuousTicker)
         ticker.desired_num_ticks = plot.y_tick_count
     sources: dict[str, ColumnDataSource] = {}
-    for layer in (*plot.painted, *([_BOX] if plot.on_box is not None else [])):
+    for layer in (*plot.all_layers, *([_BOX] if plot.on_box is not None else [])):
         name = plot.source_of(layer)
         if layer.glyph in _GLYPHS and name not in plot.followers:
             glyph, positions = _GLYPHS[layer.glyph]
@@ -124,7 +124,7 @@ def describe(plot: Plot[Any]) -> dict[str, Any]:
         ],
         "points": [
             {"source": plot.source_of(layer), **layer.style}
-            for layer in plot.painted
+            for layer in plot.all_layers
             if plot.source_of(layer) in plot.followers
         ],
     }

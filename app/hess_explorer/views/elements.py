@@ -69,7 +69,7 @@ def overlay(
         Maps the colours of the page.
     """
     # Cells lie below all other layers.
-    layers = sorted(plot.painted, key=lambda layer: layer.glyph != "image")
+    layers = sorted(plot.all_layers, key=lambda layer: layer.glyph != "image")
     drawn = [
         _element(layer, columns[plot.source_of(layer)], colour)
         for layer in layers

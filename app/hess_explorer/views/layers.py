@@ -33,6 +33,7 @@ __all__ = [
     "Sources",
     "arrows",
     "column",
+    "compose",
     "curves",
     "dots",
     "image",
@@ -40,7 +41,6 @@ __all__ = [
     "label",
     "levels",
     "line",
-    "mapped",
     "names",
     "points",
     "rectangle",
@@ -198,7 +198,7 @@ MESSAGE: Layer[Any] = Layer(
 """The sentence shown instead of an empty plot."""
 
 
-def mapped(get: Callable[[S], T | None], make: Callable[[T], U]) -> Callable[[S], U | None]:
+def compose(get: Callable[[S], T | None], make: Callable[[T], U]) -> Callable[[S], U | None]:
     """Compose `make` with `get`; None passes through."""
 
     def of(state: S) -> U | None:

@@ -73,7 +73,7 @@ class Plot(Picture[S]):
     kind: ClassVar[str] = "plot"
 
     @property
-    def painted(self) -> Layers[S]:
+    def all_layers(self) -> Layers[S]:
         """All layers from the back to the front, including labels, the moving point and the message."""
         return (*self.layers, *(label(layer) for layer in self.layers if layer.tag), self.point, MESSAGE)
 
@@ -172,14 +172,14 @@ class Plot(Picture[S]):
         sentence = "" if self.message is None else self.message(state)
         sources = [self.source_of(layer) for layer in self.layers]
         columns = [{**drawn.get(source, {}), **found.get(source, {})} for source in sources]
-        labels = tags.placed(self.layers, columns, axes, self.log)
+        labels = tags.label_places(self.layers, columns, axes, self.log)
         found.update({f"{self.name}-{name}-label": one for name, one in labels.items()})
         return {**found, **self._words(self.names(state), sentence, axes)}
 
     def nothing(self, sentence: str, axes: Axes | None) -> Sources:
         """Return the columns of an empty plot with a sentence as message."""
         assert axes is not None
-        empty: Sources = {self.source_of(layer): {} for layer in self.painted}
+        empty: Sources = {self.source_of(layer): {} for layer in self.all_layers}
         return {**empty, **self._words((" ", " "), sentence, axes)}
 
     def _words(self, names: tuple[str, str], sentence: str, axes: Axes) -> Sources:

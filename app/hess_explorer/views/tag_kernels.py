@@ -1,5 +1,5 @@
 # mypy: allow-untyped-defs
-"""Kernels of `tags`: curves and regions on the grid of a frame, and the place where a label covers least.
+"""Kernels of `tags`: draw curves and regions on the grid of a frame, and find the best place of a label.
 
 The grid is indexed [row, column]; lengths are fractions of the frame, from its lower left corner.
 """

@@ -1,7 +1,7 @@
-"""Labels in a planar picture: a free place beside each curve or point, or inside each region, that carries a tag.
+"""Labels in a planar picture: find a free place beside each curve or point with a tag, or inside each region.
 
-Places are found on a coarse grid of the frame, so they cost little and need no text metrics.  All
-lengths are fractions of the frame, from its lower left corner.
+The search on a coarse grid of the frame is cheap and needs no text metrics.  All lengths are fractions of the frame,
+from its lower left corner.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from hess_explorer.views.layers import Axes, Columns, Layer
 from hess_explorer.views.tag_kernels import along, best, fill, mark
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["placed"]
+__all__ = ["label_places"]
 
 _CELLS = 48
 """Cells of the grid along each side."""
@@ -41,15 +41,21 @@ _FRAME = np.ones((_CELLS, _CELLS))
 _DIRECTIONS = np.array([(1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1)], float).T
 
 
-def placed(layers: Sequence[Layer[Any]], columns: Sequence[Columns], axes: Axes, log: str) -> Mapping[str, Columns]:
+def label_places(
+    layers: Sequence[Layer[Any]], columns: Sequence[Columns], axes: Axes, log: str
+) -> Mapping[str, Columns]:
     """Return the columns of the label of each layer with a tag, by the layer's name; empty without a free place.
 
     Parameters
     ----------
-    columns : sequence of Columns
-        Those of each layer.
+    layers : sequence of Layer
+        The layers of a plot.
+    columns : sequence of mappings
+        Columns of each layer.
+    axes : Axes
+        The axes.
     log : str
-        The logarithmic axes.
+        Logarithmic axes: "x", "y" or "xy".
     """
     frame = _Frame(axes, log)
     drawn = [
@@ -91,7 +97,7 @@ class _Frame:
         self._extent = high - self._low
 
     def to(self, x: Any, y: Any) -> Array:
-        """Return at most `_SAMPLES` of the points (2, n) in the frame, without those that have no logarithm."""
+        """Convert points to fractions (2, n) of the frame, at most `_SAMPLES`, without those that have no logarithm."""
         found = np.array([np.asarray(side)[:: len(side) // _SAMPLES + 1] for side in (x, y)], float)
         for i in np.flatnonzero(self._log):
             with np.errstate(divide="ignore", invalid="ignore"):
@@ -112,7 +118,7 @@ def _there(layer: Layer[Any], columns: Columns) -> bool:
 
 
 def _points(layer: Layer[Any], columns: Columns, frame: _Frame) -> Array:
-    """Return the points (2, n) that a layer covers, close together on curves; none for regions, cells and words."""
+    """Return the points (2, n) that a layer covers, dense on curves; empty for regions, cells and words."""
     given = [columns[name] for name in layer.columns]
     if layer.glyph in ("image", "multi_polygons", "text"):
         return np.empty((2, 0))
@@ -132,7 +138,7 @@ def _words(layer: Layer[Any], columns: Columns, frame: _Frame) -> Iterable[tuple
 
 
 def _dense(curve: Array, least: int) -> Array:
-    """Return points evenly along the index of a curve, at least 50."""
+    """Interpolate a curve to at least 50 points, evenly along its index."""
     points: Array = curve if curve.shape[1] < 2 else along(*curve, max(50, least))
     return points
 

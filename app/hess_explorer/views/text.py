@@ -14,9 +14,9 @@ from hess_mechanics.parameters import plain
 __all__ = [
     "conjugates",
     "digits",
-    "ranging",
-    "staying",
+    "range_text",
     "superscript",
+    "variation_text",
     "vector",
     "with_error",
     "with_formulas",
@@ -39,20 +39,20 @@ def with_error(value: float, error: float) -> str:
     return f"{round(value, places) + 0.0:.{places}f} ± {error:.{places}f}".replace("-", "−")
 
 
-def ranging(low: float, high: float, count: int = 4) -> str:
+def range_text(low: float, high: float, count: int = 4) -> str:
     """Return "from … to …", or "= …" if both numbers agree to `count` digits."""
     first, last = digits(low, count), digits(high, count)
     return f"= {first}" if first == last else f"from {first} to {last}"
 
 
-def staying(values: Array) -> str:
-    """Return the range of values (n,) in words."""
+def variation_text(values: Array) -> str:
+    """Return "constant at …" or "between … and …" for values (n,)."""
     low, high = digits(float(values.min())), digits(float(values.max()))
     return f"constant at {low}" if low == high else f"between {low} and {high}"
 
 
 def conjugates(value: complex) -> str:
-    """Return a real number, or a complex pair as a ± bi."""
+    """Format a complex number: the real part if it is real, otherwise the conjugate pair as a ± bi."""
     return digits(value.real) if not value.imag else f"{digits(value.real)} ± {digits(abs(value.imag))}i"
 
 

@@ -1,4 +1,4 @@
-"""Colours, lines and sizes, the same for one object in every picture (Okabe and Ito's palette).
+"""Colours, lines and sizes, consistent across all pictures (palette of Okabe and Ito).
 
 A colour is identified by its value on a light page.  `SHADES` holds the equally clear shade for a dark page;
 the browser swaps them (`looks.js`), in legends by CSS variables.
@@ -61,7 +61,7 @@ def gradient(scale: tuple[str, ...]) -> str:
 
 
 def in_css(style: str) -> str:
-    """Return a CSS style with its colours replaced by variables of the page's theme."""
+    """Replace the colours of a CSS style by variables of the page's theme."""
 
     def variable(found: re.Match[str]) -> str:
         colour, opacity = found[0][:7].upper(), found[0][7:]

@@ -27,7 +27,7 @@ from hess_explorer.scenes.framework.windows import Window, box_window, inside, t
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import CellGrid, Positions
 from hess_explorer.views.picture import Corners
-from hess_explorer.views.text import digits, ranging, with_error
+from hess_explorer.views.text import digits, range_text, with_error
 from hess_mechanics import catalogue
 from hess_mechanics.numerics.accuracy import level
 from hess_mechanics.numerics.results import Array
@@ -162,7 +162,7 @@ class _Chart(Part[Any]):
         rows, _, columns = cells.shape
         said = [f"{columns} × {rows} cells" + f", {rows - coarse} rows known" * (coarse > 0)]
         if self.cells.ends is not None:
-            said.append(f"colours {ranging(*self.cells.ends, 3)}")
+            said.append(f"colours {range_text(*self.cells.ends, 3)}")
         return Caption(verdict, f"{'; '.join(said)}.")
 
 

@@ -12,7 +12,7 @@ from hess_explorer.views import theme
 from hess_explorer.views.layers import Layer, Range, line
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["LG_OF_0", "POWERS", "clipped", "lg", "lg_axis", "limit"]
+__all__ = ["LG_OF_0", "POWERS", "clip", "lg", "lg_axis", "limit"]
 
 S = TypeVar("S")
 
@@ -33,7 +33,7 @@ def lg_axis(largest: float) -> Range:
     return LG_OF_0, math.ceil(2.0 * math.log10(largest)) / 2.0
 
 
-def clipped(values: Array, floor: float) -> Array:
+def clip(values: Array, floor: float) -> Array:
     """Return values (n,), clipped from below at the floor of the axis."""
     return np.asarray(np.maximum(values, floor), float)
 

@@ -9,8 +9,8 @@ import numpy as np
 
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.graphs.graph import about_0, over_time, pieces, thinned
-from hess_explorer.views.layers import Axes, Layers, curves, levels, mapped
+from hess_explorer.views.graphs.graph import about_0, over_time, pieces, thin
+from hess_explorer.views.layers import Axes, Layers, compose, curves, levels
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits
 from hess_mechanics.numerics.results import Array
@@ -68,7 +68,7 @@ def picture(motion_of: Found[S], reason: Callable[[S], str], span: Callable[[S],
         ),
         over_time(
             "tau",
-            mapped(motion_of, lambda motion: thinned(motion.orbit.times, motion.tau)),
+            compose(motion_of, lambda motion: thin(motion.orbit.times, motion.tau)),
             color=theme.ORBIT,
             label="conformal time τ",
             tag="τ",
@@ -81,7 +81,7 @@ def picture(motion_of: Found[S], reason: Callable[[S], str], span: Callable[[S],
         axes=("t", "τ"),
         first=Axes((0.0, 60.0), (-3.0, 3.0)),
         x=lambda s: (0.0, span(s)),
-        y=mapped(motion_of, lambda motion: about_0(motion.tau, _LEAST)),
+        y=compose(motion_of, lambda motion: about_0(motion.tau, _LEAST)),
         layers=layers,
         button="Show the conformal time",
     )

@@ -8,7 +8,7 @@ from typing import TypeVar
 
 import numpy as np
 
-from hess_explorer.views.layers import Layer, Range, curves, mapped
+from hess_explorer.views.layers import Layer, Range, compose, curves
 from hess_explorer.views.plane.velocity_plane import centred, nice_above
 from hess_mechanics.numerics.results import Array, Mask
 
@@ -20,7 +20,7 @@ __all__ = [
     "over_time",
     "pieces",
     "settled_range",
-    "thinned",
+    "thin",
     "with_room",
 ]
 
@@ -44,7 +44,7 @@ def over_time(
 ) -> Layer[S]:
     """Return the layer of a graph over time; `data(state)` returns times and values (n,), or None if unknown."""
     return curves(
-        name, mapped(data, lambda found: [np.column_stack(found)]), color=color, dash=dash, label=label, tag=tag
+        name, compose(data, lambda found: [np.column_stack(found)]), color=color, dash=dash, label=label, tag=tag
     )
 
 
@@ -68,7 +68,7 @@ def with_room(values: Array, share: float, least: float = 0.0) -> Range:
     return low - room, high + room
 
 
-def thinned(x: Array, y: Array) -> tuple[Array, Array]:
+def thin(x: Array, y: Array) -> tuple[Array, Array]:
     """Return a curve reduced to the number of points that a picture resolves."""
     kept = np.unique(np.linspace(0, len(x) - 1, _POINTS).astype(int))
     return x[kept], y[kept]

@@ -11,7 +11,7 @@ import numpy as np
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.graphs.graph import ANGLE, ANGLE_TICKS
-from hess_explorer.views.layers import curves, line, mapped, points
+from hess_explorer.views.layers import compose, curves, line, points
 from hess_explorer.views.picture import Values
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits
@@ -85,25 +85,25 @@ def picture(
         layers=(
             line(
                 "diagonal",
-                mapped(map, lambda theta: (ANGLE, ANGLE)),
+                compose(map, lambda theta: (ANGLE, ANGLE)),
                 columns=here,
                 color=theme.MUTED,
                 dash="dotted",
                 width=1.5,
                 tag="diagonal",
             ),
-            curves("density", mapped(map, _density), color=theme.STABLE, width=1.5, label="density", tag="density"),
+            curves("density", compose(map, _density), color=theme.STABLE, width=1.5, label="density", tag="density"),
             line(
                 "cobweb",
-                mapped(iterates, lambda found: cobweb(found[: _COBWEB + 1])),
+                compose(iterates, lambda found: cobweb(found[: _COBWEB + 1])),
                 columns=here,
                 color=theme.ORBIT,
                 width=1,
             ),
-            curves("map", mapped(map, _copies), color=theme.MAP, width=2.5, label="Θ", tag="Θ"),
+            curves("map", compose(map, _copies), color=theme.MAP, width=2.5, label="Θ", tag="Θ"),
             points(
                 "stable",
-                mapped(map, lambda theta: _fixed(theta, True)),
+                compose(map, lambda theta: _fixed(theta, True)),
                 columns=here,
                 size=12,
                 edge_width=3,
@@ -112,7 +112,7 @@ def picture(
             ),
             points(
                 "unstable",
-                mapped(map, lambda theta: _fixed(theta, False)),
+                compose(map, lambda theta: _fixed(theta, False)),
                 columns=here,
                 size=12,
                 edge_width=3,

@@ -8,7 +8,7 @@ from typing import TypeVar
 import numpy as np
 
 from hess_explorer.views import theme
-from hess_explorer.views.layers import Layer, Layers, Positions, Sign, dots, image, in_window, mapped, ring
+from hess_explorer.views.layers import Layer, Layers, Positions, Sign, compose, dots, image, in_window, ring
 from hess_mechanics.dynamics.attraction import LOST, Arrivals
 from hess_mechanics.dynamics.cells import Window
 from hess_mechanics.numerics.results import Array
@@ -50,7 +50,7 @@ def _kinds(
     labels: tuple[str, ...],
 ) -> Layer[S]:
     """Return the layer of cells (m, n) of kinds 0, 1, …; −1 is empty, and larger numbers count as the last kind."""
-    shifted = mapped(cells, lambda found: np.minimum(found, len(colors) - 1) + 1.5)
+    shifted = compose(cells, lambda found: np.minimum(found, len(colors) - 1) + 1.5)
     return image(
         name,
         in_window(shifted, window),
@@ -84,7 +84,7 @@ def basins(arrivals: Callable[[S], Arrivals | None], window: Callable[[S], Windo
 
     return image(
         "basins",
-        in_window(mapped(arrivals, values), window),
+        in_window(compose(arrivals, values), window),
         palette=(
             *[_CLEAR] * _SHADES,
             *(color + shade for color in theme.BASINS for shade in shades),

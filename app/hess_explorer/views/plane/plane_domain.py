@@ -14,7 +14,7 @@ from hess_explorer.views.layers import Axes, Columns, Layers, Regions, column, c
 from hess_explorer.views.plane.velocity_plane import about_origin, square
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.space.poisson_sphere import gamma_columns
-from hess_explorer.views.text import digits, staying
+from hess_explorer.views.text import digits, variation_text
 from hess_mechanics.numerics.results import Array, Orbit
 
 __all__ = ["ground", "momentum_picture", "orbit", "picture", "plane_columns"]
@@ -104,7 +104,7 @@ def momentum_picture(
                 "An integral, as I₁₁ = I₂₂.",
                 f"{digits(float(values[0]))}, constant to {digits(float(np.ptp(values)), 1)}.",
             )
-        return Caption("No integral, as I₁₁ ≠ I₂₂.", f"Here it is {staying(values)}.")
+        return Caption("No integral, as I₁₁ ≠ I₂₂.", f"Here it is {variation_text(values)}.")
 
     return Plot(
         name="momentum",

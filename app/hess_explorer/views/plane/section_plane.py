@@ -14,8 +14,8 @@ from hess_explorer.views.layers import (
     Layers,
     Positions,
     Regions,
+    compose,
     dots,
-    mapped,
     points,
     rectangle,
     region,
@@ -68,7 +68,7 @@ def layers(
 
 
 def _points(name: str, of: Points[S], color: str, size: float, label: str) -> Layer[S]:
-    return dots(name, mapped(of, np.transpose), color=color, size=size, label=label)
+    return dots(name, compose(of, np.transpose), color=color, size=size, label=label)
 
 
 def _few(found: Array | None) -> Array | None:

@@ -12,7 +12,7 @@ from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import Columns, Layers, Regions, line, region
 from hess_explorer.views.maps.circle_map import cycles
 from hess_explorer.views.plane.velocity_plane import band, ring_outside, velocity_columns
-from hess_explorer.views.text import digits, ranging
+from hess_explorer.views.text import digits, range_text
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov_hess.bifurcation import TurningPoints
 from hess_mechanics.suslov_hess.circle_map import CircleMap
@@ -95,7 +95,7 @@ def about(theta: CircleMap | None, turning_points: TurningPoints | None) -> Capt
     }.get(theta.kind, "No limit cycle: the orbit winds forever.")
     if is_circle(turning_points):
         orbit = "Bifurcation curve: the torus is a circle."
-    return Caption(orbit, f"|w| {ranging(turning_points.initial_rho, turning_points.final_rho)}.")
+    return Caption(orbit, f"|w| {range_text(turning_points.initial_rho, turning_points.final_rho)}.")
 
 
 def about_heights(turning_points: TurningPoints | None) -> Caption:

@@ -15,7 +15,7 @@ from hess_explorer.views.graphs.graph import over_time
 from hess_explorer.views.layers import Axes, Layer, Layers, Sign, Sources, column, levels, line, points
 from hess_explorer.views.picture import Picture
 from hess_explorer.views.plane.velocity_plane import centred, nice_above
-from hess_explorer.views.text import digits, ranging
+from hess_explorer.views.text import digits, range_text
 from hess_mechanics.chaplygin_ball.energy_surface import Strip, line_of_rest
 from hess_mechanics.chaplygin_ball.phase_cloud_density import BIN, SMALLEST, Clouds, Density
 from hess_mechanics.dynamics.sampling import PIXELS
@@ -45,12 +45,12 @@ def _frames(columns: Sequence[Array]) -> np.ndarray:
 
 
 def room(clouds: Clouds) -> float:
-    """Return half the width of a plane with room for all ω of the clouds."""
+    """Return the half width of a plane with room for all ω of the clouds."""
     return nice_above(1.1 * clouds.fastest)
 
 
 def about_ends(clouds: Clouds) -> Caption:
-    """Return the median distance of the points from s = 0 at the start and at the end."""
+    """Return the caption with the median distance of the points from s = 0 at the start and the end."""
     before, after = (digits(math.exp(float(np.median(clouds.cloud.log_s[:, i]))), 3) for i in (0, -1))
     return Caption(
         numbers=f"{clouds.cloud.signs.size} points: half of them start within |s| < {before}, and end within {after}."
@@ -69,20 +69,20 @@ def status_of(clouds: Clouds) -> Iterator[str]:
 
 
 def about_history(clouds: Clouds, of_patch: bool) -> Caption:
-    """Return the change of small volumes, or with `of_patch` of the volume of the patch."""
+    """Return the caption on the change of small volumes, or of the volume of the patch (`of_patch`)."""
     course = clouds.history
     if of_patch:
         text = f"The patch keeps {digits(course.volume[-1], 3)} of its volume"
     else:
         text = (
-            f"Mean of div v {ranging(course.divergence[0, 0], course.divergence[0, -1], 3)}; "
+            f"Mean of div v {range_text(course.divergence[0, 0], course.divergence[0, -1], 3)}; "
             f"mean of ln s(t)/s(0) at the end {digits(course.log_growth[0, -1], 3)}"
         )
     return Caption(numbers=f"{text}; the second cloud preserves volume." if clouds.other is not None else f"{text}.")
 
 
 def largest_distance(clouds: Clouds, exact: Clouds) -> float:
-    """Return the largest distance in pixels, in the plane and on the sphere, of points from more exact ones."""
+    """Return the largest distance in pixels, in the plane and on the sphere, from the points of `exact`."""
     to_pixels = 0.5 * PIXELS * np.array([1.0 / room(exact)] * 2 + [1.0] * 3)
     away = to_pixels * (_points(clouds) - _points(exact))
     return max(float(np.linalg.norm(part, axis=-1).max()) for part in (away[..., :2], away[..., 2:]))
@@ -96,20 +96,20 @@ def _points(clouds: Clouds) -> Array:
 
 @dataclass(frozen=True, kw_only=True)
 class CloudPlane(Picture[S]):
-    """The (ω1, ω2)-plane; its source holds the frames of all clouds, also for a sphere with `clouds`.
+    """The (ω1, ω2)-plane with clouds; its data source is shared with a sphere that shows the same clouds.
 
     Attributes
     ----------
     clouds : callable
         `clouds(state)` returns the moving clouds.
     half_width : callable
-        `half_width(state)` returns axes ± half_width.
+        `half_width(state)` returns half the length of both axes.
     strip : callable
         `strip(state)` returns σ1, σ2 and the line of equilibria at the energy h.
     b3 : callable
-        `b3(state)` returns the field in which the second cloud moves, with I13 = I23 = 0.
+        `b3(state)` returns the field of the second cloud, which has I13 = I23 = 0.
     density : str
-        Source of the density over |s| at the player's time, filled by the browser.
+        Data source of the density over |s| at the time of the player, which the browser computes.
     """
 
     clouds: Callable[[S], Clouds]
@@ -187,7 +187,7 @@ class CloudPlane(Picture[S]):
 
 
 def density_axes(clouds: Clouds) -> Axes:
-    """Return axes between powers of ten about |s| of the cloud; the curve c/|s| joins the corners."""
+    """Return logarithmic axes that contain |s| of the cloud; the curve c/|s| connects two corners."""
     lowest = max(SMALLEST, float(np.quantile(clouds.cloud.log_s[:, -1], 0.02)))
     low = math.floor(lowest / math.log(10.0))
     high = max(math.ceil(float(clouds.density.log_s[-1]) / math.log(10.0)), low + 1)
@@ -196,7 +196,7 @@ def density_axes(clouds: Clouds) -> Axes:
 
 
 def _inside(s: Array, share: Array, axes: Axes) -> tuple[Array, Array]:
-    """Return the share of points per unit of |s| within the frame, from the share per unit of ln|s|."""
+    """Convert the share of points per unit of ln|s| to that per unit of |s|, within the frame."""
     y = np.divide(share, s)
     (x0, x1), (y0, y1) = axes.x, axes.y
     seen = (s >= x0) & (s <= x1) & (y >= y0) & (y <= y1)
@@ -204,9 +204,9 @@ def _inside(s: Array, share: Array, axes: Axes) -> tuple[Array, Array]:
 
 
 def density_layers(density: Callable[[S], Density]) -> Layers[S]:
-    """Return the layers of the density over |s| (log–log): at the start, the end and the player's time, and the mean.
+    """Return the layers of the density over |s|: at the start, at the end, at the time of the player, and the mean.
 
-    The browser fills "now", the share at the player's time.
+    The browser fills "now", the density at the time of the player.
     """
 
     def limit(state: S, axes: Axes) -> tuple[Array, Array]:
@@ -237,12 +237,16 @@ def density_layers(density: Callable[[S], Density]) -> Layers[S]:
 def history_layers(
     times: Callable[[S], Array], history: Callable[[S], Array], beside: Callable[[S], bool]
 ) -> Layers[S]:
-    """Return the layers of mean, minimum, maximum (3, m) over the cloud at times (m,); track "orbit" holds the mean.
+    """Return the layers of a quantity of the cloud over time; the track "orbit" contains the mean.
 
     Parameters
     ----------
+    times : callable
+        `times(state)` returns the times (m,).
+    history : callable
+        `history(state)` returns mean, minimum and maximum (3, m) over the cloud.
     beside : callable
-        Whether there is a cloud on a principal axis, whose values are 0.
+        `beside(state)` returns whether there is a cloud on a principal axis, whose values are 0.
     """
 
     def extreme(name: str, i: int) -> Layer[S]:

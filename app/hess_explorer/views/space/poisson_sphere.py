@@ -33,7 +33,7 @@ S = TypeVar("S")
 
 @dataclass(frozen=True)
 class Circle:
-    """The circle (γ, axis) = height; look: "limit", "stable", "unstable" or "muted"."""
+    """The circle (γ, axis) = height on the sphere, in a style "limit", "stable", "unstable" or "muted"."""
 
     axis: Sequence[float] | Array
     height: float
@@ -45,7 +45,7 @@ EQUATOR = Circle((0.0, 0.0, 1.0), 0.0, "limit")
 
 @dataclass(frozen=True)
 class Mark:
-    """A point of the sphere with a label; look: "stable", "unstable" or "muted"."""
+    """A labelled point on the sphere, in a style "stable", "unstable" or "muted"."""
 
     at: Sequence[float] | Array
     look: str
@@ -72,17 +72,17 @@ def centre_of_mass(b: Sequence[float]) -> Direction | None:
 
 
 def parallels(axis: Sequence[float] | Array, heights: Iterable[float]) -> list[Circle]:
-    """Return limiting circles about an axis; heights of ±1 are points and left out."""
+    """Return the limit circles about an axis, without heights ±1, which are points."""
     return [Circle(axis, height, "limit") for height in heights if abs(height) < 1.0 - 1e-9]
 
 
 def levels_about(axis: Direction | None, heights: Iterable[float]) -> list[Circle]:
-    """Return level circles of a function of the height above an axis; none without an axis."""
+    """Return circles at the given heights about an axis; empty without an axis."""
     return [] if axis is None else [Circle(axis.along, height, "muted") for height in heights]
 
 
 def gamma_columns(gamma: Array) -> Columns:
-    """Return the columns of a track, γ (n, 3) along a motion."""
+    """Return the columns g1, g2 and g3 of γ (n, 3) along a motion."""
     return {f"g{i + 1}": column(gamma[:, i]) for i in range(3)}
 
 
@@ -93,12 +93,12 @@ class Sphere(Picture[S]):
     Attributes
     ----------
     looks : mapping of str to str
-        Track → look, "orbit", "second", "stable", "unstable" or "muted".
+        Style of each track: "orbit", "second", "stable", "unstable" or "muted".
     axis, circles, marks : callable or None
-        Additional marks.
+        An axis, circles and marked points, as functions of the state.
     clouds : str
-        The picture whose clouds it also shows.
-    labels : tuple
+        Name of the picture whose clouds are shown; empty for none.
+    labels : tuple of str
         Names of the three axes.
     """
 
@@ -115,12 +115,12 @@ class Sphere(Picture[S]):
 
     @property
     def needs(self) -> frozenset[str]:
-        """Names of the pictures whose data it requires."""
+        """Names of the pictures whose data the picture requires."""
         return super().needs | ({self.clouds} if self.clouds else set())
 
     @property
     def tracks(self) -> frozenset[str]:
-        """The tracks of the scene that it requires; clouds follow the time of the orbit."""
+        """Names of the tracks that the picture requires; clouds follow the time of the orbit."""
         return frozenset(self.looks) | ({"orbit"} if self.clouds else set())
 
     @property
@@ -135,7 +135,7 @@ class Sphere(Picture[S]):
         return {**super().describe(), "tracks": tracks, "labels": self.labels, **clouds}
 
     def data(self, state: S) -> Sources:
-        """Return the columns of its axis, circles and marks."""
+        """Return the columns of the axis, circles and marks."""
         return {self.name: drawn(self.axis(state), self.circles(state), self.marks(state))}
 
 

@@ -16,7 +16,7 @@ from hess_mechanics.suslov_hess.bifurcation import TurningPoints
 from hess_mechanics.suslov_hess.circle_map import CircleMap
 from hess_mechanics.suslov_hess.embedding import CrossSection
 
-__all__ = ["FORMULA", "POINTS", "Curve", "TorusInSpace", "about"]
+__all__ = ["FORMULA", "POINTS", "SurfaceCurve", "TorusInSpace", "about"]
 
 S = TypeVar("S")
 
@@ -28,8 +28,8 @@ FORMULA = "(w₁, w₂, ṅ₃/ρ₀)/ρ₀, ρ₀ the largest |w| of this h."
 
 
 @dataclass(frozen=True)
-class Curve:
-    """A curve beside or on the torus, (n, 3), and the times (n,) of the player, or None for a closed curve."""
+class SurfaceCurve:
+    """A curve (n, 3) near or on the torus, and the times (n,) of the player; None for a closed curve."""
 
     points: Array
     times: Array | None = None
@@ -44,16 +44,15 @@ class TorusInSpace(Picture[S]):
     surface : callable or None
         `surface(state)` returns its cross-section, or None.
     curves : callable
-        `curves(state)` returns curves by their looks, "orbit", "stable" or "unstable".
+        `curves(state)` returns curves by style: "orbit", "stable" or "unstable".
     zeta : callable or None
-        `zeta(state)` returns the points ζ_s (n,) of the invariant density along the cross-section, or None to leave it
-        out.
+        `zeta(state)` returns the points ζ (n,) of the invariant density along the cross-section, or None without one.
     """
 
     name: str = "surface"
     title: str | Callable[[S], str] = "The torus in space"
     surface: Callable[[S], CrossSection | None]
-    curves: Callable[[S], Mapping[str, Curve]]
+    curves: Callable[[S], Mapping[str, SurfaceCurve]]
     zeta: Callable[[S], Complex | None] = lambda state: None
 
     kind: ClassVar[str] = "torus"
@@ -81,11 +80,11 @@ class TorusInSpace(Picture[S]):
         }
 
     def nothing(self, sentence: str, axes: Axes | None) -> Sources:
-        """Return empty columns; the caption gives the reason."""
+        """Return empty columns; the caption contains the reason."""
         return {self.name: {}, **{self._source(look): {} for look in _LOOKS}}
 
 
-def _columns(curve: Curve | None) -> Columns:
+def _columns(curve: SurfaceCurve | None) -> Columns:
     if curve is None:
         return {}
     times = {} if curve.times is None else {"t": column(curve.times)}
@@ -93,7 +92,7 @@ def _columns(curve: Curve | None) -> Columns:
 
 
 def about(theta: CircleMap | None, turning_points: TurningPoints | None, *more: str) -> Caption:
-    """Return what the surface is, and more sentences; both None on the separatrix."""
+    """Return the caption: kind of surface and `more` sentences; the other arguments are None on the separatrix."""
     return Caption(_kind(theta, turning_points), " ".join(filter(None, more)))
 
 

@@ -18,7 +18,7 @@ from hess_mechanics.errors import ModelError, WorkLimit
 from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["Course", "cropped", "doublings", "piece"]
+__all__ = ["Course", "doublings", "piece", "visible_range"]
 
 _TOGETHER = 30
 """Values of the parameter computed at once: few enough that points arrive soon."""
@@ -114,7 +114,7 @@ def doublings(course: Course) -> Cascade | str:
         return str(error)
 
 
-def cropped(course: Course, side: int, whole: Range) -> Range:
+def visible_range(course: Course, side: int, whole: Range) -> Range:
     """Return the range of a coordinate that contains the attractor, and the repeller if it is near."""
     attractor, repeller = (
         [some[:, side] for some in way.over(way.values, way.place).places]

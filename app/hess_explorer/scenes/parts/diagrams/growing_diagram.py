@@ -27,7 +27,7 @@ from hess_explorer.scenes.parts.diagrams.controls import (
     WAYS,
     DiagramControls,
 )
-from hess_explorer.scenes.parts.diagrams.courses import Course, cropped, doublings, piece
+from hess_explorer.scenes.parts.diagrams.courses import Course, doublings, piece, visible_range
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import Range
 from hess_explorer.views.plane.section_plane import joined
@@ -105,7 +105,7 @@ class OrbitDiagram(Part[DiagramControls]):
             return low, high
         values = tuple(np.linspace(left, right, _GLANCES).tolist())
         glance = Course(self.family, values, self.place, 200, 30, True, plan(Kind.SECTION, "draft").level)
-        return self.work.need(Task(cropped, glance, self.side, (low, high)), preview=None)
+        return self.work.need(Task(visible_range, glance, self.side, (low, high)), preview=None)
 
     @cached_property
     def frame(self) -> Window:

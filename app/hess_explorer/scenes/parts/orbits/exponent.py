@@ -15,7 +15,7 @@ from hess_explorer.scenes.framework.periodic_search import NotFound, Periodic
 from hess_explorer.scenes.framework.trial import Trial
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.graphs.graph import over_time, thinned, with_room
+from hess_explorer.views.graphs.graph import over_time, thin, with_room
 from hess_explorer.views.layers import Axes, Range
 from hess_explorer.views.plane.velocity_plane import nice_above
 from hess_explorer.views.plot import Plot
@@ -87,7 +87,7 @@ class OrbitExponent(Part[_Host]):
         """Times and mean growth rates; None until known."""
         if self.growth is not None:
             return np.array([0.0, self.host.long]), np.full(2, self.growth[0])
-        return None if self.result is None else thinned(self.result.times, self.result.rates)
+        return None if self.result is None else thin(self.result.times, self.result.rates)
 
     @property
     def axis(self) -> Range | None:

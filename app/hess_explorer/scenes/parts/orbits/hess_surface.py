@@ -14,7 +14,7 @@ from hess_explorer.scenes.framework.part import Host, Part
 from hess_explorer.scenes.framework.sliders import choice
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.plane import torus_density
-from hess_explorer.views.space.torus_in_space import FORMULA, POINTS, Curve, TorusInSpace, about
+from hess_explorer.views.space.torus_in_space import FORMULA, POINTS, SurfaceCurve, TorusInSpace, about
 from hess_mechanics.errors import InvalidParameter, ModelError, Separatrix
 from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.results import Array, Complex
@@ -23,12 +23,12 @@ from hess_mechanics.suslov_hess.circle_map import CircleMap
 from hess_mechanics.suslov_hess.embedding import CrossSection, cross_section, density_along, embed
 from hess_mechanics.suslov_hess.torus import Track
 
-__all__ = ["INVARIANT", "HeavyTorus", "HessSurface", "OnTorus", "shaded_by", "surface_picture"]
+__all__ = ["INVARIANT", "HeavyTorus", "HessSurface", "OnTorus", "shading", "surface_picture"]
 
 PLAIN, INVARIANT = "plain", "invariant density"
 
 
-def shaded_by() -> Any:
+def shading() -> Any:
     """Declare whether the torus in space shows the invariant density."""
     return choice(
         "Torus in space",
@@ -141,14 +141,14 @@ class HessSurface(Part[OnTorus]):
         except InvalidParameter as error:
             return None, str(error)
 
-    def curves(self) -> dict[str, Curve]:
+    def curves(self) -> dict[str, SurfaceCurve]:
         """Return the orbit and the limit cycles by style."""
         if self.section is None:
             return {}
         states, times = self.orbit()
-        found = {"orbit": Curve(embed(states, self.host.h), times)}
+        found = {"orbit": SurfaceCurve(embed(states, self.host.h), times)}
         for look, cycle in zip(("stable", "unstable"), self.host.cycles or (), strict=False):
-            found[look] = Curve(embed(cycle.orbit.states, self.host.h))
+            found[look] = SurfaceCurve(embed(cycle.orbit.states, self.host.h))
         return found
 
     def caption(self) -> Caption:

@@ -13,7 +13,7 @@ from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.scene import Motion
 from hess_explorer.scenes.framework.work import Work
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.graphs.chart import POWERS, clipped, limit
+from hess_explorer.views.graphs.chart import POWERS, clip, limit
 from hess_explorer.views.graphs.levels import curves_of_levels, integrals, methods
 from hess_explorer.views.layers import Columns, Range, column, ring
 from hess_explorer.views.plot import Plot
@@ -80,7 +80,7 @@ class Precision:
 
     def _of_method(self, method: str) -> Curve:
         own = [point for point in self.work_points if point.method == method]
-        return clipped(np.array([point.error for point in own]), _FLOOR), np.array([point.ms for point in own])
+        return clip(np.array([point.error for point in own]), _FLOOR), np.array([point.ms for point in own])
 
     def _at_level(self, name: str) -> Curve:
         errors, ms = self._of_method("Taylor")
@@ -91,7 +91,7 @@ class Precision:
         return [(max(self._here.error, _FLOOR), max(self._here.ms, _FLOOR))]
 
     def _over_time(self, values: Array, floor: float = _FLOOR) -> Curve:
-        return self.times, clipped(values, floor)
+        return self.times, clip(values, floor)
 
     def _drift(self, i: int) -> Curve | None:
         drifts = [*self._drifts.values()]
@@ -104,9 +104,9 @@ class Precision:
         """Return the columns that the moving points follow."""
         return {
             "t": column(self.times),
-            "growth": column(clipped(self.growth.errors[self.work.chosen], _FLOOR)),
-            "drift": column(clipped(np.max([*self._drifts.values()], axis=0), _FLOOR)),
-            "pixels": column(clipped(self.growth.pixels[self.work.chosen], _PIXEL_FLOOR)),
+            "growth": column(clip(self.growth.errors[self.work.chosen], _FLOOR)),
+            "drift": column(clip(np.max([*self._drifts.values()], axis=0), _FLOOR)),
+            "pixels": column(clip(self.growth.pixels[self.work.chosen], _PIXEL_FLOOR)),
         }
 
     def choose(self, x: float, y: float) -> Mapping[str, str]:

@@ -51,7 +51,7 @@ class ProvedError:
 
 class _Host(Host, Protocol):
     @property
-    def finding(self) -> Task[Orbit | Track]:
+    def orbit_task(self) -> Task[Orbit | Track]:
         """The task of the orbit, an `Orbit` or a `Track`.  Raises `ModelError`."""
 
     def motion(self) -> Motion:
@@ -80,7 +80,7 @@ class OrbitProof(Part[_Host]):
             return None
         if not has_flint():
             return ProvedError("proofs need python-flint: pip install 'hess-explorer[prove]'")
-        return self.work.need(Task(proved_error, self.host.finding, self.host.motion(), self.units), preview=None)
+        return self.work.need(Task(proved_error, self.host.orbit_task, self.host.motion(), self.units), preview=None)
 
     @property
     def band(self) -> list[list[Array]]:
@@ -99,9 +99,9 @@ class OrbitProof(Part[_Host]):
             yield self.error.sentence
 
 
-def proved_error(finding: Task[Orbit | Track], motion: Motion, units: tuple[float, float]) -> ProvedError:
+def proved_error(orbit_task: Task[Orbit | Track], motion: Motion, units: tuple[float, float]) -> ProvedError:
     """Prove the error of an orbit by a rigorous enclosure (tube) of its motion."""
-    found: Orbit | Track = finding.get()
+    found: Orbit | Track = orbit_task.get()
     orbit, omega, gamma = (
         (found.orbit, found.omega, found.gamma)
         if isinstance(found, Track)

@@ -7,7 +7,7 @@ from hess_explorer.scenes.parts.sections.branch import (
     end_of_branch,
     parameter_of_branch,
 )
-from hess_explorer.scenes.parts.sections.clicks import Clicks, filled, orbits_spread, points_of_each
+from hess_explorer.scenes.parts.sections.clicks import Clicks, filled_section, orbits_spread, points_of_each
 from hess_explorer.scenes.parts.sections.indicator import MEGNO, Indicator, colouring
 from hess_explorer.scenes.parts.sections.orbit import BodyOrbit, orbit_picture
 from hess_explorer.scenes.parts.sections.periodic_orbit import (
@@ -41,8 +41,8 @@ __all__ = [
     "coordinate_of_branch",
     "crossings_of_each",
     "end_of_branch",
-    "filled",
     "filled_picture",
+    "filled_section",
     "first_place",
     "length_of_manifolds",
     "orbit_picture",

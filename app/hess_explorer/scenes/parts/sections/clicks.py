@@ -22,7 +22,7 @@ from hess_mechanics.dynamics.return_map import PoincareSection
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["Clicks", "filled", "orbits_spread", "points_of_each"]
+__all__ = ["Clicks", "filled_section", "orbits_spread", "points_of_each"]
 
 Place = tuple[float, float]
 
@@ -184,7 +184,7 @@ class Clicks(Part[_Host]):
             )
 
 
-def filled(state: Any, held: int, **more: Any) -> Section:
+def filled_section(state: Any, held: int, **more: Any) -> Section:
     """Return the section of a state, with the orbits of its `clicks` and `orbits` others that fill the window.
 
     Parameters

@@ -12,7 +12,7 @@ from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.parts.orbits.exponent import OrbitExponent, exponent_picture
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.graphs.graph import over_time, settled_range, thinned
+from hess_explorer.views.graphs.graph import over_time, settled_range, thin
 from hess_explorer.views.layers import Axes, Range, levels
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits, with_error
@@ -45,7 +45,7 @@ class Divergence(OrbitExponent):
 
     def rate(self, i: int) -> tuple[Array, Array] | None:
         """Return the curve of the exponent (0), or of the mean divergence (1)."""
-        return thinned(*self.both[i]) if self.both else None
+        return thin(*self.both[i]) if self.both else None
 
     @property
     def axis(self) -> Range | None:

@@ -63,7 +63,7 @@ class BodyOrbit(Part[_Host]):
     max_step: float = 0.0
 
     @property
-    def finding(self) -> Task[results.Orbit]:
+    def orbit_task(self) -> Task[results.Orbit]:
         """The task of its samples."""
         host = self.host
         level = self.work.level if self.accuracy is None else self.accuracy()
@@ -73,7 +73,7 @@ class BodyOrbit(Part[_Host]):
     @cached_property
     def path(self) -> results.Orbit:
         """The sampled orbit: `times` (n,) and `states` (n, d)."""
-        return self.work.need(self.finding)
+        return self.work.need(self.orbit_task)
 
     def motion(self) -> Motion:
         """Return the motion of the orbit, for "Speed and accuracy"."""
