@@ -75,7 +75,8 @@ def test_each_field_of_a_request_is_read():
     )
     # Empty and missing have different meanings.
     assert parse({"values": {}, "hidden": []}) == Request(values={}, hidden=[])
-    assert parse({}) == Request()
+    # Only true is true.
+    assert parse({"held": 1}) == parse({}) == Request()
 
 
 @given(st.binary(), st.booleans())
