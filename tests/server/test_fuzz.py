@@ -19,9 +19,9 @@ from hess_explorer.__main__ import main
 from hess_explorer.commands import COMMANDS
 from hess_explorer.commands.compute import command_of
 from hess_explorer.commands.output import PATIENCE
-from hess_explorer.compute.budget import limited
-from hess_explorer.page.requested import linked
-from hess_explorer.protocol.specs import CLIENT, ChoiceSpec, Formula, Link, NumberSpec, written
+from hess_explorer.compute.budget import time_budget
+from hess_explorer.page.requested import scene_and_values
+from hess_explorer.protocol.specs import CLIENT, ChoiceSpec, Formula, Link, NumberSpec, places_text
 from hess_explorer.scenes import scenes
 from hess_mechanics.catalogue import catalogue
 from support.asynchronous import wait_until
@@ -108,9 +108,9 @@ def quiet(caplog):
 @given(query=links())
 def test_links(query):
     there = Link(query)
-    scene, found = linked(there, next(iter(scenes())))
+    scene, found = scene_and_values(there, next(iter(scenes())))
     # As the server limits an answer.
-    with limited(Event()):
+    with time_budget(Event()):
         browser = Browser(scene, found, there.notes)
     end(browser)
     assert_answered(browser)
@@ -119,10 +119,10 @@ def test_links(query):
 @settings(max_examples=examples(4), suppress_health_check=SLOW)
 @given(data=st.data(), scene=SCENES)
 def test_messages(data, scene):
-    with limited(Event()):
+    with time_budget(Event()):
         browser = Browser(scene)
     for number in range(1, data.draw(st.integers(1, 6)) + 1):
-        with limited(Event()):
+        with time_budget(Event()):
             state = browser.ask(number, **data.draw(message(browser.scene)))
         assert state["answers"] == number
         assert_answered(browser)
