@@ -48,7 +48,7 @@ def value(spec):
         return mostly(st.sampled_from(spec.options))
     if isinstance(spec, Formula):
         return mostly(st.sampled_from(["", "g1", "0.5*g1^2 - g3", "g1^9"]))
-    return mostly(st.lists(st.tuples(*map(st.floats, spec.low, spec.high)), max_size=spec.most + 2).map(written))
+    return mostly(st.lists(st.tuples(*map(st.floats, spec.low, spec.high)), max_size=spec.most + 2).map(places_text))
 
 
 def values(specs):
