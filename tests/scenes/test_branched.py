@@ -9,7 +9,6 @@ from pytest import approx
 
 from hess_explorer.scenes import scenes
 from hess_mechanics.dynamics.periodic import apart
-from support.ball import derivative, returned
 from support.thorough import sample
 from support.view import View, values_of
 
@@ -42,36 +41,6 @@ def points_of(view):
         for part in view.result.branch.branches
         for point in zip(part.values.tolist(), part.places, part.multipliers, strict=True)
     ]
-
-
-def test_the_branch_of_an_orbit_born_there_turns_at_the_pitchfork():
-    view = shown("quartic")
-    ((kind, value, error),) = marks(view)
-    (exact,) = (one.value for part in view.result.branch.branches for one in part.bifurcations)
-    assert (kind, value) == ("pitchfork", approx(exact, abs=1e-8))
-    assert error < 1e-7
-    # It lies on one side of it, with an orbit and its mirror image at each h.
-    found = np.array([(h, *there[0]) for h, there, _ in points_of(view)])
-    assert found[:, 0].min() >= exact - 1e-9
-    for sign in (1.0, -1.0):
-        assert found[sign * found[:, 1] > 0.0, 0].max() == approx(0.95, abs=1e-9)
-    assert view.curve("branch-branch-neither")[0].min() == approx(exact, abs=1e-4)
-    assert view.data["branch-bifurcation-names"]["text"] == ["pitchfork"]
-    said = "Branch of the periodic orbit\nPeriod 1, elliptic here. 1 bifurcation on its branch."
-    assert view.text["branch"] == said
-
-
-def test_an_orbit_of_the_ball_doubles_where_another_integrator_finds_the_multiplier_minus_one():
-    view = shown("ball-section")
-    ((kind, value, error),) = marks(view)
-    assert (kind, error < 1e-8) == ("flip", True)
-    (flip,) = (one for part in view.result.branch.branches for one in part.bifurcations)
-    values = {**view.values, "I13": flip.value}
-    assert returned(values, flip.places[0]) == approx(flip.places[0], abs=1e-8)
-    assert np.linalg.eigvals(derivative(values, flip.places[0])).real.min() == approx(-1.0, abs=1e-5)
-    # It attracts on one side, and is a saddle on the other: other colours.
-    attracts, repels = (view.curve(f"branch-branch-{sign}")[0] for sign in ("attracts", "repels"))
-    assert attracts.max() == approx(value, abs=1e-5) == approx(repels.min(), abs=1e-5)
 
 
 @pytest.mark.parametrize("name", sample(EXAMPLES, 2))

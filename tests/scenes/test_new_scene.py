@@ -1,6 +1,6 @@
 """A scene of a system that is not in the package, written by the guide "A scene" of the documentation."""
 
-from math import cos, sin, sqrt
+from math import cos, sin
 from pathlib import Path
 
 import numpy as np
@@ -10,7 +10,6 @@ from pytest import approx
 from hess_mechanics.dynamics.return_map import ReturnMap
 from hess_mechanics.errors import OutsideRegion
 from hess_mechanics.numerics.accuracy import level
-from support.mechanics import followed
 from support.pendulum import mechanics, scene
 from support.view import View
 
@@ -34,23 +33,6 @@ def test_the_section_shows_a_curve_of_the_angular_momentum():
     expected = angular_momentum(0.8, 0.5, 1.0, 0.5)
     assert angular_momentum(*points.T, 1.0, 0.5) == approx(expected, abs=1e-5)
     assert "200 crossings of the chosen orbit" in view.text["section"]
-
-
-def test_the_orbit_is_that_of_scipy():
-    view = View(SCENE, {"E": 0.7, "span": 12.0, "accuracy": "precise"})
-    # By Newton's equations with the force along the rod, from θ = 0.8, u = 0.5.
-    sine, cosine = sin(0.8), cos(0.8)
-    velocity = [0.5 * cosine, sqrt(2.0 * (0.7 + cosine) - 0.25), 0.5 * sine]
-
-    def field(t, y):
-        v, x = y[:3], y[3:]
-        return np.concatenate([np.array([0.0, 0.0, -1.0]) + (x[2] - v @ v) * x, v])
-
-    exact = followed(field, [*velocity, sine, 0.0, -cosine], view.data["data-orbit"]["t"])
-    # Data are sent to the browser in single precision.
-    assert np.abs(view.columns("data-orbit", "x1", "x2") - exact[:, 3:5]).max() < 1e-6
-    assert "section" in view.report.status
-    assert "Taylor steps" in view.report.status
 
 
 def test_an_energy_without_motions_is_said_and_not_drawn():

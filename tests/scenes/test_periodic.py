@@ -1,7 +1,7 @@
 """Periodic orbits in the four scenes with a section: drawings and captions."""
 
 from functools import cache
-from math import log, pi
+from math import pi
 
 import numpy as np
 import pytest
@@ -14,7 +14,6 @@ from hess_explorer.scenes.framework.windows import pixels_in
 from hess_explorer.views.layers import Axes
 from hess_explorer.views.plane.periodic import within
 from hess_mechanics.dynamics.periodic import apart
-from support.ball import returned as ball_returned
 from support.view import View, values_of
 
 NAMES = ("suslov", "quartic", "ball-section", "euler-poisson")
@@ -45,44 +44,6 @@ def drawn(view):
     return {name for name in LAYERS if any(map(len, view.data.get(f"section-{name}", {}).values()))}
 
 
-@pytest.mark.parametrize(
-    "periodic, start, kind, example",
-    [
-        ("period 1", "0.97,1.82", "saddle with reflection", "A chaotic"),
-        ("period 2", "0.756,1.911", "saddle with reflection", "Strange"),
-        ("any period", "0.245,2.399", "stable focus", "Two"),
-    ],
-)
-def test_a_periodic_orbit_of_the_suslov_problem_is_one_and_has_its_multipliers(periodic, start, kind, example):
-    given = {**values_of(scenes()["suslov"], example), "colours": "forward only", "starts": start, "reach": 1.0}
-    view = shown("suslov", periodic, *{**given, **LIGHT["suslov"]}.items())
-    closed = view.result.periodic_orbit.closed
-    orbit, (first, second) = closed.orbit, closed.orbit.multipliers
-    assert orbit.kind == kind
-    # The caption has period, kind, multipliers and what they may be off.
-    pattern, numbers = "#, #", [first.real, second.real]
-    if first.imag:
-        pattern, numbers = "# ± #i", [first.real, abs(first.imag)]
-    said = view.numbers("section", f"\nPeriod #, {kind}. Multipliers μ = {pattern}, to")
-    assert said == approx([orbit.period, *numbers], rel=1e-3)
-    assert view.derived("T = #, periodic") == approx([closed.time], rel=6e-4)
-    across, divergence = view.numbers(
-        "exponent", "\nFrom the multipliers of the periodic orbit. ln|μ₁|/T = #, div = ln|μ₁μ₂|/T = #."
-    )
-    assert across == approx(log(abs(first)) / closed.time, abs=1e-3)
-    assert divergence == approx(log(abs(first * second)) / closed.time, abs=1e-3)
-    assert np.unique(view.curve("exponent-lambda")[1]) == approx([across], abs=1e-4)
-    # Its points have the sign of its kind, and the linked pictures show it, once round.
-    sign = "attracts" if kind.startswith("stable") else "repels"
-    homoclinic = {"homoclinic"} if view.result.periodic_orbit.homoclinic else set()
-    assert drawn(view) == ({sign} if sign == "attracts" else SADDLE | homoclinic)
-    assert view.points(sign) == approx(orbit.places)
-    track = view.columns("data-orbit", "t", "g1", "g2", "g3")
-    assert track[-1, 0] == approx(closed.time, rel=1e-5)
-    assert track[-1, 1:] == approx(track[0, 1:], abs=2e-4)
-    assert view.points("chosen")[-1] == approx(orbit.places[0])
-
-
 def test_a_manifold_ends_where_the_map_jumps_and_no_line_is_drawn_across():
     view = shown("suslov", "any period")
     ends = [one for one in view.result.periodic_orbit.manifolds if "the map jumps" in one.end_reason]
@@ -108,17 +69,6 @@ def test_where_every_orbit_of_the_ball_closes_the_chosen_one_is_parabolic():
     # It is followed by itself.
     returns = view.data["returns-own"]
     assert (np.asarray(returns["x"]), np.asarray(returns["y"])) == (approx([0.5]), approx([0.5]))
-
-
-def test_an_orbit_of_period_five_has_five_points_in_its_first_return():
-    values = values_of(scenes()["ball-section"], "Mixed") | LIGHT["ball-section"] | {"psi": -1.0, "delta": 2.0}
-    view = shown("ball-section", "period 5", *values.items())
-    assert view.text["returns"].endswith("Each ψ against the next. Period 5.")
-    places = view.points("repels")
-    assert ball_returned(view.values, places[0]) == approx(places[1], abs=1e-5)
-    returns = view.columns("returns-own", "x", "y")
-    assert returns == approx(np.column_stack([places[:, 0], np.roll(places[:, 0], -1)]), abs=1e-6)
-    assert len(np.unique(np.round(returns, 3), axis=0)) == 5
 
 
 @pytest.mark.parametrize("name", NAMES)

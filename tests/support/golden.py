@@ -28,6 +28,8 @@ FEW = 32
 """So many items have an exact number; of longer columns it belongs to adaptive steps."""
 PLACED = ("-label", "-names", "-message")
 """Sources of texts in pictures; their places are where there is room."""
+LESS = {"orbits": 4.0, "count": 20.0, "long": 20.0, "steps": 20.0}
+"""What is computed of sections, exponents and diagrams: all that does not depend on how much is shown."""
 MOMENTS = np.array([0.0, 0.1131, 0.2917, 0.5323, 0.8311])
 """Times at which the direction of γ is recorded, relative to the time span: no motion is the same at all of them."""
 SPARSE = 0.3
@@ -41,7 +43,9 @@ COUNTED = re.compile(r"\d[\d,]*(?= (?:Taylor steps|steps|points|evaluations))")
 
 def view_of(scene, preset):
     """Return the view of a preset with all of its pictures; its notes and refusals belong to the record."""
-    return View(scene, preset.values, noted=True, refusing=True)
+    less = {name: number for name, number in LESS.items() if name in scene.defaults()}
+    coarse = {"accuracy": "draft"} if preset.values.get("colours") == "basins" else {}
+    return View(scene, {**preset.values, **less, **coarse}, noted=True, refusing=True)
 
 
 def record(view):
