@@ -17,8 +17,13 @@ from support.board import SCENES, flat
 from support.view import View
 
 PRESETS = Path(__file__).parents[1] / "scenes/presets.json"
-OWN = [scene for scene in SCENES.values() if scene.origin is None]
-"""The scenes that look into no other one; the others show what computations cost."""
+EXAMPLES = [
+    (scene, preset)
+    for scene in SCENES.values()
+    if scene.origin is None
+    for preset in (scene.presets[:1] if scene.name == "own-body" else scene.presets)
+]
+"""All but those of the scenes that show what computations cost, and of bodies whose equations take 20 s to compile."""
 
 PIXEL = 1e-3
 """What a picture can show of a column, relative to its largest number."""
@@ -35,17 +40,18 @@ MOMENTS = np.array([0.0, 0.1131, 0.2917, 0.5323, 0.8311])
 SPARSE = 0.3
 """Where γ turns by more from a sample to the next one, chords tell nothing of what is between them."""
 COST = re.compile(r"\d (ms|s)\b|^auto")
-DIGITS = re.compile(r"(?<![\w₀-₉])(?:−?\d+(?:,\d{3})*(?:\.\d+)?(?:e−?\d+)?|#)")
+DIGITS = re.compile(r"(?<![\w₀-₉])(?:−?\d+(?:,\d{3})*(?:\.\d+)?(?:e[−+]?\d+)?|#)")
 ROUND_OFF = 1e-5
 """Smaller numbers in texts are errors."""
-COUNTED = re.compile(r"\d[\d,]*(?= (?:Taylor steps|steps|points|evaluations))")
+COUNTED = re.compile(r"\d[\d,]*(?= (?:Taylor steps|steps|points))|(?<=crossing )\d+")
+"""Numbers in the status line that are those of adaptive steps."""
 
 
-def view_of(scene, preset):
-    """Return the view of a preset with all of its pictures; its notes and refusals belong to the record."""
+def view_of(scene, preset, seen=None):
+    """Return the view of a preset with all of its pictures, or these; what is refused belongs to the record."""
     less = {name: number for name, number in LESS.items() if name in scene.defaults()}
     coarse = {"accuracy": "draft"} if preset.values.get("colours") == "basins" else {}
-    return View(scene, {**preset.values, **less, **coarse}, noted=True, refusing=True)
+    return View(scene, {**preset.values, **less, **coarse}, seen=seen, refusing=True)
 
 
 def record(view):
