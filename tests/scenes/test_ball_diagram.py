@@ -1,4 +1,4 @@
-"""The orbit diagrams of the ball in a field: what its examples show."""
+"""The orbit diagrams of the ball in a field: periods near a doubling."""
 
 import numpy as np
 import pytest

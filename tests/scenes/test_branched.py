@@ -1,4 +1,4 @@
-"""The branch of a periodic orbit beside a section: against SciPy; clicks, words."""
+"""The branch of a periodic orbit beside a section: its range, clicks and words."""
 
 import re
 from functools import cache

@@ -1,9 +1,5 @@
-"""The scenes "leak off the Hess manifold" and "bridge": captions of the examples agree with the results.
+"""The scenes "leak off the Hess manifold" and "bridge": both sides, their bounds and their notes."""
 
-The numbers are held against closed forms; the motions are in `models/extremes/test_special_motions.py`.
-"""
-
-from functools import cache
 from math import copysign, sqrt
 
 import numpy as np
@@ -11,23 +7,8 @@ import pytest
 from pytest import approx
 
 from support.board import Browser
-from support.bridge import (
-    BRIDGE,
-    LEAK,
-    values_of,
-)
+from support.bridge import BRIDGE, LEAK
 from support.view import View
-
-
-@cache
-def leak(name, accuracy="standard"):
-    return View(LEAK, {**values_of(LEAK, name), "accuracy": accuracy})
-
-
-@cache
-def bridge(name):
-    return View(BRIDGE, values_of(BRIDGE, name))
-
 
 # ---- the leak ----------------------------------------------------------------------------------------------------
 

@@ -1,7 +1,4 @@
-"""The scene of the Euler–Poisson sections: names and captions of the examples agree with the results.
-
-The numbers are held against orbits that are followed for longer, and against the energy written out.
-"""
+"""The scene of the Euler–Poisson sections: sheets, starts, and what is said where there is nothing to draw."""
 
 import re
 from math import sqrt

@@ -1,7 +1,4 @@
-"""The scenes "free Suslov problem" and "scattering": every example shows what its name and its captions promise.
-
-The mechanics has tests of its own: here columns and captions are held against its results.
-"""
+"""The scenes "free Suslov problem" and "scattering": captions are those of the model, and clicks choose."""
 
 from math import cos, log, sqrt
 

@@ -1,4 +1,4 @@
-"""The scenes "principal axis, b3 = 0" and "b1 = b2 = 0": every example shows what its name and its captions promise."""
+"""The scenes "principal axis, b3 = 0" and "b1 = b2 = 0": kinds of motions, starts at the edge, clicks."""
 
 from math import sqrt
 

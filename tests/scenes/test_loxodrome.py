@@ -1,4 +1,4 @@
-"""The scene "loxodromic pendulum", and the body on the Suslov–Hess page: pictures and captions are correct."""
+"""The scene "loxodromic pendulum": the track in space, and the status line."""
 
 import re
 from math import pi

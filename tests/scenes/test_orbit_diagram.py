@@ -1,4 +1,4 @@
-"""The scene of orbit diagrams: what its examples show, what a click chooses, what captions say."""
+"""The scene of orbit diagrams: attractors and repellers, the density, clicks, the way back."""
 
 from dataclasses import replace
 from math import log

@@ -1,4 +1,4 @@
-"""*Your own body*: its section and its energy against motions that are computed again."""
+"""*Your own body*: the change of its energy is the work of its drive."""
 
 import numpy as np
 from pytest import approx

@@ -1,4 +1,4 @@
-"""Periodic orbits in the four scenes with a section: drawings and captions."""
+"""Periodic orbits in the four scenes with a section: how long they are followed, their manifolds, what is said."""
 
 from functools import cache
 from math import pi

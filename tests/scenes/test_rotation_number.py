@@ -1,7 +1,4 @@
-"""The scene "rotation number": captions of the examples agree with the results.
-
-Rotation numbers of the other family are counted by iterating it.
-"""
+"""The scene "rotation number": its window, its levels, and where nothing is possible."""
 
 import math
 

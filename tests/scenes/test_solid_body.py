@@ -1,4 +1,4 @@
-"""The body of the orbit on show: a rigid body's ellipsoid, wheels that obey the constraint, and how it lies."""
+"""The ellipsoid of the body on show is that of a rigid body, where there is one."""
 
 import numpy as np
 import pytest

@@ -1,7 +1,4 @@
-"""The scene "Suslov problem with gravity": captions of the examples agree with the results.
-
-Crossings, divergences and basins are in `models/suslov/test_section.py`.
-"""
+"""The scene "Suslov problem with gravity": basins, planes, starts, windows, and what is said of attractors."""
 
 from functools import cache
 from math import atan2, cos, hypot, pi, sin

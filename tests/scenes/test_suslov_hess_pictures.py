@@ -1,4 +1,4 @@
-"""The pictures of the Suslov–Hess scene: their data and captions."""
+"""The torus in space of the Suslov–Hess scene: what it is, and the curves on it."""
 
 import numpy as np
 import pytest

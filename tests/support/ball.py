@@ -1,6 +1,6 @@
 """The Chaplygin ball of the scenes: its equations as a 2 × 2 system solved at every call, its energy and circles."""
 
-from math import atan2, cos, hypot, pi, sin, sqrt
+from math import atan2, hypot, pi
 
 import numpy as np
 
@@ -79,24 +79,3 @@ def first_returns(values, start, count):
 def angles(states):
     psi = np.arctan2(states[:, 3], states[:, 2])
     return np.column_stack([psi, np.mod(np.arctan2(states[:, 1], states[:, 0]) - psi, 2.0 * pi)])
-
-
-def returned(values, place):
-    """(ψ, δ) where SciPy's motion of the ball next comes through γ3 = 0 upwards."""
-    psi, delta = place
-    gamma, u = [cos(psi), sin(psi), 0.0], np.array([cos(psi + delta), sin(psi + delta)])
-    unit, rest = (energy_of(values, [*(size * u), *gamma]) for size in (1.0, 0.0))
-    E = values["h"] - hypot(values["b1"], values["b2"])
-    start = [*(sqrt((E - rest) / (unit - rest)) * u), *gamma]
-    return angles(first_returns(values, start, 1))[0]
-
-
-def derivative(values, place, step=2e-4):
-    """Return the derivative of the ball's return map, by differences of fourth order."""
-    columns = []
-    for axis in np.eye(2):
-        far, near = (
-            [returned(values, place + sign * size * axis) for sign in (1.0, -1.0)] for size in (step, 0.5 * step)
-        )
-        columns.append((8.0 * (near[0] - near[1]) - (far[0] - far[1])) / (6.0 * step))
-    return np.column_stack(columns)

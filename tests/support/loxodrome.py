@@ -35,8 +35,3 @@ def slope(values):
     """a, with the sign of I3 − I1."""
     a1, a2, a3 = (1.0 / values[name] for name in ("I1", "I2", "I3"))
     return copysign(sqrt((a3 - a2) * (a2 - a1)) / a2, a1 - a3)
-
-
-def clock(values):
-    """The unit of time, 1/√(μ/I2)."""
-    return sqrt(values["I2"] / values["m"])
