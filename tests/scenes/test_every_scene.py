@@ -97,16 +97,8 @@ def test_the_defaults_are_admitted_unchanged(scene):
 
 
 @every_scene
-def test_a_scene_explains_itself_and_each_of_its_parameters(scene):
-    assert scene.summary.endswith(".")
+def test_a_scene_has_a_legend_thumbnails_and_other_names_for_its_parameters_and_examples(scene):
     assert len({spec.name for spec in scene.specs}) == len(scene.specs)
-    # Places have no control to be explained.
-    for spec in (spec for spec in scene.specs if not isinstance(spec, Places)):
-        assert spec.label.isprintable(), spec.name
-        assert len(spec.doc.split()) > 2, spec.name
-        assert spec.doc.endswith((".", ")")), spec.name
-    # In a line over the pictures, as plain text.
-    assert re.fullmatch(r"[A-Z][^$*]{20,108}\.", scene.moves)
     assert scene.handle in ("", *scene.essential) or "/" in scene.handle
     assert len({preset.name for preset in scene.presets}) == len(scene.presets) > 2
     legend = ElementTree.fromstring(scene.legend.strip())
@@ -185,7 +177,6 @@ def test_the_description_of_a_scene_has_all_that_the_browser_needs(scene):
     assert set(scene.essential) <= {spec.name for spec in controlled if not isinstance(spec, ChoiceSpec)}
     assert found["essential"] == list(scene.essential)
     assert scene.group
-    assert len(re.sub(r"<[^>]*>", "", found["words"])) > 200
     assert "$" not in found["words"]
     assert not re.search(r"<script|\son\w+=|javascript:|https?://(?!www\.w3\.org)", found["words"] + found["legend"])
 

@@ -20,7 +20,7 @@ PRESETS = Path(__file__).parents[1] / "scenes/presets.json"
 EXAMPLES = [
     (scene, preset)
     for scene in SCENES.values()
-    if scene.origin is None
+    if scene.origin is None and "diagram" not in scene.name
     for preset in (scene.presets[:1] if scene.name == "own-body" else scene.presets)
 ]
 """All but those of the scenes that show what computations cost, and of bodies whose equations take 20 s to compile."""
@@ -203,9 +203,12 @@ def are_alike(expected, found):
         return all(map(are_alike, expected, found))
     (count, *numbers), (own, *others) = expected, found
     within = PIXEL * size_of(expected, found)
-    return (count in (None, own) or (count > FEW and abs(count - own) <= count / 20)) and all(
-        one is None or abs(one - other) <= within for one, other in zip(numbers, others, strict=True)
-    )
+    if count not in (None, own):
+        if count <= FEW or abs(count - own) > count / 20:
+            return False
+        # The mean depends on where the samples are.
+        numbers = numbers[:2]
+    return all(one is None or abs(one - other) <= within for one, other in zip(numbers, others, strict=False))
 
 
 def are_texts_alike(expected, found):
