@@ -20,7 +20,7 @@ PRESETS = Path(__file__).parents[1] / "scenes/presets.json"
 EXAMPLES = [
     (scene, preset)
     for scene in SCENES.values()
-    if scene.origin is None and "diagram" not in scene.name
+    if scene.origin is None
     for preset in (scene.presets[:1] if scene.name == "own-body" else scene.presets)
 ]
 """All but those of the scenes that show what computations cost, and of bodies whose equations take 20 s to compile."""
