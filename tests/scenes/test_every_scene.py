@@ -209,9 +209,6 @@ def test_every_formula_of_the_words_becomes_mathml(scene):
     assert set(re.findall(r'mathvariant="([^"]*)"', html)) <= {"normal"}
 
 
-"""The scenes with a track of γ; that of the loxodromic pendulum has angles."""
-
-
 def with_known_axes(scene, state):
     """The pictures whose axes a state gives; others belong to what is computed later, and stay until then."""
     held = Axes((0.125, 0.25), (0.125, 0.25))

@@ -19,7 +19,6 @@ from support.thorough import sample
 from support.view import View, values_of
 
 SCENE = scenes()["orbit-diagram"]
-SEEN = ("diagram", "section")
 
 
 def image(body, E, place, count=1):

@@ -24,7 +24,6 @@ LIGHT = {
     "euler-poisson": {"orbits": 4.0, "count": 20.0, "long": 20.0},
 }
 LAYERS = ("attracts", "neither", "repels", "stable-manifold", "unstable-manifold", "homoclinic")
-SADDLE = {"repels", "stable-manifold", "unstable-manifold"}
 PICTURES = {
     "suslov": ["section", "exponent", "sphere"],
     "quartic": ["section", "domain", "sphere"],

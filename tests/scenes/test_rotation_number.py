@@ -20,9 +20,6 @@ def example(name):
     return example_of("rotation-number", name)
 
 
-NAMES = [preset.name for preset in SCENE.presets]
-
-
 def test_tori_lock_at_0_only_and_no_multiplier_exceeds_that_of_the_pendulum():
     """The corollary of section 2 of `proofs.md`."""
     rng = np.random.default_rng(3)

@@ -9,10 +9,8 @@ from pytest import approx
 
 from hess_explorer.protocol.specs import places
 from hess_explorer.scenes import scenes
-from hess_mechanics import SuslovBody
 from hess_mechanics.dynamics.basins import contraction
 from support.deviations import deviations
-from support.suslov import start_on
 from support.view import View, values_of
 
 SCENE = scenes()["suslov"]
@@ -29,19 +27,6 @@ def example(name):
     """View of that example; basins of 256 × 256 cells take a quarter of the time of 512 × 512."""
     level = {"accuracy": "draft"} if name == TWO else {}
     return View(SCENE, {**values_of(SCENE, name), **level})
-
-
-def body_of(view):
-    return SuslovBody(*(view.values[name] for name in ("I11", "I22", "I13", "I23", "b1", "b2", "b3")))
-
-
-def energy_of(view):
-    return view.values["h"] - hypot(*(view.values[name] for name in ("b1", "b2", "b3")))
-
-
-def start_of(view):
-    """The start of the chosen orbit by hand."""
-    return start_on(body_of(view), energy_of(view), *places(view.values["starts"])[-1])
 
 
 # ---- the examples ------------------------------------------------------------------------------------------------

@@ -5,12 +5,10 @@ import pytest
 from pytest import approx
 
 from hess_explorer.scenes import scenes
-from hess_mechanics import level
 from support.view import View
 
 SCENE = scenes()["suslov-hess"]
 DEFAULTS = SCENE.defaults()
-REFERENCE = level("reference")
 PRESETS = {preset.name: {**DEFAULTS, **preset.values} for preset in SCENE.presets}
 a = DEFAULTS["I23"] / DEFAULTS["I22"]
 
