@@ -11,7 +11,6 @@ import pytest
 from pytest import approx
 
 from support import golden
-from support.ball import occupied
 from support.board import flat
 from support.view import NUMBER
 
@@ -50,7 +49,6 @@ STATED = [
     ("quartic", "sphere", "γ₃ between # and #.", ends("data-orbit", "g3")),
     ("quartic", "section", "# points of the orbit in", points("own")),
     ("ball-section", "section", "# points of the orbit in", points("own")),
-    ("ball-section", "section", "in # of 1024 cells", lambda view: [len(occupied(view.points("own")))]),
     ("free-suslov", "Gamma", "From Γ⁻ = # to Γ⁺ = # and # (dotted)", heights),
     ("scattering", "chi", "cos χ = #;", last("chi-chosen", "y")),
     ("scattering", "curve", "θ⁺ from # to #", ends("curve-theta", "ys")),
