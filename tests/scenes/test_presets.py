@@ -45,7 +45,7 @@ STATED = [
     ("suslov-hess", "bifurcation", "h = #, f = #", lambda view: view.columns("bifurcation-here", "h", "f")[0]),
     ("suslov", "section", "# points forward", points("first")),
     ("suslov", "section", "forward, # backward", points("second")),
-    ("suslov", "exponent", "λ = # ±", last("exponent-lambda", "ys")),
+    ("suslov", "exponent", "after t = #.", last("exponent-lambda", "xs")),
     ("quartic", "sphere", "γ₃ between # and #.", ends("data-orbit", "g3")),
     ("quartic", "section", "# points of the orbit in", points("own")),
     ("ball-section", "section", "# points of the orbit in", points("own")),
