@@ -1,43 +1,27 @@
-"""Corrected statements: README.md names a test for each; the tests exist and the wrong sentences are gone."""
+"""Wrong statements: the tests that "wrong_statements.toml" names exist, and the forbidden words are gone."""
 
 import re
-from functools import cache
+import tomllib
 from pathlib import Path
 
-import pytest
-
 TESTS = Path(__file__).resolve().parents[1]
-ROOT = TESTS.parent
-README = (TESTS / "README.md").read_text(encoding="utf-8")
-ROWS = [
-    [cell.strip() for cell in row.strip("|").split("|")]
-    for row in re.findall(
-        r"^\|.*\|$", README.partition("## Corrected statements")[2].partition("\n## ")[0], re.MULTILINE
-    )
-][2:]
+STATEMENTS = tomllib.loads((TESTS / "wrong_statements.toml").read_text("utf-8"))["statement"]
 
 
-@cache
-def words():
-    """Return all texts of the explorer and the library, white space normalized, by file."""
-    files = [path for part in ("app", "models") for kind in ("*.md", "*.py") for path in (ROOT / part).rglob(kind)]
-    return {path: " ".join(path.read_text(encoding="utf-8").split()) for path in files}
+def is_defined(test):
+    path, _, name = test.partition("::")
+    return re.search(rf"^def {name}\(", (TESTS / path).read_text("utf-8"), re.MULTILINE)
 
 
-def test_every_test_that_the_readme_names_exists():
-    named = re.findall(r"`([\w/]+\.py)::(\w+)`", README)
-    assert len(named) > 30
-    defined = {
-        path: set(re.findall(r"^def (test_\w+)", (TESTS / path).read_text(encoding="utf-8"), re.MULTILINE))
-        for path in {path for path, _ in named}
-    }
-    assert [(path, name) for path, name in named if name not in defined[path]] == []
+def test_every_correction_has_tests():
+    assert all(one["wrong"] and one["correct"] and one["tests"] for one in STATEMENTS)
+    assert [test for one in STATEMENTS for test in one["tests"] if not is_defined(test)] == []
 
 
-@pytest.mark.parametrize("row", ROWS, ids=[row[0][:30] for row in ROWS])
-def test_a_sentence_that_was_wrong_is_gone_and_what_is_so_has_a_test(row):
-    was, so, held = row
-    assert so
-    assert "::" in held
-    for sentence in re.findall(r"“([^”]+)”", was):
-        assert [path for path, text in words().items() if sentence in text] == []
+def test_no_forbidden_words_return():
+    forbidden = [words for one in STATEMENTS for words in one.get("forbidden", [])]
+    assert forbidden
+    for part in ("app", "models"):
+        for path in (path for kind in ("*.md", "*.py") for path in (TESTS.parent / part).rglob(kind)):
+            text = " ".join(path.read_text("utf-8").split())
+            assert [words for words in forbidden if words in text] == [], path

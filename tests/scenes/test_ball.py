@@ -72,9 +72,6 @@ def test_theta_plus_over_the_phases_goes_through_the_orbit_and_its_range_is_that
         assert view.numbers("curve", "θ⁺ from # to #") == approx([curve.min(), curve.max()], abs=6e-4)
 
 
-# cos χ of the free Suslov problem with these tensors, of an independent computation with 40 digits.
-
-
 @pytest.mark.parametrize(
     "values", [{"D": 300.0, "digits": 10.0}, {"I13": 1e-3, "I23": 1e-3}, {"I13": 5e-324, "I23": -5e-324}], ids=str
 )

@@ -1,4 +1,4 @@
-"""The branch of a periodic orbit beside a section: against SciPy; clicks, words."""
+"""The branch of a periodic orbit beside a section: its range, clicks and words."""
 
 import re
 from functools import cache
@@ -9,21 +9,8 @@ from pytest import approx
 
 from hess_explorer.scenes import scenes
 from hess_mechanics.dynamics.periodic import apart
-from support.ball import returned
 from support.thorough import sample
 from support.view import View, values_of
-
-
-def derivative(values, place, step=2e-4):
-    """Return the derivative of the ball's return map, by differences of fourth order."""
-    columns = []
-    for axis in np.eye(2):
-        far, near = (
-            [returned(values, place + sign * size * axis) for sign in (1.0, -1.0)] for size in (step, 0.5 * step)
-        )
-        columns.append((8.0 * (near[0] - near[1]) - (far[0] - far[1])) / (6.0 * step))
-    return np.column_stack(columns)
-
 
 SCENES = scenes()
 EXAMPLES = {"quartic": "A pitchfork", "ball-section": "The orbit that doubles", "euler-poisson": "Where the two Hess"}
@@ -43,7 +30,7 @@ def shown(name, *given):
 
 def marks(view):
     """The bifurcations that are listed: kind, value, error."""
-    found = [re.fullmatch(r"(.+) of period (\d+) at (\S+) = (\S+) ± (\S+)", line) for line in view.report.quantities]
+    found = [re.fullmatch(r"(.+) of period (\d+) at (\S+) = (\S+) ± (\S+)", line) for line in view.report.derived]
     return [(one[1], *(float(one[i].replace("−", "-")) for i in (4, 5))) for one in found if one]
 
 
@@ -54,36 +41,6 @@ def points_of(view):
         for part in view.result.branch.branches
         for point in zip(part.values.tolist(), part.places, part.multipliers, strict=True)
     ]
-
-
-def test_the_branch_of_an_orbit_born_there_turns_at_the_pitchfork():
-    view = shown("quartic")
-    ((kind, value, error),) = marks(view)
-    (exact,) = (one.value for part in view.result.branch.branches for one in part.bifurcations)
-    assert (kind, value) == ("pitchfork", approx(exact, abs=1e-8))
-    assert error < 1e-7
-    # It lies on one side of it, with an orbit and its mirror image at each h.
-    found = np.array([(h, *there[0]) for h, there, _ in points_of(view)])
-    assert found[:, 0].min() >= exact - 1e-9
-    for sign in (1.0, -1.0):
-        assert found[sign * found[:, 1] > 0.0, 0].max() == approx(0.95, abs=1e-9)
-    assert view.curve("branch-branch-neither")[0].min() == approx(exact, abs=1e-4)
-    assert view.data["branch-bifurcation-names"]["text"] == ["pitchfork"]
-    said = "Branch of the periodic orbit\nPeriod 1, elliptic here. 1 bifurcation on its branch."
-    assert view.text["branch"] == said
-
-
-def test_an_orbit_of_the_ball_doubles_where_another_integrator_finds_the_multiplier_minus_one():
-    view = shown("ball-section")
-    ((kind, value, error),) = marks(view)
-    assert (kind, error < 1e-8) == ("flip", True)
-    (flip,) = (one for part in view.result.branch.branches for one in part.bifurcations)
-    values = {**view.values, "I13": flip.value}
-    assert returned(values, flip.places[0]) == approx(flip.places[0], abs=1e-8)
-    assert np.linalg.eigvals(derivative(values, flip.places[0])).real.min() == approx(-1.0, abs=1e-5)
-    # It attracts on one side, and is a saddle on the other: other colours.
-    attracts, repels = (view.curve(f"branch-branch-{sign}")[0] for sign in ("attracts", "repels"))
-    assert attracts.max() == approx(value, abs=1e-5) == approx(repels.min(), abs=1e-5)
 
 
 @pytest.mark.parametrize("name", sample(EXAMPLES, 2))
@@ -100,7 +57,7 @@ def test_a_click_on_the_branch_shows_that_orbit_and_away_from_it_nothing_happens
     # The range stays as it was; a narrow one is enough here.
     assert (chosen["low"], chosen["high"]) == state.branch.ends
     after = View(SCENES[name], {**view.values, **chosen, "low": along - 0.01, "high": along + 0.01}, seen=["branch"])
-    orbit = after.result.periodic_orbit.closed_orbit.orbit
+    orbit = after.result.periodic_orbit.closed.orbit
     assert np.abs(apart(state.poincare.turns, orbit.places, place)).max(axis=1).min() < 0.02
     # The orbit is marked.
     assert after.data["branch-shown"]["x"][0] == approx(along, abs=1e-6)
@@ -120,7 +77,7 @@ def test_without_a_periodic_orbit_the_picture_says_what_to_do(name):
     view = View(scene, {"orbits": 0.0} if name == "euler-poisson" else {}, seen=["branch"])
     assert view.text["branch"].split("\n")[1].startswith("No periodic orbit is chosen. Choose one")
     assert "Choose a Periodic orbit" in " ".join(view.data["branch-message"]["text"][0].split())
-    assert not any("branch" in line for line in (*view.report.quantities, *view.report.notes, view.report.status))
+    assert not any("branch" in line for line in (*view.report.derived, *view.report.notes, view.report.status))
     # Out of sight it is not computed.
     few = {"count": 20.0, **({"orbits": 0.0} if name == "euler-poisson" else {})}
     hidden = View(scene, {**example(name), **few}, seen=["section"], whole=False)
@@ -140,8 +97,8 @@ def test_the_range_is_within_what_is_possible_and_about_the_value_where_none_is_
         assert ends == (max(bounds[parameter][0], -1e5), min(bounds[parameter][1], 1e5))
     # Over another parameter the range is about that one.
     chosen = {**defaults, "low": 1.0, "high": 2.0}
-    assert scene.adjustments(chosen, {**defaults, "over": [*along][1]}) == {"low": 0.0, "high": 0.0}
-    assert scene.adjustments(defaults, {**defaults, "low": 1.0}) == {}
+    assert scene.carried(chosen, {**defaults, "over": [*along][1]}) == {"low": 0.0, "high": 0.0}
+    assert scene.carried(defaults, {**defaults, "low": 1.0}) == {}
 
 
 def test_while_a_slider_is_held_only_what_is_known_is_drawn():
@@ -162,4 +119,4 @@ def test_where_a_branch_hardly_gets_on_no_more_of_it_is_computed():
     downwards = [part for part in view.result.branch.branches if part.values[-1] < 2.0]
     assert len(downwards) == 2
     assert downwards[-1].values[-1] == approx(1.44351, abs=1e-5)
-    assert "The branch continues, but is not computed further." in view.report.notes
+    assert "The branch goes on: no more of it is computed." in view.report.notes

@@ -1,93 +1,16 @@
-"""The scenes "leak off the Hess manifold" and "bridge": captions of the examples agree with the results.
+"""The scenes "leak off the Hess manifold" and "bridge": both sides, their bounds and their notes."""
 
-The numbers are held against closed forms; the motions are in `models/extremes/test_special_motions.py`.
-"""
-
-from functools import cache
-from math import copysign, cosh, log, log10, pi, sqrt
+from math import copysign, sqrt
 
 import numpy as np
 import pytest
 from pytest import approx
-from scipy.optimize import brentq
 
-from hess_explorer.scenes import scenes
 from support.board import Browser
+from support.bridge import BRIDGE, LEAK
 from support.view import View
 
-HELD = "At most # up to t = # if r·M = 0 is imposed; # if not."
-LEAK, BRIDGE = scenes()["hess-leak"], scenes()["bridge"]
-
-
-def torus(values):
-    """a, h, f in units b = 1 and the unit of frequency √b, by hand from the moments."""
-    a1, a2, a3 = (1.0 / values[name] for name in ("I1", "I2", "I3"))
-    # Here r1, r3 > 0: b' has the sign of a1 − a3.
-    a = copysign(sqrt((a3 - a2) * (a2 - a1)), a1 - a3) / a2
-    b = a2 * values["m"]
-    return a, a2 * values["h"] / b, -a2 * values["f"] / sqrt(b), sqrt(b)
-
-
-def values_of(scene, name):
-    preset = next(one for one in scene.presets if one.name == name)
-    return {**scene.defaults(), **preset.values}
-
-
-UNSTABLE = [preset.name for preset in LEAK.presets if preset.values.get("h", 50.0) not in (5.0, 0.3)]
-STABLE = [preset.name for preset in LEAK.presets if preset.name not in UNSTABLE]
-
-
-@cache
-def leak(name, accuracy="standard"):
-    return View(LEAK, {**values_of(LEAK, name), "accuracy": accuracy})
-
-
-@cache
-def bridge(name):
-    return View(BRIDGE, values_of(BRIDGE, name))
-
-
 # ---- the leak ----------------------------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize("name", UNSTABLE)
-def test_the_leak_grows_at_the_rate_in_the_caption_which_is_the_exact_one(name):
-    view = leak(name)
-    values = view.values
-    measured, count, exact = view.numbers("leak", "ln |r·M|: # per period, measured over # periods; exact #.")
-    a = torus(values)[0]
-    expected = 2.0 * pi * abs(a) if values["f"] == 0.0 else -log(view.result.map.fixed_points[0].multiplier)
-    growth = view.result.leaks["own"].growth.per_period
-    assert growth == approx(expected, rel=1e-4)
-    assert (measured, exact) == (approx(growth, rel=6e-4), approx(expected, rel=6e-4))
-    assert count >= 3
-    # The line drawn has this slope, and lies on the curve where that is straight.
-    t, lg = view.curve("leak-own")
-    x, y = view.curve("leak-slope")
-    assert (y[-1] - y[0]) / (x[-1] - x[0]) == approx(expected / (view.result.period * log(10.0)), rel=1e-5)
-    straight = (lg > -12.5) & (lg < -4.0) & (t < x[-1])
-    assert straight.sum() > 96
-    # The remainder is the oscillation within a period.
-    assert np.max(np.abs(lg - np.interp(t, x, y))[straight]) < 0.6
-    assert lg[-1] > -4.0
-
-
-@pytest.mark.parametrize("name", STABLE)
-def test_without_cycles_nothing_grows_and_the_caption_says_so(name):
-    view = leak(name)
-    (largest,) = view.numbers("leak", "No cycles: no growth to first order. In 60 periods |r·M| ≤ #.")
-    assert largest < 3e-14
-    assert np.max(view.curve("leak-own")[1]) == approx(log10(largest), abs=0.05)
-    assert "leak-slope" not in view.data
-    assert view.text["andoyer"].endswith("The Hess relation holds to round-off.")
-
-
-def test_where_the_two_cycles_have_merged_r_M_grows_like_the_square_of_the_time():
-    values = LEAK.defaults() | {"h": 8.0, "returns": 40.0}
-    f = brentq(lambda f: View(LEAK, values | {"f": f}, seen=()).result.map.trace - 2.0, 0.5, 1.0, xtol=1e-15)
-    view = View(LEAK, values | {"f": f}, seen=("leak",))
-    (largest,) = view.numbers("leak", "Lock boundary: |r·M| grows like t². In 40 periods |r·M| ≤ #.")
-    assert largest < 1e-10
 
 
 def test_energy_and_area_integral_are_kept_inside_what_is_possible():
@@ -103,32 +26,6 @@ def test_energy_and_area_integral_are_kept_inside_what_is_possible():
 
 
 # ---- the bridge --------------------------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize("preset", BRIDGE.presets, ids=lambda preset: preset.name)
-def test_both_sides_of_an_example_agree_to_1e_11_over_t_50(preset):
-    view = bridge(preset.name)
-    assert view.notes == []
-    held, end, free = view.numbers("difference", HELD)
-    assert 0.0 < held <= 1e-11
-    t, lg = view.curve("difference-held")
-    assert (t[0], t[-1], end) == (0.0, 50.0, 50.0)
-    assert np.max(lg) == approx(log10(held), abs=0.05)
-    cycles = "two limit cycles" in view.text["circle"]
-    assert cycles == (free > 1e-10) == ("data-stable" in view.data) == ("data-unstable" in view.data)
-
-
-def test_figure_gess1_in_both_systems_of_units():
-    view = bridge("Figure 11, given in Euler–Poisson")
-    assert view.numbers("omega", "h = #, f = # in units b = 1") == [5.013, -2.003]
-    assert view.numbers("andoyer", "H = #, F₁ = #.") == [50.0, 5.0]
-    assert view.quantities("E = H = #") == [50.0]
-    assert view.quantities("−F₂ = F₁ = #") == [5.0]
-    # I11 = I2, I22 = I11/(1 + a²), I23 = a I22, b3 = −b I22 √(1 + a²).
-    assert view.quantities("I₁₁ = #, I₂₂ = #, I₂₃ = #") == [0.625, 0.5, -0.25]
-    assert view.quantities("b₃ = #") == [approx(-15.96 * 0.5 * sqrt(1.25), rel=6e-4)]
-    assert view.numbers("circle", "|trace| = #,") == [approx(2.0 * cosh(3.09107 / 2.0), rel=6e-4)]
-    assert view.quantities("Period of n₃ = #") == [approx(view.result.turning_points.period / sqrt(15.96), rel=6e-4)]
 
 
 @pytest.mark.parametrize(

@@ -1,4 +1,4 @@
-"""The density of a section: its counts by NumPy's histogram of another computation, its stages, window and colours."""
+"""The density of a section: its counts, its stages, window and colours."""
 
 import numpy as np
 import pytest

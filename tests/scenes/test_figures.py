@@ -12,7 +12,6 @@ from pytest import approx
 from hess_explorer.scenes import scenes
 from support.free_suslov import gamma_at, tensor_of
 from support.mechanics import ROOT
-from support.view import View
 
 SCENES = {name: scene for name, scene in scenes().items() if scene.origin is None}
 README = (ROOT / "app/README.md").read_text(encoding="utf-8")
@@ -116,10 +115,3 @@ def test_the_values_are_those_of_the_captions():
             # H = ½(M1² + ⅔ M2² + ½ M3²) + γ1/√3 + γ3/√6.
             assert body.a == approx((1.0, 2.0 / 3.0, 0.5))
             assert -body.mu * np.array(body.r) == approx([1.0 / math.sqrt(3.0), 0.0, 1.0 / math.sqrt(6.0)])
-
-
-def test_the_circle_maps_of_figure_7_have_two_cycles_and_none_as_a_gets_smaller():
-    wide, narrow, _ = (View(SCENES["suslov-hess"], values, seen={"circle"}).result for values in values_of(7))
-    assert (wide.h, wide.f) == (narrow.h, narrow.f)
-    assert wide.body.a > narrow.body.a
-    assert [wide.map.kind, narrow.map.kind] == ["hyperbolic", "elliptic"]

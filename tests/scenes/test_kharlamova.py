@@ -1,4 +1,4 @@
-"""The scenes "principal axis, b3 = 0" and "b1 = b2 = 0": every example shows what its name and its captions promise."""
+"""The scenes "principal axis, b3 = 0" and "b1 = b2 = 0": kinds of motions, starts at the edge, clicks."""
 
 from math import sqrt
 
@@ -7,13 +7,6 @@ import pytest
 from pytest import approx
 
 from hess_explorer.scenes import scenes
-from hess_explorer.scenes.framework.periodic_search import NONE
-from hess_mechanics.dynamics.cells import occupied_cells
-from hess_mechanics.dynamics.return_map import section_crossings
-from hess_mechanics.numerics.accuracy import STANDARD
-from hess_mechanics.suslov.plane_potential import POTENTIALS
-from support.deviations import deviations
-from support.moved import from_moved_starts
 from support.view import View
 
 ARC, POINT = scenes()["kharlamova"], scenes()["quartic"]
@@ -42,22 +35,6 @@ def test_an_example_of_b3_0_is_what_its_name_says(preset):
         assert ("unstable" in view.text["domain"]) is ("unstable" in preset.name)
 
 
-@pytest.mark.parametrize("name", POTENTIALS)
-def test_in_another_potential_the_caption_says_what_the_motion_does(name):
-    fast = View(ARC, {"potential": name, "I11": 1.5, "I22": 1.0}, seen={"potential"})
-    period, back = fast.numbers("potential", "it crosses the equator twice. T = #, back to the start to #.")
-    assert (period, back < 1e-6) == (approx(fast.result.other.period, rel=6e-4), True)
-    assert fast.text["potential"].startswith(f"Potential: {name}\n")
-    slow = View(ARC, {"potential": name, "I11": 1.5, "I22": 1.0, "p": 0.2, "span": 60.0}, seen={"potential"})
-    assert "Too slow to reach the equator. It stays on one side." in slow.text["potential"]
-    if name == "quadratic":
-        (kept,) = slow.numbers("potential", "F₂ is constant to #: integrable.")
-        assert kept < 1e-6
-    else:
-        assert slow.numbers("potential", "F₂ changes by # %.")[0] > 1.0
-        assert "integrable" not in slow.text["potential"]
-
-
 def test_a_start_outside_moves_to_the_edge_and_says_so():
     values, notes = ARC.admit({**ARC.defaults(), "q1": 3.0, "q2": 0.0})
     assert values["q1"] == approx(sqrt(1.5))
@@ -66,42 +43,6 @@ def test_a_start_outside_moves_to_the_edge_and_says_so():
     values, notes = POINT.admit({**POINT.defaults(), "h": 2.0, "Q1": 0.1, "Q2": 0.0})
     assert "moved to the edge" in notes[0]
     assert POINT.compute(values, (), False).start[4] == approx(1.0, abs=1e-6)
-
-
-@pytest.mark.chaotic
-@pytest.mark.parametrize("preset", POINT.presets, ids=lambda preset: preset.name)
-def test_an_example_of_the_quartic_potential_is_what_its_name_says(preset):
-    view = View(POINT, preset.values)
-    body, states = view.result.body, view.result.orbit.path.states
-    in_plane = np.column_stack([body.I22 * states[:, 1], -body.I11 * states[:, 0]]) / body.b3
-    assert view.columns("data-orbit", "q1", "q2") == approx(in_plane, abs=1e-5)
-    low, high = view.numbers("sphere", "γ₃ between # and #.")
-    assert (low, high) == approx((states[:, 4].min(), states[:, 4].max()), rel=6e-4, abs=1e-4)
-    G = (body.I11 * states[:, 0] * states[:, 2] + body.I22 * states[:, 1] * states[:, 3]) / body.b3
-    if preset.name.startswith("Integrable"):
-        value, kept = view.numbers("momentum", "An integral, as I₁₁ = I₂₂. #, constant to #.")
-        assert value == approx(G[0], rel=6e-4)
-        assert kept <= 1e-6
-    else:
-        assert view.numbers("momentum", "between # and #.") == approx([G.min(), G.max()], rel=1e-3, abs=1e-3)
-    if view.values["periodic"] == NONE:
-        points, visited = view.numbers("section", "# points of the orbit in # of 1024 cells.")
-        assert points == len(view.data["section-own"]["x"])
-        is_sea = "sea" in preset.name
-        assert (visited > 0.4 * points) is is_sea
-
-        def share():
-            at = view.result.poincare
-            found = section_crossings(at, [tuple(view.result.start)], 200, STANDARD).states[0]
-            return occupied_cells(at.places_of(found), at.window) / len(found)
-
-        # As for every other last bit, and by far.
-        sure = deviations(from_moved_starts(share), 0.4)
-        assert sure > 5.0 if is_sea else sure < -5.0
-    else:
-        # An elliptic orbit of a map that keeps area: |μ| = 1.
-        assert np.hypot(*view.numbers("section", "Period 1, elliptic. Multipliers μ = # ± #i")) == approx(1.0, abs=2e-4)
-    assert ("Motion in a ring." in view.text["domain"]) == (abs(body.b3) < body.E) >= ("ring" in preset.name)
 
 
 @pytest.mark.chaotic

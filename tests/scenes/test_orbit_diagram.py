@@ -1,6 +1,5 @@
-"""The scene of orbit diagrams: what its examples show, what a click chooses, what captions say."""
+"""The scene of orbit diagrams: attractors and repellers, the density, clicks, the way back."""
 
-import re
 from dataclasses import replace
 from math import log
 
@@ -20,7 +19,6 @@ from support.thorough import sample
 from support.view import View, values_of
 
 SCENE = scenes()["orbit-diagram"]
-SEEN = ("diagram", "section")
 
 
 def image(body, E, place, count=1):
@@ -35,24 +33,6 @@ def test_all_examples_are_rigid_bodies_from_one_edge_of_their_diagram_to_the_oth
             for value in (state.first, state.diagram.at, state.last):
                 b = replace(state, **{state.diagram.name: value})
                 assert check_body(b.I11, b.I22, b.I13, b.I23).I33 is not None, (b, value)
-
-
-def test_where_periods_double_the_diagram_has_twice_as_many_places():
-    view = View(SCENE, {**values_of(SCENE, "Period doubling"), "steps": 60.0}, seen=("diagram",))
-    state = view.result
-    # The diagram opens on the attractor.
-    (_, y0), (_, y1) = state.diagram.frame
-    low, high = np.quantile(state.diagram.points("rising")[1], (0.0, 1.0))
-    assert y0 < low < high < y1 < y0 + 3.0 * (high - low)
-    assert state.diagram.cascade.periods.tolist() == [1, 2, 4, 8]
-    assert re.search(
-        r"4 period doublings located. [\d,]+ points. The first of period 1 at I₂₃ = −0.04983", view.text["diagram"]
-    )
-    # Before the first doubling a diagram shows one place, between the first two two of them.
-    drawn = state.diagram.points("rising")
-    for low, high, count in ((-0.12, -0.07, 1), (0.0, 0.06, 2), (0.1, 0.12, 4)):
-        for x in np.unique(drawn[0][(drawn[0] > low) & (drawn[0] < high)]):
-            assert len(np.unique(np.round(drawn[1][drawn[0] == x], 4))) == count
 
 
 @pytest.mark.chaotic
@@ -115,50 +95,16 @@ def test_the_density_counts_all_points_and_a_window_counts_them_in_its_own_pixel
     assert np.array_equal(
         np.max(shaded, axis=0).ravel() > 0.0, sum(map(found.counts, state.density.forward)).ravel() > 0
     )
-    # The last column, of period 2: the next points of the map in the same pixels.
-    body = replace(state, I22=x1 - 0.5 * (x1 - x0) / 120).body
-    exact = image(body, state.poincare.E, state.diagram.pieces["rising"][-1].places[-1][-1], 8)[:, 0]
-    rows = ((exact - y0) / (y1 - y0) * 512).astype(int)
-    assert set(np.flatnonzero(found.counts("rising")[:, -1] > 5)) <= {row + off for row in rows for off in (-1, 0, 1)}
     half = View(SCENE, {**LIGHT, "window": f"{x0},{0.5 * (y0 + y1)};{x1},{y1}"}, seen=["diagram"]).result.density
     assert half.points == sum(found.counts(way)[256:].sum() for way in ("rising", "falling"))
     assert half.counts("rising").sum() > 0
     # The branch of the orbit that doubles goes through the picture, though none is chosen.
     (flip,) = (one for part in state.continuation.branches for one in part.bifurcations)
-    assert (flip.value, state.closed_orbit) == (approx(state.diagram.flips[0], abs=1e-8), None)
+    assert (flip.value, state.closed) == (approx(state.diagram.flips[0], abs=1e-8), None)
     # A held slider shows the points themselves.
     held = View(SCENE, LIGHT, True, ["diagram"])
     assert held.result.density.tones == ()
     assert len(held.data["diagram-rising"]["x"]) > 0
-
-
-def test_the_branch_of_a_periodic_orbit_goes_on_as_a_saddle_where_the_diagram_doubles():
-    view = View(SCENE, {**LIGHT, "branch": "period 1"}, seen=SEEN)
-    state = view.result
-    (flip,) = (one for part in state.continuation.branches for one in part.bifurcations)
-    assert view.quantities("flip of period # at I₂₂ = # ± ") == [1.0, approx(flip.value, abs=1e-7)]
-    said = r"Period 1, saddle with reflection here. [\d,]+ points. 1 bifurcation on its branch."
-    assert re.fullmatch(said, view.text["diagram"].split("\n")[1])
-    attracts, repels = (view.curve(f"diagram-branch-{sign}") for sign in ("attracts", "repels"))
-    assert attracts[0].min() == approx(2.1, abs=1e-6)
-    assert attracts[0].max() == approx(flip.value, abs=1e-6) == approx(repels[0].min(), abs=1e-6)
-    assert repels[0].max() == approx(2.4, abs=1e-6)
-    assert view.data["diagram-bifurcation-names"]["text"] == ["flip"]
-    # The diagram shows it as long as it attracts.
-    drawn, order = state.diagram.points("rising"), np.argsort(attracts[0])
-    for x in np.unique(drawn[0][drawn[0] < 2.11]):
-        there = drawn[1][drawn[0] == x][-1]
-        assert np.interp(x, attracts[0][order], attracts[1][order]) == approx(there, abs=2e-3)
-
-
-@pytest.mark.parametrize("scene", [SCENE, scenes()["ball-diagram"]], ids=lambda scene: scene.name)
-def test_volume_that_is_kept_is_said(scene):
-    few = {**values_of(scene, "Equal: volume"), "steps": 4.0, "long": 100.0, "accuracy": "draft"}
-    view = View(scene, few, seen=SEEN)
-    assert "Volume is preserved: no attractors." in view.text["diagram"]
-    assert view.text["diagram"].endswith(" points. One orbit for each value.")
-    assert "Conservative: volume is preserved." in view.text["section"]
-    assert view.result.regime.kind.motion.divergence == 0.0
 
 
 def test_a_click_chooses_a_state_that_is_there_and_a_box_looks_closer():

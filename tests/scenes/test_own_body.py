@@ -1,4 +1,4 @@
-"""*Your own body*: its section and its energy against motions that are computed again."""
+"""*Your own body*: the change of its energy is the work of its drive."""
 
 import numpy as np
 from pytest import approx
@@ -8,21 +8,6 @@ from hess_explorer.scenes import scenes
 from hess_mechanics import solve
 
 DRIVEN = {"U": "", "d1": 0.4, "d3": 1.0, "frequency": 1.3, "p": "cos(W*t) + 0.5*sin(2*W*t)", "w1": 1.0}
-
-
-def test_the_section_has_the_crossings_of_the_motion():
-    # The form of the first state, which is compiled in any case.
-    scene = scenes()["own-body"]
-    own = scene.of({**scene.defaults(), "w1": 1.0, "long": 60.0})
-    points = hess.state("own-body", w1=1.0, long=60.0).data("section").layer("own")
-    times = np.linspace(0.0, 60.0, 60_001)
-    height = solve(own.body, own.start, times, "precise").states[:, 5]
-    before = np.flatnonzero((height[:-1] < 0.0) & (height[1:] >= 0.0))
-    share = -height[before] / (height[before + 1] - height[before])
-    expected = solve(own.body, own.start, times[before] + share * times[1], "precise").states
-    assert len(expected) > 5
-    assert np.asarray(points["x"]) == approx(expected[:, 0], abs=1e-5)
-    assert np.asarray(points["y"]) == approx(expected[:, 1], abs=1e-5)
 
 
 def test_the_energy_of_a_driven_body_changes_by_the_work_of_its_drive():

@@ -1,7 +1,7 @@
-"""Periodic orbits in the four scenes with a section: drawings and captions."""
+"""Periodic orbits in the four scenes with a section: how long they are followed, their manifolds, what is said."""
 
 from functools import cache
-from math import log, pi
+from math import pi
 
 import numpy as np
 import pytest
@@ -14,7 +14,6 @@ from hess_explorer.scenes.framework.windows import pixels_in
 from hess_explorer.views.layers import Axes
 from hess_explorer.views.plane.periodic import within
 from hess_mechanics.dynamics.periodic import apart
-from support.ball import returned as ball_returned
 from support.view import View, values_of
 
 NAMES = ("suslov", "quartic", "ball-section", "euler-poisson")
@@ -25,7 +24,6 @@ LIGHT = {
     "euler-poisson": {"orbits": 4.0, "count": 20.0, "long": 20.0},
 }
 LAYERS = ("attracts", "neither", "repels", "stable-manifold", "unstable-manifold", "homoclinic")
-SADDLE = {"repels", "stable-manifold", "unstable-manifold"}
 PICTURES = {
     "suslov": ["section", "exponent", "sphere"],
     "quartic": ["section", "domain", "sphere"],
@@ -43,44 +41,6 @@ def shown(name, periodic, *given, dragging=False):
 def drawn(view):
     """Return the layers of a periodic orbit that have data."""
     return {name for name in LAYERS if any(map(len, view.data.get(f"section-{name}", {}).values()))}
-
-
-@pytest.mark.parametrize(
-    "periodic, start, kind, example",
-    [
-        ("period 1", "0.97,1.82", "saddle with reflection", "A chaotic"),
-        ("period 2", "0.756,1.911", "saddle with reflection", "Strange"),
-        ("any period", "0.245,2.399", "stable focus", "Two"),
-    ],
-)
-def test_a_periodic_orbit_of_the_suslov_problem_is_one_and_has_its_multipliers(periodic, start, kind, example):
-    given = {**values_of(scenes()["suslov"], example), "colours": "forward only", "starts": start, "reach": 1.0}
-    view = shown("suslov", periodic, *{**given, **LIGHT["suslov"]}.items())
-    closed = view.result.periodic_orbit.closed_orbit
-    orbit, (first, second) = closed.orbit, closed.orbit.multipliers
-    assert orbit.kind == kind
-    # The caption has period, kind, multipliers and what they may be off.
-    pattern, numbers = "#, #", [first.real, second.real]
-    if first.imag:
-        pattern, numbers = "# ± #i", [first.real, abs(first.imag)]
-    said = view.numbers("section", f"\nPeriod #, {kind}. Multipliers μ = {pattern}, to")
-    assert said == approx([orbit.period, *numbers], rel=1e-3)
-    assert view.quantities("T = #, periodic") == approx([closed.time], rel=6e-4)
-    across, divergence = view.numbers(
-        "exponent", "\nFrom the multipliers of the periodic orbit. ln|μ₁|/T = #, div = ln|μ₁μ₂|/T = #."
-    )
-    assert across == approx(log(abs(first)) / closed.time, abs=1e-3)
-    assert divergence == approx(log(abs(first * second)) / closed.time, abs=1e-3)
-    assert np.unique(view.curve("exponent-lambda")[1]) == approx([across], abs=1e-4)
-    # Its points have the sign of its kind, and the linked pictures show it, once round.
-    sign = "attracts" if kind.startswith("stable") else "repels"
-    homoclinic = {"homoclinic"} if view.result.periodic_orbit.homoclinic else set()
-    assert drawn(view) == ({sign} if sign == "attracts" else SADDLE | homoclinic)
-    assert view.points(sign) == approx(orbit.places)
-    track = view.columns("data-orbit", "t", "g1", "g2", "g3")
-    assert track[-1, 0] == approx(closed.time, rel=1e-5)
-    assert track[-1, 1:] == approx(track[0, 1:], abs=2e-4)
-    assert view.points("chosen")[-1] == approx(orbit.places[0])
 
 
 def test_a_manifold_ends_where_the_map_jumps_and_no_line_is_drawn_across():
@@ -110,23 +70,12 @@ def test_where_every_orbit_of_the_ball_closes_the_chosen_one_is_parabolic():
     assert (np.asarray(returns["x"]), np.asarray(returns["y"])) == (approx([0.5]), approx([0.5]))
 
 
-def test_an_orbit_of_period_five_has_five_points_in_its_first_return():
-    values = values_of(scenes()["ball-section"], "Mixed") | LIGHT["ball-section"] | {"psi": -1.0, "delta": 2.0}
-    view = shown("ball-section", "period 5", *values.items())
-    assert view.text["returns"].endswith("Each ψ against the next. Period 5.")
-    places = view.points("repels")
-    assert ball_returned(view.values, places[0]) == approx(places[1], abs=1e-5)
-    returns = view.columns("returns-own", "x", "y")
-    assert returns == approx(np.column_stack([places[:, 0], np.roll(places[:, 0], -1)]), abs=1e-6)
-    assert len(np.unique(np.round(returns, 3), axis=0)) == 5
-
-
 @pytest.mark.parametrize("name", NAMES)
 def test_without_one_nothing_is_said_or_drawn_of_it(name):
     scene = scenes()[name]
     view = shown(name, NONE)
     assert drawn(view) == set()
-    said = [*view.text.values(), *view.report.quantities, *view.report.notes, view.report.status]
+    said = [*view.text.values(), *view.report.derived, *view.report.notes, view.report.status]
     assert not any(word in text for text in said for word in ("Period ", "periodic orbit", "manifold:", "Newton"))
     assert scene.idle({**scene.defaults(), **LIGHT[name]})["reach"] == 5.0
     assert "reach" not in scene.idle({**scene.defaults(), "periodic": "period 1"})
@@ -136,9 +85,7 @@ def test_without_one_nothing_is_said_or_drawn_of_it(name):
 
 def test_where_none_is_found_the_chosen_orbit_is_shown_and_why():
     view = shown("suslov", "period 3")
-    assert (
-        view.text["section"].split("\n")[1] == "No orbit of period 3 found near this point. The chosen orbit is shown."
-    )
+    assert view.text["section"].split("\n")[1] == "No orbit of period 3 found from here. The chosen orbit is shown."
     assert view.report.notes == [
         "Newton's method finds no orbit of period 3 from here: start closer to one, where an orbit comes back close to "
         "itself, or choose another period."
@@ -164,10 +111,10 @@ def test_while_a_slider_is_held_it_follows_and_its_manifolds_come_later():
     view = shown("ball-section", "period 1", dragging=True)
     assert view.text["section"].split("\n")[1].startswith("Period 1, saddle. Multipliers μ = 2.19, 0.4566, to ")
     assert drawn(view) == {"repels"}
-    assert "Its manifolds are computed when the slider is released." in view.report.quantities
+    assert "Its manifolds are computed when the slider is released." in view.report.derived
     let_go = shown("ball-section", "period 1")
-    assert not any("released" in line for line in let_go.report.quantities)
-    assert "4 of 4 branches of its manifolds are 5 long" in let_go.report.quantities
+    assert not any("released" in line for line in let_go.report.derived)
+    assert "4 of 4 branches of its manifolds are 5 long" in let_go.report.derived
 
 
 def test_a_branch_that_ends_early_says_why(monkeypatch):
@@ -177,7 +124,7 @@ def test_a_branch_that_ends_early_says_why(monkeypatch):
         patch.setattr(periodic_search, "_RETURNS", 1000)
         view = shown("ball-section", "period 1", ("reach", 30.0))
     assert view.report.notes[0] == "A branch of a manifold ends early. After 1000 returns of the map."
-    assert "0 of 4 branches of its manifolds are 30 long" in view.report.quantities
+    assert "0 of 4 branches of its manifolds are 30 long" in view.report.derived
     assert not any("early" in note for note in shown("ball-section", "period 1").report.notes)
 
 

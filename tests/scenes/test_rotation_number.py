@@ -1,10 +1,6 @@
-"""The scene "rotation number": captions of the examples agree with the results.
-
-Rotation numbers of the other family are counted by iterating it.
-"""
+"""The scene "rotation number": its window, its levels, and where nothing is possible."""
 
 import math
-from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -14,7 +10,6 @@ from hess_explorer.protocol.specs import decode
 from hess_explorer.scenes import scenes
 from hess_mechanics import circle_map, f_max
 from hess_mechanics.numerics.accuracy import REFERENCE
-from hess_mechanics.suslov_hess.rotation_number import values_at
 from support.view import View
 from support.view import example as example_of
 
@@ -23,71 +18,6 @@ SCENE = scenes()["rotation-number"]
 
 def example(name):
     return example_of("rotation-number", name)
-
-
-NAMES = [preset.name for preset in SCENE.presets]
-
-
-@pytest.mark.parametrize("name", NAMES)
-def test_the_circle_map_of_an_example_is_as_its_caption_says(name):
-    view = example(name)
-    torus = tuple(view.values[key] for key in "ahf")
-    assert view.numbers("circle", "a = #, h = #, f = #") == approx(torus, rel=6e-4)
-    exact = circle_map(*torus, REFERENCE)
-    assert view.numbers("circle", "ρ = #.") == approx([exact.rotation_number], abs=2e-4)
-    assert ("two limit cycles" if exact.kind == "hyperbolic" else "no cycle") in view.text["circle"]
-    view.assert_finite()
-
-
-@pytest.mark.parametrize("name", NAMES)
-def test_the_rational_number_of_an_example_is_where_its_caption_says(name):
-    view = example(name)
-    line, rational = view.values["line"], Fraction(view.values["rational"].replace("−", "-"))
-    if f"No torus with ρ = {view.values['rational']} found here." in view.text["line"]:
-        assert name == "Euler–Poisson, figure 11"
-        return
-    # The dotted line in the graph.
-    assert [y for y, _ in view.data["line-levels"]["ys"]] == approx([float(rational)])
-    (place,) = view.numbers("line", f"ρ = {view.values['rational']} at {line} = #: |Θ")
-    (defect,) = view.numbers("line", " − id| ≤ #.")
-    found = view.result.periodic.torus
-    assert place == approx(view.result.on_line.place(found), rel=6e-4)
-    assert circle_map(found.a, found.h, found.f, REFERENCE).rotation_number == approx(float(rational), abs=1e-9)
-    assert {**vars(found), line: 0} == {**{key: view.values[key] for key in "ahf"}, line: 0}
-    assert f"|Θ{'⁰¹²³⁴⁵⁶⁷⁸⁹'[rational.denominator]} − id|" in view.text["line"]
-    assert defect < 1e-12
-
-
-def covered(region, x, y):
-    """Return whether a place lies in a part of a region, by the number of edges to its right."""
-    inside = False
-    for (xs,), (ys,) in zip((one[0] for one in region["xs"]), (one[0] for one in region["ys"]), strict=True):
-        ends = zip(xs, ys, np.roll(xs, -1), np.roll(ys, -1), strict=True)
-        inside |= (
-            sum((y0 > y) != (y1 > y) and x < x0 + (y - y0) * (x1 - x0) / (y1 - y0) for x0, y0, x1, y1 in ends) % 2 == 1
-        )
-    return inside
-
-
-@pytest.mark.parametrize("name", NAMES)
-def test_the_map_of_an_example_shows_the_number_where_it_belongs(name):
-    view = example(name)
-    assert "map 300 × 200" in view.report.status
-    axes, image = view.values["over"].split(", "), view.data["map-rho"]
-    x0, y0, dw, dh = (float(image[key][0]) for key in ("x", "y", "dw", "dh"))
-    places = np.meshgrid(x0 + (np.arange(300) + 0.5) * dw / 300, y0 + (np.arange(200) + 0.5) * dh / 200)
-    torus = {key: np.full(60_000, view.values[key]) for key in "ahf"} | {
-        key: one.ravel() for key, one in zip(axes, places, strict=True)
-    }
-    exact = values_at(*torus.values(), REFERENCE)
-    rho, zones = (np.asarray(view.data[f"map-{one}"]["image"][0]).ravel() for one in ("rho", "zones"))
-    there = exact.possible
-    assert rho[there] == approx(exact.rho[there], abs=1e-5)
-    assert zones[there] == approx(np.clip(np.log(exact.trace[there] / 2.0), -1.0, 1.0), abs=1e-5)
-    for i in np.random.default_rng(2).integers(0, 60_000, 60):
-        here = {key: one[i] for key, one in torus.items()}
-        assert covered(view.data["map-forbidden"], here[axes[0]], here[axes[1]]) != there[i]
-    assert view.text["map"].endswith("\nρ locks at 0 only.")
 
 
 def test_tori_lock_at_0_only_and_no_multiplier_exceeds_that_of_the_pendulum():

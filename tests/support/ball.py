@@ -1,6 +1,6 @@
 """The Chaplygin ball of the scenes: its equations as a 2 × 2 system solved at every call, its energy and circles."""
 
-from math import cos, hypot, pi, sin, sqrt
+from math import atan2, hypot, pi
 
 import numpy as np
 
@@ -52,27 +52,30 @@ def divergence(body, y):
     return sum(SYSTEM.field(y + step, body.parameters)[i].imag for i, step in enumerate(steps)) / 1e-30
 
 
+def xi_of(values):
+    return np.array([values["I23"], -values["I13"]]) / hypot(values["I13"], values["I23"])
+
+
+def circle_of(values, state):
+    """The angle between ξ and γ."""
+    xi = xi_of(values)
+    return atan2(hypot(xi[0] * state[3] - xi[1] * state[2], state[4]), state[2:4] @ xi)
+
+
 def shown(value, digits=4):
     return float(f"{value:.{digits}g}")
 
 
+def upward_crossings(field, start, end, i=4, most=False):
+    """Times (n,) and states (n, 5), by SciPy, where component i, or γ3, grows through 0; the start is no crossing."""
+    return scipy_crossings(lambda y: field(0.0, y), start, lambda y: y[i], end, 1, most)
+
+
 def first_returns(values, start, count):
     """The first crossings (count, 5) of γ3 = 0 from below."""
-    field = rates(values)
-    found = scipy_crossings(lambda y: field(0.0, y), start, lambda y: y[4], 40.0 * count, 1, count + 1)
-    return found[1][:count]
+    return upward_crossings(rates(values), start, 40.0 * count, most=count + 1)[1][:count]
 
 
 def angles(states):
     psi = np.arctan2(states[:, 3], states[:, 2])
     return np.column_stack([psi, np.mod(np.arctan2(states[:, 1], states[:, 0]) - psi, 2.0 * pi)])
-
-
-def returned(values, place):
-    """(ψ, δ) where SciPy's motion of the ball next comes through γ3 = 0 upwards."""
-    psi, delta = place
-    gamma, u = [cos(psi), sin(psi), 0.0], np.array([cos(psi + delta), sin(psi + delta)])
-    unit, rest = (energy_of(values, [*(size * u), *gamma]) for size in (1.0, 0.0))
-    E = values["h"] - hypot(values["b1"], values["b2"])
-    start = [*(sqrt((E - rest) / (unit - rest)) * u), *gamma]
-    return angles(first_returns(values, start, 1))[0]

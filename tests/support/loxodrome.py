@@ -1,6 +1,6 @@
 """The loxodromic pendulum: its swing, clock and slope."""
 
-from math import sqrt
+from math import copysign, sqrt, tan
 
 import numpy as np
 from scipy.special import ellipj
@@ -18,4 +18,20 @@ def swing_at(h, t):
     return 2.0 * np.arcsin(k * ellipj(t, k * k)[0])
 
 
+def closed_form(one, tau):
+    """Centre of mass and middle axis in space, along (γ, e, γ × e), at the times τ in units b = 1."""
+    a1, a2, a3 = one.body.a
+    a = (1 if a1 > a3 else -1) * sqrt((a3 - a2) * (a2 - a1)) / a2
+    alpha = swing_at(one.h, tau)
+    l = 2.0 * np.arctan(tan(0.5 * one.l) * np.exp(a * alpha))
+    centre = np.stack([np.cos(alpha), 0.0 * alpha, -np.sin(alpha)], axis=1)
+    return centre, np.stack([np.sin(l) * np.sin(alpha), np.cos(l), np.sin(l) * np.cos(alpha)], axis=1)
+
+
 LOXODROME, HESS = scenes()["loxodrome"], scenes()["suslov-hess"]
+
+
+def slope(values):
+    """a, with the sign of I3 − I1."""
+    a1, a2, a3 = (1.0 / values[name] for name in ("I1", "I2", "I3"))
+    return copysign(sqrt((a3 - a2) * (a2 - a1)) / a2, a1 - a3)
