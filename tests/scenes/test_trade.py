@@ -158,7 +158,7 @@ def test_a_chaotic_section_has_no_error_and_says_so():
     costs = tuple(LevelCost(name, 1.0, nan, True) for name in LEVELS)
     work = types.SimpleNamespace(dragging=False, need=lambda *_, **__: costs)
     found = Costs(work, bare(SUSLOV.of(SUSLOV.defaults())), (trial,))
-    assert found.about().numbers == "Section has no error to measure: all of it is chaotic, or there is nothing."
+    assert found.about().numbers == "Section has no error to measure: everything is chaotic, or nothing is drawn."
     assert (found.curves, found.rings(), found.level("draft"), [*found.rows()]) == ({}, [], None, [])
 
 

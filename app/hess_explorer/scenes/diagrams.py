@@ -200,7 +200,7 @@ def diagram_scene(
         module,
         presets=presets,
         charts=Charts((section,), over=("h", "I13")),
-        tracks={"orbit": lambda s: orbit_columns(s.orbit.path, vertical_rate=s.vertical_rate)},
+        tracks={"orbit": lambda s: orbit_columns(s.orbit.path, turning=s.vertical_rate)},
         views=_pictures(state, ball),
         **words,
     )
