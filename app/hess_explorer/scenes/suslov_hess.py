@@ -316,7 +316,7 @@ SCENE = Scene(
         Answer("On the separatrix the body climbs forever and never comes back.", lambda s: s.map is None),
         Answer(
             "At this edge the torus has shrunk: the height of the body no longer changes.",
-            lambda s: torus_plane.is_circle(s.turning),
+            lambda s: torus_plane.is_circle(s.turning_points),
         ),
         Answer(
             "Two loops: every start ends on the green one, except the dashed loop itself.",
