@@ -90,7 +90,7 @@ export function opener(name, label) {
  * @param {HTMLElement} el the frame of the page
  */
 function answerLine(el) {
-  const answer = element("p.text.answer", { role: "status" })
+  const answer = element("p.text.says", { role: "status" })
   /** @param {string} name @param {string} key @param {string} title @param {boolean} isOpen */
   const toggle = (name, key, title, isOpen) => {
     const item = button(`fold.param-${name}`, () => turn(item.ariaExpanded !== "true"), { title: `${title} (${key})` }, name[0].toUpperCase() + name.slice(1))
@@ -111,7 +111,7 @@ function answerLine(el) {
     return item
   }
   listen({ texts({ answer: text }) { if (text !== undefined) update(answer, { textContent: text, title: text }) } })
-  return element("div.answer-line", answer,
+  return element("div.says-line", answer,
     toggle("details", "D", "Numbers above the pictures", false), toggle("text", "T", "Text, legend and lessons", ROOMY.matches))
 }
 

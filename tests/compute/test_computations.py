@@ -117,7 +117,7 @@ def compute(scene, values, seen=None, dragging=False):
         ({"h": 0.2, "f": 0.5}, {MAP, TRACK}),
         ({"h": 1.0, "f": 0.0}, {TRACK}),
     ],
-    ids=str,
+    ids=lambda part: None if isinstance(part, set) else str(part),
 )
 def test_a_change_computes_what_depends_on_it_and_going_back_nothing(cache, change, expected):
     browser = Browser(HESS)

@@ -18,6 +18,7 @@ def test_a_term_is_explained_once_and_nothing_else_is_changed():
 
 
 def test_a_term_opens_by_keyboard_and_closes_with_escape(explorer):
+    explorer.open_text()
     page = explorer.page
     term = page.locator(".words button.term", has_text="gyration ellipsoid")
     meaning = page.locator(".words .meaning", has_text=glossary()["gyration ellipsoid"])
@@ -33,6 +34,7 @@ def test_a_term_opens_by_keyboard_and_closes_with_escape(explorer):
 
 
 def test_the_depth_of_the_text_is_chosen_once(explorer):
+    explorer.open_text()
     page = explorer.page
     words, depth = page.locator(".words"), page.get_by_label("Depth of the text")
     headings, shown = (words.locator(one).filter(visible=True) for one in ("h3", "> *"))

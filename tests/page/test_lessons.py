@@ -40,6 +40,7 @@ def guess(explorer, prediction, press):
 
 def test_what_can_be_tried_is_done_for_one(explorer):
     page, steps = explorer.page, tries()[HESS].steps
+    explorer.open_text()
     assert page.locator(".words").get_by_text("Try this").count() == 0
     for number, step in enumerate(steps):
         assert page.locator(".tries h3").inner_text() == f"Try this: {step.title}"
@@ -60,6 +61,7 @@ def test_a_link_to_a_step_that_is_not_there_is_one_to_the_last_and_a_lesson_is_c
     explorer.change(page.keyboard.press, "PageUp")
     assert here(explorer)[2:] == (NAME, "7")
     explorer.leave_lesson()
+    explorer.open_text()
     assert page.locator(".words").is_visible()
     assert here(explorer)[2:] == (None, None)
     page.locator(".lesson-menu > summary").click()
@@ -170,6 +172,7 @@ def test_images_tables_and_links_of_own_lessons(browser, tmp_path):
 
 def test_what_is_done_by_hand_is_recorded_and_replayed(explorer):
     page, states = explorer.page, []
+    explorer.open_text()
     page.locator(".lesson-menu").evaluate("menu => { menu.open = true }")
     page.locator(".param-record").click()
     page.keyboard.press("Escape")

@@ -141,7 +141,7 @@ def assert_apart_and_whole(page, size):
                 assert min(across, down) <= 0.5, (name, other)
     # Lines above the pictures end in an ellipsis where they are too long.
     assert (
-        page.locator(".text:not(.details, .moves, .answer, .caption), .legend li, .number, h1").evaluate_all(CUT_OFF)
+        page.locator(".text:not(.details, .moves, .says, .caption), .legend li, .number, h1").evaluate_all(CUT_OFF)
         == []
     )
 

@@ -98,10 +98,12 @@ def address_of(page):
     return page.locator("a.home").get_attribute("href").partition("?")[2]
 
 
-def pixels(page):
-    """The pictures as colours (n, m, 3)."""
-    shot = page.locator(".stage > div").first.screenshot()
-    return np.asarray(Image.open(io.BytesIO(shot)).convert("RGB")).astype(int)
+def pixels(page, name):
+    """The leading pictures of a scene as colours, side by side, (n, m, 3): a file has no names in its strip."""
+    leads = scenes()[name].lead or scenes()[name].open_pictures[:1]
+    hosts = [page.locator(f".gallery:not(.away) .picture-{lead} .host") for lead in leads]
+    shots = [Image.open(io.BytesIO(host.screenshot())).convert("RGB") for host in hosts]
+    return np.concatenate([np.asarray(shot).astype(int) for shot in shots], axis=1)
 
 
 @pytest.mark.parametrize("name", ["suslov-hess", pytest.param("kharlamova", marks=pytest.mark.thorough)])
@@ -117,15 +119,15 @@ def test_sliders_show_what_the_served_page_shows(browser, explorer, tmp_path, na
                 explorer.change(explorer.tell, "restore", address)
                 there = captions(explorer.page)
                 # Another test may have unfolded a picture there.
-                assert captions(page) == {name: there[name] for name in scenes()[name].open_pictures}
+                assert captions(page) == {one: there[one] for one in scenes()[name].open_pictures}
                 for one in (page, explorer.page):
                     one.mouse.move(5, 5)
-                here, there = pixels(page), pixels(explorer.page)
+                here, there = pixels(page, name), pixels(explorer.page, name)
                 assert here.shape == there.shape
                 off = np.abs(here - there).max(axis=2)
                 # Lines may be shifted by an eighth of a pixel of a picture that is three times as wide.
-                assert (off > 64).mean() < 5e-4, address
-                assert off.mean() < 0.1, address
+                assert (off > 64).mean() < 1e-3, address
+                assert off.mean() < 0.2, address
 
 
 def test_the_file_says_what_it_cannot_show_and_keeps_its_place(browser, tmp_path):

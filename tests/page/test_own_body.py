@@ -5,7 +5,7 @@ import pytest
 
 @pytest.mark.parametrize("scene", ["own-body"])
 def test_a_typed_potential_is_shown_and_goes_into_the_link(explorer):
-    explorer.picture("omega").get_by_text("From t = 0").wait_for()
+    explorer.picture("omega").get_by_text("From t = 0").wait_for(state="attached")
     assert explorer.box("frequency").is_disabled()
     explorer.change(explorer.type, "U", "g3 +")
     assert "This is not a polynomial: use numbers, g1, g2, g3" in explorer.text("notes")

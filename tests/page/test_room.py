@@ -67,7 +67,7 @@ def lecture(tab, browser):
         page.keyboard.press("Escape")
         page.locator(".param-invite").dispatch_event("click")
         page.get_by_role("button", name="End the lecture").click()
-        page.locator(".param-invite[aria-pressed=false]").wait_for()
+        page.locator(".param-invite[aria-pressed=false]").wait_for(state="attached")
         page.keyboard.press("Escape")
     tab.leave_lesson()
     tab.assert_quiet()
@@ -148,7 +148,7 @@ def test_a_follower_plays_alone_and_comes_back_and_the_room_outlives_a_reload(le
     tab.show("free-suslov")
     page.reload()
     wait_ready(page)
-    page.locator(".param-invite[aria-pressed=true]").wait_for()
+    page.locator(".param-invite[aria-pressed=true]").wait_for(state="attached")
     assert tab.scene == "free-suslov"
     small.route_web_socket(re.compile("/rooms/"), connect)
     link("Back to the lecture").tap()

@@ -253,6 +253,11 @@ class Explorer:
             self.tell("look", picture)
             wait_frames(self, 3)
 
+    def open_text(self):
+        """Open the drawer of the text, which `fresh` closes."""
+        if not self.page.locator(".reader").is_visible():
+            self.page.locator(".param-text").click()
+
     def tool(self, name):
         """Press a tool of the bar or of its menus."""
         self.page.locator(f".param-{name}").dispatch_event("click")
@@ -387,6 +392,7 @@ AT_REST = f"""() => {{
     }}
     if (item.matches(".chip[aria-pressed=true]") && item.checkVisibility()) item.click()
     if (item.matches("details.group")) item.open = true
+    if (item.matches(".param-text[aria-expanded=true]") && item.checkVisibility()) item.click()
   }}
   document.activeElement?.blur()
 }}"""
