@@ -30,7 +30,7 @@ def shown(name, *given):
 
 def marks(view):
     """The bifurcations that are listed: kind, value, error."""
-    found = [re.fullmatch(r"(.+) of period (\d+) at (\S+) = (\S+) ± (\S+)", line) for line in view.report.derived]
+    found = [re.fullmatch(r"(.+) of period (\d+) at (\S+) = (\S+) ± (\S+)", line) for line in view.report.quantities]
     return [(one[1], *(float(one[i].replace("−", "-")) for i in (4, 5))) for one in found if one]
 
 
@@ -57,7 +57,7 @@ def test_a_click_on_the_branch_shows_that_orbit_and_away_from_it_nothing_happens
     # The range stays as it was; a narrow one is enough here.
     assert (chosen["low"], chosen["high"]) == state.branch.ends
     after = View(SCENES[name], {**view.values, **chosen, "low": along - 0.01, "high": along + 0.01}, seen=["branch"])
-    orbit = after.result.periodic_orbit.closed.orbit
+    orbit = after.result.periodic_orbit.closed_orbit.orbit
     assert np.abs(apart(state.poincare.turns, orbit.places, place)).max(axis=1).min() < 0.02
     # The orbit is marked.
     assert after.data["branch-shown"]["x"][0] == approx(along, abs=1e-6)
@@ -77,7 +77,7 @@ def test_without_a_periodic_orbit_the_picture_says_what_to_do(name):
     view = View(scene, {"orbits": 0.0} if name == "euler-poisson" else {}, seen=["branch"])
     assert view.text["branch"].split("\n")[1].startswith("No periodic orbit is chosen. Choose one")
     assert "Choose a Periodic orbit" in " ".join(view.data["branch-message"]["text"][0].split())
-    assert not any("branch" in line for line in (*view.report.derived, *view.report.notes, view.report.status))
+    assert not any("branch" in line for line in (*view.report.quantities, *view.report.notes, view.report.status))
     # Out of sight it is not computed.
     few = {"count": 20.0, **({"orbits": 0.0} if name == "euler-poisson" else {})}
     hidden = View(scene, {**example(name), **few}, seen=["section"], whole=False)
@@ -97,8 +97,8 @@ def test_the_range_is_within_what_is_possible_and_about_the_value_where_none_is_
         assert ends == (max(bounds[parameter][0], -1e5), min(bounds[parameter][1], 1e5))
     # Over another parameter the range is about that one.
     chosen = {**defaults, "low": 1.0, "high": 2.0}
-    assert scene.carried(chosen, {**defaults, "over": [*along][1]}) == {"low": 0.0, "high": 0.0}
-    assert scene.carried(defaults, {**defaults, "low": 1.0}) == {}
+    assert scene.adjustments(chosen, {**defaults, "over": [*along][1]}) == {"low": 0.0, "high": 0.0}
+    assert scene.adjustments(defaults, {**defaults, "low": 1.0}) == {}
 
 
 def test_while_a_slider_is_held_only_what_is_known_is_drawn():
@@ -119,4 +119,4 @@ def test_where_a_branch_hardly_gets_on_no_more_of_it_is_computed():
     downwards = [part for part in view.result.branch.branches if part.values[-1] < 2.0]
     assert len(downwards) == 2
     assert downwards[-1].values[-1] == approx(1.44351, abs=1e-5)
-    assert "The branch goes on: no more of it is computed." in view.report.notes
+    assert "The branch continues, but is not computed further." in view.report.notes

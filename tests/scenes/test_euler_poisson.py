@@ -55,7 +55,7 @@ def test_points_on_another_sheet_are_drawn_apart():
     # There another momentum has this energy as well; at most of the other points there is none.
     assert np.mean(np.array(other_momenta(view, apart[:20])) >= 2) > 0.9
     assert deviations(np.array(other_momenta(view, everything[::40])) >= 2, 0.35) < -5.0
-    assert view.derived("on another sheet: # points") == [len(apart)]
+    assert view.quantities("on another sheet: # points") == [len(apart)]
 
 
 def test_on_a_small_sheet_another_start_is_found():
@@ -94,7 +94,7 @@ def test_where_there_is_no_second_sheet_that_is_said():
 
 def test_curves_that_do_not_go_round_have_no_rotation_number():
     view = EulerPoisson({**values_of(EP, "Figure 13 b"), "orbits": 0.0}, seen={"rotation"})
-    assert "No closed curve here makes a turn." in view.text["rotation"]
+    assert "No closed curve on the line rotates." in view.text["rotation"]
     assert len(view.data["rotation-orbits"]["x"]) == 0
 
 
@@ -115,4 +115,4 @@ def test_where_there_are_no_separatrices_the_picture_says_why():
     assert "splits" not in " ".join(view.report.notes)
     # A split that is smaller than its error is not denied.
     view = View(EP, {"orbits": 0.0, "count": 20.0, "away": 1e-12}, seen=["split"])
-    assert view.text["split"].split("\n")[1].startswith("No split is seen. Less than ")
+    assert view.text["split"].split("\n")[1].startswith("No split is visible. Less than ")

@@ -100,7 +100,7 @@ def test_the_density_counts_all_points_and_a_window_counts_them_in_its_own_pixel
     assert half.counts("rising").sum() > 0
     # The branch of the orbit that doubles goes through the picture, though none is chosen.
     (flip,) = (one for part in state.continuation.branches for one in part.bifurcations)
-    assert (flip.value, state.closed) == (approx(state.diagram.flips[0], abs=1e-8), None)
+    assert (flip.value, state.closed_orbit) == (approx(state.diagram.flips[0], abs=1e-8), None)
     # A held slider shows the points themselves.
     held = View(SCENE, LIGHT, True, ["diagram"])
     assert held.result.density.tones == ()

@@ -75,7 +75,7 @@ def test_without_one_nothing_is_said_or_drawn_of_it(name):
     scene = scenes()[name]
     view = shown(name, NONE)
     assert drawn(view) == set()
-    said = [*view.text.values(), *view.report.derived, *view.report.notes, view.report.status]
+    said = [*view.text.values(), *view.report.quantities, *view.report.notes, view.report.status]
     assert not any(word in text for text in said for word in ("Period ", "periodic orbit", "manifold:", "Newton"))
     assert scene.idle({**scene.defaults(), **LIGHT[name]})["reach"] == 5.0
     assert "reach" not in scene.idle({**scene.defaults(), "periodic": "period 1"})
@@ -85,7 +85,9 @@ def test_without_one_nothing_is_said_or_drawn_of_it(name):
 
 def test_where_none_is_found_the_chosen_orbit_is_shown_and_why():
     view = shown("suslov", "period 3")
-    assert view.text["section"].split("\n")[1] == "No orbit of period 3 found from here. The chosen orbit is shown."
+    assert (
+        view.text["section"].split("\n")[1] == "No orbit of period 3 found near this point. The chosen orbit is shown."
+    )
     assert view.report.notes == [
         "Newton's method finds no orbit of period 3 from here: start closer to one, where an orbit comes back close to "
         "itself, or choose another period."
@@ -111,10 +113,10 @@ def test_while_a_slider_is_held_it_follows_and_its_manifolds_come_later():
     view = shown("ball-section", "period 1", dragging=True)
     assert view.text["section"].split("\n")[1].startswith("Period 1, saddle. Multipliers μ = 2.19, 0.4566, to ")
     assert drawn(view) == {"repels"}
-    assert "Its manifolds are computed when the slider is released." in view.report.derived
+    assert "Its manifolds are computed when the slider is released." in view.report.quantities
     let_go = shown("ball-section", "period 1")
-    assert not any("released" in line for line in let_go.report.derived)
-    assert "4 of 4 branches of its manifolds are 5 long" in let_go.report.derived
+    assert not any("released" in line for line in let_go.report.quantities)
+    assert "4 of 4 branches of its manifolds are 5 long" in let_go.report.quantities
 
 
 def test_a_branch_that_ends_early_says_why(monkeypatch):
@@ -124,7 +126,7 @@ def test_a_branch_that_ends_early_says_why(monkeypatch):
         patch.setattr(periodic_search, "_RETURNS", 1000)
         view = shown("ball-section", "period 1", ("reach", 30.0))
     assert view.report.notes[0] == "A branch of a manifold ends early. After 1000 returns of the map."
-    assert "0 of 4 branches of its manifolds are 30 long" in view.report.derived
+    assert "0 of 4 branches of its manifolds are 30 long" in view.report.quantities
     assert not any("early" in note for note in shown("ball-section", "period 1").report.notes)
 
 

@@ -51,7 +51,7 @@ def test_a_saddle_bounds_the_basins_and_its_manifold_runs_between_their_cells():
 
 def test_where_volume_is_kept_no_attractor_is_claimed():
     view = View(SCENE, {**FEW, "I13": 0.0, "I23": 0.0, "colours": "basins", "h": 2.0, "long": 300.0})
-    assert view.text["section"].endswith("No attractor is seen. mean div = 0 ± 0.")
+    assert view.text["section"].endswith("No attractor is visible. mean div = 0 ± 0.")
 
 
 def scores(view, count):
@@ -66,7 +66,7 @@ def test_a_sea_that_is_its_own_mirror_image_is_no_attractor():
     view = View(SCENE, {**FEW, "colours": "basins", "long": 1000.0})
     assert view.result.basins.arrivals is None
     assert "section-basins" not in view.data or not view.data["section-basins"]
-    mean, error = view.numbers("section", "No attractor is seen. mean div = # ± #.")
+    mean, error = view.numbers("section", "No attractor is visible. mean div = # ± #.")
     assert abs(mean) < 5.0 * error < 0.05
     # So it is called whatever the motion.
     found = np.array(scores(view, 48))

@@ -62,7 +62,7 @@ def record(view):
     report = view.report
     words = {name: text for name, text in view.text.items() if name != "signs"}
     entries = (COUNTED.sub("#", entry) for entry in report.status.split(" · ") if not COST.search(entry))
-    lists = {"derived": report.derived, "notes": report.notes, "status": entries}
+    lists = {"derived": report.quantities, "notes": report.notes, "status": entries}
     columns = {source: reduced(source, columns) for source, columns in view.data.items()}
     return {
         "words": words | {name: "\n".join(lines) for name, lines in lists.items()},
@@ -104,7 +104,7 @@ def known_to_the_oracle(view):
     if isinstance(map_, CircleMap):
         found["trace"] = counted([map_.trace], 1)
     if isinstance(map_, Scattering):
-        found["cos χ"] = counted(view.derived("cos χ = #"), 1)
+        found["cos χ"] = counted(view.quantities("cos χ = #"), 1)
     return found
 
 
