@@ -46,6 +46,7 @@ def test_the_depth_of_the_text_is_chosen_once(explorer):
         assert (shown.count() > 2, headings.count()) == (True, 1)
         # In the next scene, too.
         explorer.fresh("free-suslov")
+        explorer.open_text()
         assert headings.count() == 1
     finally:
         depth.select_option("paper")
