@@ -49,7 +49,7 @@ OTHERS = {
     "free-suslov": {"w1": 6.0},
 }
 BALL = SCENES["chaplygin-ball"]
-BESIDE = ("status", "summary", "notes", "derived", "signs")
+BESIDE = ("answer", "status", "summary", "notes", "derived", "signs")
 """The texts beside the captions."""
 OWN = [scene for scene in SCENES.values() if scene.origin is None]
 """The scenes that look into no other one."""
@@ -367,7 +367,7 @@ def assert_drawn(scene, values, seen, dragging):
     for words in (*said.values(), report.status, report.summary, *report.quantities, *report.notes):
         assert re.search(r"\w", words)
         assert not re.search(r"\bnan\b|\binf\b", words, re.IGNORECASE), words
-    assert set(seen) <= set(board.texts) <= {*scene.pictures, "signs"}
+    assert set(seen) <= set(board.texts) <= {*scene.pictures, "answer", "signs"}
     orbit = board.fresh.get("data-orbit")
     if orbit is not None:
         assert orbit["t"][0] == 0.0
