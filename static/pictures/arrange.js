@@ -158,11 +158,12 @@ const grid = (count, { columns, edge }, caption, gap, x, y, aside) => Array.from
  * Return the boxes on a phone: one picture, as wide as the viewport allows, and perhaps a small one below it, beside the names.
  * @param {Viewport} viewport
  * @param {number} count of small pictures, 0 or 1
+ * @param {number} names
  * @returns {{boxes: Box[], names: Frame}}
  */
-export function onPhone({ width, height, gap, head, title, least }, count) {
+export function onPhone({ width, height, gap, head, title, least }, count, names) {
   const small = least - title
-  const edge = Math.min(width, height - head - least - gap)
+  const edge = Math.min(width, height - head - (count + names > 0 ? least + gap : 0))
   const y = head + edge + gap
   return {
     boxes: [

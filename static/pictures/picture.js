@@ -3,14 +3,7 @@
 
 import { element } from "../base/elements.js"
 import { byHand } from "../base/windows.js"
-
-const EXPRESSION = /(\|[^|]{1,24}\||\([^()]{1,16}\)|[^\s|()]{1,12} [=≤≥<>±] [^\s|()]{1,12})/
-
-/**
- * Return the parts of a text in order: those at odd indices are expressions like |Θ⁴ − id|, (h, f) and h = 1.5.
- * @param {string} text
- */
-export const unbroken = (text) => text.split(EXPRESSION)
+import { unbroken } from "./unbroken.js"
 
 const CROSS = "arrow keys move a cross, Enter chooses"
 const RING = "arrow keys move the ring"

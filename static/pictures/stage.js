@@ -102,8 +102,9 @@ export function createStage(shelf, gallery) {
     const second = alone.length > 0 || shelf.clientHeight < LOW || leads.length + others.length < 2 ? [] : [leads[1] ?? others[0]]
     const seen = PHONE.matches ? [leads[0], ...second] : [...leads, ...others]
     const leading = PHONE.matches ? 1 : leads.length
-    const names = isEmbedded() || isPresenting() || alone.length > 0 ? [] : scene.cells.filter(({ dataset }) => PHONE.matches || "label" in dataset)
-    const { boxes, names: frame } = PHONE.matches ? onPhone(viewport(type), second.length)
+    const isAlone = isEmbedded() || isPresenting() || alone.length > 0 || scene.cells.length === 1
+    const names = isAlone ? [] : scene.cells.filter(({ dataset }) => PHONE.matches || "label" in dataset)
+    const { boxes, names: frame } = PHONE.matches ? onPhone(viewport(type), second.length, names.length)
       : arrange(viewport(type), leading, others.length, names.length)
     for (const cell of scene.cells) cell.classList.toggle("off", !seen.includes(cell))
     seen.forEach((cell, i) => {

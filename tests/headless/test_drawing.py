@@ -47,7 +47,7 @@ def test_a_file_is_the_canvas_of_the_page_at_the_same_size(link, picture, browse
     path = tmp_path / "page.html"
     path.write_bytes(state_page(link, [picture])[1])
     # In this window an edge is a whole number of pixels of the screen: else both are blurred, and not alike.
-    with opened(browser, path.as_uri(), (422, 522), device_scale_factor=SHARP) as page:
+    with opened(browser, path.as_uri(), (400, 700), device_scale_factor=SHARP) as page:
         canvas = page.locator(".host canvas").first
         edge = canvas.evaluate("canvas => canvas.clientWidth")
         # A sphere or torus has a second canvas for moving points; a screenshot may begin between two pixels.

@@ -41,12 +41,12 @@ def test_what_is_done_in_a_notebook_is_the_state_in_python(browser):
 
 
 def test_a_scene_is_reached_by_its_port_and_in_a_hub_or_colab_by_another_address(monkeypatch):
-    assert exploring._reached(8123) == "http://127.0.0.1:8123/"
+    assert exploring._address(8123) == "http://127.0.0.1:8123/"
     monkeypatch.setenv("JUPYTERHUB_SERVICE_PREFIX", "/user/me/")
-    assert exploring._reached(8123) == "/user/me/proxy/8123/"
+    assert exploring._address(8123) == "/user/me/proxy/8123/"
     monkeypatch.delenv("JUPYTERHUB_SERVICE_PREFIX")
     asked = []
     colab = types.SimpleNamespace(eval_js=lambda code: asked.append(code) or "https://port.colab.example")
     monkeypatch.setitem(sys.modules, "google.colab.output", colab)
-    assert exploring._reached(8123) == "https://port.colab.example/"
+    assert exploring._address(8123) == "https://port.colab.example/"
     assert asked == ["google.colab.kernel.proxyPort(8123)"]

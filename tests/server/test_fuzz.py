@@ -94,7 +94,7 @@ def assert_answered(browser):
 def end(browser):
     """Stop the pieces in the background, and wait for those that have begun."""
     browser.session.background.stop()
-    wait_until(lambda: browser.session.background.left == 0)
+    wait_until(lambda: browser.session.background.backlog == 0)
 
 
 @pytest.fixture(autouse=True)

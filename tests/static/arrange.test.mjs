@@ -50,9 +50,11 @@ test("in a viewport that is too small for that, the pictures of the strip are as
 
 test("on a phone one picture is as wide as the screen, beside the names is a small one", () => {
   for (const count of [0, 1]) {
-    const found = onPhone({ ...viewport(390, 523), least: 118 }, count)
+    const found = onPhone({ ...viewport(390, 523), least: 118 }, count, 4)
     assertInsideAndApart(framesOf(found, true), 390, 523)
     assert.ok(found.boxes[0].edge > 0.9 * 390)
     assert.equal(found.boxes.length, 1 + count)
   }
+  // Without either it has all of the height.
+  assert.equal(onPhone({ ...viewport(390, 323), least: 118 }, 0, 0).boxes[0].edge, 323 - viewport(0, 0).head)
 })

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import { unbroken } from "../../static/pictures/picture.js"
+import { unbroken } from "../../static/pictures/unbroken.js"
 
 test("expressions are parts of their own", () => {
   assert.deepEqual(unbroken("ρ = 1/4: |Θ⁴ − id| ≤ 1e−14."), ["", "ρ = 1/4:", " ", "|Θ⁴ − id|", " ≤ 1e−14."])

@@ -193,4 +193,4 @@ def test_a_script_without_the_condition_is_said(tmp_path):
     )
     words = [sys.executable, tmp_path / "mine.py"]
     done = subprocess.run(words, capture_output=True, text=True, timeout=60.0, check=False)
-    assert "in a script call `sweep` below `if __name__ == '__main__':`" in done.stderr.splitlines()[-1]
+    assert "in a script, call `sweep` below `if __name__ == '__main__':`" in done.stderr.splitlines()[-1]
