@@ -39,6 +39,11 @@ interface BokehRange extends BokehModel {
   end: number
 }
 
+/** x0, x1, y0, y1 of a planar picture. */
+type Axes = [number, number, number, number]
+/** The rectangle between the axes, in pixels. */
+interface Frame { x0: number, x1: number, y0: number, y1: number }
+
 interface PlotModel extends BokehModel {
   x_range: BokehRange
   y_range: BokehRange
@@ -79,7 +84,7 @@ interface RendererView {
 /** Bokeh's view of a plot. */
 interface PlotView {
   model: PlotModel
-  frame: { bbox: { x0: number, y0: number, x1: number, y1: number, width: number }, x_scale: BokehScale, y_scale: BokehScale }
+  frame: { bbox: Frame & { width: number }, x_scale: BokehScale, y_scale: BokehScale }
   bbox: { width: number, height: number }
   canvas_view: { primary: BokehLayer, overlays: BokehLayer, resize(): void }
   computed_renderer_views: RendererView[]
@@ -189,7 +194,7 @@ type Progress = [done: number, of: number]
 /** A state as a tree; `sources` refers to the block of numbers, see "protocol/wire.py". */
 interface Tree {
   sources: Record<string, Record<string, unknown>>
-  ranges: Record<string, [number, number, number, number]>
+  ranges: Record<string, Axes>
   texts: Texts
   captions: Record<string, Caption>
   controls: Record<string, ControlValue>
@@ -284,8 +289,8 @@ interface Scene {
   cells: HTMLElement[]
   plots: PlotView[]
   /** Axes by picture: of the state, and of the other page if two states stand side by side. */
-  ranges: Record<string, [number, number, number, number]>
-  beside: Record<string, [number, number, number, number]>
+  ranges: Record<string, Axes>
+  beside: Record<string, Axes>
   ghosts: Ghost[]
   shots: Map<string, Drawn["shoot"]>
   /** Whether its plots are built, and whether a state was painted in all its pictures. */

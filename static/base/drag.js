@@ -21,7 +21,7 @@ export function onDrag(handle, start, move, end = () => {}) {
   /** @param {PointerEvent} event */
   const isHolding = ({ pointerId }) => held !== null && pointerId === pointer
   handle.addEventListener("pointerdown", (event) => {
-    // With a second finger the page is zoomed.
+    // A second finger is not part of the drag.
     if (held !== null) return cancel()
     held = start(event)
     pointer = event.pointerId

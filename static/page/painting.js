@@ -3,23 +3,25 @@
 
 import { listen, tell } from "../base/bus.js"
 import { unpack } from "../base/unpack.js"
+import { showAxes } from "../pictures/plot.js"
+import { zoomed } from "../pictures/zoom.js"
 
 // One broken picture must not block the page.
 const MOST = 2000
 
 /**
- * Set the axes of plots: those of the state, widened to those of the other page if two states stand side by side.
+ * Set the axes of plots: those of the state, widened to those of the other page if two states stand side by side, or those of
+ * a zoom.
  * @param {Scene} scene
  * @param {Iterable<string>} names
  */
-export function setAxes({ plots, ranges, beside }, names) {
+export function setAxes({ plots, ranges, beside, source }, names) {
   for (const name of names) {
     const plot = plots.find((one) => one.model.name === name)
     if (plot === undefined || ranges[name] === undefined) continue
-    const [x0, x1, y0, y1] = ranges[name].map((end, i) => (i % 2 === 0 ? Math.min : Math.max)(end, beside[name]?.[i] ?? end))
-    const { x_range: x, y_range: y } = plot.model
-    x.setv({ start: x0, end: x1 })
-    y.setv({ start: y0, end: y1 })
+    const whole = /** @type {Axes} */ (
+      ranges[name].map((end, i) => (i % 2 === 0 ? Math.min : Math.max)(end, beside[name]?.[i] ?? end)))
+    showAxes(plot.model, zoomed(source(`${name}-zoom`), whole))
   }
 }
 

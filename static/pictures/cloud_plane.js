@@ -12,31 +12,36 @@ import { squareCanvas } from "./canvas.js"
 import { cloudsOf } from "./cloud.js"
 import { drawMark, LOOKS, useLook } from "./looks.js"
 import { pointLayer } from "./point_layer.js"
+import { connectZoom, zoomed } from "./zoom.js"
 
 const MARGIN = { left: 46, right: 8, top: 8, bottom: 42 }
-const SHARES = [-1, -0.5, 0, 0.5, 1]
+const SHARES = [0, 0.25, 0.5, 0.75, 1]
+// Of a label.
+const DIGITS = 4
 // Length of a tick, and distance of its label.
 const [TICK, GAP] = [5, 7]
 
 /**
- * Return the frame and scales of the plane in a picture, for axes from −half to half.
+ * Return the frame and scales of the plane in a picture.
  * @param {number} edge
- * @param {number} half
+ * @param {Axes} axes
  */
-function placing(edge, half) {
+function placing(edge, [x0, x1, y0, y1]) {
   const frame = { left: MARGIN.left, right: edge - MARGIN.right, top: MARGIN.top, bottom: edge - MARGIN.bottom }
   const [w, h] = [frame.right - frame.left, frame.bottom - frame.top]
   return {
-    frame, w, h, half,
-    x: (/** @type {number} */ a) => frame.left + (w * (a + half)) / (2 * half),
-    y: (/** @type {number} */ b) => frame.top + (h * (half - b)) / (2 * half),
+    frame, w, h,
+    /** Return the values at shares of the sides. @param {number} share */
+    at: (share) => [x0 + share * (x1 - x0), y0 + share * (y1 - y0)],
+    x: (/** @type {number} */ a) => frame.left + (w * (a - x0)) / (x1 - x0),
+    y: (/** @type {number} */ b) => frame.top + (h * (y1 - b)) / (y1 - y0),
     /** Return the values at a place of the picture. @param {number} left @param {number} top */
-    invert: (left, top) => [((left - frame.left) / w) * 2 * half - half, half - ((top - frame.top) / h) * 2 * half],
+    invert: (left, top) => [x0 + ((left - frame.left) / w) * (x1 - x0), y1 - ((top - frame.top) / h) * (y1 - y0)],
   }
 }
 
 /** @param {CanvasRenderingContext2D} ctx @param {ReturnType<typeof placing>} plane @param {string} text */
-function drawAxes(ctx, { frame, w, h, half, x, y }, text) {
+function drawAxes(ctx, { frame, w, h, at }, text) {
   const { left, bottom } = frame
   useLook(ctx, { weight: 1 }, text)
   ctx.fillStyle = text
@@ -44,7 +49,8 @@ function drawAxes(ctx, { frame, w, h, half, x, y }, text) {
   ctx.strokeRect(left, frame.top, w, h)
   ctx.font = "12px system-ui, sans-serif"
   for (const share of SHARES) {
-    const [across, down, label] = [x(share * half), y(share * half), written(share * half, 3)]
+    const [across, down] = [left + share * w, bottom - share * h]
+    const [label, other] = at(share).map((value) => written(value, DIGITS))
     ctx.globalAlpha = 0.4
     ctx.strokeRect(across, bottom, 0, TICK)
     ctx.strokeRect(left - TICK, down, TICK, 0)
@@ -55,15 +61,15 @@ function drawAxes(ctx, { frame, w, h, half, x, y }, text) {
     ctx.fillText(label, across, bottom + GAP)
     ctx.textAlign = "right"
     ctx.textBaseline = share === 1 ? "top" : "middle"
-    ctx.fillText(label, left - GAP, down)
+    ctx.fillText(other, left - GAP, down)
   }
   ctx.globalAlpha = 1
   ctx.font = "14px system-ui, sans-serif"
   ctx.textAlign = "center"
   ctx.textBaseline = "alphabetic"
-  ctx.fillText("ω₁", x(0), frame.bottom + 37)
+  ctx.fillText("ω₁", left + w / 2, bottom + 37)
   ctx.save()
-  ctx.translate(12, y(0))
+  ctx.translate(12, bottom - h / 2)
   ctx.rotate(-Math.PI / 2)
   ctx.fillText("ω₂", 0, 0)
   ctx.restore()
@@ -102,21 +108,39 @@ export function cloudPlane(el, options, source, isShown) {
   const clouds = cloudsOf(own)
   const layer = pointLayer()
   let t = 0
-  // Half the range of the axes; kept while there are no clouds.
-  let range = 1
+  // Kept while there are no clouds.
+  /** @type {Axes} */
+  let whole = [-1, 1, -1, 1]
   const { canvas, request, shoot } = squareCanvas(el, "sphere.cloud", {
     role: "img", ariaLabel: "Cloud of phase points on the plane of ω₁ and ω₂",
-    /** @param {MouseEvent} event */
-    onclick({ offsetX, offsetY }) {
-      const larger = zoom(canvas.clientWidth)
-      const picked = place(canvas.clientWidth / larger).invert(offsetX / larger, offsetY / larger)
-      tell("pick", { pick: [options.name, ...picked], drag: false })
+    onclick(/** @type {MouseEvent} */ { offsetX, offsetY }) {
+      if (isAlone()) onceSingle(() => tell("pick", { pick: [options.name, ...invert(offsetX, offsetY)], drag: false }))
     },
   }, paint)
+  const zoomSource = source(`${options.name}-zoom`)
+  const { isAlone, onceSingle } = connectZoom(el, zoomSource, {
+    name: options.name, isComputed: false, invert, show: request,
+    axes: () => whole,
+    frame() {
+      const { larger, frame: { left, right, top, bottom } } = here()
+      return { x0: larger * left, x1: larger * right, y0: larger * top, y1: larger * bottom }
+    },
+  })
   /** @param {number} edge */
   const place = (edge) => {
-    range = own.data.half ?? range
-    return placing(edge, range)
+    const { half } = own.data
+    if (half !== undefined) whole = [-half, half, -half, half]
+    return placing(edge, zoomed(zoomSource, whole))
+  }
+  /** Return the frame on the page, whose lengths are larger by a factor. */
+  function here() {
+    const larger = zoom(canvas.clientWidth)
+    return { larger, ...place(canvas.clientWidth / larger) }
+  }
+  /** @param {number} left @param {number} top */
+  function invert(left, top) {
+    const { larger, invert: values } = here()
+    return values(left / larger, top / larger)
   }
 
   /** @type {PaintSquare} */

@@ -167,7 +167,12 @@ export function render({ el }) {
   sayDragMe(besideLayer)
   listen({
     captions(captions) { for (const cell of shown?.cells ?? []) fillCaption(cell, captions) },
-    texts(texts) { for (const cell of shown?.cells ?? []) fillHover(cell, texts) },
+    texts(texts) {
+      for (const cell of shown?.cells ?? []) {
+        fillHover(cell, texts)
+        if (texts.windowed !== undefined) cell.classList.toggle("windowed", texts.windowed.split(" ").includes(nameOf(cell)))
+      }
+    },
     themed() { for (const scene of built.values()) colour(scene) },
   })
   stand()

@@ -197,7 +197,7 @@ export function createGuess(prediction, say, guessed = null) {
         onclick: (/** @type {MouseEvent} */ { offsetX, offsetY }) => { if (!this.isRevealed) add(offsetX, offsetY) },
         onfocus: () => { sheet.style.boxShadow = sheet.matches(":focus-visible") ? FOCUS : "" },
         onblur: () => { sheet.style.boxShadow = "" },
-      }, "cursor: crosshair; touch-action: manipulation; outline: none", paint)
+      }, "cursor: crosshair; touch-action: pan-x pan-y; outline: none", paint)
       const { sheet } = over
       // The picture itself ignores these clicks and drags.
       for (const name of ["pointerdown", "pointermove", "pointerup", "wheel", "touchstart"]) {

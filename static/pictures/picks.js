@@ -37,16 +37,18 @@ export function choose(model, x, y, drag) {
  * @param {string[]} picks Bokeh events that choose a point ("tap", "doubletap", "pan"), "box" for a drag that draws a box and
  *   chooses its corners, "hover" for the place of the mouse
  * @param {Source} box gets the box while it is drawn
- * @param {{isDragging: () => boolean, isOnHandle: () => boolean}} touch see "touch.js"
+ * @param {{isDragging: () => boolean, isOnHandle: () => boolean, isAlone: () => boolean, onceSingle: (act: () => void) => void}} touch
+ *   see "touch.js" and "zoom.js"
  */
-export function connectPicks(model, picks, box, { isDragging, isOnHandle }) {
+export function connectPicks(model, picks, box, { isDragging, isOnHandle, isAlone, onceSingle }) {
   const { name } = model
   /** @type {Record<string, ((event: BokehEvent) => void)[]>} */
   const callbacks = {}
   /** @param {BokehEvent} event */
   const point = ({ x, y, event_name: event }) => {
-    const drag = event === "pan"
-    if (!drag || isDragging()) choose(model, x, y, drag)
+    if (event !== "pan") {
+      if (isAlone()) onceSingle(() => choose(model, x, y, false))
+    } else if (isDragging()) choose(model, x, y, true)
   }
   for (const pick of picks) {
     if (pick === "hover") callbacks.mousemove = [({ x, y }) => tell("hover", [name, x, y])]
@@ -72,7 +74,8 @@ function boxCallbacks(name, box, isDragging, drag) {
   let start = null
   /** @param {BokehEvent} event */
   const draw = (event) => {
-    if (isDragging() && !drag(event)) box.put({ left: [start.x], right: [event.x], top: [start.y], bottom: [event.y] })
+    if (!isDragging()) box.put(NOTHING)
+    else if (!drag(event)) box.put({ left: [start.x], right: [event.x], top: [start.y], bottom: [event.y] })
   }
   return {
     panstart: [(event) => {

@@ -12,6 +12,7 @@ import { connectPicks } from "./picks.js"
 import { connectKeys } from "./plot_keys.js"
 import { tickFormatter } from "./ticks.js"
 import { connectTouch } from "./touch.js"
+import { connectZoom } from "./zoom.js"
 
 /** Run BokehJS if the page is a file, which holds it as text: it takes longer to start than everything else. */
 function startBokeh() {
@@ -104,6 +105,12 @@ function placesOf({ frame: { x_scale: xScale, y_scale: yScale } }, handle, sourc
   return Array.from(xs, (value, i) => [xScale.compute(value), yScale.compute(ys[i])])
 }
 
+/** Set the axes of a plot. @param {PlotModel} model @param {Axes} axes */
+export function showAxes({ x_range: x, y_range: y }, [x0, x1, y0, y1]) {
+  x.setv({ start: x0, end: x1 })
+  y.setv({ start: y0, end: y1 })
+}
+
 /**
  * Draw a picture in an element, and return Bokeh's view of the plot.
  * @param {HTMLElement} host
@@ -137,8 +144,18 @@ export async function buildPlot(host, picture, source) {
   })
   if (picture.renamed) nameAxes(model, source(`${picture.name}-axes`))
   const { picks } = picture
-  const touch = connectTouch(host, plot, { places: () => placesOf(plot, picture.handle, source), boxes: picks.includes("box") })
-  connectPicks(model, picks, source(`${picture.name}-box`), touch)
+  const { frame } = plot
+  const { x_range: xRange, y_range: yRange } = model
+  const boxes = picks.includes("box")
+  const zoom = connectZoom(host, source(`${picture.name}-zoom`), {
+    name: picture.name, isComputed: boxes,
+    frame: () => frame.bbox,
+    axes: () => [xRange.start, xRange.end, yRange.start, yRange.end],
+    invert: (x, y) => [frame.x_scale.invert(x), frame.y_scale.invert(y)],
+    show: (axes) => showAxes(model, axes),
+  })
+  const touch = connectTouch(host, plot, { places: () => placesOf(plot, picture.handle, source), boxes, isAlone: zoom.isAlone })
+  connectPicks(model, picks, source(`${picture.name}-box`), { ...touch, ...zoom })
   if (picture.hands !== "") {
     connectKeys(host, plot, { picks, places: picture.handle === null ? null : () => placesOf(plot, picture.handle, source) })
   }

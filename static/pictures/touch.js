@@ -3,8 +3,8 @@
 // boxes, a drag that does not begin near the handle draws one.
 //
 // A browser that scrolls cancels the pointer.  Preventing the default of "touchstart" is the only way to stop it near a handle, as
-// the style `touch-action` cannot depend on the place.  Elsewhere two fingers zoom the page.  Bokeh would take the events of a
-// second finger for those of the first: they are withheld, and the drag ends where it is.
+// the style `touch-action` cannot depend on the place.  Two fingers zoom the picture, see "zoom.js".  Bokeh would take the events
+// of a second finger for those of the first: they are withheld, and the drag ends where it is.
 
 // A finger covers about 40 pixels, and a ring 20.
 const [REACH, REACH_OF_MOUSE] = [30, 14]
@@ -22,10 +22,10 @@ export const isNear = ([x, y], places, reach = REACH) => places.some(([a, b]) =>
  * isOnHandle() whether it began near the handle.
  * @param {HTMLElement} host holds the plot
  * @param {PlotView} plot
- * @param {{places: () => number[][], boxes: boolean}} handles places() returns the handles in pixels of the plot; `boxes` tells
- *   whether a drag draws a box
+ * @param {{places: () => number[][], boxes: boolean, isAlone: () => boolean}} handles places() returns the handles in pixels of
+ *   the plot; `boxes` tells whether a drag draws a box, isAlone() whether one finger drags
  */
-export function connectTouch(host, plot, { places, boxes }) {
+export function connectTouch(host, plot, { places, boxes, isAlone }) {
   let [dragging, isOnHandle] = [false, false]
   /** The first finger on the plot. @type {number | null} */
   let finger = null
@@ -60,7 +60,7 @@ export function connectTouch(host, plot, { places, boxes }) {
   for (const name of /** @type {const} */ (["pointermove", "pointerup", "pointercancel"])) {
     host.addEventListener(name, onOther, { capture: true })
   }
-  if (boxes) host.style.touchAction = "pinch-zoom"
+  if (boxes) host.style.touchAction = "none"
   else host.addEventListener("touchstart", (event) => { if (dragging) event.preventDefault() }, { passive: false })
-  return { isDragging: () => dragging, isOnHandle: () => isOnHandle }
+  return { isDragging: () => dragging && isAlone(), isOnHandle: () => isOnHandle }
 }

@@ -132,7 +132,8 @@ class Recording:
             }
         for plot, ranges in axes:
             wire.put_ranges(plot.name, ranges.x, ranges.y)
-        for key, text in texts.items():
+        # A file computes no windows.
+        for key, text in {**texts, "windowed": ""}.items():
             wire.say(key, text)
         show_controls(scene, values, wire)
         tree, block = wire.pack()

@@ -17,6 +17,8 @@ T = TypeVar("T")
 Values = Mapping[str, float | str]
 Corners = tuple[float, float, float, float]
 """Two opposite corners: x0, y0, x1, y1."""
+_EVERYTHING = (-1e300, -1e300, 1e300, 1e300)
+"""A box around any picture, as the page sends it to show the whole."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -121,6 +123,11 @@ class Picture(ABC, Generic[S]):
         if self.on_click is None:
             return ""
         return " ".join(["drag"] * bool(self.on_drag) + ["box"] * (self.on_box is not None)) or "click"
+
+    def is_windowed(self, state: S) -> bool:
+        """Return whether the state shows only the part of the picture that a box has selected."""
+        whole = {} if self.on_box is None else self.on_box(state, _EVERYTHING)
+        return any(getattr(state, name) != value for name, value in whole.items())
 
     def describe(self) -> dict[str, Any]:
         """Return the description of the picture, sent to the browser before the first data."""

@@ -43,6 +43,7 @@ class Stage(Generic[S]):
             for source, columns in view.framed(state, axes[view.name], drawn).items():
                 drawn[source] = {**drawn.get(source, {}), **columns}
         answer = self.scene.answer(state)
+        windowed = " ".join(view.name for view in views if view.is_windowed(state))
         quantities, notes = [*state.quantities()], [*dict.fromkeys(state.notes())]
         status = re.sub(r"(?<=\d)e-(?=\d)", "e−", " · ".join([*state.status(), state.work.ended()]))
         self._state = state
@@ -53,6 +54,7 @@ class Stage(Generic[S]):
             self._put(source, columns)
         self._name_signs(views, drawn)
         self.wire.say("answer", answer)
+        self.wire.say("windowed", windowed)
         return Report(quantities, status, notes, tuple(state.work.todo), state.work.pieces, state.work.summary())
 
     def _name_signs(self, views: Sequence[Picture[S]], drawn: Mapping[str, Columns]) -> None:
@@ -63,6 +65,7 @@ class Stage(Generic[S]):
         """Clear all pictures and show the sentence in their captions; reset the axes unless `hold_axes`."""
         self._state = None
         self.wire.say("answer", "")
+        self.wire.say("windowed", "")
         for name in self.scene.tracks:
             self._put(f"data-{name}", {})
         for name, view in self._views.items():

@@ -38,8 +38,13 @@ def inside(points: Sequence[tuple[float, float]], window: Window) -> list[tuple[
 
 
 def box_window(corners: tuple[float, float, float, float], bounds: Window, name: str = "window") -> Values:
-    """Return the window parameter `name` for a box, clipped to the bounds; empty if it has no area."""
+    """Return the window parameter `name` for a box, clipped to the bounds.
+
+    A box around the bounds means the whole picture; without an area nothing is returned.
+    """
     (x0, y0), (x1, y1) = bounds
     left, right = max(x0, min(corners[0], corners[2])), min(x1, max(corners[0], corners[2]))
     low, high = max(y0, min(corners[1], corners[3])), min(y1, max(corners[1], corners[3]))
-    return {name: places_text([(left, low), (right, high)])} if low < high and left < right else {}
+    if not (low < high and left < right):
+        return {}
+    return {name: "" if ((left, low), (right, high)) == bounds else places_text([(left, low), (right, high)])}

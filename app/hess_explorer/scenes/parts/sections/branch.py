@@ -205,9 +205,13 @@ class SectionBranch(Continuation[_Section]):
         }
 
     def box_window(self, corners: Corners) -> Values:
-        """Return the range that a box selects."""
-        x0, _, x1, _ = corners
-        return {} if x0 == x1 or not self.branches else {"low": min(x0, x1), "high": max(x0, x1)}
+        """Return the range that a box selects; a box around everything selects the default."""
+        low, high = sorted((corners[0], corners[2]))
+        if low <= _FARTHEST[0] and high >= _FARTHEST[1]:
+            low = high = 0.0
+        elif low == high or not self.branches:
+            return {}
+        return {"low": low, "high": high}
 
     # ---- words --------------------------------------------------------------------------------------------------
 
