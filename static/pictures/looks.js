@@ -57,6 +57,7 @@ export const LOOKS = {
   second: look("second", 2.2),
   stable: look("stable", 3),
   unstable: look("unstable", 3, [7, 5]),
+  ...Object.fromEntries(Array.from({ length: 8 }, (_, i) => [`chosen-${i}`, look(`chosen-${i}`, 2.2)])),
   muted: look("muted", 1),
   limit: { weight: 1, dash: [2, 3] },
   axis: { weight: 2.5 },

@@ -2,8 +2,8 @@
 // The Poisson sphere.  Drag, arrow keys and touch rotate it; the far side is drawn first and dimmed.
 //
 // It draws the tracks in its options from their sources (columns g1, g2, g3).  Its own source, with the name of the picture,
-// holds axis [3], label, circles [[axis, height, look]], marks [[γ, look, label]].  The option `clouds` names a source of
-// clouds of points ("cloud.js").  The option `attitude` names a source and makes it a sphere fixed in space with a body inside
+// holds axis [3], label, circles [[axis, height, look]], marks [[γ, look, label]], and the look of the orbit if it depends on the
+// state.  The option `clouds` names a source of clouds of points ("cloud.js").  The option `attitude` names a source and makes it a sphere fixed in space with a body inside
 // ("body.js"); `title` describes it, and `bare` keeps only the equator of the graticule.
 // On the far side the moving point has a dashed ring.
 
@@ -69,7 +69,7 @@ export function sphere(el, options, source, isShown) {
   /** @type {Vector | null} */
   let point = null
 
-  const tracks = () => curvesOf(options.tracks, source, ["g1", "g2", "g3"])
+  const tracks = () => curvesOf({ ...options.tracks, ...(own.data.look && { "data-orbit": own.data.look }) }, source, ["g1", "g2", "g3"])
 
   /** @param {Sheet} on @param {boolean} near */
   function drawHalf(on, near) {

@@ -102,7 +102,7 @@ def test_the_later_half_are_the_later_points():
     assert np.array_equal(half, whole.reshape(4, 20, 2)[:, 10:].reshape(-1, 2))
 
 
-def test_a_click_adds_an_orbit_and_a_box_is_the_window():
+def test_a_click_adds_an_orbit_and_a_box_selects_a_window():
     view = View(SCENE, FEW)
     assert places(view.stage.pick("section", 0.3, 2.0)["starts"]) == [(1.0, 1.0), (0.3, 2.0)]
     assert view.stage.pick("omega", 0.3, 2.0) == {}
@@ -111,10 +111,20 @@ def test_a_click_adds_an_orbit_and_a_box_is_the_window():
     assert high == approx((1.0, pi), abs=1e-5)
     assert view.stage.box("section", (1.0, 2.0, 1.0, 3.0)) == view.stage.box("sphere", (1.0, 2.0, 0.0, 3.0)) == {}
     both = View(SCENE, {**FEW, "starts": "1,1;0.3,2"})
-    assert len(both.points("own")) == 2 * len(view.points("own"))
-    assert both.points("chosen") == approx(np.array([[1.0, 1.0], [0.3, 2.0]]), abs=1e-6)
-    closer = View(SCENE, {**FEW, "window": "-0.5,2;1,3"})
-    assert closer.result.section.frame == ((-0.5, 2.0), (1.0, 3.0))
+    assert len(both.points("own1")) == len(both.points("own")) == len(view.points("own"))
+    # Each has a colour of its own, in the section, in the plane and on the sphere.
+    for i, found in enumerate((view, both)):
+        assert found.points(f"chosen{i or ''}") == approx(np.array([[[1.0, 1.0]], [[0.3, 2.0]]][i]), abs=1e-6)
+        assert [len(found.data.get(f"omega-orbit{k}", {}).get("x", ())) > 0 for k in ("", 1)] == [i == 0, i == 1]
+        assert found.data["sphere"]["look"] == f"chosen-{i}"
+
+
+def test_a_window_is_that_of_a_box_until_a_box_around_everything():
+    view = View(SCENE, {**FEW, "window": "-0.5,2;1,3"})
+    assert view.result.section.frame == ((-0.5, 2.0), (1.0, 3.0))
+    assert view.text["windowed"] == "section"
+    assert view.stage.box("section", (-1e300, -1e300, 1e300, 1e300)) == {"window": ""}
+    assert View(SCENE, FEW, seen=("section",)).text["windowed"] == ""
 
 
 def test_a_start_where_nothing_is_possible_is_replaced_and_said():

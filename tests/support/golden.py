@@ -60,7 +60,7 @@ def view_of(scene, preset, seen=None):
 def record(view):
     """Return the record of a view in this run."""
     report = view.report
-    words = {name: text for name, text in view.text.items() if name != "signs"}
+    words = {name: text for name, text in view.text.items() if name not in ("signs", "windowed")}
     entries = (COUNTED.sub("#", entry) for entry in report.status.split(" · ") if not COST.search(entry))
     lists = {"derived": report.quantities, "notes": report.notes, "status": entries}
     columns = {source: reduced(source, columns) for source, columns in view.data.items()}

@@ -75,3 +75,13 @@ def lab(colour, eye):
 def test_the_colour_blind_tell_the_basins_apart(eye):
     seen = [lab(colour, eye) for colour in (*theme.BASINS, theme.MUTED)]
     assert min(np.linalg.norm(a - b) for i, a in enumerate(seen) for b in seen[:i]) > 15.0
+
+
+@pytest.mark.parametrize("page", [0, 1], ids=["light", "dark"])
+@pytest.mark.parametrize("eye", EYES.values(), ids=EYES)
+def test_the_colour_blind_tell_the_chosen_orbits_apart(eye, page):
+    chosen = [theme.SHADES[f"chosen-{i}"][page] for i in range(len(theme.CHOSEN))]
+    others = [theme.SHADES[name][page] for name in ("orbit", "unstable")]
+    seen = [lab(colour, eye) for colour in (*chosen, *others)]
+    assert min(np.linalg.norm(a - b) for i, a in enumerate(seen[:-2]) for b in (*seen[:i], *seen[-2:])) > 15.0
+    assert min(contrast(colour, theme.SHADES["paper"][page]) for colour in chosen) >= 3.0

@@ -36,7 +36,7 @@ from hess_explorer.views.graphs.graph import ANGLE, ANGLE_TICKS
 from hess_explorer.views.layers import Axes
 from hess_explorer.views.maps import scattering_map as square
 from hess_explorer.views.plane import section_plane
-from hess_explorer.views.plane.velocity_plane import orbit_alone, orbit_columns, pixels_per_unit, room_for
+from hess_explorer.views.plane.velocity_plane import orbit, orbit_alone, orbit_columns, pixels_per_unit, room_for
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.space.poisson_sphere import Direction, along_the_orbit, centre_of_mass
 from hess_explorer.views.text import digits, vector
@@ -266,7 +266,7 @@ SCENE = Scene(
             ),
         ),
         orbit_alone(
-            BallSectionState.half_width, energy=lambda s: s.E, label="chosen orbit", proved=lambda s: s.proof.band
+            BallSectionState.half_width, lambda s: s.E, lambda s: s.proof.band, orbits=(orbit("chosen orbit"),)
         ),
         along_the_orbit(lambda s: s.r, lambda s: s.proof.around),
         Plot(

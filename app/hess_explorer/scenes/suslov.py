@@ -34,7 +34,13 @@ from hess_explorer.scenes.parts.sections.divergence import Divergence, divergenc
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.graphs import conformal_time
 from hess_explorer.views.plane import layered_section
-from hess_explorer.views.plane.velocity_plane import nice_above, orbit_alone, orbit_columns, pixels_per_unit
+from hess_explorer.views.plane.velocity_plane import (
+    chosen_orbit,
+    nice_above,
+    orbit_alone,
+    orbit_columns,
+    pixels_per_unit,
+)
 from hess_explorer.views.space.poisson_sphere import along_the_orbit, centre_of_mass
 from hess_explorer.views.text import digits
 from hess_mechanics.dynamics.cells import occupied_cells
@@ -244,9 +250,16 @@ SCENE = Scene(
         ),
         solid_body(),
         divergence_picture(),
-        along_the_orbit(lambda s: centre_of_mass((s.b1, s.b2, s.b3)), lambda s: s.proof.around),
+        along_the_orbit(
+            lambda s: centre_of_mass((s.b1, s.b2, s.b3)), lambda s: s.proof.around, lambda s: s.clicks.colour
+        ),
         replace(
-            orbit_alone(lambda s: s.half_width, energy=lambda s: s.E, proved=lambda s: s.proof.band),
+            orbit_alone(
+                lambda s: s.half_width,
+                lambda s: s.E,
+                lambda s: s.proof.band,
+                orbits=chosen_orbit(lambda s: s.orbit.path.states[:, :2], lambda s: s.clicks.colour),
+            ),
             button="Show the angular velocity",
         ),
         conformal_time.picture(lambda s: s._conformal[0], lambda s: s._conformal[1], lambda s: s.duration),

@@ -35,6 +35,8 @@ INTEGRALS = ("#CC6677", "#999933", "#6B7FD7", "#808080")
 CHANGED = "#E0245E"
 BASINS = ("#4FB0E5", "#E69F00", "#8517FA", "#D9D264", "#CB3B0D")
 """Basins of attractors, on a light page and on a dark one; also the colour-blind tell them apart."""
+CHOSEN = ("#790167", "#15503F", "#AB0FFE", "#383800", "#A48CAE", "#AB5D34", "#310FA9", "#041F09")
+"""Chosen orbits in the order of their starts; the colour-blind tell them apart too, also from `ORBIT` and `UNSTABLE`."""
 DASHES = {"draft": "dotted", "standard": "solid", "precise": "dashed", "reference": "dotdash"}
 FONT_SIZE = "14px"
 
@@ -49,6 +51,16 @@ SHADES = {
     "muted": (MUTED, "#949494"),
     "ink": (INK, "#F2F2F2"),
     "paper": (PAPER, "#121212"),
+    **{
+        f"chosen-{i}": pair
+        for i, pair in enumerate(
+            zip(
+                CHOSEN,
+                ("#FF14B6", "#0CFF8B", "#AE03C9", "#A19955", "#D7D8FF", "#845D49", "#516483", "#B4FFD1"),
+                strict=True,
+            )
+        )
+    },
 }
 """CSS name → (colour on a light page, colour on a dark page)."""
 

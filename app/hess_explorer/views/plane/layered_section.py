@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import TypeVar
 
 import numpy as np
@@ -110,8 +111,8 @@ def indicator(cells: Callable[[S], Array | None], window: Callable[[S], Window])
 def layers(
     first: Callable[[S], Array],
     second: Callable[[S], Array],
-    own: Callable[[S], Array],
-    chosen: Callable[[S], Positions],
+    own: Callable[[S, int], Array],
+    chosen: Callable[[S, int], Positions],
     impossible: Callable[[S], Array],
     window: Callable[[S], Window],
     labels: tuple[str, str],
@@ -119,14 +120,16 @@ def layers(
 ) -> Layers[S]:
     """Return the layers: points of both kinds, chosen orbits with rings at their starts, forbidden region in grey.
 
+    Each of the colours `theme.CHOSEN` has a layer of orbits and one of rings.
+
     Parameters
     ----------
     first, second : callable
         Points (n, 2) of the two kinds, as functions of the state.
     own : callable
-        `own(state)` returns the points (n, 2) of the chosen orbits.
+        `own(state, i)` returns the points (n, 2) of the chosen orbits in the i-th colour.
     chosen : callable
-        `chosen(state)` returns the starts of the chosen orbits.
+        `chosen(state, i)` returns the starts of these orbits.
     impossible : callable
         `impossible(state)` returns cells (m, n) over the window, 1 in the forbidden region.
     window : callable
@@ -150,8 +153,11 @@ def layers(
         _points("first", first, window, 5, theme.ORBIT, labels[0]),
         _points("second", second, window, 5, theme.UNSTABLE, labels[1]),
         *between,
-        _points("own", own, window, 10, theme.MAP, "chosen orbit, from its ring"),
-        ring("chosen", chosen, color=theme.MAP),
+        *(
+            _points(f"own{i or ''}", partial(own, i=i), window, 10, color, "" if i else "chosen orbit, from its ring")
+            for i, color in enumerate(theme.CHOSEN)
+        ),
+        *(ring(f"chosen{i or ''}", partial(chosen, i=i), color=color) for i, color in enumerate(theme.CHOSEN)),
     )
 
 

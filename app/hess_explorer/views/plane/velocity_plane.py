@@ -39,6 +39,7 @@ __all__ = [
     "band",
     "beside",
     "centred",
+    "chosen_orbit",
     "energy_levels",
     "equilibria",
     "halves",
@@ -112,6 +113,17 @@ def orbit(label: str) -> Layer[S]:
     )
 
 
+def chosen_orbit(states: Callable[[S], Array], colour: Callable[[S], int]) -> Layers[S]:
+    """Return the layers of the orbit `states(state)` (n, 2), one for each of the colours `theme.CHOSEN`."""
+
+    def of(i: int, color: str) -> Layer[S]:
+        return line(
+            f"orbit{i or ''}", lambda s: states(s).T if colour(s) == i else None, color=color, width=2.5, tag="orbit"
+        )
+
+    return tuple(of(i, color) for i, color in enumerate(theme.CHOSEN))
+
+
 def band(data: Callable[[S], Regions]) -> Layer[S]:
     """Return the layer of polygons (n, 2) that enclose the true orbit where they are wider than a pixel."""
     return region("band", data, color=theme.SHEET, label="proved enclosure of the orbit", moving=True)
@@ -121,11 +133,11 @@ def orbit_alone(
     half_width: Callable[[S], float],
     energy: Callable[[S], float],
     proved: Callable[[S], Regions],
-    label: str = "",
+    orbits: Layers[S],
 ) -> Plot[S]:
     """Return the plot of the orbit and the proved band, with the energy in the caption."""
     return picture(
-        lambda s: Caption("The chosen orbit.", f"E = {digits(energy(s))}."), half_width, (band(proved), orbit(label))
+        lambda s: Caption("The chosen orbit.", f"E = {digits(energy(s))}."), half_width, (band(proved), *orbits)
     )
 
 

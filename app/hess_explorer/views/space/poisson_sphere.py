@@ -96,6 +96,8 @@ class Sphere(Picture[S]):
         Style of each track: "orbit", "second", "stable", "unstable" or "muted".
     axis, circles, marks : callable or None
         An axis, circles and marked points, as functions of the state.
+    colour : callable, optional
+        `colour(state)` returns the index of the orbit's colour in `theme.CHOSEN`, instead of its style.
     clouds : str
         Name of the picture whose clouds are shown; empty for none.
     labels : tuple of str
@@ -108,6 +110,7 @@ class Sphere(Picture[S]):
     axis: Callable[[S], Direction | None] = lambda state: None
     circles: Callable[[S], Sequence[Circle]] = lambda state: ()
     marks: Callable[[S], Sequence[Mark]] = lambda state: ()
+    colour: Callable[[S], int] | None = None
     clouds: str = ""
     labels: tuple[str, str, str] = ("γ₁", "γ₂", "γ₃")
 
@@ -136,15 +139,21 @@ class Sphere(Picture[S]):
 
     def data(self, state: S) -> Sources:
         """Return the columns of the axis, circles and marks."""
-        return {self.name: drawn(self.axis(state), self.circles(state), self.marks(state))}
+        look = {} if self.colour is None else {"look": f"chosen-{self.colour(state)}"}
+        return {self.name: {**drawn(self.axis(state), self.circles(state), self.marks(state)), **look}}
 
 
-def along_the_orbit(axis: Callable[[S], Direction | None], circles: Callable[[S], Sequence[Circle]]) -> Sphere[S]:
+def along_the_orbit(
+    axis: Callable[[S], Direction | None],
+    circles: Callable[[S], Sequence[Circle]],
+    colour: Callable[[S], int] | None = None,
+) -> Sphere[S]:
     """Return the sphere with the vertical along the track "orbit" and, in a field, the centre of mass."""
     return Sphere(
         looks={"orbit": "orbit"},
         axis=axis,
         circles=circles,
+        colour=colour,
         caption=lambda s: Caption(
             "The vertical γ along the chosen orbit.",
             "No field: b = 0." if axis(s) is None else "r: the centre of mass.",

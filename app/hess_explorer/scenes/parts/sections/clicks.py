@@ -17,6 +17,7 @@ from hess_explorer.scenes.framework.periodic_search import ClosedOrbit
 from hess_explorer.scenes.framework.sliders import number, specs_of
 from hess_explorer.scenes.framework.windows import Window, box_window
 from hess_explorer.scenes.parts.sections.section import Section
+from hess_explorer.views import theme
 from hess_explorer.views.text import digits
 from hess_mechanics.dynamics.return_map import PoincareSection
 from hess_mechanics.errors import InvalidParameter
@@ -145,6 +146,11 @@ class Clicks(Part[_Host]):
         """The places where the chosen orbits start."""
         closed = self.host.closed_orbit
         return [*self.picked.places] if closed is None else [*self.picked.places[:-1], _place(closed.orbit.places[0])]
+
+    @property
+    def colour(self) -> int:
+        """Index of the colour of the current orbit in `theme.CHOSEN`."""
+        return (len(self.picked.places) - 1) % len(theme.CHOSEN)
 
     @cached_property
     def impossible(self) -> Array:

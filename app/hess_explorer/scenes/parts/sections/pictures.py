@@ -128,8 +128,8 @@ def filled_picture(
             *layered_section.layers(
                 points(True),
                 points(False),
-                lambda s: s.section.own,
-                chosen=lambda s: inside(s.clicks.rings, s.section.frame),
+                lambda s, i: s.section.own_in(i),
+                chosen=lambda s, i: inside(s.clicks.rings[i :: len(theme.CHOSEN)], s.section.frame),
                 impossible=lambda s: s.clicks.impossible,
                 window=lambda s: s.section.frame,
                 labels=labels,
