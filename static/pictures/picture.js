@@ -10,10 +10,10 @@ const RING = "arrow keys move the ring"
 // Tooltip of a picture and actions of the keyboard, see "plot_keys.js", by what the mouse does there.
 /** @type {Record<string, [string, string]>} */
 const HANDS = {
-  drag: ["Drag or click to choose values", RING],
-  "drag box": ["Drag the ring or click to choose values, drag a box to zoom in", RING],
-  box: ["Click to choose values, drag a box to zoom in", CROSS],
-  click: ["Click to choose values", CROSS],
+  drag: ["Drag or click to choose values, scroll or pinch to zoom", RING],
+  "drag box": ["Drag the ring or click to choose values; drag a box, scroll or pinch to zoom", RING],
+  box: ["Click to choose values; drag a box, scroll or pinch to zoom", CROSS],
+  click: ["Click to choose values, scroll or pinch to zoom", CROSS],
 }
 
 /**

@@ -434,11 +434,15 @@ REFUSED = [
     (
         "suslov",
         {"h": 0.895, "starts": "-2.356,1", "window": "-2.5,1;-2.2,2"},
-        "In this window no motion has this energy: .* press Clear",
+        "In this window no motion has this energy: .* More → Remove clicks",
     ),
     ("quartic", {"b3": 0.0}, "Choose a nonzero b3"),
     ("chaplygin-ball", {"I13": 0.0, "I23": 0.0}, "I13 = I23 = 0: there is no line of equilibria"),
-    ("euler-poisson", {"h": -20.0}, "no motion with this h and f .* choose a larger h, a smaller .f., or press Clear"),
+    (
+        "euler-poisson",
+        {"h": -20.0},
+        "no motion with this h and f .* choose a larger h, a smaller .f., or More → Remove clicks",
+    ),
     ("euler-poisson", {"f": 500.0}, "In this window no motion"),
     ("loxodrome", {"I2": 1.0, "I3": 1.0}, "which differ"),
     ("loxodrome", {"m": -0.5}, "choose μ > 0"),

@@ -103,7 +103,7 @@ def scene(
         - "x y z": direction of the vector of three variables, on a sphere;
         - "exponent": largest Lyapunov exponent over the averaging time;
         - "section", "section x px" or "section x px at y = 0": Poincaré section, optionally with MEGNO as colour.
-          Click to choose the motion, draw a box to zoom;
+          Click to choose the motion, scroll or draw a box to zoom;
         - "section x px at y = 0 on E, L": Poincaré section at levels of these integrals;
         - "branch": continuation of a periodic orbit of that section over a parameter or a level;
         - "chart": MEGNO or the exponent over two of the sliders.

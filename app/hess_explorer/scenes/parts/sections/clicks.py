@@ -137,7 +137,7 @@ class Clicks(Part[_Host]):
         others = others or [*_spread(self.host, 1)]
         if not others:
             raise InvalidParameter(
-                f"In this window {self.excuse}: choose {self.remedy}, or press Clear for the whole section."
+                f"In this window {self.excuse}: choose {self.remedy}, or More → Remove clicks and boxes."
             )
         return _Chosen([_place(self.host.poincare.places_of(np.array(others))[0])], [others[0]], chosen[-1])
 
