@@ -6,11 +6,9 @@ import { shade } from "./looks.js"
 
 // Font size of ticks relative to that of axis labels.
 const TICKS = 0.86
-// Edge in pixels of a picture whose labels have the room that "tags.py" gives them, and of one without labels.
-const LABELLED = 340
-const UNLABELLED = 240
-// Smallest factor of labels.
-const LEAST = 0.8
+// Width of a frame whose labels have the room that "tags.py" gives them, that of its axes in font sizes, and the edge of a picture
+// without labels.
+const [LABELLED, AXES, UNLABELLED] = [270, 5, 240]
 const COLOURS = ["line_color", "fill_color", "text_color", "background_fill_color"]
 const SIZES = ["line_width", "axis_line_width", "major_tick_line_width", "outline_line_width", "size", "text_font_size"]
 
@@ -53,7 +51,7 @@ export const largerOf = (plot) => factors.get(plot) ?? 1
 export function sizePlot(plot, type, isAside, edge) {
   const larger = zoom(edge)
   factors.set(plot, larger)
-  const labelled = isAside || edge < UNLABELLED ? 0 : Math.min(larger, Math.max(LEAST, edge / LABELLED))
+  const labelled = isAside || edge < UNLABELLED ? 0 : Math.min(larger, (edge - AXES * type) / LABELLED)
   for (const part of plot.model.references()) {
     const isLabel = (part.text_font_style?.value ?? part.text_font_style) === "bold"
     const factor = isLabel ? labelled : larger

@@ -22,6 +22,8 @@ _CELLS = 48
 """Cells of the grid along each side."""
 _LETTER, _LINE = 0.027, 0.068
 """Width of a letter and height of a line in a small frame (270 pixels)."""
+_PIXEL = 1.0 / 180.0
+"""A pixel of a marker in the smallest frame with labels."""
 _GAP = 0.012
 """Distance between a label and what it names."""
 _SAMPLES = 800
@@ -118,7 +120,10 @@ def _there(layer: Layer[Any], columns: Columns) -> bool:
 
 
 def _points(layer: Layer[Any], columns: Columns, frame: _Frame) -> Array:
-    """Return the points (2, n) that a layer covers, dense on curves; empty for regions, cells and words."""
+    """Return the points (2, n) that a layer covers, dense on curves, with the edges of markers.
+
+    It is empty for regions, cells and words.
+    """
     given = [columns[name] for name in layer.columns]
     if layer.glyph in ("image", "multi_polygons", "text"):
         return np.empty((2, 0))
@@ -126,6 +131,9 @@ def _points(layer: Layer[Any], columns: Columns, frame: _Frame) -> Array:
         lines = [_dense(frame.to(x, y), _SAMPLES // len(given[0])) for x, y in zip(*given, strict=True)]
         return np.concatenate(lines, axis=1)
     points = frame.to(*given[:2])
+    if layer.glyph == "scatter":
+        reach = 0.5 * _PIXEL * layer.style["size"]
+        return np.concatenate([points, *(points + reach * side[:, None] for side in _DIRECTIONS.T)], axis=1)
     return _dense(points, _SAMPLES) if layer.glyph == "line" else points
 
 

@@ -36,7 +36,7 @@ CHANGED = "#E0245E"
 BASINS = ("#4FB0E5", "#E69F00", "#8517FA", "#D9D264", "#CB3B0D")
 """Basins of attractors, on a light page and on a dark one; also the colour-blind tell them apart."""
 CHOSEN = ("#790167", "#15503F", "#AB0FFE", "#383800", "#A48CAE", "#AB5D34", "#310FA9", "#041F09")
-"""Chosen orbits in the order of their starts; the colour-blind tell them apart too, also from `ORBIT` and `UNSTABLE`."""
+"""Chosen orbits in the order of their starts; distinct also for the colour-blind, and from `ORBIT` and `UNSTABLE`."""
 DASHES = {"draft": "dotted", "standard": "solid", "precise": "dashed", "reference": "dotdash"}
 FONT_SIZE = "14px"
 
