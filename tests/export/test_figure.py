@@ -10,7 +10,7 @@ import pytest
 from PIL import Image
 from pytest import approx
 
-from hess_explorer.export.figure import as_file
+from hess_explorer.export.figure import as_figure, as_file
 from hess_explorer.export.formats import FileRequest
 from hess_explorer.export.picture_data import picture_data
 from hess_mechanics.errors import ModelError
@@ -30,6 +30,27 @@ def test_text_stays_text_and_the_file_says_link_and_version(link, picture):
     assert found.link.replace("&", "&amp;") in text
     words = re.findall(r"<text[^>]*>([^<]+)</text>", text)
     assert set(found.picture.names(found.state)) <= set(words)
+
+
+@pytest.mark.parametrize("width", [60.0, 85.0, 180.0])
+@pytest.mark.parametrize("picture", ["omega", "circle", "bifurcation"])
+def test_labels_stay_inside_their_frame_and_off_markers(picture, width):
+    figure = as_figure(picture_data(DRAFT, picture), width)
+    figure.draw_without_rendering()
+    (axes,) = figure.axes
+    labels = [text for text in axes.texts if text.get_visible() and text.get_fontweight() == "bold"]
+    assert len(labels) >= 2
+    frame = axes.get_window_extent()
+    markers = [path for path in axes.collections if type(path).__name__ == "PathCollection"]
+    places = [
+        (axes.transData.transform(one.get_offsets()), one.get_sizes()[0] ** 0.5 / 144.0 * figure.dpi) for one in markers
+    ]
+    for label in labels:
+        box = label.get_window_extent()
+        assert frame.x0 <= box.x0 and box.x1 <= frame.x1 and frame.y0 <= box.y0 and box.y1 <= frame.y1, label
+        for (x, y), radius in ((place, radius) for found, radius in places for place in found):
+            away = np.hypot(max(box.x0 - x, 0.0, x - box.x1), max(box.y0 - y, 0.0, y - box.y1))
+            assert away >= 0.9 * radius, label
 
 
 def test_the_size_is_that_asked_for_and_black_has_no_colours():

@@ -30,6 +30,8 @@ _PAPER = 0.6
 """Points per pixel of the page for lines and markers."""
 _TYPE = 0.75
 """Points per pixel of the page for the offset of labels."""
+_AXES, _LABEL = 45.0, 0.038
+"""Points that the axes of a figure take, and size of a label relative to the frame, for the room of "tags.py"."""
 _DOT = 0.6
 """Scale of dots in figures, smaller than on the page as no pixels need filling."""
 _MOST_VECTORS = 5000
@@ -227,13 +229,16 @@ def _letters(style: Style) -> Options:
 
 
 def _finish(plot: Any, element: hv.Overlay) -> None:
-    """Make the frame square, draw it above all layers, and hide labels with anchors outside."""
+    """Make the frame square, draw it above all layers, fit labels to it, and hide those with anchors outside."""
     axis = plot.handles["axis"]
     # HoloViews computes the aspect from the axis values, even if only one axis is logarithmic.
     axis.set_box_aspect(1.0)
     for spine in axis.spines.values():
         spine.set_zorder(len(element))
+    largest = _LABEL * (72.0 * plot.handles["fig"].get_figwidth() - _AXES)
     for text in axis.texts:
+        if text.get_fontweight() == "bold":
+            text.set_fontsize(min(text.get_fontsize(), largest))
         (x0, x1), (y0, y1), (x, y) = axis.get_xlim(), axis.get_ylim(), text.get_position()
         text.set(visible=x0 <= x <= x1 and y0 <= y <= y1, in_layout=False)
         # No font with a bold 𝒟 comes with Matplotlib.
