@@ -105,6 +105,27 @@ function placesOf({ frame: { x_scale: xScale, y_scale: yScale } }, handle, sourc
   return Array.from(xs, (value, i) => [xScale.compute(value), yScale.compute(ys[i])])
 }
 
+/**
+ * Hide the labels that a zoom would cut, see "tags.py" for their places in the whole picture.
+ * @param {PlotView} plot
+ * @param {boolean} isZoomed
+ */
+function hideCut({ model, frame }, isZoomed) {
+  const { x0, x1, y0, y1 } = frame.bbox
+  const ctx = element("canvas").getContext("2d")
+  for (const renderer of model.renderers) {
+    const { glyph, data_source: source } = renderer
+    if (!source.name?.endsWith("-label")) continue
+    const { x: [x] = [], y: [y] = [], text: [text] = [] } = source.data
+    const size = Number.parseFloat(glyph.text_font_size.value ?? glyph.text_font_size)
+    ctx.font = `bold ${size}px helvetica`
+    const half = ctx.measureText(text).width / 2
+    const [left, top] = [frame.x_scale.compute(x), frame.y_scale.compute(y)]
+    const isInside = x0 <= left - half && left + half <= x1 && y0 <= top - size / 2 && top + size / 2 <= y1
+    renderer.setv({ visible: !isZoomed || isInside })
+  }
+}
+
 /** Set the axes of a plot. @param {PlotModel} model @param {Axes} axes */
 export function showAxes({ x_range: x, y_range: y }, [x0, x1, y0, y1]) {
   x.setv({ start: x0, end: x1 })
@@ -147,7 +168,9 @@ export async function buildPlot(host, picture, source) {
   const { frame } = plot
   const { x_range: xRange, y_range: yRange } = model
   const boxes = picks.includes("box")
-  const zoom = connectZoom(host, source(`${picture.name}-zoom`), {
+  const zoomSource = source(`${picture.name}-zoom`)
+  zoomSource.watch(() => hideCut(plot, zoomSource.data.axes !== undefined))
+  const zoom = connectZoom(host, zoomSource, {
     name: picture.name, isComputed: boxes,
     frame: () => frame.bbox,
     axes: () => [xRange.start, xRange.end, yRange.start, yRange.end],

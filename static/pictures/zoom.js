@@ -113,8 +113,8 @@ export function connectZoom(host, zoom, { name, isComputed, frame, axes, invert,
     /** @type {Axes} */
     const next = [left, right, low, high]
     if (!isComputed && contain(next, whole)) return end()
-    zoom.put({ axes: next, whole, isComputed })
     show(next)
+    zoom.put({ axes: next, whole, isComputed })
     if (!isComputed) return
     clearTimeout(resting)
     resting = setTimeout(() => {

@@ -99,7 +99,7 @@ def through_pictures(explorer):
                 mouse.move(left + 0.6 * wide, top + 0.6 * high, steps=4)
                 explorer.change(mouse.up)
             if "tap" in events:
-                explorer.change(mouse.click, left + 0.45 * wide, top + 0.4 * high)
+                explorer.change(explorer.click, left + 0.45 * wide, top + 0.4 * high)
 
 
 # First one that takes numbers, boxes and clicks, and is computed fast.

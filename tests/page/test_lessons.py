@@ -182,7 +182,7 @@ def test_what_is_done_by_hand_is_recorded_and_replayed(explorer):
     for act in (
         lambda: None,
         lambda: explorer.change(explorer.slider("h").press, "ArrowRight"),
-        lambda: explorer.change(page.mouse.click, *pixel),
+        lambda: explorer.change(explorer.click, *pixel),
         lambda: page.keyboard.press("2"),
         lambda: explorer.show("scattering"),
     ):

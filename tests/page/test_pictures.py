@@ -1,14 +1,15 @@
 """The pictures of the Suslov–Hess scene: colours, when they are painted, and when they are computed."""
 
 from io import BytesIO
-from math import pi
+from math import exp, pi
 
 import numpy as np
 from PIL import Image
+from pytest import approx
 
 from hess_explorer.views import theme
 from support.page import FIND, PICTURES, flat, own_tab, wait_frames
-from support.pointer import HOME, assert_turned
+from support.pointer import HOME, assert_turned, at, frame, shares
 
 
 def picture(explorer, clip):
@@ -120,3 +121,40 @@ def test_axes_that_depend_on_the_state_have_their_names_from_the_first_one_on(br
       .map(({ model }) => [model.below[0].axis_label, model.left[0].axis_label])"""
     with own_tab(browser, server) as explorer:
         assert explorer.open("scene=rotation-number").page.evaluate(names) == [["f", "ρ"]]
+
+
+def test_a_wheel_zooms_at_the_pointer_the_right_button_moves_and_the_whole_comes_back(explorer):
+    mouse, before, link = explorer.page.mouse, explorer.axes("omega"), explorer.link()
+    (pixel, _), where = at(explorer, "omega", 1.0, -2.0), shares(explorer, "omega", 1.0, -2.0)
+    mouse.move(*pixel)
+    mouse.wheel(0, -400)
+    wait_frames(explorer)
+    x0, x1, *_ = explorer.axes("omega")
+    assert x1 - x0 == approx((before[1] - before[0]) * exp(-0.8), rel=1e-6)
+    assert shares(explorer, "omega", 1.0, -2.0) == approx(where, abs=0.01)
+    left, top, right, bottom = frame(explorer, "omega")
+    mouse.down(button="right")
+    mouse.move(pixel[0] + 30, pixel[1] - 20, steps=3)
+    mouse.up(button="right")
+    moved = where[0] + 30 / (right - left), where[1] + 20 / (bottom - top)
+    assert shares(explorer, "omega", 1.0, -2.0) == approx(moved, abs=0.02)
+    explorer.picture("omega").locator(".whole").click()
+    assert explorer.axes("omega") == before
+    # A double click chooses nothing, and what is wider than the whole is the whole.
+    (wide, high), _ = at(explorer, "bifurcation", 0.5, 1.0)
+    whole = explorer.axes("bifurcation")
+    for restore in (lambda: mouse.dblclick(wide, high), lambda: mouse.wheel(0, 4000)):
+        mouse.move(wide, high)
+        mouse.wheel(0, -400)
+        wait_frames(explorer)
+        assert explorer.axes("bifurcation") != whole
+        restore()
+        explorer.page.wait_for_timeout(400)
+        assert explorer.axes("bifurcation") == whole
+    assert explorer.link() == link
+    # A click in a zoomed picture chooses the value under the mouse.
+    mouse.wheel(0, -400)
+    wait_frames(explorer)
+    (wide, high), unit = at(explorer, "bifurcation", 1.2, 0.3)
+    explorer.change(explorer.click, wide, high)
+    assert explorer.here() == (approx(1.2, abs=unit[0]), approx(0.3, abs=unit[1]))

@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from hess_explorer.headless.browser import wait_ready
 from hess_explorer.protocol.specs import encode
 from hess_explorer.scenes import scenes
 from hess_mechanics.dynamics.cells import centres
-from support.page import said
+from support.page import said, wait_frames
 from support.painted import assert_painted
 from support.pointer import frame
 
@@ -45,3 +46,38 @@ def test_cells_of_megno_are_seen_in_their_colours_under_the_points(explorer):
         # All but the cells over whose middles a point stands.
         assert np.mean(np.abs(after[kinds == kind] - mixed).max(axis=1) < 4.0) > 0.8
     assert_painted(explorer, SUSLOV)
+
+
+@pytest.mark.parametrize("scene", [SUSLOV.name])
+def test_the_section_is_computed_where_the_wheel_zooms_and_a_double_click_shows_the_whole(explorer):
+    explorer.change(explorer.tell, "restore", encode(SUSLOV.name, {**SUSLOV.defaults(), **FEW, "indicator": "nothing"}))
+    whole, link, mouse = explorer.axes("section"), explorer.link(), explorer.page.mouse
+    left, top, right, bottom = frame(explorer, "section")
+    x, y = (left + right) / 2, (top + bottom) / 2
+    mouse.move(x, y)
+
+    def double_click():
+        mouse.dblclick(x, y)
+
+    for restore in (double_click, explorer.picture("section").locator(".whole").click):
+        # One computation for all turns of the wheel, in the window that the browser shows until then.
+        before = explorer.state
+        for _ in range(3):
+            mouse.wheel(0, -100)
+        wait_frames(explorer)
+        zoomed = explorer.axes("section")
+        wait_ready(explorer.page, after=before)
+        x0, x1, y0, y1 = explorer.axes("section")
+        assert (x0, x1, y0, y1) == pytest.approx(zoomed, rel=1e-6)
+        assert f"window={x0:.4g}"[:11] in explorer.link()
+        first, starts = explorer.data("section-first"), explorer.data("section-chosen")
+        # New orbits start there.
+        assert sum(x0 <= x <= x1 and y0 <= y <= y1 for x, y in zip(first["x"], first["y"], strict=True)) >= 8
+        explorer.change(restore)
+        assert explorer.axes("section") == whole
+        assert explorer.data("section-chosen") == starts
+        assert explorer.link() == link
+    # Each click adds an orbit in another colour.
+    explorer.change(explorer.click, x, y)
+    assert len(explorer.data("section-chosen1")["x"]) == 1
+    assert explorer.data("sphere")["look"] == "chosen-1"

@@ -4,7 +4,7 @@ import pytest
 
 from hess_explorer.headless.browser import wait_ready
 from support.page import numbers_in
-from support.pointer import HOME, Finger, assert_turned, at
+from support.pointer import HOME, Finger, assert_turned, at, shares
 
 
 def middle(item):
@@ -17,8 +17,15 @@ def scrolled(phone):
     return phone.page.locator(".reader").evaluate("item => item.scrollTop")
 
 
+def pinch(finger, x, y):
+    """Spread two fingers to four times their distance."""
+    for away in (20, 40, 60, 80):
+        finger.send("touchMove" if away > 20 else "touchStart", (x - away, y), (x + away, y))
+    finger.send("touchEnd")
+
+
 @pytest.mark.parametrize("picture", ["sphere", "body"])
-def test_a_picture_in_space_turns_under_a_finger_as_if_it_were_held_and_two_zoom(phone, picture):
+def test_a_picture_in_space_turns_under_a_finger_as_if_it_were_held_and_two_do_nothing(phone, picture):
     phone.turn_to(picture)
     before, canvas, finger = scrolled(phone), phone.picture(picture).locator("canvas[tabindex]"), Finger(phone.page)
     x, y = middle(canvas)
@@ -27,13 +34,27 @@ def test_a_picture_in_space_turns_under_a_finger_as_if_it_were_held_and_two_zoom
     radius = 0.84 * canvas.bounding_box()["width"] / 2
     assert_turned(canvas, HOME[0] + 40 / radius, HOME[1] + 30 / radius)
     link = phone.link()
-    for away in (20, 40, 60, 80):
-        finger.send("touchMove" if away > 20 else "touchStart", (x - away, y), (x + away, y))
-    finger.send("touchEnd")
-    scale = phone.page.evaluate("visualViewport.scale")
-    finger.session.send("Emulation.setPageScaleFactor", {"pageScaleFactor": 1})
-    assert scale > 1.2
+    pinch(finger, x, y)
+    assert phone.page.evaluate("visualViewport.scale") == 1
     assert phone.link() == link
+
+
+def test_two_fingers_zoom_a_plane_and_neither_the_page_nor_the_state(phone):
+    for picture in ("omega", "bifurcation"):
+        phone.turn_to(picture)
+        finger, link, (x0, x1, y0, y1) = Finger(phone.page), phone.link(), phone.axes(picture)
+        # The ring is in the middle of the fingers.
+        place = phone.here() if picture == "bifurcation" else (0.0, 0.0)
+        (pixel, _), where = at(phone, picture, *place), shares(phone, picture, *place)
+        pinch(finger, *pixel)
+        left, right, low, high = phone.axes(picture)
+        assert (right - left, high - low) == pytest.approx(((x1 - x0) / 4, (y1 - y0) / 4), rel=1e-3)
+        assert shares(phone, picture, *place) == pytest.approx(where, abs=0.04)
+        assert phone.page.evaluate("visualViewport.scale") == 1
+        phone.picture(picture).locator(".whole").tap()
+        assert phone.axes(picture) == [x0, x1, y0, y1]
+        assert phone.link() == link
+        assert phone.picture(picture).locator(".whole").is_hidden()
 
 
 def test_a_finger_moves_a_slider(phone):

@@ -277,6 +277,11 @@ class Explorer:
         action(*arguments)
         wait_ready(self.page, after=before)
 
+    def click(self, x, y):
+        """Click in a picture, and wait until no second click can follow."""
+        self.page.mouse.click(x, y)
+        self.page.wait_for_timeout(300)
+
     def tell(self, name, detail=None):
         """Send a message on the page's bus, as the controls do, also while they are out of sight."""
         self.page.evaluate("([name, detail]) => hess.tell(name, detail)", [name, detail])

@@ -27,6 +27,12 @@ def at(explorer, name, x, y):
     return pixel, ((x1 - x0) / (right - left), (y1 - y0) / (bottom - top))
 
 
+def shares(explorer, name, x, y):
+    """Where a planar picture shows a point, as shares of its frame, which labels of the axes move by some pixels."""
+    x0, x1, y0, y1 = explorer.axes(name)
+    return (x - x0) / (x1 - x0), (y - y0) / (y1 - y0)
+
+
 HOME = (0.6, 0.35)
 STEP = math.pi / 36
 
@@ -47,7 +53,7 @@ def assert_turned(canvas, azimuth, elevation):
 def click_on(explorer, picture, x, y):
     """Click at a point; how far a pixel is."""
     pixel, unit = at(explorer, picture, x, y)
-    explorer.change(explorer.page.mouse.click, *pixel)
+    explorer.change(explorer.click, *pixel)
     return unit
 
 
