@@ -285,7 +285,7 @@ def _pictures(state: type[DiagramState], ball: bool) -> tuple[Picture[Any], ...]
                 *layered_section.layers(
                     lambda s: s.regime.sets[0],
                     lambda s: s.regime.sets[1],
-                    lambda s: np.empty((0, 2)),
+                    lambda s: [],
                     chosen=lambda s: [s.diagram.place],
                     window=lambda s: _WINDOW,
                     impossible=lambda s: s.poincare.impossible(_WINDOW),

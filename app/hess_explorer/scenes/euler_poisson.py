@@ -29,7 +29,6 @@ from hess_explorer.scenes.framework.sliders import (
     time_span,
 )
 from hess_explorer.scenes.framework.solid_body import Solid, heavy_solid, solid_body
-from hess_explorer.scenes.framework.windows import inside
 from hess_explorer.scenes.parts.diagrams.hess_split import HessSplit, split_picture
 from hess_explorer.scenes.parts.orbits.exponent import exponent_picture, exponent_trial
 from hess_explorer.scenes.parts.orbits.hess_surface import (
@@ -58,7 +57,7 @@ from hess_explorer.scenes.parts.sections import (
 from hess_explorer.scenes.parts.sections.density import SectionDensity
 from hess_explorer.scenes.parts.sections.rotation_across import RotationAcross, rotation_picture, rotation_trial
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.layers import Columns, column
+from hess_explorer.views.layers import Columns, column, inside
 from hess_explorer.views.plane import andoyer
 from hess_explorer.views.plane.section_plane import joined
 from hess_explorer.views.space.poisson_sphere import Direction, along_the_orbit, gamma_columns

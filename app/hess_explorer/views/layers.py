@@ -38,6 +38,7 @@ __all__ = [
     "dots",
     "image",
     "in_window",
+    "inside",
     "label",
     "levels",
     "line",
@@ -206,6 +207,12 @@ def compose(get: Callable[[S], T | None], make: Callable[[T], U]) -> Callable[[S
         return None if found is None else make(found)
 
     return of
+
+
+def inside(points: Positions, window: Positions) -> list[tuple[float, float]]:
+    """Return the points within a window, given by two corners."""
+    (x0, y0), (x1, y1) = window
+    return [(x, y) for x, y in points if x0 <= x <= x1 and y0 <= y <= y1]
 
 
 def column(values: Any) -> Array:

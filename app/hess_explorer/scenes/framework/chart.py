@@ -23,9 +23,9 @@ from hess_explorer.scenes.framework.charted import Charts, Numbers
 from hess_explorer.scenes.framework.part import Part, part
 from hess_explorer.scenes.framework.sliders import declare, specs_of
 from hess_explorer.scenes.framework.trial import bare
-from hess_explorer.scenes.framework.windows import Window, box_window, inside, tidy_window, window_of
+from hess_explorer.scenes.framework.windows import Window, box_window, tidy_window, window_of
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.layers import CellGrid, Positions
+from hess_explorer.views.layers import CellGrid, Positions, inside
 from hess_explorer.views.picture import Corners
 from hess_explorer.views.text import digits, range_text, with_error
 from hess_mechanics import catalogue

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 from hess_explorer.protocol.specs import Value, Values, places, places_text
 from hess_mechanics.dynamics.cells import Window
 from hess_mechanics.dynamics.sampling import PIXELS
 
-__all__ = ["Window", "box_window", "inside", "pixels_in", "tidy_window", "window_of"]
+__all__ = ["Window", "box_window", "pixels_in", "tidy_window", "window_of"]
 
 
 def tidy_window(text: Value) -> str:
@@ -29,12 +27,6 @@ def window_of(text: Value, full: Window) -> Window:
 def pixels_in(window: Window) -> tuple[float, ...]:
     """Return the pixels per unit of each coordinate of a window that fills a picture."""
     return tuple(PIXELS / (high - low) for low, high in zip(*window, strict=True))
-
-
-def inside(points: Sequence[tuple[float, float]], window: Window) -> list[tuple[float, float]]:
-    """Return the points within the window."""
-    (x0, y0), (x1, y1) = window
-    return [(x, y) for x, y in points if x0 <= x <= x1 and y0 <= y <= y1]
 
 
 def box_window(corners: tuple[float, float, float, float], bounds: Window, name: str = "window") -> Values:

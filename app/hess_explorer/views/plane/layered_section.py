@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from functools import partial
+from collections.abc import Callable, Sequence
 from typing import TypeVar
 
 import numpy as np
 
 from hess_explorer.views import theme
-from hess_explorer.views.layers import Layer, Layers, Positions, Sign, compose, dots, image, in_window, ring
+from hess_explorer.views.layers import Layer, Layers, Positions, Sign, compose, dots, image, in_window, inside, ring
+from hess_explorer.views.plane.section_plane import joined
 from hess_mechanics.dynamics.attraction import LOST, Arrivals
 from hess_mechanics.dynamics.cells import Window
 from hess_mechanics.numerics.results import Array
@@ -111,8 +111,8 @@ def indicator(cells: Callable[[S], Array | None], window: Callable[[S], Window])
 def layers(
     first: Callable[[S], Array],
     second: Callable[[S], Array],
-    own: Callable[[S, int], Array],
-    chosen: Callable[[S, int], Positions],
+    own: Callable[[S], Sequence[Array]],
+    chosen: Callable[[S], Positions],
     impossible: Callable[[S], Array],
     window: Callable[[S], Window],
     labels: tuple[str, str],
@@ -120,16 +120,16 @@ def layers(
 ) -> Layers[S]:
     """Return the layers: points of both kinds, chosen orbits with rings at their starts, forbidden region in grey.
 
-    Each of the colours `theme.CHOSEN` has a layer of orbits and one of rings.
+    Chosen orbits have the colours `theme.CHOSEN` in turn.
 
     Parameters
     ----------
     first, second : callable
         Points (n, 2) of the two kinds, as functions of the state.
     own : callable
-        `own(state, i)` returns the points (n, 2) of the chosen orbits in the i-th colour.
+        `own(state)` returns the points (n, 2) of each chosen orbit.
     chosen : callable
-        `chosen(state, i)` returns the starts of these orbits.
+        `chosen(state)` returns their starts.
     impossible : callable
         `impossible(state)` returns cells (m, n) over the window, 1 in the forbidden region.
     window : callable
@@ -139,6 +139,14 @@ def layers(
     between : sequence of Layer
         Further layers, above the points of both kinds and below those of the chosen orbits.
     """
+
+    def of_colour(i: int, color: str) -> Layer[S]:
+        label = "" if i else "chosen orbit, from its ring"
+        return _points(f"own{i or ''}", lambda s: joined(own(s)[i :: len(theme.CHOSEN)]), window, 10, color, label)
+
+    def ring_of(i: int, color: str) -> Layer[S]:
+        return ring(f"chosen{i or ''}", lambda s: inside(chosen(s)[i :: len(theme.CHOSEN)], window(s)), color=color)
+
     return (
         image(
             "impossible",
@@ -153,11 +161,8 @@ def layers(
         _points("first", first, window, 5, theme.ORBIT, labels[0]),
         _points("second", second, window, 5, theme.UNSTABLE, labels[1]),
         *between,
-        *(
-            _points(f"own{i or ''}", partial(own, i=i), window, 10, color, "" if i else "chosen orbit, from its ring")
-            for i, color in enumerate(theme.CHOSEN)
-        ),
-        *(ring(f"chosen{i or ''}", partial(chosen, i=i), color=color) for i, color in enumerate(theme.CHOSEN)),
+        *(of_colour(i, color) for i, color in enumerate(theme.CHOSEN)),
+        *(ring_of(i, color) for i, color in enumerate(theme.CHOSEN)),
     )
 
 

@@ -13,7 +13,7 @@ from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.specs import Values
 from hess_explorer.scenes.framework.part import Host, Part
 from hess_explorer.scenes.framework.sliders import places
-from hess_explorer.scenes.framework.windows import Window, box_window, inside, window_of
+from hess_explorer.scenes.framework.windows import Window, box_window, window_of
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import (
@@ -25,6 +25,7 @@ from hess_explorer.views.layers import (
     Sign,
     curves,
     image,
+    inside,
     rectangle,
     region,
     target,

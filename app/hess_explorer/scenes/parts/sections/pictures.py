@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from hess_explorer.scenes.framework.trial import Trial, section_error
-from hess_explorer.scenes.framework.windows import Window, inside, pixels_in
+from hess_explorer.scenes.framework.windows import Window, pixels_in
 from hess_explorer.scenes.parts.sections.indicator import indicator_layer, indicator_trial
 from hess_explorer.scenes.parts.sections.periodic_orbit import periodic_layers
 from hess_explorer.scenes.parts.sections.section import about_section
@@ -128,8 +128,8 @@ def filled_picture(
             *layered_section.layers(
                 points(True),
                 points(False),
-                lambda s, i: s.section.own_in(i),
-                chosen=lambda s, i: inside(s.clicks.rings[i :: len(theme.CHOSEN)], s.section.frame),
+                lambda s: s.section.own_of_each,
+                chosen=lambda s: s.clicks.rings,
                 impossible=lambda s: s.clicks.impossible,
                 window=lambda s: s.section.frame,
                 labels=labels,

@@ -17,7 +17,6 @@ from hess_explorer.scenes.framework.periodic_search import Periodic, Place
 from hess_explorer.scenes.framework.sliders import number
 from hess_explorer.scenes.framework.windows import Window, pixels_in, tidy_window, window_of
 from hess_explorer.scenes.framework.work import accuracy_status, drift_status
-from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.plane.section_plane import joined
 from hess_mechanics.dynamics.return_map import PoincareSection, section_crossings
@@ -244,10 +243,10 @@ class Section(Part[_Host]):
         """The drawn points (n, 2) of the chosen orbits."""
         return joined(self._shown(orbit) for batch in self.known.chosen for orbit in batch.orbits)
 
-    def own_in(self, colour: int) -> Array:
-        """Return the drawn points (n, 2) of the chosen orbits in one of the colours `theme.CHOSEN`."""
-        chosen = self.known.own[colour :: len(theme.CHOSEN)]
-        return joined(self._shown(orbit) for batch in chosen if batch is not None for orbit in batch.orbits)
+    @property
+    def own_of_each(self) -> list[Array]:
+        """The drawn points (n, 2) of each chosen orbit; none of an unknown one."""
+        return [joined(map(self._shown, () if batch is None else batch.orbits)) for batch in self.known.own]
 
     def _shown(self, orbit: Array, later: bool = False) -> Array:
         return orbit[len(orbit) // 2 :] if self.later or later else orbit
