@@ -34,9 +34,9 @@ from hess_mechanics.suslov_hess.bifurcation import TurningPoints, f_max, turning
 from hess_mechanics.suslov_hess.certificate import claim
 from hess_mechanics.suslov_hess.circle_map import CircleMap, circle_map
 from hess_mechanics.suslov_hess.edge import TWO_EQUILIBRIA, EdgeProof
+from hess_mechanics.suslov_hess.embedding import embed
 from hess_mechanics.suslov_hess.equations import SYSTEM, HessBody
 from hess_mechanics.suslov_hess.proof import NO_CYCLE, TWO_CYCLES, Proof, prove
-from hess_mechanics.suslov_hess.embedding import embed
 from hess_mechanics.suslov_hess.torus import Track, cycles, start_of_track
 
 __all__ = [
@@ -278,7 +278,7 @@ def torus_swarm(torus: Callable[[Any], tuple[HessBody, float, float, float, Circ
     Parameters
     ----------
     torus : callable
-        `torus(state)` returns the body, h and f in units b = 1, the phase φ0 and the circle map, None on the separatrix.
+        `torus(state)` returns the body, h and f in units b = 1, φ0, and the circle map, None on the separatrix.
     """
 
     def starts(state: Any, angles: Array) -> Array:
@@ -311,7 +311,10 @@ def torus_swarm(torus: Callable[[Any], tuple[HessBody, float, float, float, Circ
         if theta is None or theta.kind != "hyperbolic":
             return None
         stable = theta.fixed_points[0]
-        return stable.log_multiplier / theta.period * body.frequency_unit, f"Multiplier {digits(stable.multiplier)} per return"
+        return (
+            stable.log_multiplier / theta.period * body.frequency_unit,
+            f"Multiplier {digits(stable.multiplier)} per return",
+        )
 
     return Swarm(
         starts,
