@@ -152,3 +152,18 @@ def test_a_batch_is_as_long_as_its_size_allows():
     assert short.times.size <= 20
     assert short.times[-1] < motion.span
     assert short.until == approx(short.times.size - 1)
+
+
+def test_the_introduction_says_what_its_fifty_bodies_do():
+    gathered = {}
+    for I23 in (0.05, 0.154, 0.16, 0.28):
+        state, part = swarm_of("suslov-hess", I23=I23, span=400.0)
+        phases = np.arctan2(*np.moveaxis(part.motions.states[:, -1, :2], 1, 0))
+        close = np.abs((phases - np.median(phases) + np.pi) % (2 * np.pi) - np.pi) < 0.01
+        gathered[I23] = close.mean()
+    assert gathered[0.05] < 0.1
+    # A start next to the repeller takes longest.
+    assert gathered[0.28] >= 0.98
+    # Between 0.153 and 0.155 the loops appear.
+    kinds = [swarm_of("suslov-hess", I23=I23)[0].kind for I23 in (0.05, 0.153, 0.155, 0.16)]
+    assert kinds == ["elliptic", "elliptic", "hyperbolic", "hyperbolic"]
