@@ -213,7 +213,7 @@ def angles_of(data: PictureData) -> dict[str, dict[str, str]]:
 
 
 def layers_of(data: PictureData) -> Sources:
-    """Return the columns by layer ("plot-layer" → "layer") or by track; clouds and swarms are at the time of the link."""
+    """Return the columns by layer ("plot-layer" → "layer") or by track; clouds and swarms at the time of the link."""
     found: Sources = {}
     own = f"{data.picture.name}-"
     for source, columns in sorted(data.columns.items()):
