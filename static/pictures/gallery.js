@@ -163,6 +163,8 @@ function besideLayer({ picture, source, columns }) {
 export function render({ el }) {
   shelf = element("div.shelf")
   el.append(shelf)
+  // A pinch on a touchpad does not zoom the page.
+  shelf.addEventListener("wheel", (event) => { if (event.ctrlKey) event.preventDefault() }, { passive: false })
   stage = createStage(shelf, gallery)
   sayDragMe(besideLayer)
   listen({

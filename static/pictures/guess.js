@@ -200,7 +200,7 @@ export function createGuess(prediction, say, guessed = null) {
       }, "cursor: crosshair; touch-action: pan-x pan-y; outline: none", paint)
       const { sheet } = over
       // The picture itself ignores these clicks and drags.
-      for (const name of ["pointerdown", "pointermove", "pointerup", "wheel", "touchstart"]) {
+      for (const name of ["pointerdown", "pointermove", "pointerup", "touchstart"]) {
         sheet.addEventListener(name, (event) => event.stopPropagation())
       }
       over.draw()
