@@ -15,11 +15,22 @@ import { pointLayer } from "./point_layer.js"
 import { connectZoom, zoomed } from "./zoom.js"
 
 const MARGIN = { left: 46, right: 8, top: 8, bottom: 42 }
-const SHARES = [0, 0.25, 0.5, 0.75, 1]
-// Of a label.
-const DIGITS = 4
+// Most intervals between ticks, and digits of a label.
+const [MOST, DIGITS] = [5, 6]
 // Length of a tick, and distance of its label.
 const [TICK, GAP] = [5, 7]
+
+/**
+ * Return round numbers in a range.
+ * @param {number} low
+ * @param {number} high
+ */
+function ticksIn(low, high) {
+  const unit = 10 ** Math.floor(Math.log10((high - low) / MOST))
+  const step = unit * [1, 2, 5, 10].find((many) => MOST * many * unit >= 0.999 * (high - low))
+  const first = Math.ceil(low / step - 1e-6)
+  return Array.from({ length: Math.floor(high / step + 1e-6) - first + 1 }, (_, i) => (first + i) * step)
+}
 
 /**
  * Return the frame and scales of the plane in a picture.
@@ -30,9 +41,7 @@ function placing(edge, [x0, x1, y0, y1]) {
   const frame = { left: MARGIN.left, right: edge - MARGIN.right, top: MARGIN.top, bottom: edge - MARGIN.bottom }
   const [w, h] = [frame.right - frame.left, frame.bottom - frame.top]
   return {
-    frame, w, h,
-    /** Return the values at shares of the sides. @param {number} share */
-    at: (share) => [x0 + share * (x1 - x0), y0 + share * (y1 - y0)],
+    frame, w, h, across: ticksIn(x0, x1), up: ticksIn(y0, y1),
     x: (/** @type {number} */ a) => frame.left + (w * (a - x0)) / (x1 - x0),
     y: (/** @type {number} */ b) => frame.top + (h * (y1 - b)) / (y1 - y0),
     /** Return the values at a place of the picture. @param {number} left @param {number} top */
@@ -41,28 +50,22 @@ function placing(edge, [x0, x1, y0, y1]) {
 }
 
 /** @param {CanvasRenderingContext2D} ctx @param {ReturnType<typeof placing>} plane @param {string} text */
-function drawAxes(ctx, { frame, w, h, at }, text) {
+function drawAxes(ctx, { frame, w, h, x, y, across, up }, text) {
   const { left, bottom } = frame
   useLook(ctx, { weight: 1 }, text)
   ctx.fillStyle = text
   ctx.globalAlpha = 0.4
   ctx.strokeRect(left, frame.top, w, h)
   ctx.font = "12px system-ui, sans-serif"
-  for (const share of SHARES) {
-    const [across, down] = [left + share * w, bottom - share * h]
-    const [label, other] = at(share).map((value) => written(value, DIGITS))
-    ctx.globalAlpha = 0.4
-    ctx.strokeRect(across, bottom, 0, TICK)
-    ctx.strokeRect(left - TICK, down, TICK, 0)
-    ctx.globalAlpha = 0.75
-    // The last labels end at the corner of the frame.
-    ctx.textAlign = share === 1 ? "right" : "center"
-    ctx.textBaseline = "top"
-    ctx.fillText(label, across, bottom + GAP)
-    ctx.textAlign = "right"
-    ctx.textBaseline = share === 1 ? "top" : "middle"
-    ctx.fillText(other, left - GAP, down)
-  }
+  for (const value of across) ctx.strokeRect(x(value), bottom, 0, TICK)
+  for (const value of up) ctx.strokeRect(left - TICK, y(value), TICK, 0)
+  ctx.globalAlpha = 0.75
+  ctx.textAlign = "center"
+  ctx.textBaseline = "top"
+  for (const value of across) ctx.fillText(written(value, DIGITS), x(value), bottom + GAP)
+  ctx.textAlign = "right"
+  ctx.textBaseline = "middle"
+  for (const value of up) ctx.fillText(written(value, DIGITS), left - GAP, y(value))
   ctx.globalAlpha = 1
   ctx.font = "14px system-ui, sans-serif"
   ctx.textAlign = "center"
