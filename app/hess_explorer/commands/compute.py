@@ -137,7 +137,7 @@ def _run(what: Computation, options: Options) -> None:
         write(options, result.to_pandas(), facts, result.to_xarray, notes)
 
 
-def _notes_on_body(given: Mapping[str, Any]) -> list[str]:
+def _notes_on_body(values: Mapping[str, Any]) -> list[str]:
     """Return a note if no rigid body has these moments of inertia."""
     from hess_mechanics import HeavyBody, check_body
 
@@ -145,5 +145,5 @@ def _notes_on_body(given: Mapping[str, Any]) -> list[str]:
         ("I11", "I22", "I13", "I23"): check_body,
         ("a1", "a2", "a3"): lambda *moments: HeavyBody(moments, (0.0, 0.0, 0.0), 0.0).check,
     }
-    found = [of(*map(given.get, names)) for names, of in checks.items() if {*names} <= given.keys()]
+    found = [of(*map(values.get, names)) for names, of in checks.items() if {*names} <= values.keys()]
     return [one.sentence for one in found if not one.is_body]

@@ -22,7 +22,7 @@ LONG = 2.0
 PATIENCE = "Still computing; Ctrl-C ends it."
 _ROWS = 20
 """Most rows of a table in text."""
-_LOST = "null stands for a number that is missing or exceeds the range of double precision."
+_NULLS = "null stands for a number that is missing or exceeds the range of double precision."
 
 
 @contextmanager
@@ -80,7 +80,7 @@ def write(
     """
     lost: list[str] = []
     known = _strict(facts, lost)
-    known["notes"] = [*notes, *([_LOST] if lost else [])]
+    known["notes"] = [*notes, *([_NULLS] if lost else [])]
     if options.format == "json":
         known |= _strict({str(name): column.tolist() for name, column in table.items()}, [])
     lines = {name: json.dumps(value, ensure_ascii=False, allow_nan=False) for name, value in known.items()}

@@ -243,7 +243,7 @@ def _described(address: Address, state: Any) -> PictureData:
     view = address.picture
     caption = view.full_caption(state)
     axes = view.ranges(state, view.first_axes)
-    columns = dict(state.drawn)
+    columns = dict(state.sources)
     for source, more in view.framed(state, axes, columns).items():
         columns[source] = {**columns.get(source, {}), **more}
     return PictureData(
@@ -257,5 +257,5 @@ def _described(address: Address, state: Any) -> PictureData:
         axes=axes,
         title=caption.title,
         caption=caption.words,
-        status=(f"accuracy: {state.work.chosen}", *state.status()),
+        status=(f"accuracy: {state.work.level_name}", *state.status()),
     )

@@ -124,7 +124,7 @@ class Recording:
         else:
             axes = [(plot, plot.ranges(state, plot.first_axes)) for plot in plots]
             texts = {
-                "summary": f"accuracy: {state.work.chosen}",
+                "summary": f"accuracy: {state.work.level_name}",
                 # Without the run times, which say nothing here.
                 "status": " · ".join(state.status()),
                 "derived": "\n".join(report.quantities),

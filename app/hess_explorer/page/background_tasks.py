@@ -49,7 +49,7 @@ class BackgroundTasks:
         self._stopped = False
         self.background.stop()
 
-    def ended(self, more: bool) -> bool:
+    def is_done(self, more: bool) -> bool:
         """Return whether no task is running any more.
 
         Call this before the state is computed, because the last task may end during that computation.

@@ -83,11 +83,11 @@ def opening(query: str, own: Sequence[Lesson] = (), *, lenient: bool = True) -> 
     """
     lessons = {**{lesson.name: lesson for lesson in own}, **package_lessons()}
     link = Link(query, lenient)
-    first = own[0].name if own and "scene" not in link.given else ""
+    first = own[0].name if own and "scene" not in link.texts else ""
     reading = lessons.get(str(link.value(ChoiceSpec("lesson", "Lesson", ("", *lessons), first))))
     most = len(reading.steps) if reading else 1
     at = int(float(link.value(NumberSpec("step", "step", "Step", 1.0, (1.0, most), 1.0, (1.0, most)))))
-    if reading and "scene" not in link.given:
+    if reading and "scene" not in link.texts:
         # A link with only a step opens the state of that step.
         place = reading.steps[at - 1].at
         scene, state = scenes()[place.scene], dict(place.values)

@@ -109,7 +109,7 @@ def parse(message: Any) -> Request | None:
         requested=of(int, "requested"),
         restore=of(str, "restore"),
         values=values and {name: _value(value) for name, value in values.items()},
-        expressions=expressions and {name: given for name, given in expressions.items() if isinstance(given, str)},
+        expressions=expressions and {name: raw for name, raw in expressions.items() if isinstance(raw, str)},
         picked=_picked(message.get("picked")),
         hover=hover if isinstance(hover, PicturePoint) else None,
         step=_step(message.get("step")),
@@ -125,8 +125,8 @@ def parse(message: Any) -> Request | None:
     )
 
 
-def _picked(given: Any) -> PicturePoint | PictureBox | None:
-    match given:
+def _picked(raw: Any) -> PicturePoint | PictureBox | None:
+    match raw:
         case [str(picture), *place] if all(map(math.isfinite, numbers := [number(one) for one in place])):
             match numbers:
                 case [x, y]:
@@ -136,8 +136,8 @@ def _picked(given: Any) -> PicturePoint | PictureBox | None:
     return None
 
 
-def _step(given: Any) -> StepChoice | None:
-    match given:
+def _step(raw: Any) -> StepChoice | None:
+    match raw:
         case [str(lesson), int(number), bool(revealed)]:
             return StepChoice(lesson, number, revealed)
     return None

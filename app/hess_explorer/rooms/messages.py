@@ -135,8 +135,8 @@ def _show(shown: dict[str, Any]) -> Show | None:
     return None
 
 
-def _point(given: Any) -> tuple[float, float] | None:
-    match given:
+def _point(raw: Any) -> tuple[float, float] | None:
+    match raw:
         case [x, y] if all(map(math.isfinite, point := (number(x), number(y)))):
             return point
     return None

@@ -132,9 +132,9 @@ class DiagramState(DiagramControls):
 
     def _about_diagram(self) -> Caption:
         if self.branch == NONE:
-            return self.diagram.caption(self.density.said)
+            return self.diagram.caption(self.density.phrase)
         found = self.continuation.caption
-        return replace(found, numbers=f"{self.density.said}{found.numbers}".rstrip())
+        return replace(found, numbers=f"{self.density.phrase}{found.numbers}".rstrip())
 
     def _about_turning(self) -> Caption:
         times = self.reversals.times

@@ -44,7 +44,7 @@ _ROOM_BELOW = (-1.25, 1.05)
 
 # The caption of the figure gives tan φ = 0.85/0.28 and 0.53/0.72.
 _ON_CIRCLE: Values = {"w1": 2.0, "w2": 1e-3, "Gamma": -0.44, "phi": 1.2526, "phi2": 0.6346}
-_SLANTING: Values = {"I13": 0.2, "I23": 0.3, "k": 1.2, "w1": 3.0, "w2": -2.001}
+_OBLIQUE: Values = {"I13": 0.2, "I23": 0.3, "k": 1.2, "w1": 3.0, "w2": -2.001}
 
 
 def _portrait(I13: float, I23: float) -> Values:
@@ -68,11 +68,11 @@ PRESETS = (
     Preset("Γ(t), k = 3: F₂ exists, Γ⁺ = −Γ⁻ (figure 3)", **_ON_CIRCLE, k=3.0),
     Preset("Γ(t), k = 1.5: two phases, two circles (figure 3)", **_ON_CIRCLE, k=1.5),
     Preset(
-        "Γ(t), I₁₃ ≠ 0: two phases, two circles (figure 3)", **_SLANTING, Gamma=-0.4687, phi=math.pi, phi2=math.pi / 2
+        "Γ(t), I₁₃ ≠ 0: two phases, two circles (figure 3)", **_OBLIQUE, Gamma=-0.4687, phi=math.pi, phi2=math.pi / 2
     ),
     Preset(
         "Its second orbit as printed, γ₁ = −0.49: off that circle (figure 3)",
-        **_SLANTING,
+        **_OBLIQUE,
         Gamma=-0.5306,
         phi=1.6337,
         phi2=math.pi,

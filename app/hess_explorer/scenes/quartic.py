@@ -130,7 +130,7 @@ class Quartic(SectionState):
         return model.QuarticSection(self.body)
 
     @cached_property
-    def given(self) -> Start:
+    def chosen_start(self) -> Start:
         """The state (d,) at q with direction β."""
         return model.state_at(self.body, (self.Q1, self.Q2), self.beta)
 
@@ -177,7 +177,11 @@ class Quartic(SectionState):
     def impossible(self, axes: Axes) -> list[list[Array]]:
         """Return the forbidden region of the section."""
         reach = 4.0 * max(axes.x[1], self.body.longest)
-        return [] if self.section.known.reason else section_plane.outside(self.body.section_boundaries(), reach, 4.0)
+        return (
+            []
+            if self.section.known_orbits.reason
+            else section_plane.outside(self.body.section_boundaries(), reach, 4.0)
+        )
 
     def start_at(self, x: float, y: float) -> Values:
         """Return the start and direction at a place of the section; empty if no motion crosses it there."""
@@ -199,10 +203,10 @@ class Quartic(SectionState):
     def _about_section(self) -> Caption:
         if self.special is not None:
             return self.special
-        if self.section.known.reason:
-            return Caption(numbers=self.section.known.reason)
+        if self.section.known_orbits.reason:
+            return Caption(numbers=self.section.known_orbits.reason)
         visited = occupied_cells(self.section.own, self.poincare.window, _CELLS)
-        counted = self.density.said or f"{len(self.section.own)} points of the "
+        counted = self.density.phrase or f"{len(self.section.own)} points of the "
         return Caption(numbers=f"{counted}orbit in {visited} of {_CELLS * _CELLS} cells.")
 
     def _about_sphere(self) -> Caption:
@@ -229,7 +233,7 @@ SCENE = Scene(
     place=7,
     presets=PRESETS,
     measures=section_trials(),
-    charts=Charts(of_motion(SYSTEM, lambda s: s.given), over=("h", "beta")),
+    charts=Charts(of_motion(SYSTEM, lambda s: s.chosen_start), over=("h", "beta")),
     group="Heavy body",
     essential=("ratio", "h", "Q1", "Q2"),
     answers=(Answer("Each dot is one return: dots on a curve are a regular motion, a cloud of dots is chaos."),),

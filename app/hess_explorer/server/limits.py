@@ -23,7 +23,7 @@ RATE, BURST = 150.0, 300.0
 # RFC 6455: the reason of a close frame has at most 123 bytes.
 TOO_LARGE = "A message may have at most {} KB: send a smaller one."
 TOO_MANY = "More than {:.0f} messages per second: wait for each response before you send again."
-ENDING = "The server is shutting down or restarting: open the page again in a moment."
+SHUTDOWN = "The server is shutting down or restarting: open the page again in a moment."
 
 OPEN_SOCKETS: set[WebSocketHandler] = set()
 """The open websockets of this process."""
@@ -96,7 +96,7 @@ class RateLimit:
 async def say_goodbye(seconds: float) -> None:
     """Close all websockets and wait for the close handshakes, at most `seconds`."""
     for one in [*OPEN_SOCKETS]:
-        one.close(1001, ENDING)
+        one.close(1001, SHUTDOWN)
     ends = time.monotonic() + seconds
     while OPEN_SOCKETS and time.monotonic() < ends:
         await asyncio.sleep(0.02)

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 __all__ = ["create", "exists", "load", "missing", "read", "require_libraries", "write"]
 
 _MOST_FAILURES = 1000
-_DAMAGED = (OSError, ValueError, RuntimeError, KeyError)
+_DECODING_ERRORS = (OSError, ValueError, RuntimeError, KeyError)
 """Errors of the decoder for an incomplete file."""
 
 
@@ -144,7 +144,7 @@ def _finished(part: xr.Dataset, plan: SweepPlan) -> bool:
         if not status.all():
             return False
         part.load()
-    except _DAMAGED:
+    except _DECODING_ERRORS:
         return False
     finite = np.any([np.isfinite(part[name]) for name in plan.variables], axis=0)
     return bool((finite | (status >= Outcome.OUTSIDE_REGION)).all())
@@ -174,7 +174,7 @@ def write(place: Path | MemoryStore, region: Region, done: PieceResult) -> None:
 def _reading(place: Any, message: str) -> Iterator[None]:
     try:
         yield
-    except _DAMAGED as error:
+    except _DECODING_ERRORS as error:
         raise StoreError(f"{str(place)!r} {message}") from error
 
 

@@ -205,7 +205,7 @@ class Computation:
         The numbers of a result by name; the first is the default of a sweep.
     kind : Kind
         Row of the table of accuracy, which gives levels their meaning.
-    compared : str or callable, default ""
+    comparison : str or callable, default ""
         Values of a result that `error` compares: an attribute, or the first number by default.  Or the error, as a
         function of a result and a more accurate one.
     call : callable, optional
@@ -233,7 +233,7 @@ class Computation:
     parameters: tuple[Parameter, ...]
     numbers: Mapping[str, Number]
     kind: Kind
-    compared: str | Callable[[Any, Any], float] = ""
+    comparison: str | Callable[[Any, Any], float] = ""
     call: Callable[..., Any] | None = None
     unit: str = "1"
     choices: tuple[Choice, ...] = ()
@@ -300,12 +300,12 @@ class Computation:
             raise InvalidParameter(f"{self.key} has no number {name!r}; choose from {', '.join(self.numbers)}.")
         return self.numbers[name]
 
-    def values(self, given: Mapping[str, Any] | None = None) -> dict[str, Value]:
+    def values(self, arguments: Mapping[str, Any] | None = None) -> dict[str, Value]:
         """Return the checked values of all arguments.
 
         Parameters
         ----------
-        given : mapping of str to object, optional
+        arguments : mapping of str to object, optional
             Values by name; the others have their defaults.
 
         Returns
@@ -318,26 +318,26 @@ class Computation:
         InvalidParameter
             If there is no such argument, or a value is out of range.
         """
-        given = given or {}
-        for name in given.keys() - {one.name for one in self.choices}:
+        arguments = arguments or {}
+        for name in arguments.keys() - {one.name for one in self.choices}:
             self.parameter(name)
         values: dict[str, Value] = {}
         for one in self.parameters:
-            value = one.check(as_number(one.name, given.get(one.name, one.default)))
+            value = one.check(as_number(one.name, arguments.get(one.name, one.default)))
             values[one.name] = int(value) if one.whole else value
         for choice in self.choices:
-            word = str(given.get(choice.name, choice.default))
+            word = str(arguments.get(choice.name, choice.default))
             if word not in choice.names:
                 raise InvalidParameter(f"{choice.name} is one of {', '.join(choice.names)}, not {word[:40]!r}.")
             values[choice.name] = word
         return values
 
-    def compute(self, given: Mapping[str, Any] | None = None, accuracy: Accuracy = "precise") -> Any:
+    def compute(self, arguments: Mapping[str, Any] | None = None, accuracy: Accuracy = "precise") -> Any:
         """Return the result for some values.
 
         Parameters
         ----------
-        given : mapping of str to object, optional
+        arguments : mapping of str to object, optional
             Values by name; the others have their defaults.
         accuracy : str or Level, default "precise"
             Accuracy level.
@@ -352,7 +352,7 @@ class Computation:
         ModelError
             If there is no result for these values.
         """
-        result = (self.call or self.function)(accuracy=as_level(accuracy), **self.values(given))
+        result = (self.call or self.function)(accuracy=as_level(accuracy), **self.values(arguments))
         return Scalar(result) if isinstance(result, float) else result
 
     def error(self, result: Any, exact: Any) -> float:
@@ -370,19 +370,19 @@ class Computation:
         float
             The distance, in `unit`; NaN if there is nothing to compare.
         """
-        if callable(self.compared):
-            return self.compared(result, exact)
-        read = attrgetter(self.compared) if self.compared else next(iter(self.numbers.values())).read
+        if callable(self.comparison):
+            return self.comparison(result, exact)
+        read = attrgetter(self.comparison) if self.comparison else next(iter(self.numbers.values())).read
         return largest_difference(read(result), read(exact))
 
-    def trade(self, given: Mapping[str, Any] | None = None, repeats: int = 1) -> tuple[LevelCost, ...]:
+    def trade(self, arguments: Mapping[str, Any] | None = None, repeats: int = 1) -> tuple[LevelCost, ...]:
         """Return time and error at each level, measured on this machine.
 
         The error is the distance from a run that is finer than `reference`.
 
         Parameters
         ----------
-        given : mapping of str to object, optional
+        arguments : mapping of str to object, optional
             Values by name; the others have their defaults.
         repeats : int, default 1
             Number of runs at each level, of which the fastest counts.
@@ -400,7 +400,7 @@ class Computation:
 
         def run(plan: Plan) -> Any:
             is_named = plan is PLANS[self.kind][plan.level.name]
-            return self.compute(given, plan.level.name if is_named else plan.level)
+            return self.compute(arguments, plan.level.name if is_named else plan.level)
 
         return tuple(measure(self.kind, run, self.error, repeats))
 

@@ -30,7 +30,7 @@ _STEPS = (
     known.MAX_STEP,
     whole("max_steps", "N", MAX_STEPS, 1, 10**12, "Largest number of steps of all runs together."),
 )
-_ENCLOSED = (
+_TUBE_PARAMETERS = (
     usual(known.TIME, 2.0),
     whole("samples", "n", 5, 2, MAX_SAMPLES, "Evenly spaced times, with 0."),
     whole("digits", "n", 18, 1, 100, "Number of digits that determines the width of the intervals."),
@@ -187,7 +187,7 @@ def computations(system: System) -> Iterator[Computation]:
         "tube",
         "Proved intervals that contain the motion",
         tube,
-        _ENCLOSED,
+        _TUBE_PARAMETERS,
         {
             "width": Number("w", "largest width of an interval", "width"),
             "end": Number("t", "last enclosed time", lambda r: r.times[-1] if r.times.size else 0.0, "time"),
@@ -202,7 +202,7 @@ def computations(system: System) -> Iterator[Computation]:
         "proved-orbit",
         "Orbit with a proved error",
         proved_orbit,
-        (*_ENCLOSED, real("right_to", "ε", 1e-6, 1e-300, 1e3, "Largest error of an orbit that is right.")),
+        (*_TUBE_PARAMETERS, real("right_to", "ε", 1e-6, 1e-300, 1e3, "Largest error of an orbit that is right.")),
         {
             "error": Number("ε", "upper end of the proved largest error", "largest"),
             "right-until": Number("t", "last time at which the orbit is right", "right_until", "time"),

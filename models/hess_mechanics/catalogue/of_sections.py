@@ -33,7 +33,7 @@ Place = tuple[float, ...]
 _UNDECIDED = (MotionKind.UNDECIDED, MotionKind.SETTLING)
 _TRANSIENT = whole("transient", "N₀", 300, 0, 20_000, "Crossings skipped.")
 _CROSSINGS = whole("crossings", "N", 200, 8, 20_000, "Crossings analysed.")
-_MEASURED = _TRANSIENT, _CROSSINGS, usual(known.SPAN, 200.0, "Time of MEGNO and of the mean divergence.")
+_REGIME_PARAMETERS = _TRANSIENT, _CROSSINGS, usual(known.SPAN, 200.0, "Time of MEGNO and of the mean divergence.")
 
 
 # ---- functions of a point of a section ------------------------------------------------------------------------------
@@ -193,7 +193,7 @@ def computations(example: PoincareSection, period: int) -> Iterator[Computation]
         "regime",
         "Kind of the motion",
         regime,
-        _MEASURED,
+        _REGIME_PARAMETERS,
         _OF_MOTION,
         Kind.INDICATOR,
         lambda r, exact: float(r.kind is not exact.kind),
@@ -203,7 +203,7 @@ def computations(example: PoincareSection, period: int) -> Iterator[Computation]
         "dynamics",
         "Limit sets forward and backward in time",
         dynamics_of,
-        _MEASURED,
+        _REGIME_PARAMETERS,
         {
             "distance": Number("d", "distance of attractor and repeller", "distance", error_reader="distance_error"),
             "shared": Number("s", "fraction of the places that both share", "overlap"),

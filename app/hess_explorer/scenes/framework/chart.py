@@ -74,7 +74,7 @@ class _Chart(Part[Any]):
         """Cache key of the cells, which do not depend on the values of both sides in this state."""
         x, y = self.axes
         state = y.put(x.put(bare(self.host), x.ends[0]), y.ends[0])
-        return Cells(*self.numbers[self.host.chart], x, y, state, level(self.work.chosen))
+        return Cells(*self.numbers[self.host.chart], x, y, state, level(self.work.level_name))
 
     @cached_property
     def window(self) -> Window:

@@ -36,11 +36,11 @@ _PARTS = 16
 """Largest number of pieces of a branch in each direction."""
 _STEP = 0.02
 """Largest step, as a share of the range: chords are then half a pixel off, as directions differ by 0.3."""
-_CREEPING = 1e-4
+_LEAST_ADVANCE = 1e-4
 """Least advance of a piece, as a share of the range or in a coordinate: shorter pieces show no progress."""
 _NEAR = 12.0
 """Largest distance of the mouse from a branch that it selects, in pixels."""
-_SAID = 8
+_MOST_LISTED = 8
 """Largest number of bifurcations listed."""
 
 
@@ -107,7 +107,7 @@ class Continuation(Part[H_co]):
                 found.append(one)
                 advance = max(float(np.ptp(one.values)) / (high - low), float(np.ptp(one.places, axis=0).max()))
                 # Pieces hardly advance near a tangency with the section.
-                if one.heading is None or advance < _CREEPING:
+                if one.heading is None or advance < _LEAST_ADVANCE:
                     break
         return found, failed, whole
 
@@ -205,9 +205,9 @@ class Continuation(Part[H_co]):
     def quantities(self) -> Iterator[str]:
         """Yield the bifurcations."""
         found = bifurcations(self.branches) if self.has_result("_pieces") else []
-        yield from map(self._named, found[:_SAID])
-        if len(found) > _SAID:
-            yield f"and {len(found) - _SAID} more bifurcations of the branch"
+        yield from map(self._named, found[:_MOST_LISTED])
+        if len(found) > _MOST_LISTED:
+            yield f"and {len(found) - _MOST_LISTED} more bifurcations of the branch"
 
     def status(self) -> Iterator[str]:
         """Yield the size and error of the branch."""

@@ -34,17 +34,17 @@ class Stage(Generic[S]):
     def show(self, state: S, hold_axes: bool) -> Report:
         """Draw a state of `Scene.compute`; `hold_axes` keeps the axes during a drag.  Raises `ModelError`."""
         # Everything that can fail comes first, so that a failing state is not partly drawn.
-        views = [view for view in self.scene.views if view.name in state.seen]
+        views = [view for view in self.scene.views if view.name in state.visible]
         captions = {view.name: view.full_caption(state) for view in views}
         held = {view.name: self._axes[view.name] for view in views}
         axes = held if hold_axes else {view.name: view.ranges(state, held[view.name]) for view in views}
-        drawn = dict(state.drawn)
+        drawn = dict(state.sources)
         for view in views:
             for source, columns in view.framed(state, axes[view.name], drawn).items():
                 drawn[source] = {**drawn.get(source, {}), **columns}
         answer = self.scene.answer(state)
         quantities, notes = [*state.quantities()], [*dict.fromkeys(state.notes())]
-        status = re.sub(r"(?<=\d)e-(?=\d)", "e−", " · ".join([*state.status(), state.work.ended()]))
+        status = re.sub(r"(?<=\d)e-(?=\d)", "e−", " · ".join([*state.status(), state.work.status_end()]))
         self._state = state
         for view in views:
             self._set_axes(view, axes[view.name])
@@ -89,7 +89,7 @@ class Stage(Generic[S]):
     def _seen(self, picture: str) -> tuple[S, Picture[S]] | tuple[None, None]:
         """Return the current state and a picture; None if the picture is hidden, because it has no results."""
         state = self._state
-        return (None, None) if state is None or picture not in state.seen else (state, self._views[picture])
+        return (None, None) if state is None or picture not in state.visible else (state, self._views[picture])
 
     def _set_axes(self, view: Picture[S], axes: Axes | None) -> None:
         if axes is not None and axes != self._axes[view.name]:

@@ -19,7 +19,7 @@ from hess_mechanics.suslov.principal_axis import Conformal
 __all__ = ["about", "picture"]
 
 S = TypeVar("S")
-Found = Callable[[S], Conformal | None]
+Transform = Callable[[S], Conformal | None]
 
 _LEAST = 2.5
 """Half height of the axis at least, so that the brackets, of order 1 away from γ3 = 0, are visible."""
@@ -34,7 +34,7 @@ def about(motion: Conformal) -> Caption:
     )
 
 
-def _bracket(motion_of: Found[S], i: int) -> Callable[[S, Axes], list[Array]]:
+def _bracket(motion_of: Transform[S], i: int) -> Callable[[S, Axes], list[Array]]:
     """Return the graph of a Poisson bracket, cut where it is infinite, on the equator."""
 
     def graph(state: S, axes: Axes) -> list[Array]:
@@ -48,7 +48,7 @@ def _bracket(motion_of: Found[S], i: int) -> Callable[[S, Axes], list[Array]]:
     return graph
 
 
-def picture(motion_of: Found[S], reason: Callable[[S], str], span: Callable[[S], float]) -> Plot[S]:
+def picture(motion_of: Transform[S], reason: Callable[[S], str], span: Callable[[S], float]) -> Plot[S]:
     """Return the plot of τ, {ω1, γ3} and {ω2, γ3} against t, or of the reason for their absence."""
 
     def caption(state: S) -> Caption:

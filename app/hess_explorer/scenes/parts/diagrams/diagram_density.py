@@ -28,7 +28,7 @@ _COLUMNS, _ROWS = 4, 512
 """Columns of pixels for each value of the parameter in the diagram, and rows."""
 _GROUPS = 2
 """Groups of columns of each way, computed one after the other: for two cores, and so that points arrive soon."""
-_SKIPPED = 30
+_TRANSIENT = 30
 """Crossings left out: the orbit of a column starts where the nearest value of the diagram ended, so it has settled."""
 _FIRST, _GROWTH = 50_000, 4
 """Crossings in all columns in the first stage, and how many times as many each further stage has."""
@@ -75,7 +75,7 @@ class DiagramDensity(Part[OrbitDiagram]):
         shares = (np.arange(self._columns) + 0.5) / self._columns
         values = x0 + shares * (x1 - x0)
         starts = ends[np.rint(shares * (len(ends) - 1)).astype(int)]
-        points, stages = stages_of(_FIRST, _STAGES[self.work.chosen], _GROWTH)
+        points, stages = stages_of(_FIRST, _STAGES[self.work.level_name], _GROWTH)
         first = max(1, points // (len(self.host.pieces) * self._columns))
         level = plan(Kind.SECTION, cheapest(_ERRORS * (y1 - y0) / _ROWS)).level
         groups = (
@@ -132,7 +132,7 @@ class DiagramDensity(Part[OrbitDiagram]):
         return view.tones((backward, np.where(near, 0, back), there + np.where(near, back, 0)))
 
     @property
-    def said(self) -> str:
+    def phrase(self) -> str:
         """The number of points as a sentence; an empty string until they are shown."""
         return f"{self.points:,} points. " if self.tones else ""
 
@@ -165,6 +165,6 @@ class _Columns:
 def _stage(columns: _Columns, number: int) -> Visits:
     """Return the visits of some columns, including earlier stages."""
     if number == 0:
-        return columns.visits(columns.starts, _SKIPPED, columns.first)
+        return columns.visits(columns.starts, _TRANSIENT, columns.first)
     before = Task(_stage, columns, number - 1).get()
     return columns.visits(before.ends, 0, columns.first * _GROWTH**number).after(before)

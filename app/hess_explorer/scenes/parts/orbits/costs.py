@@ -38,20 +38,20 @@ class Costs:
     ----------
     work : Work
         Computation of the state.
-    shown : State
+    base : State
         The `bare` state to measure.
     trials : tuple of Trial
         Its computations.
     """
 
     work: Work
-    shown: State
+    base: State
     trials: tuple[Trial[Any], ...]
 
     @cached_property
     def results(self) -> dict[Trial[Any], tuple[LevelCost, ...] | Refusal | None]:
         """The measurements of each trial, one per level, or the reason why there are none; None until known."""
-        return {trial: self.work.need(Task(level_costs, trial, self.shown), preview=None) for trial in self.trials}
+        return {trial: self.work.need(Task(level_costs, trial, self.base), preview=None) for trial in self.trials}
 
     @cached_property
     def samples(self) -> dict[Trial[Any], tuple[LevelCost, ...]]:
@@ -65,14 +65,14 @@ class Costs:
     @cached_property
     def enough(self) -> dict[Trial[Any], str]:
         """The first level of each trial whose error is invisible."""
-        return {trial: enough(samples, trial.seen) for trial, samples in self.samples.items()}
+        return {trial: enough(samples, trial.tolerance) for trial, samples in self.samples.items()}
 
     @cached_property
     def curves(self) -> dict[Trial[Any], tuple[Array, Array]]:
         """Errors, in units of the largest invisible error, and times in milliseconds of the levels, by trial."""
         return {
             trial: (
-                np.clip([one.error / trial.seen for one in samples], *_ERRORS),
+                np.clip([one.error / trial.tolerance for one in samples], *_ERRORS),
                 np.array([max(one.ms, _MS[0]) for one in samples]),
             )
             for trial, samples in self.samples.items()

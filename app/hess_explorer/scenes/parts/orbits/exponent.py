@@ -151,6 +151,6 @@ def exponent_trial() -> Trial[Any]:
         lambda s, plan: s.exponent.at(plan),
         lambda s, found, truth: abs(found.value - truth.value) / max(truth.spread, 1e-12),
         unit="of what it changes by in the second half of its time",
-        seen=10.0,
+        tolerance=10.0,
         most=(("long", _LONG),),
     )

@@ -88,7 +88,7 @@ class SectionDensity(Part[Section]):
 
     @property
     def _stages(self) -> int:
-        return stages_of(_ORBITS * _FIRST, _STAGES[self.work.chosen])[1]
+        return stages_of(_ORBITS * _FIRST, _STAGES[self.work.level_name])[1]
 
     @property
     def points(self) -> int:
@@ -110,7 +110,7 @@ class SectionDensity(Part[Section]):
         return view.tones(self.counts) if self.counts else ()
 
     @property
-    def said(self) -> str:
+    def phrase(self) -> str:
         """The number of crossings as a phrase; an empty string until some are known."""
         return f"{self.points:,} points; " if self.points else ""
 

@@ -79,7 +79,7 @@ class Indicator(Part[Section]):
             return None
         plan = self.work.plan(Kind.INDICATOR)
         return cells_by_rows(
-            self.work, row_of_cells, (self.rows(plan, COARSE), self.rows(plan)), lambda: self.host.known
+            self.work, row_of_cells, (self.rows(plan, COARSE), self.rows(plan)), lambda: self.host.known_orbits
         )
 
     @property
@@ -143,6 +143,6 @@ def indicator_trial() -> Trial[Any]:
         lambda s, plan: np.stack([row_of_cells(*row)[1] for row in s.megno.rows(plan)]),
         lambda s, cells, truth: change_percentage(cells, truth),
         unit="% of the cells that change",
-        seen=3.0,
-        shown=lambda s: s.megno.is_on,
+        tolerance=3.0,
+        applies=lambda s: s.megno.is_on,
     )

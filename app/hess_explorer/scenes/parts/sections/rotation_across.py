@@ -23,7 +23,7 @@ from hess_explorer.views.picture import Picture
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits
 from hess_mechanics.euler_poisson.andoyer import AndoyerSection
-from hess_mechanics.euler_poisson.rotation import RESOLVED, RotationProfile, on_line, rotation_along
+from hess_mechanics.euler_poisson.rotation import RESOLUTION, RotationProfile, on_line, rotation_along
 from hess_mechanics.numerics.accuracy import Kind, Plan
 from hess_mechanics.numerics.results import Array
 
@@ -32,8 +32,8 @@ __all__ = ["RotationAcross", "rotation_picture", "rotation_trial"]
 _ACROSS = 48
 """Number of orbits on the line."""
 _ON_LINE = 3000
-"""Crossings of each orbit: fewer do not resolve the rotation number in a chain of islands to `RESOLVED`."""
-_HELD = (16, 40, 1e-2)
+"""Crossings of each orbit: fewer do not resolve the rotation number in a chain of islands to `RESOLUTION`."""
+_PREVIEW = (16, 40, 1e-2)
 """While a slider is held: orbits, crossings of each, and the resolution of the rotation number."""
 
 
@@ -89,14 +89,17 @@ class RotationAcross(Part[_Host]):
             (
                 [share for share, _ in some],
                 self.section.batch(
-                    tuple(state for _, state in some), True, _HELD[1] if self.work.dragging else crossings, plan.level
+                    tuple(state for _, state in some),
+                    True,
+                    _PREVIEW[1] if self.work.dragging else crossings,
+                    plan.level,
                 ),
             )
             for some in in_batches(starts)
         ]
 
     def _count(self, plan: Plan) -> int:
-        return _HELD[0] if self.work.dragging else plan.side(_ACROSS)
+        return _PREVIEW[0] if self.work.dragging else plan.side(_ACROSS)
 
     @cached_property
     def _known(self) -> list[tuple[list[float], OrbitBatch | None]]:
@@ -114,7 +117,7 @@ class RotationAcross(Part[_Host]):
 
     @property
     def _resolved(self) -> float:
-        return _HELD[2] if self.work.dragging else RESOLVED
+        return _PREVIEW[2] if self.work.dragging else RESOLUTION
 
     def _profile(self, pieces: Sequence[tuple[list[float], OrbitBatch | None]], plan: Plan) -> RotationProfile:
         known = [(shares, batch.orbits) for shares, batch in pieces if batch is not None]
@@ -189,7 +192,7 @@ def rotation_trial() -> Trial[Any]:
         lambda s, plan: s.rotation.at(plan),
         lambda s, found, truth: found.distance(truth),
         unit="turns, the median",
-        seen=RESOLVED,
+        tolerance=RESOLUTION,
     )
 
 

@@ -33,7 +33,7 @@ _ON = 1e-9
 """Largest relative distance of a start that counts as on the section."""
 _ORBITS, _MOST_STEPS = 20, 100_000
 """Defaults: number of other orbits, and largest number of Taylor steps of each."""
-_COMPARED = 3
+_TRIALS = 3
 """Batches that are computed twice for an error estimate, in addition to the current orbit."""
 
 
@@ -93,7 +93,7 @@ class _Host(Sectioned, Protocol):
         """The visible window, as in a link; empty for the whole."""
 
     @property
-    def given(self) -> Start:
+    def chosen_start(self) -> Start:
         """The chosen initial state.  Raises `ModelError`."""
 
     @property
@@ -188,7 +188,7 @@ class Section(Part[_Host]):
     @property
     def starts(self) -> Sequence[Start]:
         """The initial states of the chosen orbits; the last one is the current orbit.  Raises `ModelError`."""
-        return (self.host.given,) if self.chosen is None else self.chosen()
+        return (self.host.chosen_start,) if self.chosen is None else self.chosen()
 
     @cached_property
     def aim(self) -> Place | None:
@@ -219,7 +219,7 @@ class Section(Part[_Host]):
         return int(min(crossings, _FEW)) if self.work.dragging else self.work.plan(Kind.SECTION).part(crossings, _LEAST)
 
     @cached_property
-    def known(self) -> KnownOrbits:
+    def known_orbits(self) -> KnownOrbits:
         """The known orbits."""
         states = self.starts if self.host.periodic_orbit.closed_orbit is None else self.starts[:-1]
         held = self.work.dragging
@@ -241,7 +241,7 @@ class Section(Part[_Host]):
     @cached_property
     def own(self) -> Array:
         """The drawn points (n, 2) of the chosen orbits."""
-        return joined(self._shown(orbit) for batch in self.known.chosen for orbit in batch.orbits)
+        return joined(self._shown(orbit) for batch in self.known_orbits.chosen for orbit in batch.orbits)
 
     def _shown(self, orbit: Array, later: bool = False) -> Array:
         return orbit[len(orbit) // 2 :] if self.later or later else orbit
@@ -261,7 +261,7 @@ class Section(Part[_Host]):
         if (first, ends, later) not in self._points:
             self._points[first, ends, later] = joined(
                 self._shown(orbit, later)
-                for batch in self.known.batches
+                for batch in self.known_orbits.batches
                 for orbit, is_first, reason in zip(batch.orbits, batch.firsts, batch.reasons, strict=True)
                 if (is_first, reason != "") == (first, ends)
             )
@@ -283,15 +283,15 @@ class Section(Part[_Host]):
 
         This compares with a second run at a hundredth of the tolerance; None until known, and during a drag.
         """
-        periodic, own = self.host.periodic_orbit, self.known.own
+        periodic, own = self.host.periodic_orbit, self.known_orbits.own
         if self.work.dragging or periodic.is_searching or periodic.closed_orbit is not None or not own:
             return None
         level, step = self.work.plan(Kind.SECTION).level.tighter(), len(self.ways)
-        tasks = [self.batch((self.starts[-1],), level=level), *self._filling(level=level)[::step][:_COMPARED]]
+        tasks = [self.batch((self.starts[-1],), level=level), *self._filling(level=level)[::step][:_TRIALS]]
         fine: list[OrbitBatch | None] = [self.work.need(task, preview=None) for task in tasks]
         counts = [
             right_crossings(one.orbits, other.orbits, pixels_in(self.frame), self.poincare.turns)
-            for one, other in zip([own[-1], *self.known.others[::step]], fine, strict=False)
+            for one, other in zip([own[-1], *self.known_orbits.others[::step]], fine, strict=False)
             if one is not None and other is not None
         ]
         if len(counts) < len(fine):
@@ -302,8 +302,8 @@ class Section(Part[_Host]):
 
     def status(self) -> Iterator[str]:
         """Yield the size, cost and drift of the section, and the accuracy of the current orbit."""
-        if self.has_result("known") and not self.known.reason:
-            known = [*self.known.chosen, *self.known.batches]
+        if self.has_result("known_orbits") and not self.known_orbits.reason:
+            known = [*self.known_orbits.chosen, *self.known_orbits.batches]
             points = len(self.own) + len(self.points()) + len(self.points(False))
             yield f"section {points} points, {sum(batch.steps for batch in known)} Taylor steps"
             yield from drift_status(batch.drift for batch in known)
@@ -311,30 +311,32 @@ class Section(Part[_Host]):
 
     def notes(self) -> Iterator[str]:
         """Yield the reason why the section is omitted, or why a chosen orbit ends early."""
-        if self.has_result("known"):
-            reasons = (reason for batch in self.known.chosen for reason in batch.reasons)
-            yield from filter(None, (self.known.reason, *reasons))
+        if self.has_result("known_orbits"):
+            reasons = (reason for batch in self.known_orbits.chosen for reason in batch.reasons)
+            yield from filter(None, (self.known_orbits.reason, *reasons))
 
 
 def about_section(section: Section) -> Caption:
     """Return the caption of a section: the number of crossings, or the reason why it is omitted."""
-    if section.known.reason:
-        return Caption(numbers=section.known.reason)
-    reasons = [reason for batch in section.known.batches for reason in batch.reasons]
+    if section.known_orbits.reason:
+        return Caption(numbers=section.known_orbits.reason)
+    reasons = [reason for batch in section.known_orbits.batches for reason in batch.reasons]
     count = sum(map(bool, reasons))
     ends = f" {count} of {len(reasons)} others end early." if count else ""
     return Caption(
-        "The chosen orbit ends early." if any(reason for one in section.known.chosen for reason in one.reasons) else "",
+        "The chosen orbit ends early."
+        if any(reason for one in section.known_orbits.chosen for reason in one.reasons)
+        else "",
         f"{len(section.own)} crossings of the chosen orbit, {len(section.points())} of others.{ends}",
     )
 
 
 def _first_place(section: PoincareSection, state: Start, crossed: Callable[[], OrbitBatch]) -> Place | None:
     """Return the place of a state in the section, or of its first crossing; None without one."""
-    given = np.array([state])
-    place = section.places_of(given)
+    start = np.array([state])
+    place = section.places_of(start)
     states, there = section.states_at(*place.T)
-    if not (there[0] and np.abs(states - given).max() < _ON * max(1.0, float(np.abs(given).max()))):
+    if not (there[0] and np.abs(states - start).max() < _ON * max(1.0, float(np.abs(start).max()))):
         (place,) = crossed().orbits
     return tuple(map(float, place[0])) if len(place) else None
 

@@ -60,7 +60,7 @@ class SectionState(State, ABC):
         return self.poincare
 
     @property
-    def given(self) -> Start:
+    def chosen_start(self) -> Start:
         """The chosen initial state.  Raises `ModelError`."""
         return start_on(self.poincare, self.place)
 
@@ -84,7 +84,7 @@ class SectionState(State, ABC):
     @property
     def start(self) -> Start:
         """The initial state (d,) of the orbit."""
-        return self.given if self.closed_orbit is None else self.closed_orbit.state
+        return self.chosen_start if self.closed_orbit is None else self.closed_orbit.state
 
     @property
     def duration(self) -> float:
@@ -122,6 +122,6 @@ class FilledState(SectionState):
     exponent = part(OrbitExponent)
 
     @property
-    def given(self) -> Start:
+    def chosen_start(self) -> Start:
         """The last chosen initial state.  Raises `ModelError`."""
         return self.section.starts[-1]
