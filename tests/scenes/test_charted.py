@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from pytest import approx
 
-from hess_explorer.commands.serve import _shown
+from hess_explorer.commands.serve import _chart_link
 from hess_explorer.compute.cells import Outcome
 from hess_explorer.export.picture_data import complete, picture_data
 from hess_explorer.page.requested import RequestedState
@@ -182,7 +182,7 @@ def stored(**changed):
 
 def test_a_stored_sweep_is_shown_in_the_chart_of_a_scene():
     try:
-        values, _ = decode(_shown(stored()), TORI.specs)
+        values, _ = decode(_chart_link(stored()), TORI.specs)
         state = TORI.compute(values, ["chart"], False)
         assert (values["accuracy"], values["a"]) == ("precise", 0.3)
         assert state.chart_part.window == ((-0.25, -0.75), (2.25, 0.75))
@@ -198,7 +198,7 @@ def test_a_stored_sweep_is_shown_in_the_chart_of_a_scene():
         (stored(phi=0.3), "No scene shows circle-map"),
     ):
         with pytest.raises(ModelError, match=said):
-            _shown(found)
+            _chart_link(found)
 
 
 def test_derived_scenes_share_the_choices_of_the_chart_but_not_its_picture():

@@ -60,9 +60,9 @@ def parse(name: str, rest: list[str]) -> Options:
     return overview.parse(f"{prog} SYSTEM", ["--help"])
 
 
-def _unknown(kind: str, name: str, known: list[str]) -> CommandError:
-    close = get_close_matches(name, known, 3)
-    hint = f"did you mean {' or '.join(close)}?" if close else f"choose from {', '.join(known)}."
+def _unknown(kind: str, name: str, names: list[str]) -> CommandError:
+    close = get_close_matches(name, names, 3)
+    hint = f"did you mean {' or '.join(close)}?" if close else f"choose from {', '.join(names)}."
     return CommandError(f"There is no {kind} {name[:60]!r}: {hint}")
 
 

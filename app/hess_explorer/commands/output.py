@@ -102,9 +102,9 @@ def _plain(value: Any) -> Any:
     return [value.real, value.imag] if isinstance(value, complex) else value.tolist()
 
 
-def _strict(named: Mapping[str, Any], lost: list[str]) -> dict[str, Any]:
-    """Replace numbers that are not finite by null, and append their names to `lost`."""
-    known: dict[str, Any] = json.loads(json.dumps(named, default=_plain), parse_constant=lost.append)
+def _strict(values: Mapping[str, Any], missing: list[str]) -> dict[str, Any]:
+    """Replace numbers that are not finite by null, and append their names to `missing`."""
+    known: dict[str, Any] = json.loads(json.dumps(values, default=_plain), parse_constant=missing.append)
     return known
 
 

@@ -67,9 +67,9 @@ def strict_parser() -> MarkdownIt:
     return found
 
 
-def _with_plugins(found: MarkdownIt) -> MarkdownIt:
-    found.enable("table").use(front_matter_plugin)
-    return found.use(dollarmath_plugin, renderer=formula, allow_space=False, double_inline=True)
+def _with_plugins(parser: MarkdownIt) -> MarkdownIt:
+    parser.enable("table").use(front_matter_plugin)
+    return parser.use(dollarmath_plugin, renderer=formula, allow_space=False, double_inline=True)
 
 
 def _displayed(_: object, tokens: Sequence[Token], i: int, *rest: object) -> str:

@@ -61,20 +61,20 @@ def steps_of_plots(plots: Sequence[tuple[Plot[Any], Axes]]) -> dict[str, dict[st
     return found
 
 
-def _step(values: Array, column: str, known: float | None) -> float:
-    """Return the quantisation step of an array in single precision; `known` is the step of its plot, if any."""
+def _step(values: Array, column: str, step: float | None) -> float:
+    """Return the quantisation step of an array in single precision; `step` is the step of its plot, if any."""
     finite = values[np.isfinite(values)]
     if len(finite) == 0:
         return 1.0
     low, high = float(finite.min()), float(finite.max())
     extent = high - low
-    if known == EXACT or np.isinf(values).any():
+    if step == EXACT or np.isinf(values).any():
         return EXACT
     if extent < _SPAN and np.array_equal(finite, np.rint(finite)):
         return 1.0
     if values.size <= _SMALL:
         return max(abs(low), abs(high)) / 2**22
-    step = known or extent / (_SHADES if column == "image" else _SPAN)
+    step = step or extent / (_SHADES if column == "image" else _SPAN)
     # A curve may leave its plot by very far; a constant array has no extent.
     return step if extent < _LARGEST * step else EXACT
 
@@ -133,9 +133,9 @@ class OfflineStrip:
         self.trees.append({**tree, "sources": sources})
         self._last = places
 
-    def _array(self, values: Array, column: str, known: float | None, before: int | None) -> int:
+    def _array(self, values: Array, column: str, step: float | None, before: int | None) -> int:
         """Store an array unless it equals the previous one; return its number."""
-        step = _step(values, column, known)
+        step = _step(values, column, step)
         if before is not None and len(self._wholes[before]) != len(values):
             before = None
         if before is not None:

@@ -122,8 +122,8 @@ def parse(message: Any) -> Message | None:
     return None
 
 
-def _show(shown: dict[str, Any]) -> Show | None:
-    match shown:
+def _show(message: dict[str, Any]) -> Show | None:
+    match message:
         case {
             "query": str(query),
             "lesson": str(lesson),

@@ -65,7 +65,7 @@ class Room:
         self._show: Show | None = None
         self._is_drawn = True
         self._frames: Frames | None = None
-        self._told: tuple[int, int] | None = None
+        self._counts: tuple[int, int] | None = None
         self._news = asyncio.Event()
         self._is_over = False
 
@@ -82,7 +82,7 @@ class Room:
         """Make a websocket the lecturer's; it replaces an earlier one."""
         if self._lead is not None:
             self._lead.close(*REPLACED)
-        self._lead, self._told = member, None
+        self._lead, self._counts = member, None
         self._news.set()
 
     def follow(self, member: Member, name: str) -> bool:
@@ -179,6 +179,6 @@ class Room:
 
     def _tell_lead(self) -> None:
         told = len(self._followers), len(self._guesses)
-        if self._lead is not None and told != self._told:
-            self._told = told
+        if self._lead is not None and told != self._counts:
+            self._counts = told
             self._lead.put("counts", json.dumps({"followers": told[0], "guesses": told[1]}))

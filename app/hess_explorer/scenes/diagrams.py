@@ -118,7 +118,7 @@ class DiagramState(DiagramControls):
 
     def choose(self, x: float, y: float) -> Values:
         """Return the parameter value and the orbit at (x, y): of the branch if it is near, otherwise of the diagram."""
-        found = self.continuation.chosen(x, y)
+        found = self.continuation.orbit_at(x, y)
         if found is None:
             return self.diagram.choose(x, y)
         value, place, period = found

@@ -34,18 +34,18 @@ class Capacity:
 
     def __init__(self, most: int) -> None:
         self.most = most
-        self.there = 0
+        self.sessions = 0
 
     def take(self) -> bool:
         """Count a new session until it is destroyed; return False if the server is full."""
-        if self.there >= self.most:
+        if self.sessions >= self.most:
             return False
-        self.there += 1
-        pn.state.on_session_destroyed(self._gone)
+        self.sessions += 1
+        pn.state.on_session_destroyed(self._release)
         return True
 
-    def _gone(self, context: object) -> None:
-        self.there -= 1
+    def _release(self, context: object) -> None:
+        self.sessions -= 1
 
     @property
     def sentence(self) -> str:

@@ -63,7 +63,7 @@ class Metrics(RequestHandler):
         counters = {
             **CACHE.metrics(),
             **self._rooms.metrics(),
-            "sessions": self._capacity.there,
+            "sessions": self._capacity.sessions,
             "websockets": len(OPEN_SOCKETS),
             "threads": threading.active_count(),
         }

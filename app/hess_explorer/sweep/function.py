@@ -48,8 +48,8 @@ def _named(function: Function, own: str, takes_accuracy: bool) -> Callable[..., 
 
 
 def _number(name: str, title: str) -> Number:
-    def read(found: Mapping[str, float]) -> float:
-        value = found.get(name, math.nan)
+    def read(values: Mapping[str, float]) -> float:
+        value = values.get(name, math.nan)
         if math.isnan(value):
             raise NoValue(f"{name} is missing or NaN.")
         return value

@@ -85,11 +85,11 @@ def _plan_of(content: bytes) -> SweepPlan:
     return SweepPlan(find(what) if isinstance(what, str) else what, numbers, accuracy, {}, fixed)
 
 
-def compute_sent(content: bytes, needed: str, axes: Mapping[str, Array]) -> PieceResult:
+def compute_sent(content: bytes, release: str, axes: Mapping[str, Array]) -> PieceResult:
     """Compute a piece of a serialized plan on a worker.  Raises `WorkersLost` if the versions differ."""
-    if needed != version():
+    if release != version():
         raise WorkersLost(
-            f"A worker has version {version()} of hess-explorer, but the sweep needs {needed}: "
+            f"A worker has version {version()} of hess-explorer, but the sweep needs {release}: "
             "install the same version on all workers."
         )
     return compute(replace(_plan_of(content), axes=axes))

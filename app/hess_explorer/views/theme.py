@@ -63,10 +63,10 @@ def gradient(scale: tuple[str, ...]) -> str:
 def in_css(style: str) -> str:
     """Replace the colours of a CSS style by variables of the page's theme."""
 
-    def variable(found: re.Match[str]) -> str:
-        colour, opacity = found[0][:7].upper(), found[0][7:]
+    def variable(match: re.Match[str]) -> str:
+        colour, opacity = match[0][:7].upper(), match[0][7:]
         if colour not in _NAMES:
-            return found[0]
+            return match[0]
         shade = f"var(--{_NAMES[colour]}, {colour})"
         return shade if not opacity else (f"color-mix(in srgb, {shade} {round(int(opacity, 16) / 2.55)}%, transparent)")
 

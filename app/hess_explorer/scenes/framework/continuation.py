@@ -67,7 +67,7 @@ class Continuation(Part[H_co]):
 
     @property
     @abstractmethod
-    def seen(self) -> Window:
+    def frame(self) -> Window:
         """The visible window."""
 
     @property
@@ -76,14 +76,14 @@ class Continuation(Part[H_co]):
         return self.host.poincare.turns[self.side]
 
     @cached_property
-    def _found(self) -> ClosedOrbit | NotFound | None:
+    def _target(self) -> ClosedOrbit | NotFound | None:
         """The orbit to continue, or the reason why there is none; None until known."""
         return None if self.begin is None else self.work.need(self.begin.search, preview=None)
 
     @property
     def closed_orbit(self) -> ClosedOrbit | None:
         """The orbit to continue; None if there is none."""
-        return self._found if isinstance(self._found, ClosedOrbit) else None
+        return self._target if isinstance(self._target, ClosedOrbit) else None
 
     @cached_property
     def _pieces(self) -> tuple[list[mechanics.Branch], list[str], bool]:
@@ -120,7 +120,7 @@ class Continuation(Part[H_co]):
 
     def _pixels(self, values: Array, places: Array, x: float, y: float) -> Array:
         """Return the pixels (n, 2) from (x, y) to places (n, d) at values (n,) of the parameter."""
-        (x0, y0), (x1, y1) = self.seen
+        (x0, y0), (x1, y1) = self.frame
         up = apart((self.turn,), places[:, self.side, None], np.array([y]))[:, 0]
         return np.column_stack([values - x, up]) * (PIXELS / (x1 - x0), PIXELS / (y1 - y0))
 
@@ -140,7 +140,7 @@ class Continuation(Part[H_co]):
         near = min(found, key=itemgetter(0), default=None)
         return near if near is not None and near[0] <= _NEAR else None
 
-    def chosen(self, x: float, y: float) -> tuple[float, Place, int] | None:
+    def orbit_at(self, x: float, y: float) -> tuple[float, Place, int] | None:
         """Return parameter, place and period of the branch's orbit at (x, y); None away from the branch."""
         near = self._nearest(x, y)
         if near is None or self.begin is None:
@@ -190,7 +190,7 @@ class Continuation(Part[H_co]):
     @property
     def caption(self) -> Caption:
         """The caption of the branch."""
-        if self.begin is None or isinstance(self._found, NotFound):
+        if self.begin is None or isinstance(self._target, NotFound):
             return Caption("No periodic orbit found near this point.")
         if self.closed_orbit is None:
             return Caption(self.work.pending_caption("A periodic orbit is"))
@@ -221,8 +221,8 @@ class Continuation(Part[H_co]):
         """Yield the reasons why there is no branch, or why it ends inside the range."""
         if not self.has_result("_pieces"):
             return
-        if isinstance(self._found, NotFound):
-            yield self._found.reason
+        if isinstance(self._target, NotFound):
+            yield self._target.reason
         if self.begin is None or self.closed_orbit is None:
             return
         found, failed, whole = self._pieces

@@ -180,12 +180,12 @@ def proved_statement(I22: float, I23: float, h: float, f: float) -> ProvedStatem
     )
 
 
-def _within(found: Enclosure, count: int) -> str:
-    return f"[{', '.join(found.decimals(count))}]".replace("E+", "e").replace("E-", "e−")
+def _within(result: Enclosure, count: int) -> str:
+    return f"[{', '.join(result.decimals(count))}]".replace("E+", "e").replace("E-", "e−")
 
 
-def _costs(found: Proof) -> str:
-    return f" ({len(found.steps)} steps, {found.bits} bits)"
+def _costs(result: Proof) -> str:
+    return f" ({len(result.steps)} steps, {result.bits} bits)"
 
 
 @dataclass(frozen=True)

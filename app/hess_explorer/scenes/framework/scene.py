@@ -427,7 +427,7 @@ class Scene(Generic[S]):
         idle = self.idle(values)
         return {name: meaning for name, meaning in {**labels, **self.of(values).means()}.items() if name not in idle}
 
-    def transfer(self, there: Values, before: Scene[Any], left: Values) -> dict[str, Value]:
+    def transfer(self, there: Values, before: Scene[Any], values: Values) -> dict[str, Value]:
         """Transfer changed values from another scene to parameters with the same meaning.
 
         Parameters
@@ -436,17 +436,17 @@ class Scene(Generic[S]):
             Values of this scene.
         before : Scene
             The other scene.
-        left : mapping of str
+        values : mapping of str
             Its values; values that are impossible in this scene are not transferred.
         """
-        defaults, mine, its = before.defaults(), self._meanings(there), before._meanings(left)
+        defaults, mine, its = before.defaults(), self._meanings(there), before._meanings(values)
         taken = {
-            spec.name: left[spec.name]
+            spec.name: values[spec.name]
             for spec in self.specs
             if spec.name in mine
             and mine[spec.name] == its.get(spec.name)
-            and left[spec.name] != defaults[spec.name]
-            and spec.read(left[spec.name])[1] is None
+            and values[spec.name] != defaults[spec.name]
+            and spec.read(values[spec.name])[1] is None
         }
         return {**there, **taken}
 
@@ -487,9 +487,9 @@ class Scene(Generic[S]):
             state.work.settle(max(known, key=[*LEVELS].index))
 
 
-def _or_nothing(found: Callable[[], Mapping[str, T]]) -> Mapping[str, T]:
+def _or_nothing(compute: Callable[[], Mapping[str, T]]) -> Mapping[str, T]:
     """Return the mapping, or an empty one if it raises `ModelError`."""
     try:
-        return found()
+        return compute()
     except ModelError:
         return {}

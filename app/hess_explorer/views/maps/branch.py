@@ -9,7 +9,7 @@ import numpy as np
 
 from hess_explorer.views import theme
 from hess_explorer.views.layers import Axes, Layers, curves, names, points
-from hess_explorer.views.plane.periodic import seen, sign_of, within
+from hess_explorer.views.plane.periodic import sign_of, visible_points, within
 from hess_mechanics.dynamics.continuation import Bifurcation, Branch
 from hess_mechanics.numerics.results import Array
 
@@ -85,7 +85,7 @@ def layers(of: Callable[[S], Branched]) -> Layers[S]:
         shown, up, found = of(state), Axes(axes.y, axes.x), []
         for one in bifurcations(shown.branches):
             y = one.places[:, shown.side]
-            there = seen(np.column_stack([y, np.full(len(y), one.value)]), shown.turn, up)
+            there = visible_points(np.column_stack([y, np.full(len(y), one.value)]), shown.turn, up)
             inside = [(float(x), float(height)) for height, x in there if axes.x[0] <= x <= axes.x[1]]
             # Only the highest place has a label, because labels at all places would overlap.
             found += [

@@ -252,6 +252,6 @@ def arrows_on(curves: Sequence[Array], half_width: float) -> Array:
     return _arrows(found)
 
 
-def _arrows(found: Sequence[tuple[Array, Array]]) -> Array:
+def _arrows(arrows: Sequence[tuple[Array, Array]]) -> Array:
     """Return x, y, angle (3, n) of triangles at (place, step); angle 0 points upwards."""
-    return np.array([(*place, np.arctan2(*step[::-1]) - np.pi / 2) for place, step in found]).reshape(-1, 3).T
+    return np.array([(*place, np.arctan2(*step[::-1]) - np.pi / 2) for place, step in arrows]).reshape(-1, 3).T

@@ -94,7 +94,7 @@ class DiagramDensity(Part[OrbitDiagram]):
         return [[Task(_stage, one, number) for number in range(stages)] for one in groups]
 
     @cached_property
-    def _found(self) -> list[tuple[str, Visits | None]]:
+    def _visits(self) -> list[tuple[str, Visits | None]]:
         """Way and newest visits of each group of columns; empty while a slider is held."""
         if self.work.dragging:
             return []
@@ -105,18 +105,18 @@ class DiagramDensity(Part[OrbitDiagram]):
     @property
     def points(self) -> int:
         """The number of known points in the window."""
-        return sum(one.points for _, one in self._found if one is not None)
+        return sum(one.points for _, one in self._visits if one is not None)
 
     @property
     def _complete(self) -> bool:
         """True if all columns of all ways are known."""
-        return {way for way, one in self._found if one is not None} == set(self.host.pieces) and all(
-            one is not None for _, one in self._found
+        return {way for way, one in self._visits if one is not None} == set(self.host.pieces) and all(
+            one is not None for _, one in self._visits
         )
 
     def counts(self, way: str) -> Array:
         """Return the number of points of a way in each pixel, (n, m)."""
-        groups = [one.counts for name, one in self._found if one is not None and name == way]
+        groups = [one.counts for name, one in self._visits if one is not None and name == way]
         return np.concatenate(groups, axis=1) if groups else np.zeros((_ROWS, self._columns), np.uint32)
 
     @cached_property
@@ -140,7 +140,7 @@ class DiagramDensity(Part[OrbitDiagram]):
         """Yield the size and drift of the density."""
         if self.has_result("_found") and self.points:
             yield f"density {self.points} points"
-            yield from drift_status(one.drift for _, one in self._found if one is not None)
+            yield from drift_status(one.drift for _, one in self._visits if one is not None)
 
 
 @dataclass(frozen=True)
@@ -156,10 +156,10 @@ class _Columns:
     forward: bool
     level: Accuracy
 
-    def visits(self, starts: Sequence[Place] | Array, skipped: int, crossings: int) -> Visits:
+    def visits(self, starts: Sequence[Place] | Array, transient: int, crossings: int) -> Visits:
         """Return the visits of orbits that start at these places."""
         some = self.family, self.values, self.side, self.reach, _ROWS
-        return visits_over(*some, starts, skipped, crossings, self.forward, self.level)
+        return visits_over(*some, starts, transient, crossings, self.forward, self.level)
 
 
 def _stage(columns: _Columns, number: int) -> Visits:

@@ -287,6 +287,6 @@ class DiagramBranch(Continuation[OrbitDiagram]):
         return self.host.side
 
     @property
-    def seen(self) -> Window:
+    def frame(self) -> Window:
         """The visible window."""
         return self.host.frame

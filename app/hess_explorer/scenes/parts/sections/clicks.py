@@ -218,5 +218,5 @@ def _spread(state: _Host, count: int) -> tuple[Start, ...]:
     return state.work.need(Task(type(state.poincare).spread, state.poincare, count, state.section.frame))
 
 
-def _place(found: Array) -> Place:
-    return float(found[0]), float(found[1])
+def _place(point: Array) -> Place:
+    return float(point[0]), float(point[1])

@@ -69,7 +69,7 @@ class SectionDensity(Part[Section]):
         ]
 
     @cached_property
-    def _found(self) -> list[Visits | None]:
+    def _visits(self) -> list[Visits | None]:
         """The newest visits of each group of orbits; empty during a drag."""
         if not self.is_on or self.work.dragging:
             return []
@@ -93,13 +93,13 @@ class SectionDensity(Part[Section]):
     @property
     def points(self) -> int:
         """The number of known crossings in the window."""
-        return sum(one.points for one in self._found if one is not None)
+        return sum(one.points for one in self._visits if one is not None)
 
     @cached_property
     def counts(self) -> tuple[Array, ...]:
         """Number of crossings in each pixel, (n, m), for each kind of orbits; empty until some are known."""
         counts = np.zeros((len(self._ways), *_PIXELS[::-1]), np.uint32)
-        for (kind, _), one in zip(self._kinds, self._found, strict=False):
+        for (kind, _), one in zip(self._kinds, self._visits, strict=False):
             if one is not None:
                 counts[kind] += one.counts
         return tuple(counts) if self.points else ()
@@ -118,7 +118,7 @@ class SectionDensity(Part[Section]):
         """Yield the size and drift of the density."""
         if self.has_result("_found") and self.points:
             yield f"density {self.points} crossings"
-            yield from drift_status(one.drift for one in self._found if one is not None)
+            yield from drift_status(one.drift for one in self._visits if one is not None)
 
 
 def _starts(section: PoincareSection, window: Window) -> tuple[Start, ...]:

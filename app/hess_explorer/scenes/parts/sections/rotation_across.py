@@ -102,21 +102,21 @@ class RotationAcross(Part[_Host]):
         return _PREVIEW[0] if self.work.dragging else plan.side(_ACROSS)
 
     @cached_property
-    def _known(self) -> list[tuple[list[float], OrbitBatch | None]]:
+    def _results(self) -> list[tuple[list[float], OrbitBatch | None]]:
         held, pieces = self.work.dragging, self._pieces(self.work.plan(Kind.ROTATION))
         return [(shares, self.work.need(task, preview=task if held else None)) for shares, task in pieces]
 
     @property
     def _complete(self) -> bool:
-        return all(batch is not None for _, batch in self._known)
+        return all(batch is not None for _, batch in self._results)
 
     @cached_property
     def profile(self) -> RotationProfile:
         """The known rotation numbers along the line; from a few short orbits during a drag."""
-        return self._profile(self._known, self.work.plan(Kind.ROTATION))
+        return self._profile(self._results, self.work.plan(Kind.ROTATION))
 
     @property
-    def _resolved(self) -> float:
+    def _resolution(self) -> float:
         return _PREVIEW[2] if self.work.dragging else RESOLUTION
 
     def _profile(self, pieces: Sequence[tuple[list[float], OrbitBatch | None]], plan: Plan) -> RotationProfile:
@@ -127,7 +127,7 @@ class RotationAcross(Part[_Host]):
             [orbit for _, orbits in known for orbit in orbits],
             self.about_middle,
             self._count(plan),
-            self._resolved,
+            self._resolution,
         )
 
     def at(self, plan: Plan) -> RotationProfile:
@@ -176,12 +176,12 @@ class RotationAcross(Part[_Host]):
 
     def _turns(self, rho: float) -> str:
         """Return a rotation number, rounded to its resolution."""
-        return digits(round(float(rho) / self._resolved) * self._resolved)
+        return digits(round(float(rho) / self._resolution) * self._resolution)
 
 
-def _axis_of(found: RotationProfile) -> Range:
-    shown = np.concatenate([found.numbers, np.zeros(min(1, found.librations.size))])
-    return with_room(shown, 0.06, 1e-4) if found.numbers.size else (-0.56, 0.56)
+def _axis_of(profile: RotationProfile) -> Range:
+    shown = np.concatenate([profile.numbers, np.zeros(min(1, profile.librations.size))])
+    return with_room(shown, 0.06, 1e-4) if profile.numbers.size else (-0.56, 0.56)
 
 
 def rotation_trial() -> Trial[Any]:
@@ -196,8 +196,8 @@ def rotation_trial() -> Trial[Any]:
     )
 
 
-def _branches(found: RotationProfile) -> list[Array]:
-    return [np.column_stack(part) for part in zip(found.along, found.rho, strict=True)]
+def _branches(profile: RotationProfile) -> list[Array]:
+    return [np.column_stack(part) for part in zip(profile.along, profile.rho, strict=True)]
 
 
 def rotation_picture() -> Picture[Any]:

@@ -241,9 +241,9 @@ class Section(Part[_Host]):
     @cached_property
     def own(self) -> Array:
         """The drawn points (n, 2) of the chosen orbits."""
-        return joined(self._shown(orbit) for batch in self.known_orbits.chosen for orbit in batch.orbits)
+        return joined(self._visible_part(orbit) for batch in self.known_orbits.chosen for orbit in batch.orbits)
 
-    def _shown(self, orbit: Array, later: bool = False) -> Array:
+    def _visible_part(self, orbit: Array, later: bool = False) -> Array:
         return orbit[len(orbit) // 2 :] if self.later or later else orbit
 
     def points(self, first: bool = True, ends: bool = False, later: bool = False) -> Array:
@@ -260,7 +260,7 @@ class Section(Part[_Host]):
         """
         if (first, ends, later) not in self._points:
             self._points[first, ends, later] = joined(
-                self._shown(orbit, later)
+                self._visible_part(orbit, later)
                 for batch in self.known_orbits.batches
                 for orbit, is_first, reason in zip(batch.orbits, batch.firsts, batch.reasons, strict=True)
                 if (is_first, reason != "") == (first, ends)
