@@ -257,7 +257,7 @@ def _yaml(text: str, line: int) -> Any:
         mark = getattr(error, "problem_mark", None)
         raise LessonError(
             f"this is not YAML ({getattr(error, 'problem', None) or 'it cannot be read'}): write one "
-            f"“name: value” in a line, and quotes round a link.",
+            f"“name: value” per line, and put links in quotes.",
             line + (mark.line if mark else 0),
         ) from error
     except RecursionError as error:

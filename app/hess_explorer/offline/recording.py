@@ -26,7 +26,7 @@ from hess_mechanics.errors import ModelError
 __all__ = ["Recording", "Report"]
 
 Report = Callable[[int, int], None]
-"""Gets the number of computed states, that of all states, and the largest size of all in bytes."""
+"""Receives the number of computed states and that of all states."""
 
 _LARGEST_STRIP = 600_000
 """Numbers of a strip, after which the next one begins: the browser decodes a strip within a few frames."""

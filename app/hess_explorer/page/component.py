@@ -48,5 +48,5 @@ export function render(detail) {
   document.dispatchEvent(new CustomEvent("component", { detail }))
 }
 """
-    # The page brings its own.
+    # The page has style sheets of its own.
     _stylesheets: ClassVar[list[str]] = []

@@ -128,7 +128,7 @@ class RoomDrawing:
         told: dict[str, Any] = {"scene": scene.title, "number": show.step, "revealed": show.revealed, "step": None}
         if step is not None:
             lesson = self._lessons[show.lesson]
-            # The answer is the lecturer's.
+            # Only the lecturer sees the answer.
             told["step"] = {**json.loads(describe_lesson(lesson))["steps"][show.step - 1], "answer": ""}
             told["lesson"] = lesson.title
             # The lecturer may have left the scene of the step.

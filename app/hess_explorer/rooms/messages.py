@@ -39,19 +39,19 @@ _MOST_STEPS = 1000
 
 @dataclass(frozen=True)
 class Open:
-    """Open a room."""
+    """A request to open a room."""
 
 
 @dataclass(frozen=True)
 class Lead:
-    """Be the lecturer of a room."""
+    """A request to be the lecturer of a room."""
 
     key: str
 
 
 @dataclass(frozen=True)
 class Follow:
-    """Follow the lecturer.
+    """A request to follow the lecturer.
 
     Attributes
     ----------
@@ -97,7 +97,7 @@ class Guess:
 
 @dataclass(frozen=True)
 class End:
-    """End the room."""
+    """A request to end the room."""
 
 
 Message = Open | Lead | Follow | Show | Guess | End

@@ -268,7 +268,7 @@ SCENE = Scene(
         orbit_alone(
             BallSectionState.half_width, energy=lambda s: s.E, label="chosen orbit", proved=lambda s: s.proof.band
         ),
-        along_the_orbit(lambda s: s.r, lambda s: s.proof.around),
+        along_the_orbit(lambda s: s.r, lambda s: s.proof.circles),
         Plot(
             name="returns",
             title="First return",

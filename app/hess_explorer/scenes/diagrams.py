@@ -325,7 +325,7 @@ def _pictures(state: type[DiagramState], ball: bool) -> tuple[Picture[Any], ...]
             ),
         ),
         replace(
-            along_the_orbit(lambda s: centre_of_mass(s.body.parameters[-3:]), lambda s: s.proof.around),
+            along_the_orbit(lambda s: centre_of_mass(s.body.parameters[-3:]), lambda s: s.proof.circles),
             button="Show the Poisson sphere",
         ),
     )

@@ -356,7 +356,7 @@ SCENE = Scene(
         solid_body(wheels=False, section=True),
         rotation_picture(),
         along_the_orbit(
-            lambda s: Direction(math.copysign(1.0, s.m) * np.array(s.body.r), "r"), lambda s: s.proof.around
+            lambda s: Direction(math.copysign(1.0, s.m) * np.array(s.body.r), "r"), lambda s: s.proof.circles
         ),
         exponent_picture(button="Show the Lyapunov exponent"),
         surface_picture(lambda s: s.surface, button="Show the torus in space"),

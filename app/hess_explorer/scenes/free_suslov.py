@@ -120,12 +120,12 @@ class FreeSuslov(State):
 
     @property
     def omega(self) -> tuple[float, float]:
-        """ω(0)."""
+        """The initial angular velocity (ω1, ω2)."""
         return self.w1, self.w2
 
     @cached_property
     def passage(self) -> free.Passage:
-        """ω(t).  Raises `InvalidParameter`, `WorkLimit`."""
+        """The passage of ω through its initial value.  Raises `InvalidParameter`, `WorkLimit`."""
         return free.passage(self.body, self.omega)
 
     @cached_property
@@ -153,7 +153,7 @@ class FreeSuslov(State):
 
     @cached_property
     def gamma(self) -> tuple[float, float, float]:
-        """γ(0)."""
+        """The initial vertical."""
         return self.points.gamma(self.Gamma, self.phi)
 
     def _motion(self, gamma: tuple[float, float, float]) -> free.FreeMotion:
@@ -256,7 +256,7 @@ class FreeSuslov(State):
 
     def _about_gamma1(self) -> Caption:
         return Caption(
-            "In the end γ rotates uniformly about ξ.", f"By {digits(self.points.speed)} radians per unit of time."
+            "In the end γ rotates uniformly about ξ.", f"At {digits(self.points.speed)} radians per unit of time."
         )
 
     def _about_Gamma(self) -> Caption:
@@ -272,7 +272,7 @@ class FreeSuslov(State):
         yield f"|ω±| = {digits(points.speed)}"
         yield f"ξ = {vector(points.xi)}"
         if self.F2 is None:
-            yield "F₂: none known (I₁₃ = 0 and k odd, or the like)"
+            yield "F₂: none known (one is for I₁₃ = 0 or I₂₃ = 0 and k odd)"
         else:
             integral, f = self.F2
             yield f"F₂, degree {integral.k} in ω: f = {digits(f)}"

@@ -142,7 +142,7 @@ class Loxodrome(State):
 
     def _about_angle(self) -> Caption:
         measured, theta = self.pendulum_motion.angles[1], self.pendulum.angle
-        error = f"; the track agrees to {digits(np.max(np.abs(measured - theta)), 1)}" if measured.size else ""
+        error = f"; the track agrees within {digits(np.max(np.abs(measured - theta)), 1)}" if measured.size else ""
         return Caption("The angle θ is constant.", f"θ = arcsin(1/√(1+a²)) = {digits(theta)}{error}.")
 
     def _about_height(self) -> Caption:
@@ -166,7 +166,7 @@ class Loxodrome(State):
         yield f"Unit of time = {digits(1.0 / p.frequency_unit)}"
         yield f"l(0) = {digits(p.l)}"
         yield f"A rigid body? {'yes' if heavy.check.is_body else 'no'}"
-        yield f"ln of the departure per turn in the full equations, 2π|a| = {digits(2.0 * math.pi * abs(p.a))}"
+        yield f"ln(departure) grows by 2π|a| = {digits(2.0 * math.pi * abs(p.a))} per turn in the full equations"
 
     def status(self) -> Iterator[str]:
         """Yield the status of the attitude and of its orbit."""

@@ -194,11 +194,10 @@ class Quartic(SectionState):
 
     def _about_domain(self) -> Caption:
         first, second = map(digits, self.body.axes)
-        hole = self.body.hole > 0.0
-        return Caption(
-            "Motion in a ring." if hole else "Motion in a region without a hole.",
-            f"Level ½: semi-axes {first} and {second}{f', hole (grey) {digits(self.body.hole)}' if hole else ''}.",
-        )
+        if self.body.hole == 0.0:
+            return Caption("Motion in a region without a hole.", f"Semi-axes {first} and {second}.")
+        hole = f"hole (grey) {digits(self.body.hole)} times as large"
+        return Caption("Motion in a ring.", f"Semi-axes {first} and {second}, {hole}.")
 
     def _about_section(self) -> Caption:
         if self.special is not None:
@@ -222,7 +221,7 @@ class Quartic(SectionState):
         yield f"Start: γ₃ = {digits(self.start[4])}"
         yield f"ω(0) = {vector(self.start[:2])}"
         if self.orbit.has_result("path"):
-            yield f"H = ½ to {digits(model.level_error(self.body, self.orbit.path.states), 1)}"
+            yield f"H = ½ within {digits(model.level_error(self.body, self.orbit.path.states), 1)}"
         yield "Integrable" if self.body.integrable else "Not integrable"
         yield "div v = 0: the standard measure"
 
@@ -270,7 +269,7 @@ SCENE = Scene(
             caption=Quartic._about_sphere,
             looks={"orbit": "orbit"},
             axis=lambda s: centre_of_mass((0.0, 0.0, s.b3)),
-            circles=lambda s: [*parallels((0.0, 0.0, 1.0), [s.body.E / s.body.b3]), *s.proof.around],
+            circles=lambda s: [*parallels((0.0, 0.0, 1.0), [s.body.E / s.body.b3]), *s.proof.circles],
         ),
         plane_domain.momentum_picture(
             lambda s: (s.orbit.path.times, s.momentum),

@@ -244,7 +244,7 @@ SCENE = Scene(
         ),
         solid_body(),
         divergence_picture(),
-        along_the_orbit(lambda s: centre_of_mass((s.b1, s.b2, s.b3)), lambda s: s.proof.around),
+        along_the_orbit(lambda s: centre_of_mass((s.b1, s.b2, s.b3)), lambda s: s.proof.circles),
         replace(
             orbit_alone(lambda s: s.half_width, energy=lambda s: s.E, proved=lambda s: s.proof.band),
             button="Show the angular velocity",

@@ -222,7 +222,7 @@ class SuslovHess(State):
     def heights(self) -> list[Circle]:
         """Return the circles that bound n3, and the proved enclosure of γ."""
         ends = (-1.0, 1.0) if self.turning_points is None else self.turning_points.roots[1:]
-        return [*parallels(self.body.n3, ends), *self.orbit_proof.around]
+        return [*parallels(self.body.n3, ends), *self.orbit_proof.circles]
 
     def colours(self, cells: tuple[int, int], level: Level) -> Task[Array]:
         """Return a task that computes the rotation number over the diagram."""

@@ -67,7 +67,7 @@ def sendable(plan: SweepPlan) -> bytes:
     known = catalogue().get(what.key) is what
     try:
         return bytes(cloudpickle.dumps((what.key if known else what, plan.numbers, plan.accuracy, plan.fixed)))
-    # Whatever the objects that a function uses raise.
+    # The objects that a function uses may raise anything.
     except Exception as error:
         raise InvalidParameter(
             f"{what.key} cannot be sent to other processes ({error}): omit workers, or avoid objects that cannot be "

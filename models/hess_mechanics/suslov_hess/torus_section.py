@@ -64,7 +64,7 @@ class TorusSection(PoincareSection):
 
     @property
     def n3(self) -> float:
-        """The middle of the range of n3."""
+        """The value of n3 on the section, the middle of its range."""
         return 0.5 * (self.turning_points.roots[1] + self.turning_points.roots[2])
 
     @property

@@ -213,7 +213,7 @@ class Continuation(Part[H_co]):
         """Yield the size and error of the branch."""
         if self.has_result("_pieces") and self.branches:
             yield (
-                f"branch {sum(len(one.values) for one in self.branches)} points, places to "
+                f"branch {sum(len(one.values) for one in self.branches)} points, error "
                 f"{digits(max(one.error_estimate for one in self.branches), 1)}"
             )
 

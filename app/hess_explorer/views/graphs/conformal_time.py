@@ -30,7 +30,7 @@ def about(motion: Conformal) -> Caption:
     turned = {0: "never", 1: "once"}.get(motion.turns, f"{motion.turns} times")
     return Caption(
         "Hamiltonian in the time τ.",
-        f"ẋ = γ₃{{x, E}} to {digits(motion.residual, 1)}; τ reverses {turned} on the equator.",
+        f"ẋ = γ₃{{x, E}} within {digits(motion.residual, 1)}; τ reverses {turned} on the equator.",
     )
 
 

@@ -102,7 +102,7 @@ def momentum_picture(
         if is_integral(state):
             return Caption(
                 "An integral, as I₁₁ = I₂₂.",
-                f"{digits(float(values[0]))}, constant to {digits(float(np.ptp(values)), 1)}.",
+                f"{digits(float(values[0]))}, constant within {digits(float(np.ptp(values)), 1)}.",
             )
         return Caption("No integral, as I₁₁ ≠ I₂₂.", f"Here it is {variation_text(values)}.")
 

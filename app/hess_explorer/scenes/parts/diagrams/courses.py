@@ -67,7 +67,7 @@ class Course:
 
     @property
     def pieces(self) -> range:
-        """The numbers of the pieces."""
+        """The indices of the pieces."""
         return range(-(-len(self.values) // _TOGETHER))
 
     def over(self, values: Sequence[float], start: Place) -> Diagram:

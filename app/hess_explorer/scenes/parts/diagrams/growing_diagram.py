@@ -246,7 +246,7 @@ class OrbitDiagram(Part[DiagramControls]):
     def status(self) -> Iterator[str]:
         """Yield the error of the doublings."""
         if self.has_result("cascade") and self.flips.size and isinstance(self.cascade, Cascade):
-            yield f"doublings to {digits(self.cascade.error_estimate, 1)}"
+            yield f"error of the doublings {digits(self.cascade.error_estimate, 1)}"
 
     def notes(self) -> Iterator[str]:
         """Yield the reason why a doubling could not be located."""

@@ -40,13 +40,13 @@ class ProvedError:
         Entry in the status line.
     band : tuple of array (n, 2)
         Convex polygons in (ω1, ω2).
-    around : tuple
+    circles : tuple
         Pairs of a centre γ (3,) and an angular radius in radians.
     """
 
     sentence: str
     band: tuple[Array, ...] = ()
-    around: tuple[tuple[tuple[float, float, float], float], ...] = ()
+    circles: tuple[tuple[tuple[float, float, float], float], ...] = ()
 
 
 class _Host(Host, Protocol):
@@ -88,9 +88,9 @@ class OrbitProof(Part[_Host]):
         return [] if self.error is None else [[one] for one in self.error.band]
 
     @property
-    def around(self) -> list[Circle]:
+    def circles(self) -> list[Circle]:
         """Circles on the sphere that enclose the true orbit at some samples."""
-        found = () if self.error is None else self.error.around
+        found = () if self.error is None else self.error.circles
         return [Circle(gamma, float(np.cos(radius)), "muted") for gamma, radius in found]
 
     def status(self) -> Iterator[str]:

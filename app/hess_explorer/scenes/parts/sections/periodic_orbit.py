@@ -213,7 +213,7 @@ class SectionPeriodicOrbit(Part[Section]):
         )
         return Caption(
             f"Period {orbit.period}, {orbit.kind}.",
-            f"Multipliers μ = {multipliers}, to {digits(orbit.multiplier_error, 1)}.",
+            f"Multipliers μ = {multipliers}, error {digits(orbit.multiplier_error, 1)}.",
         )
 
     def quantities(self) -> Iterator[str]:
@@ -221,13 +221,13 @@ class SectionPeriodicOrbit(Part[Section]):
         if self.closed_orbit is None:
             return
         orbit = self.closed_orbit.orbit
-        yield f"T = {digits(self.closed_orbit.time)}, periodic; places to {digits(orbit.error_estimate, 1)}"
-        yield from (f"symmetric under: {name}" for name in orbit.symmetric)
+        yield f"T = {digits(self.closed_orbit.time)}, periodic; error of its points {digits(orbit.error_estimate, 1)}"
+        yield from (f"symmetric under {name}" for name in orbit.symmetric)
         if self._saddle is not None and self._branches is None:
             yield self.work.pending_caption("Its manifolds are")
         elif self._branches:
             whole = sum(_end_reason(one) == AT_ITS_LENGTH for one in self._branches)
-            yield f"{whole} of {len(self._branches)} branches of its manifolds are {digits(self.reach)} long"
+            yield f"{whole} of {len(self._branches)} branches of its manifolds are drawn to length {digits(self.reach)}"
             yield self._about_crossings()
 
     def status(self) -> Iterator[str]:
@@ -273,7 +273,7 @@ class SectionPeriodicOrbit(Part[Section]):
             return "No homoclinic point is visible on the drawn parts of the manifolds"
         least = "at least " if any(len(some) == MOST_CROSSINGS for some in self._intersections) else ""
         return (
-            f"{least}{len(found)} homoclinic point{'s' * (len(found) > 1)} on the drawn parts of the manifolds, to "
+            f"{least}{len(found)} homoclinic point{'s' * (len(found) > 1)} on the drawn parts of the manifolds, error "
             f"{digits(max(one.error for one in found), 1)}; longer manifolds cross more often"
         )
 

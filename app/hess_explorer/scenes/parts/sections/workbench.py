@@ -36,7 +36,7 @@ class SectionState(State, ABC):
     """A state with an orbit that starts in a section, or a periodic orbit in its place, among other orbits.
 
     A scene adds its parameters, `poincare`, `body` if it is not the section, and `weights`, the pixels per unit of each
-    variable.  The orbit starts at the parameter `place`, or at another state `given`.
+    variable.  The orbit starts at the parameter `place`, or at another state `chosen_start`.
     """
 
     periodic: str = which()
