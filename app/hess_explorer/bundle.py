@@ -8,8 +8,6 @@ from functools import cache
 
 from hess_explorer.assets import STATIC
 
-__all__ = ["bundle"]
-
 # The only forms that the modules use; any other one makes the bundle a syntax error.
 _IMPORT = re.compile(r'^import \{([^}]*)\} from "(\.{1,2}/[\w./]+\.js)"$', re.MULTILINE)
 _EXPORT = re.compile(r"^export ((?:async )?(?:function|const|class)) (\w+)", re.MULTILINE)

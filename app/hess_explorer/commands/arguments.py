@@ -11,8 +11,6 @@ from urllib.parse import parse_qsl, urlencode
 
 from . import CommandError
 
-__all__ = ["assignment_of", "integer", "run_file", "state", "user_object"]
-
 T = TypeVar("T")
 
 

@@ -18,8 +18,6 @@ from .arguments import user_object
 from .command import OUTPUT, Command, Option, Options, option
 from .output import long_computation, write
 
-__all__ = ["command_of", "parse", "titles"]
-
 
 def titles(group: str) -> dict[str, str]:
     """Return the titles of the computations under a heading, by name."""

@@ -15,8 +15,6 @@ from typing import Any
 
 from hess_explorer.commands import CommandError
 
-__all__ = ["LONG", "PATIENCE", "long_computation", "show", "write", "write_file"]
-
 LONG = 2.0
 """Seconds after which a command reports that it is still running."""
 PATIENCE = "Still computing; Ctrl-C ends it."

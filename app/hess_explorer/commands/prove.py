@@ -10,8 +10,6 @@ from hess_mechanics.suslov_hess.certificate import claim
 from .command import OUT, Command, Options, integer_option, option
 from .output import long_computation, show
 
-__all__ = ["COMMAND"]
-
 _FACTS = ("trace", "rotation_number", "period", "fixed_points", "multipliers", "rates", "bits", "versions")
 
 

@@ -26,8 +26,6 @@ if TYPE_CHECKING:
 
     from hess_explorer.lessons.lesson import Lesson
 
-__all__ = ["COMMAND"]
-
 _MOST_CELLS = 256
 """Largest number of cells of a stored sweep along each side that the page shows."""
 

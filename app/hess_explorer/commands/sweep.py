@@ -17,8 +17,6 @@ from .output import long_computation, write
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["COMMAND"]
-
 
 def _values(text: str) -> tuple[float, float, int] | list[float]:
     """Return the numbers of LOW:HIGH:COUNT or of a list with commas."""

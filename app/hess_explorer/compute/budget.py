@@ -15,8 +15,6 @@ from hess_mechanics.errors import WorkLimit
 from hess_mechanics.numerics.jit import seconds_compiling
 from hess_mechanics.numerics.patience import work_limit
 
-__all__ = ["SECONDS", "WAIT", "Budget", "ClientGone", "OverBudget", "check", "time_budget"]
-
 SECONDS = 4.0
 """CPU time limit of one response in seconds, summed over all cores; compilation is not counted."""
 

@@ -13,8 +13,6 @@ from contextlib import suppress
 from hess_explorer.compute.budget import ClientGone, time_budget
 from hess_mechanics.numerics.parallel import THREADS
 
-__all__ = ["MOST", "POOL", "Pool", "RequestQueue"]
-
 logger = logging.getLogger("hess_explorer")
 
 MOST = 20

@@ -7,8 +7,6 @@ from collections.abc import Iterator, Sequence
 from hess_explorer.export.picture_data import Address
 from hess_explorer.protocol.specs import NumberSpec, Places, Spec, Value, places
 
-__all__ = ["code", "lines_of"]
-
 _WIDTH = 100
 
 

@@ -27,8 +27,6 @@ from hess_mechanics.numerics.results import Array
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-__all__ = ["PageImage", "as_figure", "as_file", "densities", "figure_bytes", "image_figure"]
-
 _DOTS_PER_INCH = 300
 _POINTS = 0.6
 """Points per pixel of the page."""

@@ -15,8 +15,6 @@ from hess_explorer.views.picture import Picture
 from hess_explorer.views.plot import Plot
 from hess_mechanics.errors import InvalidParameter
 
-__all__ = ["CLIENT_KEPT", "Address", "PictureData", "address", "complete", "compute", "picture_data", "picture_of"]
-
 T = TypeVar("T")
 
 _ROUNDS = 100

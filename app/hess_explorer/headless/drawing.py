@@ -25,8 +25,6 @@ from hess_explorer.scenes import add, scenes
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, BrowserContext, JSHandle
 
-__all__ = ["bytes_of", "page_image", "page_of", "png_of"]
-
 T = TypeVar("T")
 
 _VIEWPORT = 900

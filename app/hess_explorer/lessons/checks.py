@@ -12,8 +12,6 @@ from hess_explorer.lessons.lesson import LessonError
 from hess_explorer.lessons.markdown import BadFormula, formula, strict_parser
 from hess_explorer.lessons.settings import place_of
 
-__all__ = ["problems_in"]
-
 _MOST_SHOWN = 40
 _MATH = {"math_inline": False, "math_inline_double": True, "math_block": True, "math_block_label": True}
 

@@ -6,8 +6,6 @@ import base64
 from pathlib import Path
 from urllib.parse import unquote
 
-__all__ = ["MAX_ALL", "MAX_ONE", "ImageError", "Images"]
-
 MAX_ONE = 300 * 1024
 """Maximum size of an image in bytes."""
 MAX_ALL = 2 * 1024 * 1024

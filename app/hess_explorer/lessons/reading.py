@@ -56,19 +56,6 @@ from hess_explorer.lessons.settings import (
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Scene
 
-__all__ = [
-    "KEYS",
-    "MAX_BYTES",
-    "MAX_STEPS",
-    "TRY_THIS",
-    "examine",
-    "name_of",
-    "read",
-    "read_file",
-    "read_tries",
-    "without_tries",
-]
-
 MAX_BYTES = 256 * 1024
 MAX_STEPS = 200
 TRY_THIS = "Try this"

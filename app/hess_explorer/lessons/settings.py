@@ -26,20 +26,6 @@ from hess_explorer.views.layers import Layer
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits
 
-__all__ = [
-    "animation_of",
-    "controls_of",
-    "corrections",
-    "example_of",
-    "hidden_of",
-    "is_number",
-    "look_of",
-    "only",
-    "pictures_of",
-    "place_of",
-    "prediction_of",
-]
-
 _MOST_SECONDS, _MOST_TIME = 600.0, 1e6
 _MOST_NAMES = 6
 # Layers on canvases of the page, which are always shown.

@@ -18,8 +18,6 @@ from hess_explorer.views.plot import Plot
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.labelled import Labels, Result
 
-__all__ = ["draw", "draw_result"]
-
 _MILLIMETRES = 71.0
 """Size of the image, which gives two of its pixels per pixel of the figure."""
 

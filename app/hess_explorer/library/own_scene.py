@@ -42,8 +42,6 @@ from hess_mechanics.errors import InvalidParameter, ModelError
 from hess_mechanics.numerics.arguments import typed
 from hess_mechanics.parameters import Group
 
-__all__ = ["OwnScene", "scene"]
-
 _EXPONENT, _BRANCH, _CHART = "exponent", "branch", "chart"
 _SECTION = re.compile(r"section(?: (?!on )(\S+) (\S+))?(?: at (\S+) *= *(\S+))?(?: on (.+))?")
 _FARTHEST = 1e6

@@ -34,8 +34,6 @@ from hess_mechanics.dynamics.system import ParametrizedSystem, System
 from hess_mechanics.dynamics.variable_section import VariableSection, variable_section
 from hess_mechanics.parameters import MAX_STEP
 
-__all__ = ["LevelState", "OwnState"]
-
 _PIXELS = 300.0
 """Size of an orbit in a picture, in pixels."""
 

@@ -17,8 +17,6 @@ from hess_explorer.scenes.framework.part import part
 from hess_explorer.scenes.framework.scene import Scene
 from hess_mechanics.numerics.accuracy import DRAFT
 
-__all__ = ["COUNT", "accumulates", "lesson_page", "page_family", "state_page"]
-
 COUNT = 40
 """Number of values of a slider by default."""
 

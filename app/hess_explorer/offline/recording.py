@@ -23,8 +23,6 @@ from hess_explorer.scenes.framework.stage import Stage
 from hess_explorer.views.plot import Plot
 from hess_mechanics.errors import ModelError
 
-__all__ = ["Recording", "Report"]
-
 Report = Callable[[int, int], None]
 """Receives the number of computed states and that of all states."""
 

@@ -21,8 +21,6 @@ from hess_explorer.views.layers import Axes
 from hess_explorer.views.plot import Plot
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["EXACT", "PIXELS", "OfflineStrip", "steps_of_plots"]
-
 PIXELS = 16_000
 """Steps across a plot: an eighth of a pixel of a picture that is 2000 pixels wide."""
 EXACT = 0.0

@@ -8,8 +8,6 @@ from hess_explorer.compute.background import Background
 from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.scene import Report
 
-__all__ = ["BackgroundTasks"]
-
 
 class BackgroundTasks:
     """Starts, stops and reports the background tasks of the current state.

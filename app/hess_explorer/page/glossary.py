@@ -9,8 +9,6 @@ from html import escape
 from itertools import count
 from pathlib import Path
 
-__all__ = ["explainer", "glossary"]
-
 _ENTRY = re.compile(r"^- \*\*(.+?)\*\*: (.+?)(?=\n- |\Z)", re.MULTILINE | re.DOTALL)
 
 

@@ -14,8 +14,6 @@ from hess_explorer.protocol.specs import CLIENT, ChoiceSpec, Controlled, Link, N
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Scene
 
-__all__ = ["THEME", "Opening", "opening", "query_of"]
-
 SPEEDS = (0.25, 0.5, 1.0, 2.0, 4.0, 8.0)
 """Playback speeds."""
 THEME = ChoiceSpec("theme", "Theme", ("system", "light", "dark"), "system")

@@ -26,8 +26,6 @@ from hess_explorer.scenes.framework.scene import Report, Scene
 from hess_explorer.scenes.framework.stage import Stage
 from hess_mechanics.errors import ModelError
 
-__all__ = ["Session"]
-
 logger = logging.getLogger("hess_explorer")
 
 FAILURE = "This state could not be computed. Press Reset, and please report the link."

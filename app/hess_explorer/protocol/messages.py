@@ -29,18 +29,6 @@ from typing import Any, TypeVar
 
 from hess_explorer.protocol.specs import Value
 
-__all__ = [
-    "ALIVE",
-    "Answer",
-    "PictureBox",
-    "PicturePoint",
-    "Request",
-    "StateAnswer",
-    "StepChoice",
-    "number",
-    "parse",
-]
-
 T = TypeVar("T")
 ALIVE = {"alive": True}
 """Request that a page sends after some seconds without a message."""

@@ -17,29 +17,6 @@ from hess_explorer.protocol.formulas import polynomial
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.parameters import Group, Parameter, plain
 
-__all__ = [
-    "CLIENT",
-    "MAX_QUERY",
-    "PAGE_KEYS",
-    "VERSION",
-    "ChoiceSpec",
-    "Controlled",
-    "Formula",
-    "Link",
-    "Names",
-    "NumberSpec",
-    "Places",
-    "Spec",
-    "Value",
-    "Values",
-    "decode",
-    "encode",
-    "places",
-    "places_text",
-    "query_in",
-    "refusal",
-]
-
 VERSION = "1"
 MAX_QUERY = 2000
 _SHORT = 60

@@ -12,8 +12,6 @@ from typing import Any
 
 import numpy as np
 
-__all__ = ["Wire"]
-
 
 class Wire:
     """Collects the changes of columns, axes, texts and controls, and packs them."""

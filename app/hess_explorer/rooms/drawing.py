@@ -20,8 +20,6 @@ from hess_explorer.protocol.messages import Answer, Request
 from hess_explorer.rooms.messages import Show
 from hess_explorer.scenes.framework.scene import Scene
 
-__all__ = ["Frames", "RoomDrawing", "step_of"]
-
 _LEFT_OUT: dict[str, Any] = {
     "handle": None,
     "words": "",

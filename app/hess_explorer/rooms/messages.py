@@ -23,8 +23,6 @@ from typing import Any
 from hess_explorer.protocol.messages import number
 from hess_explorer.protocol.specs import MAX_QUERY
 
-__all__ = ["CODE", "MOST_POINTS", "End", "Follow", "Guess", "Lead", "Message", "Open", "Show", "parse"]
-
 CODE = r"[2-9A-HJ-NP-Z]{6}"
 """Regular expression for the code of a room: no letter or digit that is easily mistaken for another one."""
 

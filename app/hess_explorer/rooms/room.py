@@ -15,8 +15,6 @@ from hess_explorer.lessons.lesson import Lesson, Prediction
 from hess_explorer.rooms.drawing import Frames, RoomDrawing, step_of
 from hess_explorer.rooms.messages import Guess, Show
 
-__all__ = ["ENDED", "GRACE", "LONGEST", "MOST_FOLLOWERS", "PERIOD", "Member", "Room"]
-
 PERIOD = 0.5
 """Least number of seconds between two states."""
 GRACE = 60.0

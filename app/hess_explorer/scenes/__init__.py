@@ -12,8 +12,6 @@ from hess_explorer.scenes.framework.scene import Scene
 from hess_explorer.scenes.speed_accuracy import speed_and_accuracy
 from hess_mechanics.errors import InvalidParameter
 
-__all__ = ["PLUGINS", "add", "scene_named", "scenes"]
-
 PLUGINS = "hess_explorer.scenes"
 """Entry point group for scenes of other packages."""
 

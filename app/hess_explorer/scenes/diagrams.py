@@ -50,8 +50,6 @@ from hess_mechanics.rigid_body.inertia import check_body
 from hess_mechanics.rigid_body.reversal import rate, reversals
 from hess_mechanics.suslov.equations import SuslovBody
 
-__all__ = ["DiagramState", "diagram_scene", "regime_in"]
-
 _WINDOW = ((-math.pi, 0.0), (math.pi, math.pi))
 _TOP, _LINE = 0.06, 0.07
 """Distance of the first name of a doubling from the top, and of one name from the next, in heights of the picture."""

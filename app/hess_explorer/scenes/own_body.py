@@ -43,8 +43,6 @@ from hess_mechanics.numerics.results import Array, SectionCrossings
 from hess_mechanics.parameters import I11, I13, I22, I23, MAX_STEP, Group
 from hess_mechanics.rigid_body.own_body import OwnBody, Polynomial
 
-__all__ = ["SCENE", "OwnBodyState"]
-
 _MOST_CROSSINGS = 2000
 _NO_WORK = 1e-10
 """Work that is only rounding."""

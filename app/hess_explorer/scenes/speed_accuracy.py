@@ -16,8 +16,6 @@ from hess_explorer.scenes.parts.orbits.costs import Costs, costs_picture
 from hess_explorer.scenes.parts.orbits.precision import PRECISION_PICTURES, Precision
 from hess_explorer.views.picture import Picture
 
-__all__ = ["SpeedAccuracy", "speed_and_accuracy"]
-
 
 @dataclass(frozen=True)
 class Study(State):

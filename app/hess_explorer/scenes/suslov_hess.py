@@ -22,12 +22,19 @@ from hess_explorer.scenes.framework.hess_case import (
     proved_statement,
 )
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
-from hess_explorer.scenes.framework.sliders import Slider, accuracy_level, number, parameter, slider_within
+from hess_explorer.scenes.framework.sliders import (
+    Slider,
+    accuracy_level,
+    number,
+    parameter,
+    show_proved_error,
+    slider_within,
+)
 from hess_explorer.scenes.framework.solid_body import Solid, hess_solid, solid_body
 from hess_explorer.scenes.framework.trial import COLOUR_UNIT, Trial, boundary_error, colour_error, curve_error
 from hess_explorer.scenes.framework.work import orbit_status
 from hess_explorer.scenes.parts.orbits.hess_surface import INVARIANT, HessSurface, shading, surface_picture
-from hess_explorer.scenes.parts.orbits.proof import OrbitProof, show_proved_error
+from hess_explorer.scenes.parts.orbits.proof import OrbitProof
 from hess_explorer.views.layers import CellGrid, Columns
 from hess_explorer.views.maps import bifurcation_diagram as diagram
 from hess_explorer.views.maps import circle_map as circle

@@ -23,8 +23,6 @@ from tornado.web import RequestHandler
 
 from hess_explorer.server.refusal import refuse
 
-__all__ = ["REFUSAL", "Hosts", "is_allowed_origin"]
-
 REFUSAL = (
     "The explorer is not served under this name. Open it by an address or the name of its machine, or restart it with "
     "--allow-origin and the host that the address bar shows."

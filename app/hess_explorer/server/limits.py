@@ -12,8 +12,6 @@ import time
 import panel as pn
 from tornado.websocket import WebSocketHandler
 
-__all__ = ["MESSAGE_LIMIT", "OPEN_SOCKETS", "Capacity", "RateLimit", "say_goodbye"]
-
 MESSAGE_LIMIT = 256 * 1024
 """Maximum size of a frame in bytes; slider values and clicks are far smaller."""
 

@@ -20,8 +20,6 @@ from hess_mechanics.catalogue.declared import real
 from hess_mechanics.errors import InvalidParameter, ModelError
 from hess_mechanics.numerics.accuracy import Kind, Level
 
-__all__ = ["computation_of"]
-
 _ACCURACY = "accuracy"
 """A parameter of this name receives the accuracy of the sweep."""
 _BOUNDS = (-sys.float_info.max, sys.float_info.max)

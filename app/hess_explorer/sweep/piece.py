@@ -19,8 +19,6 @@ from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.arguments import as_level
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["PieceResult", "cell_name", "cells_of_a_piece", "compute", "compute_sent", "sendable"]
-
 PieceResult = tuple[dict[str, Array], dict[str, str]]
 """Arrays in the shape of a piece by variable, the status last; and texts of exceptions by cell."""
 _SHORTEST, _LONGEST = 0.25, 2.0

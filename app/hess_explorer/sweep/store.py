@@ -29,8 +29,6 @@ if TYPE_CHECKING:
     import xarray as xr
     from zarr.storage import MemoryStore
 
-__all__ = ["create", "exists", "load", "missing", "read", "require_libraries", "write"]
-
 _MOST_FAILURES = 1000
 _DECODING_ERRORS = (OSError, ValueError, RuntimeError, KeyError)
 """Errors of the decoder for an incomplete file."""

@@ -18,8 +18,6 @@ from hess_mechanics.numerics.arguments import as_integer
 if TYPE_CHECKING:
     from distributed import Client, Worker
 
-__all__ = ["connection", "dask_setup", "results", "size"]
-
 _WAIT = 60.0
 """Timeout in seconds for the cluster to respond with at least one worker."""
 _AHEAD = 3

@@ -17,8 +17,6 @@ from hess_explorer.views.layers import Axes, Columns, Layer
 if TYPE_CHECKING:
     from hess_explorer.views.plot import Plot
 
-__all__ = ["SIDE", "Colour", "as_it_is", "on_paper", "overlay", "with_options"]
-
 Colour = Callable[[str], str]
 """Maps a colour of the light page to the colour to use."""
 Style = Mapping[str, Any]

@@ -15,41 +15,6 @@ from bokeh import palettes
 from hess_explorer.views import theme
 from hess_mechanics.numerics.results import Array
 
-__all__ = [
-    "CENTRE_OF_MASS",
-    "MESSAGE",
-    "MOVING_POINT",
-    "POINT",
-    "TURNS",
-    "Axes",
-    "CellGrid",
-    "Columns",
-    "Layer",
-    "Layers",
-    "Positions",
-    "Range",
-    "Regions",
-    "Sign",
-    "Sources",
-    "arrows",
-    "column",
-    "compose",
-    "curves",
-    "dots",
-    "image",
-    "in_window",
-    "label",
-    "levels",
-    "line",
-    "names",
-    "points",
-    "rectangle",
-    "region",
-    "ring",
-    "target",
-    "text",
-]
-
 S = TypeVar("S")
 T = TypeVar("T")
 U = TypeVar("U")

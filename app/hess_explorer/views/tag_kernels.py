@@ -12,8 +12,6 @@ import numpy as np
 
 from hess_mechanics.numerics.jit import inner, kernel
 
-__all__ = ["along", "best", "compile_labels", "fill", "mark"]
-
 
 @kernel
 def along(x, y, count):

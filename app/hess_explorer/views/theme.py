@@ -10,8 +10,6 @@ import re
 
 from hess_explorer.views.cyclic import TURN
 
-__all__ = ["gradient", "in_css"]
-
 ORBIT = "#0072B2"
 STABLE = "#009E73"
 UNSTABLE = "#D55E00"

@@ -32,8 +32,6 @@ from hess_mechanics import catalogue
 from hess_mechanics.numerics.accuracy import level
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["with_chart"]
-
 _FIRST, _STAGES = 8, 3
 """Cells along a side of the first stage, and the number of stages; one more where many cells are computed at once."""
 _BEYOND = 0.01

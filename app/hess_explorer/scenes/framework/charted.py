@@ -14,8 +14,6 @@ from hess_mechanics.catalogue import Computation
 from hess_mechanics.dynamics.system import Body, System
 from hess_mechanics.numerics.accuracy import DRAFT
 
-__all__ = ["Arguments", "ChartSource", "Charts", "Numbers", "of_motion", "of_torus", "parameters_of", "tensor_of"]
-
 Arguments = Mapping[str, float]
 Numbers = Mapping[str, tuple["ChartSource", str]]
 """Computation and name of each number, by the option of the menu."""

@@ -28,8 +28,6 @@ from hess_mechanics.errors import ModelError
 from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["Continuation"]
-
 _TOGETHER = 60
 """Places of a branch computed at once: few enough to arrive soon."""
 _PARTS = 16

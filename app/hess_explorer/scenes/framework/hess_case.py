@@ -34,25 +34,6 @@ from hess_mechanics.suslov_hess.equations import SYSTEM, HessBody
 from hess_mechanics.suslov_hess.proof import NO_CYCLE, TWO_CYCLES, Proof, prove
 from hess_mechanics.suslov_hess.torus import Track, cycles
 
-__all__ = [
-    "B3",
-    "BY_THE_UNSTABLE_CYCLE",
-    "CYCLE_TRACKS",
-    "I22",
-    "I23",
-    "PHI0",
-    "RIS",
-    "UNSURE",
-    "HeavyHess",
-    "ProvedStatement",
-    "limit_cycles",
-    "map_or_none",
-    "possible_I23",
-    "possible_f",
-    "proved_statement",
-    "reduced_motion",
-]
-
 _MAX_A = 100.0
 _MOST_BITS, _MOST_WORK = 256, 1e6
 """Limits of a background proof: it takes less than a second."""

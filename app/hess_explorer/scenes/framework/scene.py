@@ -27,8 +27,6 @@ from hess_mechanics.dynamics.system import System
 from hess_mechanics.errors import ModelError
 from hess_mechanics.numerics.accuracy import LEVELS, Kind, Level, Plan
 
-__all__ = ["Motion", "Preset", "Report", "Scene", "State"]
-
 S = TypeVar("S", bound="State")
 T = TypeVar("T")
 

@@ -28,17 +28,6 @@ from hess_mechanics.suslov.free import FreeMotion
 from hess_mechanics.suslov_hess.equations import HessBody
 from hess_mechanics.suslov_hess.torus import Track
 
-__all__ = [
-    "CIRCULAR_SECTION",
-    "Solid",
-    "constrained_solid",
-    "ellipsoid_of_inertia",
-    "free_I33",
-    "heavy_solid",
-    "hess_solid",
-    "solid_body",
-]
-
 _LARGEST_DEFECT = 0.02
 """Largest `Attitude.defect` of a motion that is drawn, in radians."""
 _TOO_LONG = Caption("Not drawn: the motion is too long.", "Its samples are too far apart to follow the rotation.")

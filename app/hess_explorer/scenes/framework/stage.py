@@ -15,8 +15,6 @@ from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import Axes, Columns
 from hess_explorer.views.picture import Corners, Picture, Values
 
-__all__ = ["Stage"]
-
 S = TypeVar("S", bound=State)
 
 

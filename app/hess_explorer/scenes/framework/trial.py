@@ -25,20 +25,6 @@ from hess_mechanics.numerics.results import Array
 if TYPE_CHECKING:
     from hess_explorer.scenes.framework.scene import Motion, State
 
-__all__ = [
-    "COLOUR_UNIT",
-    "Refusal",
-    "Trial",
-    "bare",
-    "boundary_error",
-    "colour_error",
-    "curve_error",
-    "level_costs",
-    "orbit_trial",
-    "section_error",
-    "sufficient_level",
-]
-
 S = TypeVar("S", bound="State")
 
 _SAMPLES = 400

@@ -16,9 +16,6 @@ from hess_mechanics.numerics.jit import seconds_compiling
 from hess_mechanics.numerics.results import Orbit
 from hess_mechanics.suslov.free import FreeMotion
 
-__all__ = ["AUTO", "Work", "accuracy_status", "drift_status", "orbit_status"]
-
-
 _LEAST_COMPILE_TIME = 0.1
 """Least compile time, in seconds, that the status line reports."""
 

@@ -16,8 +16,6 @@ from hess_explorer.views.text import digits
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov.principal_axis import Conformal
 
-__all__ = ["about", "picture"]
-
 S = TypeVar("S")
 Transform = Callable[[S], Conformal | None]
 

@@ -29,8 +29,6 @@ from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov_hess.bifurcation import f_max
 from hess_mechanics.suslov_hess.circle_map import CircleMap, circle_map
 
-__all__ = ["REACH", "about", "about_torus", "impossible", "layers", "window"]
-
 S = TypeVar("S")
 
 

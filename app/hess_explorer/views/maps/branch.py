@@ -13,8 +13,6 @@ from hess_explorer.views.plane.periodic import sign_of, visible_points, within
 from hess_mechanics.dynamics.continuation import Bifurcation, Branch
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["bifurcations", "layers"]
-
 S = TypeVar("S")
 _SHORT = {"Neimark–Sacker": "N–S"}
 _LOOKS = (
@@ -54,16 +52,19 @@ def _strands(branch: Branch, side: int, sign: str) -> list[Array]:
 
 
 class Branched(Protocol):
-    """Branches, with the index of the coordinate on the vertical axis and its period (∞ for none)."""
+    """Branches over a parameter."""
 
     @property
-    def branches(self) -> Sequence[Branch]: ...
+    def branches(self) -> Sequence[Branch]:
+        """The branches."""
 
     @property
-    def side(self) -> int: ...
+    def side(self) -> int:
+        """Index of the coordinate on the vertical axis."""
 
     @property
-    def turn(self) -> float: ...
+    def turn(self) -> float:
+        """Its period, ∞ for none."""
 
 
 def layers(of: Callable[[S], Branched]) -> Layers[S]:

@@ -19,8 +19,6 @@ from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov_hess.circle_map import CircleMap
 from hess_mechanics.suslov_hess.invariant_measure import invariant_measure
 
-__all__ = ["EVENLY", "about", "cobweb", "cycles", "picture", "riccati_matrix"]
-
 S = TypeVar("S")
 Click = Callable[[S, float, float], Values]
 

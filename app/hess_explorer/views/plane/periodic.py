@@ -14,8 +14,6 @@ from hess_mechanics.dynamics.manifolds import Intersection, Manifold
 from hess_mechanics.dynamics.periodic import PeriodicOrbit
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["layers", "places", "sign_of", "visible_points", "within"]
-
 S = TypeVar("S")
 
 

@@ -17,8 +17,6 @@ from hess_explorer.views.space.poisson_sphere import gamma_columns
 from hess_explorer.views.text import digits, variation_text
 from hess_mechanics.numerics.results import Array, Orbit
 
-__all__ = ["ground", "momentum_picture", "orbit", "picture", "plane_columns"]
-
 S = TypeVar("S")
 
 

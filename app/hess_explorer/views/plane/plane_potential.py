@@ -22,8 +22,6 @@ from hess_mechanics.suslov.plane_potential import (
     level_curve,
 )
 
-__all__ = ["about", "picture"]
-
 S = TypeVar("S")
 
 _LEVELS = (0.1, 0.25, 0.5, 0.75, 0.95)

@@ -23,8 +23,6 @@ from hess_explorer.views.layers import (
 )
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["band", "joined", "layers", "outside"]
-
 S = TypeVar("S")
 Points = Callable[[S], Array | None]
 _CLOSES = 12

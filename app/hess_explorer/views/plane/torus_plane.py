@@ -18,8 +18,6 @@ from hess_mechanics.suslov_hess.bifurcation import TurningPoints
 from hess_mechanics.suslov_hess.circle_map import CircleMap
 from hess_mechanics.suslov_hess.torus import Track
 
-__all__ = ["about", "about_heights", "cycle_columns", "is_circle", "layers", "phases_at_returns", "track_columns"]
-
 S = TypeVar("S")
 
 _PLANE = ("omega1", "omega2")

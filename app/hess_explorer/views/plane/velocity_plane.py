@@ -31,31 +31,6 @@ from hess_explorer.views.text import digits
 from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.numerics.results import Array, Orbit
 
-__all__ = [
-    "about_origin",
-    "arcs",
-    "arrows_at",
-    "arrows_on",
-    "band",
-    "beside",
-    "centred",
-    "energy_levels",
-    "equilibria",
-    "halves",
-    "nice_above",
-    "orbit",
-    "orbit_alone",
-    "orbit_columns",
-    "outside",
-    "picture",
-    "pixels_per_unit",
-    "ring_outside",
-    "room_for",
-    "square",
-    "to_the_edge",
-    "velocity_columns",
-]
-
 S = TypeVar("S")
 
 

@@ -17,8 +17,6 @@ from hess_mechanics.numerics.results import Array
 from hess_mechanics.rigid_body.attitude import Attitude, contact_arc
 from hess_mechanics.rigid_body.inertia import paired_weights
 
-__all__ = ["BodyInSpace", "Curve", "Rod", "Shape", "Wheels", "seen_in_space"]
-
 S = TypeVar("S")
 
 LARGEST = 0.8

@@ -13,21 +13,6 @@ from hess_explorer.views.layers import MOVING_POINT, Columns, Sign, Sources, col
 from hess_explorer.views.picture import Picture
 from hess_mechanics.numerics.results import Array
 
-__all__ = [
-    "EQUATOR",
-    "Circle",
-    "Direction",
-    "Mark",
-    "Sphere",
-    "along_the_orbit",
-    "centre_of_mass",
-    "ends",
-    "gamma_columns",
-    "levels_about",
-    "parallels",
-    "shape_columns",
-]
-
 S = TypeVar("S")
 
 

@@ -18,8 +18,6 @@ from hess_mechanics.errors import ModelError, WorkLimit
 from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["Course", "doublings", "piece", "visible_range"]
-
 _TOGETHER = 30
 """Values of the parameter computed at once: few enough that points arrive soon."""
 _DOUBLINGS = 4

@@ -22,8 +22,6 @@ from hess_mechanics.dynamics.section_density import Visits, visits_over
 from hess_mechanics.numerics.accuracy import Accuracy, Kind, cheapest, plan
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["DiagramDensity"]
-
 _COLUMNS, _ROWS = 4, 512
 """Columns of pixels for each value of the parameter in the diagram, and rows."""
 _GROUPS = 2

@@ -39,8 +39,6 @@ from hess_mechanics.numerics.accuracy import Kind, plan
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov.suslov_section import SuslovSection
 
-__all__ = ["DiagramBranch", "OrbitDiagram"]
-
 _FEW = 30
 """Largest number of values while a slider is held."""
 _GLANCES = 12

@@ -23,8 +23,6 @@ from hess_mechanics.numerics.accuracy import PRECISE
 from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["HessSplit", "split_picture"]
-
 _QUARTERS = np.arange(-4, 5) / 4.0
 _WIDE = 0.02
 """Half-width of the graph if ε = 0."""

@@ -22,8 +22,6 @@ from hess_mechanics.dynamics.trade import LevelCost, enough
 from hess_mechanics.numerics.accuracy import LEVELS
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["Costs", "costs_picture"]
-
 _ERRORS, _MS = (1e-9, 1e3), (1e-2, 1e5)
 _TICKS = [1e-8, 1e-6, 1e-4, 1e-2, 1.0, 100.0]
 _LINES = (("solid", 1.5), ("dashed", 2.0), ("dotted", 3.0), ("solid", 4.0))

@@ -26,8 +26,6 @@ from hess_mechanics.errors import MotionEnds
 from hess_mechanics.numerics.accuracy import Kind, Level, Plan
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["OrbitExponent", "exponent_picture", "exponent_trial"]
-
 _LONG = 2000.0
 """The longest time for which levels are compared."""
 

@@ -22,8 +22,6 @@ from hess_mechanics.dynamics import work_precision as mechanics
 from hess_mechanics.numerics.accuracy import LEVELS, level
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["PRECISION_PICTURES", "Precision"]
-
 SAMPLES = 400
 _FLOOR, _PIXEL_FLOOR = 1e-17, 1e-14
 _ERRORS = (_FLOOR, 10.0)

@@ -12,7 +12,7 @@ import numpy as np
 from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.part import Host, Part
 from hess_explorer.scenes.framework.scene import Motion
-from hess_explorer.scenes.framework.sliders import HIDDEN, SHOWN, show_proved_error
+from hess_explorer.scenes.framework.sliders import SHOWN
 from hess_explorer.views.space.poisson_sphere import Circle
 from hess_explorer.views.text import digits
 from hess_mechanics.dynamics.tube import ProvedOrbit, tube
@@ -20,8 +20,6 @@ from hess_mechanics.errors import ModelError
 from hess_mechanics.numerics.balls import has_flint
 from hess_mechanics.numerics.results import Array, Orbit
 from hess_mechanics.suslov_hess.torus import Track
-
-__all__ = ["HIDDEN", "SHOWN", "OrbitProof", "ProvedError", "hull", "proved_error", "show_proved_error"]
 
 _DIGITS, _MOST_WORK = 16, 1e6
 """Digits and work limit of a tube: far below double round-off; about 1.5 s of CPU time, 4 s for the ball."""

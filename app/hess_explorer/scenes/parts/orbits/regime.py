@@ -19,8 +19,6 @@ from hess_mechanics.errors import NoReturn
 from hess_mechanics.numerics.accuracy import Kind
 from hess_mechanics.numerics.results import Array, frozen
 
-__all__ = ["OrbitRegime", "few", "sets_of"]
-
 _NOTHING = np.empty((0, 2))
 _LONG = 500, 1500
 """Numbers of crossings left out of a set and of those in it."""

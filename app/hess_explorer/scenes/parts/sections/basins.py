@@ -31,8 +31,6 @@ from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array, Mask
 from hess_mechanics.suslov.suslov_section import SuslovSection
 
-__all__ = ["SectionBasins", "basins_trial"]
-
 _PIXELS = (512, 512)
 _STAGES = 6
 """Each stage has twice as many cells across and up as the one before; those of the last are the pixels."""

@@ -26,14 +26,6 @@ from hess_explorer.views.plane.periodic import visible_points
 from hess_explorer.views.plot import Plot
 from hess_mechanics.numerics.results import Array
 
-__all__ = [
-    "SectionBranch",
-    "branch_picture",
-    "coordinate_of_branch",
-    "end_of_branch",
-    "parameter_of_branch",
-]
-
 _AROUND = 0.125
 """Half-width of the default range, as a share of the slider's."""
 _ROOM = 0.08

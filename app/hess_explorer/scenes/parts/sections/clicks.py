@@ -22,8 +22,6 @@ from hess_mechanics.dynamics.return_map import PoincareSection
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["Clicks", "filled_section", "orbits_spread", "points_of_each"]
-
 Place = tuple[float, float]
 
 

@@ -20,8 +20,6 @@ from hess_mechanics.dynamics.section_density import Visits, visits
 from hess_mechanics.numerics.accuracy import Kind, plan
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["SectionDensity"]
-
 _PIXELS = (512, 512)
 _ORBITS = 128
 """More orbits would cover the gaps between the curves of islands."""

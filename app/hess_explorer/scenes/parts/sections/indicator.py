@@ -25,8 +25,6 @@ from hess_mechanics.dynamics.megno_map import ENDED, row_of_cells, time_of
 from hess_mechanics.numerics.accuracy import Kind, Plan
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["MEGNO", "Indicator", "colouring", "indicator_layer", "indicator_trial"]
-
 MEGNO = "MEGNO"
 _TURNS = 300.0
 """Time of the indicator, in units of 1/ν: some fifty returns."""

@@ -38,8 +38,6 @@ from hess_mechanics.dynamics.manifolds import Intersection, Manifold
 from hess_mechanics.dynamics.return_map import ReturnMap
 from hess_mechanics.numerics.accuracy import PRECISE, Status
 
-__all__ = ["NONE", "SectionPeriodicOrbit", "length_of_manifolds", "periodic_layers", "which"]
-
 T = TypeVar("T")
 
 _WHOLE = 3

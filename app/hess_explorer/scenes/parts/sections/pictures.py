@@ -19,8 +19,6 @@ from hess_explorer.views.plot import Plot
 from hess_mechanics.numerics.accuracy import Kind
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["filled_picture", "section_layers", "section_picture", "section_trials"]
-
 _MOST_COMPARED = 400.0
 """Largest number of crossings of each orbit for which levels are compared."""
 

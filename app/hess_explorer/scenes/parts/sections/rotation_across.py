@@ -27,8 +27,6 @@ from hess_mechanics.euler_poisson.rotation import RESOLUTION, RotationProfile, o
 from hess_mechanics.numerics.accuracy import Kind, Plan
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["RotationAcross", "rotation_picture", "rotation_trial"]
-
 _ACROSS = 48
 """Number of orbits on the line."""
 _ON_LINE = 3000

@@ -25,8 +25,6 @@ from hess_mechanics.errors import OutsideRegion, WorkLimit
 from hess_mechanics.numerics.accuracy import STANDARD, Kind, Level, Plan
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["KnownOrbits", "Section", "Seeds", "about_section", "crossings_of_each", "first_place", "start_on"]
-
 _FEW, _LEAST = 30, 20
 """Crossings of each orbit while a slider is dragged, and until all are known; and their least number at any level."""
 _ON = 1e-9

@@ -9,7 +9,7 @@ from functools import cached_property
 from hess_explorer.protocol.specs import Value, Values, places_text
 from hess_explorer.scenes.framework.cells import DENSITY
 from hess_explorer.scenes.framework.part import Start, part
-from hess_explorer.scenes.framework.periodic_search import ClosedOrbit
+from hess_explorer.scenes.framework.periodic_search import NONE, ClosedOrbit
 from hess_explorer.scenes.framework.scene import Motion, State
 from hess_explorer.scenes.framework.sliders import accuracy_level, exponent_time, show_proved_error, time_span
 from hess_explorer.scenes.framework.solid_body import Solid, constrained_solid
@@ -19,13 +19,11 @@ from hess_explorer.scenes.parts.sections.clicks import orbits_spread, points_of_
 from hess_explorer.scenes.parts.sections.density import SectionDensity
 from hess_explorer.scenes.parts.sections.indicator import MEGNO, Indicator, colouring
 from hess_explorer.scenes.parts.sections.orbit import BodyOrbit
-from hess_explorer.scenes.parts.sections.periodic_orbit import NONE, SectionPeriodicOrbit, length_of_manifolds, which
+from hess_explorer.scenes.parts.sections.periodic_orbit import SectionPeriodicOrbit, length_of_manifolds, which
 from hess_explorer.scenes.parts.sections.section import Section, crossings_of_each, start_on
 from hess_explorer.views.caption import Caption
 from hess_mechanics.dynamics.return_map import PoincareSection
 from hess_mechanics.dynamics.system import Body
-
-__all__ = ["PLAIN", "FilledState", "SectionState"]
 
 PLAIN: dict[str, Value] = {"periodic": NONE, "indicator": DENSITY}
 """Choices of the first preset; every other example then sets them too, see `Scene.example`."""
