@@ -38,7 +38,7 @@ def describe(name: str) -> str:
             "handle": _handle(scene),
             "moves": scene.moves,
             "lead": list(scene.lead or scene.open_pictures[:1]),
-            "groups": [*GROUPS, "Chart"],
+            "groups": [*GROUPS, "Swarm", "Chart"],
             "drawn": not all(isinstance(spec, Controlled) for spec in scene.specs),
             "presets": [preset.name for preset in scene.presets],
             "legend": scene.legend,

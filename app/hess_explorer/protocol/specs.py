@@ -56,7 +56,7 @@ class ChoiceSpec:
     options: tuple[str, ...]
     default: str
     doc: str = ""
-    group: Group | Literal["Chart"] = "Computation"
+    group: Group | Literal["Swarm", "Chart"] = "Computation"
 
     def read(self, raw: Value) -> tuple[str, str | None]:
         """Return the option of that name; otherwise the default and a note, which does not quote the text.
