@@ -136,7 +136,7 @@ class DiagramDensity(Part[OrbitDiagram]):
 
     def status(self) -> Iterator[str]:
         """Yield the size and drift of the density."""
-        if self.has_result("_found") and self.points:
+        if self.has_result("_visits") and self.points:
             yield f"density {self.points} points"
             yield from drift_status(one.drift for _, one in self._visits if one is not None)
 

@@ -108,12 +108,12 @@ class HessSplit(Part[Host]):
 
     def quantities(self) -> Iterator[str]:
         """Yield the slope of the split at ε = 0."""
-        if self.has_result("_found") and self.slope is not None:
+        if self.has_result("_splits") and self.slope is not None:
             yield f"split/ε → {with_error(*self.slope)}"
 
     def notes(self) -> Iterator[str]:
         """Yield the reasons for missing splits in the graph."""
-        if self.has_result("_found") and self.splits:
+        if self.has_result("_splits") and self.splits:
             yield from (f"Some splits are not known. {reason}" for reason in self._reasons)
 
 

@@ -114,7 +114,7 @@ class SectionDensity(Part[Section]):
 
     def status(self) -> Iterator[str]:
         """Yield the size and drift of the density."""
-        if self.has_result("_found") and self.points:
+        if self.has_result("_visits") and self.points:
             yield f"density {self.points} crossings"
             yield from drift_status(one.drift for one in self._visits if one is not None)
 
