@@ -38,7 +38,7 @@ def bundle(entry: str) -> str:
             source = (STATIC / path).read_text(encoding="utf-8")
             exports[path] = ", ".join(found[1] for found in _EXPORT.findall(source))
             # Its place is after the modules that it imports.
-            code = _IMPORT.sub(lambda found: _constants(found[1], add(_resolved(path, found[2]))), source)
+            code = _IMPORT.sub(lambda found: _constants(found[1], add(_resolve(path, found[2]))), source)
             body = _EXPORT.sub(r"\1 \2", code)
             parts[path] = f"// {path}\nconst {name} = (() => {{\n{body}\nreturn {{ {exports[path]} }}\n}})()\n"
         return name
@@ -56,5 +56,5 @@ def _constants(names: str, module: str) -> str:
     return f"const {{{names.replace(' as ', ': ')}}} = {module}"
 
 
-def _resolved(path: str, other: str) -> str:
+def _resolve(path: str, other: str) -> str:
     return posixpath.normpath(posixpath.join(posixpath.dirname(path), other))

@@ -30,10 +30,10 @@ def lines_of(address: Address) -> list[str]:
     given = {spec.name: _value(spec, address.values[spec.name]) for spec in scene.specs}
     given |= {key: repr(value) for key, value in address.looks.items()}
     words = [repr(scene.name).replace("'", '"'), *(f"{key}={value}" for key, value in given.items() if value)]
-    return ["state = hess.state(", *_filled(words), f'data = state.data("{name}")', f'state.plot("{name}")']
+    return ["state = hess.state(", *_wrap(words), f'data = state.data("{name}")', f'state.plot("{name}")']
 
 
-def _filled(words: Sequence[str]) -> Iterator[str]:
+def _wrap(words: Sequence[str]) -> Iterator[str]:
     """Yield lines with the wrapped arguments and the closing bracket."""
     line = "   "
     for word in words[:-1]:

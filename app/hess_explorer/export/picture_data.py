@@ -194,7 +194,9 @@ def picture_of(scene: Scene[Any], name: str) -> Picture[Any]:
 
 def compute(address: Address) -> PictureData:
     """Compute a picture completely.  Raises `ModelError`."""
-    _, data = complete(address.scene, address.values, [address.picture.name], lambda state: _described(address, state))
+    _, data = complete(
+        address.scene, address.values, [address.picture.name], lambda state: _picture_data(address, state)
+    )
     return data
 
 
@@ -236,7 +238,7 @@ def complete(
     return state, found
 
 
-def _described(address: Address, state: Any) -> PictureData:
+def _picture_data(address: Address, state: Any) -> PictureData:
     """Return a picture with the data computed so far."""
     view = address.picture
     caption = view.full_caption(state)

@@ -51,7 +51,7 @@ def parser() -> MarkdownIt:
     """Return a parser for CommonMark with tables, formulas and front matter; HTML is text."""
     found = _with_plugins(MarkdownIt("commonmark", {"html": False}))
     # The plugin renders a displayed formula in a line as a <div>, which would end the paragraph.
-    found.add_render_rule("math_inline_double", _displayed)
+    found.add_render_rule("math_inline_double", _display_formula)
     found.add_render_rule("image", _image)
     found.add_render_rule("link_open", _link)
     return found
@@ -70,7 +70,7 @@ def _with_plugins(parser: MarkdownIt) -> MarkdownIt:
     return parser.use(dollarmath_plugin, renderer=formula, allow_space=False, double_inline=True)
 
 
-def _displayed(_: object, tokens: Sequence[Token], i: int, *rest: object) -> str:
+def _display_formula(_: object, tokens: Sequence[Token], i: int, *rest: object) -> str:
     return f'<span class="math">{formula(tokens[i].content, {"display_mode": True})}</span>'
 
 

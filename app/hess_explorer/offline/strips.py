@@ -79,7 +79,7 @@ def _step(values: Array, column: str, step: float | None) -> float:
     return step if extent < _LARGEST * step else EXACT
 
 
-def _quantised(values: Array, step: float) -> tuple[int, np.ndarray]:
+def _quantise(values: Array, step: float) -> tuple[int, np.ndarray]:
     """Quantise an array: return the least multiple of the step, and the whole numbers (n,)."""
     if step == EXACT:
         return 0, values.view(np.uint32)
@@ -144,7 +144,7 @@ class OfflineStrip:
             # The same step, unless it is too coarse now or much too fine, so that the differences are small.
             if EXACT not in (step, step_before) and 1.0 <= step / step_before <= 2.0:
                 step = step_before
-        low, whole = _quantised(values, step)
+        low, whole = _quantise(values, step)
         away = whole
         if before is not None:
             if (step, low) == (step_before, low_before) and np.array_equal(whole, self._wholes[before]):

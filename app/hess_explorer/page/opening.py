@@ -106,7 +106,7 @@ def opening(query: str, own: Sequence[Lesson] = (), *, lenient: bool = True) -> 
     client["theme"] = "" if theme == THEME.default else theme
     client |= {spec.name: str(link.value(spec)).strip("0") for spec in (PRESENT, EMBED)}
     # An empty list means the default.
-    parts = {spec.name: str(link.value(spec)) or spec.default for spec in _embedded(scene)}
+    parts = {spec.name: str(link.value(spec)) or spec.default for spec in _embedding(scene)}
     pictures = scene.open_pictures
     # The steps of an embedded lesson, which may be of several scenes, choose pictures and controls themselves.
     if client[EMBED.name] and reading is None:
@@ -115,7 +115,7 @@ def opening(query: str, own: Sequence[Lesson] = (), *, lenient: bool = True) -> 
     return Opening(scene, state, link.notes, lessons, reading, pictures, client)
 
 
-def _embedded(scene: Scene[Any]) -> tuple[Names, Names]:
+def _embedding(scene: Scene[Any]) -> tuple[Names, Names]:
     """Return the parameters "pictures" and "controls" of an embedded page; "none" means no control."""
     controls = tuple(spec.name for spec in scene.specs if isinstance(spec, Controlled))
     return (

@@ -92,13 +92,13 @@ def parse(message: Any) -> Request | None:
         return value if isinstance(value, kind) else None
 
     values, expressions, hidden = of(dict, "values"), of(dict, "expressions"), of(list, "hidden")
-    hover = _picked(message.get("hover"))
+    hover = _pick(message.get("hover"))
     return Request(
         requested=of(int, "requested"),
         restore=of(str, "restore"),
         values=values and {name: _value(value) for name, value in values.items()},
         expressions=expressions and {name: raw for name, raw in expressions.items() if isinstance(raw, str)},
-        picked=_picked(message.get("picked")),
+        picked=_pick(message.get("picked")),
         hover=hover if isinstance(hover, PicturePoint) else None,
         step=_step(message.get("step")),
         hidden=None if hidden is None else [name for name in hidden if isinstance(name, str)],
@@ -113,7 +113,7 @@ def parse(message: Any) -> Request | None:
     )
 
 
-def _picked(raw: Any) -> PicturePoint | PictureBox | None:
+def _pick(raw: Any) -> PicturePoint | PictureBox | None:
     match raw:
         case [str(picture), *place] if all(map(math.isfinite, numbers := [number(one) for one in place])):
             match numbers:

@@ -252,7 +252,7 @@ class Link:
         pairs = parse_qsl(query.lstrip("?"), keep_blank_values=True)
         self.texts = dict(pairs)
         names = [name for name, _ in pairs]
-        twice = _quoted(name for name in self.texts if names.count(name) > 1)
+        twice = _quote(name for name in self.texts if names.count(name) > 1)
         if twice and lenient:
             self.notes.append(f"The link contains {twice} more than once: the last value is used.")
         elif twice:
@@ -292,7 +292,7 @@ class Link:
     def require(self, scene: str, specs: Sequence[Spec]) -> None:
         """Check that each key belongs to the scene or to the page.  A lenient link ignores unknown keys."""
         names = [spec.name for spec in specs]
-        unknown = _quoted(name for name in self.texts if name not in names and name not in PAGE_KEYS)
+        unknown = _quote(name for name in self.texts if name not in names and name not in PAGE_KEYS)
         if unknown:
             others = "" if self._lenient else f", only {', '.join(names)}"
             self.note(f"The scene {scene} has no parameter {unknown}{others}: ignored.")
@@ -305,7 +305,7 @@ def _short(text: str) -> str:
     return repr(text if len(text) <= _SHORT else f"{text[:_SHORT]}…")
 
 
-def _quoted(names: Iterable[str]) -> str:
+def _quote(names: Iterable[str]) -> str:
     """Return the first names in quotation marks, each up to the first character that no name contains."""
     return ", ".join(_short(re.sub(r"[^\w#.-].*", "…", name, flags=re.DOTALL)) for name in [*names][:_MOST_NAMES])
 

@@ -29,7 +29,7 @@ _TRIALS = 16
 Function = Callable[..., Any]
 
 
-def _named(function: Function, own: str, takes_accuracy: bool) -> Callable[..., dict[str, float]]:
+def _with_names(function: Function, own: str, takes_accuracy: bool) -> Callable[..., dict[str, float]]:
     """Return a function that returns the numbers of `function` by name; a single number is called `own`."""
 
     def call(accuracy: Level, **cell: float) -> dict[str, float]:
@@ -72,7 +72,7 @@ def computation_of(
         signature = dict(inspect.signature(function).parameters)
     except (TypeError, ValueError):
         signature = {}
-    call = _named(function, name, signature.pop(_ACCURACY, None) is not None)
+    call = _with_names(function, name, signature.pop(_ACCURACY, None) is not None)
     defaults = {each: one.default for each, one in signature.items() if type(one.default) in (int, float)}
     parameters = (
         real(each, each, float(value), *_BOUNDS, each)

@@ -132,10 +132,10 @@ def missing(place: Path | MemoryStore, plan: SweepPlan) -> list[Region]:
     stored = _open(place)
     chunks = normalize_chunks(stored.status.encoding["chunks"], plan.shape)
     regions = (dict(zip(plan.axes, one, strict=True)) for one in slices_from_chunks(chunks))
-    return [region for region in regions if not _finished(stored.isel(region), plan)]
+    return [region for region in regions if not _is_finished(stored.isel(region), plan)]
 
 
-def _finished(part: xr.Dataset, plan: SweepPlan) -> bool:
+def _is_finished(part: xr.Dataset, plan: SweepPlan) -> bool:
     """Return whether a piece is readable, each cell has a status, and each cell with a value a finite number."""
     try:
         status = part.status.values

@@ -55,7 +55,7 @@ def _crossings(body: Body, start: State, offset: float, sense: int, max_step: fl
     return section(body, start, Plane(normal, offset, sense), max_step=max_step or None, **more)
 
 
-def _enclosed(
+def _enclosure(
     function: Callable[..., Any], body: Body, start: State, duration: float, samples: int, seconds: float, **more: Any
 ) -> Any:
     times = np.linspace(0.0, duration, samples)[1:]
@@ -194,7 +194,7 @@ def computations(system: System) -> Iterator[Computation]:
         },
         Kind.ORBIT,
         lambda r, exact: r.width,
-        lambda *start, accuracy, **more: _enclosed(tube, *start, **more),
+        lambda *start, accuracy, **more: _enclosure(tube, *start, **more),
         group="prove",
         example={"duration": 1.0, "samples": 3.0},
     )
@@ -209,7 +209,7 @@ def computations(system: System) -> Iterator[Computation]:
         },
         Kind.ORBIT,
         lambda r, exact: r.largest,
-        partial(_enclosed, proved_orbit),
+        partial(_enclosure, proved_orbit),
         group="prove",
         example={"duration": 1.0, "samples": 3.0},
     )

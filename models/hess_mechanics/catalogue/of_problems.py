@@ -72,11 +72,11 @@ _INNER = usual(known.D, 1.0)
 
 
 # Many cells of a sweep over angles share a body.
-_scattered = lru_cache(maxsize=256)(scattering)
+_cached_scattering = lru_cache(maxsize=256)(scattering)
 
 
 def _scattering(accuracy: Level, theta: float, phi: float, arc: int, distance: float, **tensor: float) -> Scalar:
-    result = _scattered(SuslovBody(**tensor), accuracy, arc, distance or None)
+    result = _cached_scattering(SuslovBody(**tensor), accuracy, arc, distance or None)
     return Scalar(float(result.theta_plus(theta, phi)), result.error_estimate, result)
 
 

@@ -58,7 +58,7 @@ def _along(function: Callable[..., Any]) -> Callable[..., Any]:
 # ---- numbers ----------------------------------------------------------------------------------------------------
 
 
-def _decided(name: str) -> Callable[[Regime], float]:
+def _reader_of(name: str) -> Callable[[Regime], float]:
     def number(motion: Regime) -> float:
         if motion.kind in _UNDECIDED:
             raise NoValue(
@@ -80,14 +80,14 @@ _OF_MOTION: Mapping[str, Number] = {
     "kind": Number(
         "regime",
         "kind of the motion",
-        _decided("kind"),
+        _reader_of("kind"),
         categories={int(one): one.words for one in MotionKind if one not in _UNDECIDED},
     ),
-    "period": Number("N", "period, 0 where none is seen", _decided("period")),
+    "period": Number("N", "period, 0 where none is seen", _reader_of("period")),
     "volume": Number(
         "±",
         "change of phase volume about the motion",
-        _decided("volume"),
+        _reader_of("volume"),
         categories={0: "constant", -1: "shrinks", 1: "grows"},
     ),
     "megno": Number("Ȳ", "MEGNO", "megno"),

@@ -167,7 +167,7 @@ class Continuation(Part[H_co]):
         """Return a tooltip on the bifurcation or the orbit of the branch at (x, y)."""
         for one in bifurcations(self.branches):
             if np.hypot(*self._pixels(np.full(len(one.places), one.value), one.places, x, y).T).min() <= _NEAR:
-                return self._named(one)
+                return self._bifurcation_text(one)
         near = self._nearest(x, y)
         if near is None:
             return ""
@@ -181,7 +181,7 @@ class Continuation(Part[H_co]):
 
     # ---- words --------------------------------------------------------------------------------------------------
 
-    def _named(self, one: Bifurcation) -> str:
+    def _bifurcation_text(self, one: Bifurcation) -> str:
         value = f"{digits(one.value, 8)} ± {digits(one.error, 1)}"
         return f"{one.kind} of period {len(one.places)} at {self.branches[0].parameter} = {value}"
 
@@ -203,7 +203,7 @@ class Continuation(Part[H_co]):
     def quantities(self) -> Iterator[str]:
         """Yield the bifurcations."""
         found = bifurcations(self.branches) if self.has_result("_pieces") else []
-        yield from map(self._named, found[:_MOST_LISTED])
+        yield from map(self._bifurcation_text, found[:_MOST_LISTED])
         if len(found) > _MOST_LISTED:
             yield f"and {len(found) - _MOST_LISTED} more bifurcations of the branch"
 

@@ -71,20 +71,20 @@ class Stage(Generic[S]):
 
     def pick(self, picture: str, x: float, y: float) -> Values:
         """Return the values that a click at (x, y) of a picture sets.  Raises `ModelError`."""
-        state, view = self._seen(picture)
+        state, view = self._visible(picture)
         return {} if state is None or view is None or view.on_click is None else view.on_click(state, x, y)
 
     def box(self, picture: str, corners: Corners) -> Values:
         """Return the values that a box from (x0, y0) to (x1, y1) of a picture sets.  Raises `ModelError`."""
-        state, view = self._seen(picture)
+        state, view = self._visible(picture)
         return {} if state is None or view is None or view.on_box is None else view.on_box(state, corners)
 
     def hover(self, picture: str, x: float, y: float) -> str:
         """Return the tooltip at (x, y) of a picture.  Raises `ModelError`."""
-        state, view = self._seen(picture)
+        state, view = self._visible(picture)
         return "" if state is None or view is None or view.on_hover is None else view.on_hover(state, x, y)
 
-    def _seen(self, picture: str) -> tuple[S, Picture[S]] | tuple[None, None]:
+    def _visible(self, picture: str) -> tuple[S, Picture[S]] | tuple[None, None]:
         """Return the current state and a picture; None if the picture is hidden, because it has no results."""
         state = self._state
         return (None, None) if state is None or picture not in state.visible else (state, self._views[picture])

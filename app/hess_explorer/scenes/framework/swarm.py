@@ -228,7 +228,9 @@ class _SwarmPart(Part[Any]):
         low, high = np.nanmin(values, axis=(1, 2)), np.nanmax(values, axis=(1, 2))
         step = np.maximum((high - low) / 65534.0, 1e-300)
         quantised = np.nan_to_num((values - low[:, None, None]) / step[:, None, None]) - 32767.0
-        kinds = ["angle" if name in self.swarm.angles else "step" if name in self.swarm.steps else "" for name in columns]
+        kinds = [
+            "angle" if name in self.swarm.angles else "step" if name in self.swarm.steps else "" for name in columns
+        ]
         return {
             "count": len(found.states),
             "spacing": float(abs(found.times[1]) * self._motion.unit),
@@ -255,7 +257,9 @@ class _SwarmPart(Part[Any]):
         known = np.arange(found.times.size) <= np.minimum(found.until[1:], found.until[:-1])[:, None]
         ratio = np.where(known & (apart[:, :1] > 0.0), apart / np.maximum(apart[:, :1], 1e-300), np.nan)
         enough = known.mean(axis=0) > 0.5
-        return np.abs(found.times[enough]) * self._motion.unit, np.nanquantile(ratio[:, enough], (0.1, 0.5, 0.9), axis=0)
+        return np.abs(found.times[enough]) * self._motion.unit, np.nanquantile(
+            ratio[:, enough], (0.1, 0.5, 0.9), axis=0
+        )
 
     @property
     def expected(self) -> tuple[Array, Array] | None:
@@ -303,7 +307,9 @@ def spread_picture() -> Plot[Any]:
         message=lambda s: "" if s.swarm_part.spread is not None else "Choose more than one body in the group Swarm.",
         button="Show the spread of the swarm",
         layers=(
-            line("least", curve(0), color=theme.MUTED, width=1, label="a tenth of the neighbours is closer, or farther"),
+            line(
+                "least", curve(0), color=theme.MUTED, width=1, label="a tenth of the neighbours is closer, or farther"
+            ),
             line("most", curve(2), color=theme.MUTED, width=1),
             line(
                 "expected",
@@ -321,12 +327,24 @@ def spread_picture() -> Plot[Any]:
 def with_swarm(state: type[Any], swarm: Swarm[Any]) -> type[Any]:
     """Return a class of states with the additional choices of a swarm, which do not change other results."""
     specs = (
-        ChoiceSpec("swarm", "Bodies", _COUNTS, ONE, "Number of bodies that move at once, each from its own start.", "Swarm"),
         ChoiceSpec(
-            "swarm_from", "Starts", (SPREAD, NEAR), SPREAD, "All around, or within 2 % of a turn of the chosen start.", "Swarm"
+            "swarm", "Bodies", _COUNTS, ONE, "Number of bodies that move at once, each from its own start.", "Swarm"
         ),
         ChoiceSpec(
-            "swarm_time", "Time of the swarm", (FORWARD, BACKWARD), FORWARD, "Backward, all go where they came from.", "Swarm"
+            "swarm_from",
+            "Starts",
+            (SPREAD, NEAR),
+            SPREAD,
+            "All around, or within 2 % of a turn of the chosen start.",
+            "Swarm",
+        ),
+        ChoiceSpec(
+            "swarm_time",
+            "Time of the swarm",
+            (FORWARD, BACKWARD),
+            FORWARD,
+            "Backward, all go where they came from.",
+            "Swarm",
         ),
     )
     return make_dataclass(

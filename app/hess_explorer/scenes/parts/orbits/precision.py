@@ -85,7 +85,7 @@ class Precision:
         i = [*LEVELS].index(name)
         return errors[i : i + 1], ms[i : i + 1]
 
-    def _chosen(self) -> list[tuple[float, float]]:
+    def _level_point(self) -> list[tuple[float, float]]:
         return [(max(self._here.error, _FLOOR), max(self._here.ms, _FLOOR))]
 
     def _over_time(self, values: Array, floor: float = _FLOOR) -> Curve:
@@ -185,7 +185,7 @@ PRECISION_PICTURES: tuple[Plot[Precision], ...] = (
         on_click=Precision.choose,
         layers=(
             *methods(Precision._of_method, Precision._at_level),
-            ring("chosen", Precision._chosen, size=20, label="chosen level"),
+            ring("chosen", Precision._level_point, size=20, label="chosen level"),
         ),
     ),
     Plot(

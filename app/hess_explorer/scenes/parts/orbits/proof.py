@@ -132,7 +132,7 @@ def proved_error(orbit_task: Task[Orbit | Track], motion: Motion, units: tuple[f
     band, around = [], []
     if first == 2 and motion.weights[0] > 0.0:
         band = _band(omega[: len(errors)], errors[:, :2] * np.array(units), sizes[0])
-    seen = _drawn(sizes[1])
+    seen = _visible_samples(sizes[1])
     for i in seen[:: max(1, -(-len(seen) // _CIRCLES))]:
         x, y, z = (float(value) for value in gamma[i] / np.linalg.norm(gamma[i]))
         # An angle is a little larger than its chord, and the computed γ is slightly off the sphere.
@@ -140,7 +140,7 @@ def proved_error(orbit_task: Task[Orbit | Track], motion: Motion, units: tuple[f
     return ProvedError(sentence, tuple(band), tuple(around))
 
 
-def _drawn(sizes: Array) -> list[int]:
+def _visible_samples(sizes: Array) -> list[int]:
     """Return the indices of samples with a visible error, up to the first error that would fill the picture."""
     far = np.flatnonzero(sizes > _FAR)
     end = int(far[0]) if far.size else len(sizes)
@@ -149,7 +149,7 @@ def _drawn(sizes: Array) -> list[int]:
 
 def _band(omega: Array, errors: Array, sizes: Array) -> list[Array]:
     """Return the convex hulls of the error boxes of neighbouring samples."""
-    seen = _drawn(sizes)
+    seen = _visible_samples(sizes)
     step = max(1, -(-len(seen) // _BOXES))
     found = []
     for begin in range(0, len(seen), step):

@@ -248,7 +248,7 @@ def _at_once(what: _BasinGrid) -> Arrivals:
     return cells
 
 
-def _sampled(what: _BasinGrid) -> Arrivals:
+def _sample(what: _BasinGrid) -> Arrivals:
     """Compute the arrivals of points spread over the window, as a reference for cells of any size."""
     low, high = np.array(what.window)
     there = attractors(what.section, what.long, what.level)
@@ -293,7 +293,7 @@ def basins_trial() -> Trial[Any]:
     return Trial(
         Kind.BASINS,
         ("section",),
-        lambda s, plan: (_sampled if plan.level.aside else _at_once)(s.basins.target(plan)).number.astype(float),
+        lambda s, plan: (_sample if plan.level.aside else _at_once)(s.basins.target(plan)).number.astype(float),
         lambda s, cells, truth: _error(cells, truth),
         unit="% of the cells that change",
         tolerance=3.0,

@@ -207,7 +207,7 @@ class Section(Part[_Host]):
         how = crossings or self._count, forward, level or plan.level, self.most_steps
         return Task(self.compute, self.poincare, starts, *how)
 
-    def _filling(self, crossings: int = 0, level: Level | None = None) -> list[Task[OrbitBatch]]:
+    def _other_tasks(self, crossings: int = 0, level: Level | None = None) -> list[Task[OrbitBatch]]:
         return [self.batch(starts, way, crossings, level) for starts in self.seeds(self) for way in self.ways]
 
     @property
@@ -223,13 +223,13 @@ class Section(Part[_Host]):
         held = self.work.dragging
         try:
             own = [self.batch((state,)) for state in states]
-            others = self._filling()
+            others = self._other_tasks()
             known = KnownOrbits(
                 [self.work.need(task, preview=task if held or self.at_once else None) for task in own],
                 [self.work.need(task, preview=task if held else None) for task in others],
             )
             if self.at_once and None in known.others:
-                few = [self.work.need(task) for task in self._filling(min(self._count, _FEW))]
+                few = [self.work.need(task) for task in self._other_tasks(min(self._count, _FEW))]
                 known = replace(known, few=few)
         except WorkLimit:
             much = f"{self._count} crossings take an orbit more than {self.most_steps} steps here"
@@ -272,7 +272,7 @@ class Section(Part[_Host]):
     def orbits_at(self, plan: Plan) -> list[Array]:
         """Compute all orbits (n, 2) of the section at once; the chosen ones come first."""
         how = plan.part(self.host.count, _LEAST), plan.level
-        tasks = [*(self.batch((state,), True, *how) for state in self.starts), *self._filling(*how)]
+        tasks = [*(self.batch((state,), True, *how) for state in self.starts), *self._other_tasks(*how)]
         return [orbit for task in tasks for orbit in task.now().orbits]
 
     @cached_property
@@ -285,7 +285,7 @@ class Section(Part[_Host]):
         if self.work.dragging or periodic.is_searching or periodic.closed_orbit is not None or not own:
             return None
         level, step = self.work.plan(Kind.SECTION).level.tighter(), len(self.ways)
-        tasks = [self.batch((self.starts[-1],), level=level), *self._filling(level=level)[::step][:_TRIALS]]
+        tasks = [self.batch((self.starts[-1],), level=level), *self._other_tasks(level=level)[::step][:_TRIALS]]
         fine: list[OrbitBatch | None] = [self.work.need(task, preview=None) for task in tasks]
         counts = [
             right_crossings(one.orbits, other.orbits, pixels_in(self.frame), self.poincare.turns)
