@@ -22,30 +22,34 @@ const wrapped = (angle) => angle - TURN * Math.round(angle / TURN)
 let now = 0
 listen({ time({ t }) { now = t } })
 
-class Swarm {
+/** The motions of a swarm. */
+export class Swarm {
   /** @param {Data} data */
-  constructor({ count, spacing, names, kinds, low, step, until, values, palette }) {
-    Object.assign(this, { count, spacing, names, kinds, low, step, until, values, palette })
-    this.samples = values.length / (count * names.length)
+  constructor(data) {
+    this.data = data
+    this.samples = data.values.length / (data.count * data.names.length)
     /** @type {Map<string, {t: number, values: Float32Array}>} */
     this.columns = new Map()
   }
 
-  /** Return a column (count) at the time of the player. @param {string} name */
-  column(name) {
-    if (!this.columns.has(name)) this.columns.set(name, { t: NaN, values: new Float32Array(this.count) })
+  /** @param {string} name */
+  has(name) { return this.data.names.includes(name) }
+
+  /** Return a column of all motions at the time t. @param {string} name @param {number} t */
+  at(name, t) {
+    if (!this.columns.has(name)) this.columns.set(name, { t: NaN, values: new Float32Array(this.data.count) })
     const column = this.columns.get(name)
-    if (column.t !== now) {
-      column.t = now
-      this.fill(column.values, this.names.indexOf(name))
+    if (column.t !== t) {
+      column.t = t
+      this.#fill(column.values, this.data.names.indexOf(name), t)
     }
     return column.values
   }
 
-  /** @param {Float32Array} out @param {number} k */
-  fill(out, k) {
-    const { count, samples, values, kinds: { [k]: kind }, low: { [k]: low }, step: { [k]: step } } = this
-    const share = now / this.spacing
+  /** @param {Float32Array} out @param {number} k @param {number} t */
+  #fill(out, k, t) {
+    const { samples, data: { count, spacing, values, kinds: { [k]: kind }, low: { [k]: low }, step: { [k]: step } } } = this
+    const share = t / spacing
     const left = Math.max(0, Math.min(samples - 2, Math.floor(share)))
     const s = Math.max(0, Math.min(1, share - left))
     const at = (/** @type {number} */ row, /** @type {number} */ i) => low + step * (values[(k * samples + row) * count + i] + FIRST)
@@ -60,13 +64,14 @@ class Swarm {
       // Beyond the ends the curve goes on as a parabola.
       const a = left > 0 ? near(at(left - 1, i)) : 3 * b - 3 * c + near(at(left + 2, i))
       const d = left < samples - 2 ? near(at(left + 2, i)) : 3 * c - 3 * b + a
-      const value = b + 0.5 * s * (c - a + s * (2 * a - 5 * b + 4 * c - d + s * (3 * (b - c) + d - a)))
+      // The cubic through four samples is worst halfway, where the server measures it.
+      const value = (1 - s) * (2 - s) * ((1 + s) * b / 2 - s * a / 6) + (1 + s) * s * ((2 - s) * c / 2 - (1 - s) * d / 6)
       out[i] = kind === "angle" ? wrapped(value) : value
     }
   }
 
-  /** Return whether a motion is known at the time of the player. @param {number} i */
-  isKnown(i) { return now / this.spacing <= this.until[i] + 1e-6 }
+  /** Return whether motion i is known at the time t. @param {number} i @param {number} t */
+  isKnown(i, t) { return t / this.data.spacing <= this.data.until[i] + 1e-6 }
 }
 
 /** @type {WeakMap<Source, {data: Data, swarm: Swarm | null}>} */
@@ -83,7 +88,7 @@ function swarmOf(source, names) {
     swarms.set(source, { data: source.data, swarm: source.data.count > 0 ? new Swarm(source.data) : null })
   }
   const { swarm } = swarms.get(source)
-  return swarm !== null && names.every((name) => swarm.names.includes(name)) ? swarm : null
+  return swarm !== null && names.every((name) => swarm.has(name)) ? swarm : null
 }
 
 /**
@@ -96,14 +101,14 @@ function swarmOf(source, names) {
 export function drawBeads(ctx, source, names, placeOf) {
   const swarm = swarmOf(source, names)
   if (swarm === null) return
-  const { count, palette } = swarm
-  const columns = names.map((name) => swarm.column(name))
+  const { count, palette } = swarm.data
+  const columns = names.map((name) => swarm.at(name, now))
   const [, radius] = SIZES.find(([most]) => count <= most)
   ctx.save()
   ctx.lineWidth = 0.7
   ctx.strokeStyle = "#101010"
   for (let i = 0; i < count; i++) {
-    if (!swarm.isKnown(i)) continue
+    if (!swarm.isKnown(i, now)) continue
     const [x, y, isNear = true] = placeOf(columns, i)
     ctx.globalAlpha = isNear ? 1 : 0.35
     ctx.fillStyle = palette[Math.floor(i * palette.length / count)]

@@ -12,6 +12,8 @@ from typing import Any
 
 import numpy as np
 
+__all__ = ["Wire"]
+
 
 class Wire:
     """Collects the changes of columns, axes, texts and controls, and packs them."""
@@ -51,8 +53,8 @@ class Wire:
         """Return the tree and the block of all collected changes, and clear them.
 
         The tree has the keys "sources", "ranges", "texts", "captions" and "controls".  It represents an array by
-        {"at": first, "n": length}, counted in single-precision numbers, and its "shape" unless that is (n,).  An array
-        of 16-bit integers takes half as much; "shorts" is its length.  Lists and plain values are copied.
+        {"at": first, "n": length}, counted in single-precision numbers, and its "shape" unless that is (n,).  Of an
+        array of 16-bit integers, two to such a number, "shorts" is the length.  Lists and plain values are copied.
         """
         blocks: list[np.ndarray] = []
         position = 0

@@ -18,7 +18,8 @@ from hess_explorer.scenes.framework.chart_picture import chart_picture
 from hess_explorer.scenes.framework.charted import Charts
 from hess_explorer.scenes.framework.part import Host, Part, part
 from hess_explorer.scenes.framework.sliders import Slider, specs_of
-from hess_explorer.scenes.framework.swarm import SWARM, Swarm, spread_picture, with_swarm
+from hess_explorer.scenes.framework.swarm import SWARM, Swarm, with_swarm
+from hess_explorer.scenes.framework.swarm_picture import spread_picture
 from hess_explorer.scenes.framework.trial import Trial, bare, orbit_trial, sufficient_level
 from hess_explorer.scenes.framework.work import Work
 from hess_explorer.views.layers import Columns, Sign
