@@ -551,7 +551,8 @@ def quick(monkeypatch):
 
 def unfolded(scene, sources):
     """Return the contents of the sources, except those of pictures that start collapsed."""
-    return {name: columns for name, columns in contents(sources).items() if name.split("-")[0] not in scene.buttons}
+    folded = {view.name for view in scene.views if view.button}
+    return {name: columns for name, columns in contents(sources).items() if name.split("-")[0] not in folded}
 
 
 @pytest.mark.usefixtures("quick")

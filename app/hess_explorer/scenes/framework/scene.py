@@ -355,11 +355,6 @@ class Scene(Generic[S]):
         return tuple(view.name for view in self.views)
 
     @property
-    def buttons(self) -> Mapping[str, str]:
-        """The label of the button of each picture that a button opens."""
-        return {view.name: view.button for view in self.views if view.button}
-
-    @property
     def open_pictures(self) -> tuple[str, ...]:
         """The names of the pictures that are open at first."""
         return tuple(view.name for view in self.views if not view.button)
