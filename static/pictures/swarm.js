@@ -7,7 +7,7 @@
 // drawn.  See "scenes/framework/swarm.py".
 
 import { listen } from "../base/bus.js"
-import { circlePath } from "./looks.js"
+import { circlePath, shade } from "./looks.js"
 
 const FIRST = 32767
 const TURN = 2 * Math.PI
@@ -106,7 +106,7 @@ export function drawBeads(ctx, source, names, placeOf) {
   const [, radius] = SIZES.find(([most]) => count <= most)
   ctx.save()
   ctx.lineWidth = 0.7
-  ctx.strokeStyle = "#101010"
+  ctx.strokeStyle = shade("#101010")
   for (let i = 0; i < count; i++) {
     if (!swarm.isKnown(i, now)) continue
     const [x, y, isNear = true] = placeOf(columns, i)

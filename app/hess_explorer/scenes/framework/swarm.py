@@ -38,6 +38,10 @@ ONE, SPREAD, NEAR, FORWARD, BACKWARD = "1", "over the phase", "near this start",
 _COUNTS = (ONE, "2", "8", "50", "200", "2000")
 _NEAR = 0.02
 """Share of the phase that a swarm near the chosen start takes."""
+_ABOVE, _ERROR = 10.0, 0.5
+"""A known distance is this many times as large as the errors of both motions, or larger than the second, in pixels."""
+_SEEN = 1e-12, 1e12
+"""Smallest and largest relative distance of the graph."""
 _BYTES = 1_900_000
 """Largest size of the columns of a swarm."""
 
@@ -156,8 +160,9 @@ class _SwarmPart(Part[Any]):
         if found is None:
             return None
         apart = np.linalg.norm(np.diff(found.states * np.array(self._motion.weights), axis=0), axis=2)
-        # Once a motion is not known any more, its distances are not either.
-        known = np.arange(found.times.size) <= np.minimum(found.until[1:], found.until[:-1])[:, None]
+        # A distance is known while both motions are, and while it is larger than their errors.
+        both = np.arange(found.times.size) <= np.minimum(found.until[1:], found.until[:-1])[:, None]
+        known = both & (apart > np.minimum(_ABOVE * (found.errors[1:] + found.errors[:-1]), _ERROR)[:, None])
         ratio = np.where(known & (apart[:, :1] > 0.0), apart / np.maximum(apart[:, :1], 1e-300), np.nan)
         enough = known.mean(axis=0) > 0.5
         quantiles = np.nanquantile(ratio[:, enough], (0.1, 0.5, 0.9), axis=0)
@@ -170,15 +175,14 @@ class _SwarmPart(Part[Any]):
         if rate is None or self.spread is None:
             return None
         ends = self.spread[0][[0, -1]]
-        return ends, np.exp(np.clip(rate[0] * ends, -100.0, 100.0))
+        return ends, np.exp(np.clip(rate[0] * ends, *np.log(_SEEN)))
 
     @property
     def heights(self) -> Range:
         """The vertical axis of the graph."""
-        low, high = (-1.0, 1.0)
-        if self.spread is not None:
-            values = np.log10(np.clip(self.spread[1], 1e-12, 1e12))
-            low, high = min(low, float(values.min()) - 0.1), max(high, float(values.max()) + 0.1)
+        curves = [] if self.spread is None else [self.spread[1].ravel(), *(self.expected or ())[1:]]
+        values = np.log10(np.clip(np.concatenate([[0.1, 10.0], *curves]), *_SEEN))
+        low, high = float(values.min()) - 0.1, float(values.max()) + 0.1
         return 10.0**low, 10.0**high
 
     def notes(self) -> Iterator[str]:

@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from hess_mechanics.dynamics.ensemble import ensemble
-from hess_mechanics.numerics.accuracy import DRAFT, STANDARD
-from hess_mechanics.numerics.measured import SAFETY
+from hess_mechanics.numerics.accuracy import STANDARD
 from hess_mechanics.numerics.results import Array
 
 if TYPE_CHECKING:
@@ -20,7 +19,9 @@ __all__ = ["SwarmMotions", "swarm_motions", "turned"]
 
 _ERROR = 0.5
 """Largest error of a bead, in pixels; from then on it is not drawn."""
-_FEW, _FIRST, _TRIALS = 12, 64, 3
+_ASIDE, _SAFETY = 2.0**-50, 4.0
+"""How far other starts are from the first ones, relative to them, and the factor from their distance to an error."""
+_FEW, _FIRST, _TRIALS = 12, 64, 6
 """Number of motions from which the spacing of the samples is chosen; its first share of the time, and the trials."""
 
 
@@ -79,11 +80,14 @@ class SwarmMotions:
         States.
     until : array (n,)
         Index of the sample up to which each motion is right to half a pixel, a real number.
+    errors : array (n,)
+        Largest error of each motion at its samples, in pixels; of one that is lost early it is larger than up to then.
     """
 
     times: Array
     states: Array
     until: Array
+    errors: Array
 
 
 def _midpoints(x: Array) -> Array:
@@ -122,7 +126,7 @@ def swarm_motions(
     body, weights = motion.system.at(motion.parameters), np.array(motion.weights)
 
     def sampled(chosen: Any, span: float, m: int) -> Any:
-        return ensemble(body, chosen, np.linspace(0.0, span, 2 * m - 1), DRAFT)
+        return ensemble(body, chosen, np.linspace(0.0, span, 2 * m - 1), STANDARD)
 
     few = starts[:: max(1, len(starts) // _FEW)]
     spacing = abs(motion.span) / _FIRST
@@ -139,13 +143,13 @@ def swarm_motions(
     m = max(4, min(most, 1 + math.ceil(abs(motion.span) / spacing)))
     span = math.copysign((m - 1) * spacing, motion.span)
     found = sampled(starts, span, m)
-    states = found.states[:, ::2].copy()
-    wrong = np.repeat(_interpolation_errors(found.states, weights) > _ERROR, 2, axis=1)
-    loose = np.flatnonzero(~(found.errors * weights.max() <= _ERROR))
+    errors = np.repeat(found.errors[:, None] * weights.max(), 2 * m - 2, axis=1)
+    loose = np.flatnonzero(~(errors[:, 0] <= 0.1 * _ERROR))
     if loose.size:
-        finer = ensemble(body, np.array(starts)[loose], found.times, STANDARD)
-        apart = (np.abs(finer.states - found.states[loose]) * weights).max(axis=2)
-        states[loose] = finer.states[:, ::2]
-        wrong[loose] |= ~(SAFETY * apart[:, 1:] <= _ERROR)
+        # Even the smallest tolerance was too large: only round-off is left, which grows as from starts beside these.
+        others = ensemble(body, np.array(starts)[loose] * (1.0 + _ASIDE), found.times, STANDARD)
+        errors[loose] = _SAFETY * (np.abs(others.states - found.states[loose]) * weights).max(axis=2)[:, 1:]
+    errors += np.repeat(_interpolation_errors(found.states, weights), 2, axis=1)
+    wrong = ~(errors <= _ERROR)
     until = np.where(wrong.any(axis=1), 0.5 * np.argmax(wrong, axis=1), m - 1.0)
-    return SwarmMotions(found.times[::2], states, until)
+    return SwarmMotions(found.times[::2], found.states[:, ::2].copy(), until, found.errors * weights.max())
