@@ -12,9 +12,7 @@ from hess_explorer.lessons.lesson import LessonError
 from hess_explorer.lessons.markdown import BadFormula, formula, strict_parser
 from hess_explorer.lessons.settings import place_of
 
-__all__ = ["problems_in"]
-
-_SHOWN = 40
+_MOST_SHOWN = 40
 _MATH = {"math_inline": False, "math_inline_double": True, "math_block": True, "math_block_label": True}
 
 
@@ -70,4 +68,4 @@ def _check(token: Token, at: int, images: Images) -> None:
 
 
 def _short(text: str) -> str:
-    return repr(text if len(text) <= _SHOWN else text[:_SHOWN] + "…").replace("\\\\", "\\")
+    return repr(text if len(text) <= _MOST_SHOWN else text[:_MOST_SHOWN] + "…").replace("\\\\", "\\")
