@@ -8,6 +8,7 @@ import pytest
 from PIL import Image
 from playwright.sync_api import expect
 
+from hess_explorer.headless.browser import wait_ready
 from hess_explorer.lessons import package_lessons, tries
 from hess_explorer.lessons.collection import read_paths
 from hess_explorer.lessons.reading import read
@@ -201,6 +202,48 @@ def test_what_is_done_by_hand_is_recorded_and_replayed(explorer):
     page.locator(".lesson-menu > summary").click()
 
 
+# Pages of the slide on show and the one in sight; what stands outside of them; the widths of the sliders of the step.
+SLIDE = f"""() => {{
+  {ALL}
+  const found = all(document)
+  const [slide, title, steps] = [".slide", ".lesson .title", ".lesson .steps"].map((selector) => found.find((item) => item.matches(selector)))
+  const wide = slide.clientWidth
+  const room = slide.getBoundingClientRect()
+  const parts = [title, steps, ...slide.querySelectorAll("*")].filter((item) => item.checkVisibility())
+  const out = parts.filter((item) => [...item.getClientRects()].some(({{ left, right, top, bottom }}) => (
+    top < 0 || bottom > innerHeight || wide > 0 && (right - left > wide + 1 || slide.contains(item) && bottom > room.bottom + 1))))
+  return [wide === 0 ? 1 : Math.round(slide.scrollWidth / wide), wide === 0 ? 0 : slide.scrollLeft / wide,
+    out.map((item) => item.textContent), found.filter((item) => item.matches(".step-controls .hand")).map((item) => item.clientWidth)]
+}}"""
+
+
+def test_in_a_hall_each_step_is_a_slide_of_which_the_clicker_skips_nothing(explorer):
+    page, count = explorer.page, explorer.page.locator(".lesson .count")
+    explorer.resize(1280, 720)
+    explorer.tell("present")
+    for lesson in package_lessons().values():
+        explorer.change(explorer.tell, "lesson", lesson.name)
+        for number, step in enumerate(lesson.steps, 1):
+            expect(count).to_have_text(f"{number} / {len(lesson.steps)}")
+            if step.controls:
+                wait_ready(page)
+            wait_frames(explorer, 2)
+            seen = set()
+            while count.text_content().startswith(f"{number} /"):
+                pages, at_page, out, hands = page.evaluate(SLIDE)
+                assert out == [], step.title
+                assert all(wide >= 200 for wide in hands), step.title
+                assert len(hands) == len(step.controls)
+                assert at_page == pytest.approx(round(at_page), abs=0.01)
+                seen.add(round(at_page))
+                if number == len(lesson.steps) and len(seen) == pages:
+                    break
+                page.keyboard.press("PageDown")
+                wait_frames(explorer, 2)
+            assert seen == set(range(pages)), step.title
+    explorer.tell("present")
+
+
 SIZES = {"present": (1600, 950), "phone": (390, 844)}
 # A lesson that is computed fast.  Narrow and wide windows have a test of their own.
 FAST = ((NAME, "present"),)
@@ -211,6 +254,15 @@ GIVEN = [
     for place in SIZES
 ]
 MOST_LINES = 6
+
+
+def read_on(tab):
+    """Turn the pages of a slide to the last."""
+    pages, at_page, *_ = tab.page.evaluate(SLIDE)
+    for _ in range(pages - 1 - round(at_page)):
+        tab.page.keyboard.press("PageDown")
+
+
 # [title, count, lines of the text, boxes of what must be in sight, width of the picture], after some frames.
 SHOWN = f"""async picture => {{
   {ALL}
@@ -269,6 +321,7 @@ def test_a_lesson_is_given_from_start_to_end(request, name, place):
             guess(tab, step.prediction, press)
             # The picture has taken none of the clicks.
             assert here(tab)[1] == step.at.values
+            read_on(tab)
             tab.change(page.keyboard.press, "PageDown")
             assert here(tab)[1] == step.prediction.then.values
             assert page.evaluate(SEEN, wanted) == [True]
@@ -279,10 +332,12 @@ def test_a_lesson_is_given_from_start_to_end(request, name, place):
         if step.question:
             answer = page.locator(".answer > div")
             assert answer.is_hidden()
+            read_on(tab)
             page.keyboard.press("PageDown")
             wait_frames(tab, 2)
             assert_in_sight(answer, 3)
         if number < len(lesson.steps):
+            read_on(tab)
             tab.change(page.keyboard.press, "PageDown")
     if place == "present":
         tab.tell("present")

@@ -3,6 +3,7 @@
 import base64
 import io
 
+import numpy as np
 import pytest
 from PIL import Image, ImageStat
 from playwright.sync_api import expect
@@ -10,7 +11,7 @@ from pytest import approx
 
 from hess_explorer.scenes import scenes
 from support.accessible import assert_accessible, contrast
-from support.page import HESS, SLIDERS, brought_on_phone, own_tab, wait_frames
+from support.page import ALL, HESS, SLIDERS, brought_on_phone, own_tab, wait_frames
 from support.thorough import sample
 
 SIZES = {"wide": (1600, 950), "laptop": (1280, 720), "phone": (390, 844), "sideways": (844, 390)}
@@ -89,6 +90,29 @@ def assert_covered(places, size, name):
     if len(boxes) >= 3:
         assert sum(box["width"] * box["height"] for box in boxes) >= COVERED[name] * width * height, name
         assert min(box["width"] for box in boxes) >= 150, name
+
+
+# Where the pictures in sight are, those that lead first and how many lead.
+HALL = f"""() => {{
+  {ALL}
+  const cells = all(document).filter((item) => item.matches(".gallery:not(.away) .picture") && item.checkVisibility())
+  const isAside = (item) => item.classList.contains("aside")
+  const boxes = cells.sort((a, b) => isAside(a) - isAside(b)).map((item) => {{
+    const {{ left, top, right, bottom, width }} = item.getBoundingClientRect()
+    return [left, top, right, bottom, width]
+  }})
+  return [boxes, cells.filter((item) => !isAside(item)).length]
+}}"""
+
+
+def assert_fills_hall(page, width, height, share, least):
+    boxes, leading = page.evaluate(HALL)
+    for left, top, right, bottom, edge in boxes:
+        assert 0 <= left < right <= width + 1
+        assert 0 <= top < bottom <= height + 1
+        assert edge >= least
+    left, top, right, bottom, _ = np.array(boxes[:leading]).T
+    assert max((max(right) - min(left)) / width, (max(bottom) - min(top)) / height) >= share
 
 
 def assert_in_sight(places, width, height, count, share=0.5):
@@ -198,6 +222,17 @@ def test_a_scene_has_its_columns_and_colours_and_nothing_is_covered_cut_off_or_h
     tab.resize(*SIZES["laptop"])
     assert_in_sight(places_of(tab.page, scene), *SIZES["laptop"], len(scenes()[scene].open_pictures))
     assert_covered(places_of(tab.page, scene), "laptop", "laptop")
+    tab.tell("present")
+    for size in ((1600, 950), (1920, 1080), SIZES["laptop"]):
+        tab.resize(*size)
+        # The strip can be read from afar.
+        assert_fills_hall(tab.page, *size, 0.9, 200)
+    for key in ("1", "Shift+Digit4", "m"):
+        tab.page.keyboard.press(key)
+        wait_frames(tab, 4)
+        assert_fills_hall(tab.page, *SIZES["laptop"], 0.9 if key == "1" else 0, 100 if key == "m" else 200)
+    tab.tell("present")
+    tab.page.keyboard.press("Escape")
     tab.resize(*SIZES["phone"])
     assert_looks(tab.page, scene, "phone", theme, artefacts)
 
