@@ -7,6 +7,7 @@
 import { stepControls } from "../controls/step_controls.js"
 import { gallery } from "../pictures/gallery.js"
 import { createGuess } from "../pictures/guess.js"
+import { lightNames } from "../pictures/named.js"
 import { createVeil } from "../pictures/veil.js"
 import { createAnimation } from "./animation.js"
 import { listen, tell } from "../base/bus.js"
@@ -55,6 +56,7 @@ export function render({ index, record, el }) {
   const controls = stepControls()
   const veil = createVeil()
   el.append(menu, ...(record ? [record.box] : []), panel, tries)
+  lightNames(el)
 
   /** @type {Lesson | null} */
   let lesson = null

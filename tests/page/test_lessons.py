@@ -75,6 +75,11 @@ CYCLES = "limit-cycles-and-locking"
 # Width of each planar picture in sight, as Bokeh has drawn it and as the page lays it out.
 WIDTHS = """() => hess.plots.filter(({ canvas_view: { el } }) => el.checkVisibility({ visibilityProperty: true }))
   .map(({ bbox, canvas_view: { el } }) => [bbox.width, el.clientWidth])"""
+# How many pixels of a canvas are not empty.
+PAINTED = """item => {
+  const { data } = item.getContext("2d").getImageData(0, 0, item.width, item.height)
+  return data.filter((alpha, i) => i % 4 === 3 && alpha > 0).length
+}"""
 # [lines of an element, how many of them can be seen at their places].
 LINES = """item => {
   const range = document.createRange()
@@ -101,6 +106,13 @@ def test_a_lesson_in_a_narrow_and_a_wide_window_keeps_text_slider_and_pictures_i
     wait_frames(explorer)
     assert sheet.evaluate("item => [getComputedStyle(item).outlineStyle, item.style.boxShadow]") == ["none", ""]
     assert sheet.evaluate("item => item.getRootNode().activeElement") is None
+    # Words light up what they name, while they are pointed at.
+    explorer.turn_to_step(6)
+    word, glow = page.locator(".lesson .names").filter(has_text="green cycle"), page.locator("canvas.glow")
+    word.hover()
+    assert glow.evaluate(PAINTED) > 500
+    page.locator(".lesson .title").hover()
+    expect(glow).to_have_count(0)
     # A narrow window has the text of the lesson; the slider follows what is animated, beside the text too.
     explorer.turn_to_step(7)
     explorer.resize(1280, 720)
@@ -206,14 +218,16 @@ def test_what_is_done_by_hand_is_recorded_and_replayed(explorer):
 SLIDE = f"""() => {{
   {ALL}
   const found = all(document)
-  const [slide, title, steps] = [".slide", ".lesson .title", ".lesson .steps"].map((selector) => found.find((item) => item.matches(selector)))
-  const wide = slide.clientWidth
-  const room = slide.getBoundingClientRect()
+  const [slide, title, steps] = [".slide", ".lesson .title", ".lesson .steps"]
+    .map((selector) => found.find((item) => item.matches(selector)))
+  const [wide, room] = [slide.clientWidth, slide.getBoundingClientRect()]
+  const isOut = (item) => [...item.getClientRects()].some(({{ left, right, top, bottom }}) => (
+    top < 0 || bottom > innerHeight
+    || wide > 0 && (right - left > wide + 1 || slide.contains(item) && bottom > room.bottom + 1)))
   const parts = [title, steps, ...slide.querySelectorAll("*")].filter((item) => item.checkVisibility())
-  const out = parts.filter((item) => [...item.getClientRects()].some(({{ left, right, top, bottom }}) => (
-    top < 0 || bottom > innerHeight || wide > 0 && (right - left > wide + 1 || slide.contains(item) && bottom > room.bottom + 1))))
-  return [wide === 0 ? 1 : Math.round(slide.scrollWidth / wide), wide === 0 ? 0 : slide.scrollLeft / wide,
-    out.map((item) => item.textContent), found.filter((item) => item.matches(".step-controls .hand")).map((item) => item.clientWidth)]
+  const [pages, page] = wide === 0 ? [1, 0] : [Math.round(slide.scrollWidth / wide), slide.scrollLeft / wide]
+  const hands = found.filter((item) => item.matches(".step-controls .hand")).map((item) => item.clientWidth)
+  return [pages, page, parts.filter(isOut).map((item) => item.textContent), hands]
 }}"""
 
 

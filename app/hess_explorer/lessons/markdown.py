@@ -15,12 +15,14 @@ from markdown_it.token import Token
 from mdit_py_plugins.dollarmath import dollarmath_plugin
 from mdit_py_plugins.front_matter import front_matter_plugin
 
-__all__ = ["BadFormula", "formula", "parser", "strict_parser", "to_html"]
+__all__ = ["LAYER", "BadFormula", "formula", "parser", "strict_parser", "to_html"]
 
 # A formula in a line and the stops after it, between which a browser would break the line.
 _STOPS = re.compile(r'(<span class="math inline">.*?</span>)([.,;:!?)]+)', re.DOTALL)
 _ELEMENT = re.compile(r"\{http://www\.w3\.org/1998/Math/MathML\}(m[a-z]+)")
 _CHILDREN = {"mfrac": 2, "mroot": 2, "msub": 2, "msup": 2, "munder": 2, "mover": 2, "msubsup": 3, "munderover": 3}
+LAYER = re.compile(r"[\w-]+/[\w-]+")
+"""Target of a link to a layer of a picture."""
 _COMMAND = re.compile(r"\\(?:[A-Za-z]+|.)")
 
 
@@ -83,8 +85,13 @@ def _image(_: object, tokens: Sequence[Token], i: int, options: object, env: Map
 
 
 def _link(renderer: Any, tokens: Sequence[Token], i: int, options: Any, env: Any) -> str:
-    """Let links to other hosts open a new tab, so that the lesson stays open."""
-    if not str(tokens[i].attrs["href"]).startswith("?"):
+    """Open links to other hosts in a new tab, so that the lesson stays open; a link to a layer is a button."""
+    target = str(tokens[i].attrs["href"])
+    if LAYER.fullmatch(target):
+        end = next(token for token in tokens[i:] if token.type == "link_close")
+        tokens[i].tag = end.tag = "button"
+        tokens[i].attrs = {"class": "names", "value": target}
+    elif not target.startswith("?"):
         tokens[i].attrSet("target", "_blank")
         tokens[i].attrSet("rel", "noopener")
     found: str = renderer.renderToken(tokens, i, options, env)

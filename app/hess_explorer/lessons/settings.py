@@ -34,6 +34,7 @@ __all__ = [
     "hidden_of",
     "is_number",
     "look_of",
+    "named_of",
     "only",
     "pictures_of",
     "place_of",
@@ -176,6 +177,12 @@ def hidden_of(value: object, scene: Scene[Any], line: int) -> HiddenLayer | None
         return None
     plot, layer = _layer(only(value, "hide", ("picture", "layer"), line), "hide", scene, line)
     return HiddenLayer(plot.name, plot.source_of(layer))
+
+
+def named_of(target: str, scene: Scene[Any], line: int) -> None:
+    """Raise an error unless "picture/layer" names a curve or points of a planar picture."""
+    given = dict(zip(("picture", "layer"), target.split("/"), strict=True))
+    _layer(given, f"{target!r}", scene, line, (*_CURVES, *_POINTS))
 
 
 def prediction_of(value: object, place: StateLink, line: int) -> Prediction | None:
