@@ -135,7 +135,8 @@ def test_html_of_a_lesson_is_text_and_it_asks_no_other_host():
 
 
 def test_what_can_be_shown_is_no_problem():
-    text = r"""Costs \$5, $x$ and $$y$$, `$z[^1]`, *not* \[^1], [a](https://a.org/b?c=d) <https://a.org>, [$d$](omega/orbit).
+    text = r"""Costs \$5, $x$ and $$y$$, `$z[^1]`, *not* \[^1], [a](https://a.org/b?c=d) <https://a.org>,
+and [$d$](omega/orbit).
 
 | $a$ | b |
 |-----|---|
