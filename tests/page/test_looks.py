@@ -264,6 +264,20 @@ def test_a_phone_has_all_of_it_and_one_hand_suffices(look_at, artefacts, scene, 
     reader.evaluate("item => item.scrollTo(0, 0)")
 
 
+# Sums up how far the layout shifts without a hand.
+SHIFTS = """window.shifted = 0
+new PerformanceObserver((list) => { for (const { value } of list.getEntries()) window.shifted += value })
+  .observe({ type: "layout-shift", buffered: true })"""
+
+
+@pytest.mark.parametrize("size", ["laptop", "wide"])
+def test_nothing_moves_while_the_page_loads(browser, server, size):
+    with own_tab(browser, server, SIZES[size], SHIFTS) as tab:
+        tab.goto(f"/?scene={HESS}")
+        wait_frames(tab, 4)
+        assert tab.page.evaluate("window.shifted") <= 0.05
+
+
 def edges(page):
     return [box["width"] for box in places_of(page, HESS)["boxes"]]
 
@@ -407,7 +421,9 @@ def test_every_control_is_reached_by_the_tab_key_and_every_stop_has_a_name(look_
         "text",
     ]
     # The first picture comes soon, and the player before the groups of controls.
-    assert next(i for i, stop in enumerate(stops) if stop.startswith("CANVAS")) < 12
+    at = {name: next(i for i, stop in enumerate(stops) if name in stop) for name in ("CANVAS", "param-play", "exact")}
+    assert at["CANVAS"] <= 12
+    assert at["param-play"] < at["exact"]
     assert {"sphere", "corner", *(f"param-{name}" for name in (*tools, *SLIDERS))} <= reached
     # Each that is disabled says why.
     said = page.locator(":disabled").evaluate_all("items => items.map((item) => item.title)")
