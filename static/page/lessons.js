@@ -121,7 +121,6 @@ export function render({ index, record, el }) {
     }
     expected = step
     panel.classList.toggle("alone", isAlone)
-    controls.fill(step.controls)
     const title = element("h2.title", { innerHTML: step.title, tabIndex: -1 })
     const progress = element("progress", { max: lesson.steps.length, value: at + 1, ariaLabel: "Steps" })
     panel.replaceChildren(
@@ -138,6 +137,7 @@ export function render({ index, record, el }) {
           ? button("button.param-leave-lesson", leave, { title: "Show the whole page (Esc)" }, "Skip")
           : button("button.param-leave-lesson", leave, { title: "Leave the lesson" }, "Leave")]),
         element("div.where", progress, element("span.count", `${at + 1} / ${lesson.steps.length}`)))))
+    controls.fill(step.controls, panel.querySelectorAll("button.drag"))
     said.hidden = guess === null
     buttons.hidden = guess === null && animation === null
     tell("url", { lesson: lesson.name, step: String(at + 1) })

@@ -85,6 +85,7 @@ MISTAKES = [
     ("It stays.", "[It](javascript:stays)", 21, "'javascript:stays' leads nowhere"),
     ("It stays.", "[It](circel/stable)", 21, "picture of 'circel/stable' must be one of omega, bifurcation, circle"),
     ("It stays.", "It\n[stays](circle/stabel)", 22, "layer of 'circle/stabel' must be one of"),
+    ("It stays.", "It [stays](drag:circle)", 21, "a number to drag must be one of I22"),
     ("It stays.", "```step\nlook: omega\n```\n```step\n```", 24, "two fences named step"),
 ]
 
@@ -136,7 +137,7 @@ def test_html_of_a_lesson_is_text_and_it_asks_no_other_host():
 
 def test_what_can_be_shown_is_no_problem():
     text = r"""Costs \$5, $x$ and $$y$$, `$z[^1]`, *not* \[^1], [a](https://a.org/b?c=d) <https://a.org>,
-and [$d$](omega/orbit).
+and [$d$](omega/orbit) at [0.5](drag:h).
 
 | $a$ | b |
 |-----|---|
@@ -150,6 +151,7 @@ and [$d$](omega/orbit).
     assert '<a href="?scene=suslov-hess&amp;h=1.5">c</a>' in html
     assert '<a href="https://a.org" target="_blank" rel="noopener">' in html
     assert '<button class="names" value="omega/orbit"><span' in html
+    assert '<button class="drag" value="h">0.5</button>.' in html
     # A displayed formula can stand in a line.
     assert ' and <span class="math"><math' in html and 'display="block"' in html
 

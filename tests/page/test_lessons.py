@@ -133,6 +133,17 @@ def test_a_lesson_in_a_narrow_and_a_wide_window_keeps_text_slider_and_pictures_i
     moved = float(explorer.wait_url(h=column.input_value())["h"])
     assert moved > steps[9].at.values["h"]
     assert beside.input_value() == column.input_value()
+    # So it is when a number in the text is dragged or moved by a key.
+    word, number = page.locator(".lesson .drag"), page.locator(".lesson .drag .scrub")
+    explorer.change(word.press, "ArrowRight")
+    before = float(beside.input_value())
+    assert float(number.inner_text()) == before > moved
+    x, y, wide, high = number.bounding_box().values()
+    page.mouse.move(x + wide / 2, y + high / 2)
+    page.mouse.down()
+    explorer.change(page.mouse.move, x + wide / 2 + 30, y + high / 2)
+    page.mouse.up()
+    assert float(number.inner_text()) == float(beside.input_value()) > before
     explorer.resize(*WIDE)
     assert page.locator(".step-controls").is_hidden()
     # A picture has its new size in a scene that is entered again.

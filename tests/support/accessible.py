@@ -16,7 +16,7 @@ OPTIONS = {
 
 
 def assert_accessible(page, part=None):
-    """No rule of WCAG 2, A and AA, or good practice (landmarks) is broken by the page, or by a part alone, which is faster."""
+    """No rule of WCAG 2, A and AA, or of good practice is broken by the page, or by a part alone, which is faster."""
     page.evaluate(Axe().axe_script)
     found = (part or page.locator("html")).evaluate("(item, options) => axe.run(item, options)", OPTIONS)
     assert [(rule["id"], node["html"][:200]) for rule in found["violations"] for node in rule["nodes"]] == []

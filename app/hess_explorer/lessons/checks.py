@@ -10,8 +10,8 @@ from markdown_it.token import Token
 
 from hess_explorer.lessons.images import ImageError, Images
 from hess_explorer.lessons.lesson import LessonError
-from hess_explorer.lessons.markdown import LAYER, BadFormula, formula, strict_parser
-from hess_explorer.lessons.settings import named_of, place_of
+from hess_explorer.lessons.markdown import DRAGGED, LAYER, BadFormula, formula, strict_parser
+from hess_explorer.lessons.settings import dragged_of, named_of, place_of
 from hess_explorer.scenes.framework.scene import Scene
 
 __all__ = ["problems_in"]
@@ -71,6 +71,9 @@ def _check(token: Token, at: int, images: Images, scene: Scene[Any] | None) -> N
         elif LAYER.fullmatch(target):
             if scene is not None:
                 named_of(target, scene, at)
+        elif number := DRAGGED.fullmatch(target):
+            if scene is not None:
+                dragged_of(number[2], scene, at)
         elif not re.match(r"https?://[^/]", target, re.IGNORECASE):
             ways = "https://…, ?scene=… for a state of the page, or picture/layer for what a picture shows"
             raise LessonError(f"the link to {_short(target)} leads nowhere: write {ways}.", at)

@@ -15,14 +15,14 @@ from markdown_it.token import Token
 from mdit_py_plugins.dollarmath import dollarmath_plugin
 from mdit_py_plugins.front_matter import front_matter_plugin
 
-__all__ = ["LAYER", "BadFormula", "formula", "parser", "strict_parser", "to_html"]
+__all__ = ["DRAGGED", "LAYER", "BadFormula", "formula", "parser", "strict_parser", "to_html"]
 
 # A formula in a line and the stops after it, between which a browser would break the line.
 _STOPS = re.compile(r'(<span class="math inline">.*?</span>)([.,;:!?)]+)', re.DOTALL)
 _ELEMENT = re.compile(r"\{http://www\.w3\.org/1998/Math/MathML\}(m[a-z]+)")
 _CHILDREN = {"mfrac": 2, "mroot": 2, "msub": 2, "msup": 2, "munder": 2, "mover": 2, "msubsup": 3, "munderover": 3}
-LAYER = re.compile(r"[\w-]+/[\w-]+")
-"""Target of a link to a layer of a picture."""
+LAYER, DRAGGED = re.compile(r"()([\w-]+/[\w-]+)"), re.compile(r"(drag:)(\w+)")
+"""Target of a link to a layer of a picture, and of a number that can be dragged."""
 _COMMAND = re.compile(r"\\(?:[A-Za-z]+|.)")
 
 
@@ -85,17 +85,17 @@ def _image(_: object, tokens: Sequence[Token], i: int, options: object, env: Map
 
 
 def _link(renderer: Any, tokens: Sequence[Token], i: int, options: Any, env: Any) -> str:
-    """Open links to other hosts in a new tab, so that the lesson stays open; a link to a layer is a button."""
+    """Open links to other hosts in a new tab, so that the lesson stays open; names and numbers are buttons."""
     target = str(tokens[i].attrs["href"])
-    if LAYER.fullmatch(target):
+    if found := LAYER.fullmatch(target) or DRAGGED.fullmatch(target):
         end = next(token for token in tokens[i:] if token.type == "link_close")
         tokens[i].tag = end.tag = "button"
-        tokens[i].attrs = {"class": "names", "value": target}
+        tokens[i].attrs = {"class": "drag" if found[1] else "names", "value": found[2]}
     elif not target.startswith("?"):
         tokens[i].attrSet("target", "_blank")
         tokens[i].attrSet("rel", "noopener")
-    found: str = renderer.renderToken(tokens, i, options, env)
-    return found
+    html: str = renderer.renderToken(tokens, i, options, env)
+    return html
 
 
 def to_html(text: str, images: Mapping[str, str] | None = None, inline: bool = False) -> str:

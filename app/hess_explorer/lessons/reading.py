@@ -17,7 +17,8 @@ contains its settings as YAML; the headings "Question" and "Answer" one level do
     hide: {picture: omega, layer: stable}
     predict: {picture: circle, layer: stable, then: "?scene=suslov-hess&h=1.5&f=0.6"}
     ```
-    Text with $formulas$, and words that light up a layer of a picture: the [stable cycle](omega/stable).
+    Text with $formulas$, words that light up a layer of a picture, like [stable cycle](omega/stable), and numbers
+    that can be dragged, like [0.5](drag:h).
     ### Question
     ### Answer
 

@@ -30,6 +30,7 @@ __all__ = [
     "animation_of",
     "controls_of",
     "corrections",
+    "dragged_of",
     "example_of",
     "hidden_of",
     "is_number",
@@ -183,6 +184,11 @@ def named_of(target: str, scene: Scene[Any], line: int) -> None:
     """Raise an error unless "picture/layer" names a curve or points of a planar picture."""
     given = dict(zip(("picture", "layer"), target.split("/"), strict=True))
     _layer(given, f"{target!r}", scene, line, (*_CURVES, *_POINTS))
+
+
+def dragged_of(name: str, scene: Scene[Any], line: int) -> None:
+    """Raise an error unless a number of the scene has this name."""
+    _one_of(name, "a number to drag", [spec.name for spec in scene.specs if isinstance(spec, NumberSpec)], line)
 
 
 def prediction_of(value: object, place: StateLink, line: int) -> Prediction | None:
