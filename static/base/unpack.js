@@ -1,7 +1,7 @@
 // @ts-check
 // Columns of a state from its tree and its block of single-precision numbers, see "protocol/wire.py".
 
-/** @typedef {{at: number, n: number, shape?: [number, number]}} Packed */
+/** @typedef {{at: number, n: number, shape?: [number, number], shorts?: number}} Packed */
 
 /**
  * Return [name, columns] of each source.
@@ -14,6 +14,7 @@ export function unpack(sources, block) {
   const place = (item) => {
     if (Array.isArray(item)) return item.map(place)
     if (typeof item !== "object" || item === null) return item
+    if (item.shorts !== undefined) return new Int16Array(block, 4 * item.at, item.shorts)
     const numbers = new Float32Array(block, 4 * item.at, item.n)
     if (item.shape === undefined) return numbers
     const [rows, columns] = item.shape

@@ -68,13 +68,13 @@ export function render({ el }) {
   function show() {
     const usable = source !== null && source.data.t?.length > 1
     const state = usable ? stateAt(source.data, scene.angles, t) : null
-    for (const [name, [x, y]] of Object.entries(scene.dots)) {
-      gallery.source(name).put(state ? { x: [state[x]], y: [state[y]] } : { x: [], y: [] })
-    }
     slider.valueAsNumber = t
     output.textContent = `t = ${t.toFixed(2)}`
     slider.ariaValueText = `${output.textContent} of ${end().toFixed(2)}`
     tell("time", { t, state })
+    for (const [name, [x, y]] of Object.entries(scene.dots)) {
+      gallery.source(name).put(state ? { x: [state[x]], y: [state[y]] } : { x: [], y: [] })
+    }
   }
 
   /** @param {number} to */

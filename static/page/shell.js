@@ -160,8 +160,9 @@ export function buildPage(model, host, { mount, bar, lessons, styles }, el) {
   el.classList.add("frame")
   el.append(
     ...styles, skipTo(controls), element("header.bar", ...bar, element("div.news", text("busy"))),
-    stage, element("aside.side", { ariaLabel: "Controls and text" }, tabsOf({ Controls: controls, Text: reader }), controls, reader),
-    element("div.foot", text("notes"), mount("status", renderStatus, {}, element("div.status-line"))), opener("a.opener", "Open in Hess Explorer"), drawer(el), spot())
+    stage, element("aside.side", { ariaLabel: "Controls and text" }, tabsOf({ Controls: controls, Text: reader }), controls, reader,
+      opener("a.opener", "Open in Hess Explorer")),
+    element("div.foot", text("notes"), mount("status", renderStatus, {}, element("div.status-line"))), drawer(el), spot())
   el.append(announcer(sentencesAbove(el, stage, reading)))
   wear(el)
   listen({

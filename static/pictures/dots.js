@@ -3,6 +3,7 @@
 // that move in time on a canvas of their own: while a scene plays, Bokeh has nothing to paint.
 
 import { circlePath, shade } from "./looks.js"
+import { drawBeads } from "./swarm.js"
 
 /** Begin a path with a triangle that points downwards; its centre is at (x, y). @type {typeof circlePath} */
 function trianglePath(ctx, x, y, radius) {
@@ -17,12 +18,15 @@ const PATHS = { circle: circlePath, inverted_triangle: trianglePath }
 
 /**
  * Return the painter of moving points, see `frameCanvas`.
- * @param {{source: string, marker: string, size: number, line_width: number, line_color: string, fill_color: string}[]} layers
+ * @param {{source: string, columns: string[], marker: string, size: number, line_width: number, line_color: string, fill_color: string}[]} layers
  * @param {FindSource} source
  * @returns {PaintFrame}
  */
 export function movingPointsPainter(layers, source) {
   return (ctx, xScale, yScale, larger) => {
+    for (const { columns } of layers) {
+      drawBeads(ctx, source("data-swarm"), columns, ([x, y], i) => [xScale.compute(x[i]), yScale.compute(y[i])])
+    }
     for (const { source: name, marker, size, line_width: width, line_color: line, fill_color: filling } of layers) {
       const { x: [x] = [], y: [y] = [] } = source(name).data
       if (x === undefined) continue

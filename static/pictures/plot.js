@@ -69,6 +69,7 @@ function addCanvases(plot, { cells, dots, points }, source) {
       // Nothing else is painted then.
       if (isMoving) source(layer.source).watch(canvas.draw)
     }
+    if (isMoving) source("data-swarm").watch(canvas.request)
     listen({ paint: canvas.draw })
   }
   add(cells, [primary.el, "before"], cellsPainter)

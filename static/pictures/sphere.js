@@ -14,6 +14,7 @@ import { FAINT } from "./ghost.js"
 import { circlePath, drawMark, LOOKS } from "./looks.js"
 import { pointLayer } from "./point_layer.js"
 import { curvesOf } from "./sources.js"
+import { drawBeads } from "./swarm.js"
 import { turnable } from "./turnable.js"
 import { circle, graticule, scaled } from "./vectors.js"
 
@@ -122,12 +123,15 @@ export function sphere(el, options, source, isShown) {
 
   /** @param {Sheet} on */
   function paintPoint(on) {
+    const { ctx, px, py, depth } = on
+    drawBeads(ctx, source("data-swarm"), inSpace ? ["mx", "my", "mz"] : ["g1", "g2", "g3"], ([x, y, z], i) => (
+      [px(x[i], y[i]), py(x[i], y[i], z[i]), depth(x[i], y[i], z[i]) >= 0]))
     if (point !== null) drawPoint(on, point, on.isNear(point))
   }
 
   return turnable(el, inSpace ? "solid" : "sphere", {
     name: options.name, title: options.title ?? "Poisson sphere", what: "sphere", isShown,
-    sources: [options.name, ...Object.keys(options.tracks), options.clouds, options.attitude].filter(Boolean).map(source),
+    sources: [options.name, ...Object.keys(options.tracks), options.clouds, options.attitude, "data-swarm"].filter(Boolean).map(source),
     hear({ t, state }) {
       point = inSpace || state?.g1 === undefined ? null : [state.g1, state.g2, state.g3]
       if (guest !== null) guest.t = t

@@ -11,6 +11,7 @@ import { LOOKS } from "./looks.js"
 import { between } from "./moment.js"
 import { createRevolved, outline } from "./revolved.js"
 import { curvesOf } from "./sources.js"
+import { drawBeads } from "./swarm.js"
 import { turnable } from "./turnable.js"
 import { circle, scaled } from "./vectors.js"
 
@@ -75,6 +76,10 @@ export function torus(el, options, source, isShown) {
   function paintMoving(sheet) {
     if (!(own.data.radius?.length > 2)) return
     const on = onSurface(sheet)
+    drawBeads(sheet.ctx, source("data-swarm"), ["x", "y", "z"], ([x, y, z], i) => {
+      const at = sheet.at([x[i], y[i], z[i]])
+      return [...at, surfaceOf(sheet).shows(...at, sheet.depth(x[i], y[i], z[i]), ON_IT)]
+    })
     for (const [name, curve, times] of curves()) {
       if (times === undefined) continue
       const path = until(curve, times)
@@ -137,7 +142,7 @@ export function torus(el, options, source, isShown) {
 
   return turnable(el, "torus", {
     name: options.name, title: "The torus in space", what: "torus", isShown,
-    sources: [options.name, ...Object.keys(options.curves)].map(source), hear(now) { t = now.t }, paint, paintMoving,
+    sources: [options.name, ...Object.keys(options.curves), "data-swarm"].map(source), hear(now) { t = now.t }, paint, paintMoving,
     take: () => ({ radius: own.data.radius, height: own.data.height, list: curves() }),
     paintGhost(on, { radius, height, list }) {
       if (!(radius?.length > 2)) return

@@ -197,10 +197,11 @@ def test_what_is_refused_or_fails_ends_the_work_with_a_sentence(free_gate, caplo
         (refuse, "7 is refused: choose another."),
         (fail, "A part of this state could not be computed. Please report the link."),
     ):
-        work.follow([*tasks(2), Task(function, 7), *tasks(500, first=10)])
+        work.follow([*tasks(2), Task(function, 7), *tasks(20_000, first=10)])
         wait_until(lambda: work.backlog == 0)
         assert work.error == sentence
-        assert len(free_gate.calls) < 200
+        # The other thread has not done much meanwhile.
+        assert len(free_gate.calls) < 10_000
         # The threads live on.
         work.follow(tasks(4, first=900))
         wait_until(lambda: work.backlog == 0)

@@ -43,6 +43,8 @@ COST = re.compile(r"\d (ms|s)\b|^auto")
 DIGITS = re.compile(r"(?<![\w₀-₉])(?:−?\d+(?:,\d{3})*(?:\.\d+)?(?:e[−+]?\d+)?|#)")
 ROUND_OFF = 1e-5
 """Smaller numbers in texts are errors."""
+NOTHING = 1e-12
+"""Columns of smaller numbers are 0 but for round-off."""
 COUNTED = re.compile(r"\d[\d,]*(?= (?:Taylor steps|steps|points))|(?<=crossing )\d+")
 """Numbers in the status line that are those of adaptive steps."""
 
@@ -205,7 +207,7 @@ def are_alike(expected, found):
     if isinstance(expected[0], str | None) and isinstance(found[0], str):
         return all(map(are_alike, expected, found))
     (count, *numbers), (own, *others) = expected, found
-    within = PIXEL * size_of(expected, found)
+    within = max(PIXEL * size_of(expected, found), NOTHING)
     if count not in (None, own):
         if count <= FEW or abs(count - own) > count / 20:
             return False

@@ -419,7 +419,7 @@ def one_tab(browser, server):
 
 
 def brought_on_phone(phone_tab, scene=HESS):
-    """The page on a phone in the first state of a scene, with its first picture."""
+    """The page on a phone in the first state of a scene, with its first picture and control."""
     page = phone_tab.page
     phone_tab.leave_lesson()
     phone_tab.turn_theme(is_dark=False)
@@ -427,6 +427,7 @@ def brought_on_phone(phone_tab, scene=HESS):
         phone_tab.resize(*PHONE)
     phone_tab.show(scene)
     phone_tab.turn_to(scenes()[scene].pictures[0])
+    page.locator(".chooser button").evaluate_all("([first]) => first?.click()")
     page.evaluate(HOMEWARDS)
     phone_tab.change(phone_tab.tell, "reset")
     return phone_tab

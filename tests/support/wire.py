@@ -24,7 +24,9 @@ def read(item, block):
     if isinstance(item, list):
         return [read(part, block) for part in item]
     if isinstance(item, dict):
-        assert {"at", "n"} <= set(item) <= {"at", "n", "shape"}
+        assert {"at", "n"} <= set(item) <= {"at", "n", "shape", "shorts"}
+        if "shorts" in item:
+            return np.frombuffer(block, "<i2", count=item["shorts"], offset=4 * item["at"])
         array = np.frombuffer(block, "<f4", count=item["n"], offset=4 * item["at"])
         return array.reshape(item["shape"]) if "shape" in item else array
     return item

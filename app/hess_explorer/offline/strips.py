@@ -63,12 +63,14 @@ def steps_of_plots(plots: Sequence[tuple[Plot[Any], Axes]]) -> dict[str, dict[st
 
 def _step(values: Array, column: str, known: float | None) -> float:
     """Return the quantisation step of an array in single precision; `known` is the step of its plot, if any."""
+    if known == EXACT:
+        return EXACT
     finite = values[np.isfinite(values)]
     if len(finite) == 0:
         return 1.0
     low, high = float(finite.min()), float(finite.max())
     extent = high - low
-    if known == EXACT or np.isinf(values).any():
+    if np.isinf(values).any():
         return EXACT
     if extent < _SPAN and np.array_equal(finite, np.rint(finite)):
         return 1.0
@@ -123,7 +125,8 @@ class OfflineStrip:
             if not (isinstance(item, dict) and "at" in item):
                 return item
             values = numbers[item["at"] : item["at"] + item["n"]]
-            number = places[path] = self._array(values, column, steps.get(source, {}).get(column), self._last.get(path))
+            known = EXACT if "shorts" in item else steps.get(source, {}).get(column)
+            number = places[path] = self._array(values, column, known, self._last.get(path))
             return {**item, "at": self._starts[number]}
 
         sources = {

@@ -18,6 +18,7 @@ from hess_explorer.page.lesson_description import steps
 from hess_explorer.protocol.specs import ChoiceSpec, Controlled, NumberSpec
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Scene
+from hess_explorer.scenes.framework.swarm import SWARM
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import with_formulas
 from hess_explorer.views.theme import SHADES
@@ -30,17 +31,21 @@ __all__ = ["describe", "without_gestures"]
 def describe(name: str) -> str:
     """Return the description of a scene as JSON, which all sessions share."""
     scene = scenes()[name]
+    # "Speed and accuracy" has the parameters of a scene, but not its beads.
+    groups = [*GROUPS, *(["Swarm"] if SWARM in scene.tracks else []), "Chart"]
     text = json.dumps(
         {
             "name": scene.name,
             "title": scene.title,
             "pictures": [{**view.describe(), "folded": view.button or None} for view in scene.views],
-            "controls": [_control(spec) for spec in scene.specs if isinstance(spec, Controlled)],
+            "controls": [
+                _control(spec) for spec in scene.specs if isinstance(spec, Controlled) and spec.group in groups
+            ],
             "essential": list(scene.essential),
             "handle": _handle(scene),
             "moves": scene.moves,
             "lead": list(scene.lead or scene.open_pictures[:1]),
-            "groups": [*GROUPS, "Chart"],
+            "groups": groups,
             "drawn": not all(isinstance(spec, Controlled) for spec in scene.specs),
             "presets": [preset.name for preset in scene.presets],
             "legend": scene.legend,

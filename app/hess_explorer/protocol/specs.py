@@ -79,7 +79,7 @@ class ChoiceSpec:
     options: tuple[str, ...]
     default: str
     doc: str = ""
-    group: Group | Literal["Chart"] = "Computation"
+    group: Group | Literal["Swarm", "Chart"] = "Computation"
 
     def read(self, given: Value) -> tuple[str, str | None]:
         """Return the option of that name; otherwise the default and a note, which does not quote the text.

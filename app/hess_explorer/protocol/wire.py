@@ -53,14 +53,17 @@ class Wire:
         """Return the tree and the block of all collected changes, and clear them.
 
         The tree has the keys "sources", "ranges", "texts", "captions" and "controls".  It represents an array by
-        {"at": first, "n": length}, counted in single-precision numbers, and its "shape" unless that is (n,).  Lists and
-        plain values are copied.
+        {"at": first, "n": length}, counted in single-precision numbers, and its "shape" unless that is (n,).  Of an
+        array of 16-bit integers, two to such a number, "shorts" is the length.  Lists and plain values are copied.
         """
         blocks: list[np.ndarray] = []
         position = 0
 
         def place(item: Any) -> Any:
             nonlocal position
+            if isinstance(item, np.ndarray) and item.dtype == np.int16:
+                pairs = np.resize(item.astype("<i2"), (item.size + 1) // 2 * 2).view("<f4")
+                return {**place(pairs), "shorts": item.size}
             if isinstance(item, np.ndarray):
                 block = np.ascontiguousarray(item, dtype="<f4")
                 blocks.append(block)

@@ -18,6 +18,7 @@ from hess_explorer.scenes.framework.part import part
 from hess_explorer.scenes.framework.scene import Preset, Scene
 from hess_explorer.scenes.framework.sliders import choice, number, parameter
 from hess_explorer.scenes.framework.solid_body import solid_body
+from hess_explorer.scenes.framework.swarm import turned_swarm
 from hess_explorer.scenes.parts.sections import (
     PLAIN,
     Section,
@@ -249,6 +250,7 @@ SCENE = Scene(
     lead=("section",),
     title="Ball with a field",
     summary="The ball in a field: a section at one energy shows curves, seas and, with I₁₃ or I₂₃, attractors.",
+    swarm=turned_swarm(),
     tracks={"orbit": lambda s: orbit_columns(s.orbit.path)},
     views=(
         solid_body(ball=True),

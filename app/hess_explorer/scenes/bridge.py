@@ -333,6 +333,7 @@ SCENE = Scene(
     answers=(Answer("Two bodies, one motion: a heavy top and a body on wheels, translated into each other."),),
     title="Bridge: Suslov and Euler–Poisson",
     summary="The Suslov–Hess case and the Hess case of Euler–Poisson are one system: two orbits and their difference.",
+    swarm=hess_case.torus_swarm(lambda s: (s.bridge.hess, s.turning_points.h, s.turning_points.f, s.phi0, s.map)),
     tracks={"orbit": BothSides.orbit_columns, **hess_case.CYCLE_TRACKS},
     angles=("phi", "phi_start", "l"),
     views=(

@@ -16,6 +16,7 @@ from hess_explorer.scenes.framework.circle_left import DIGITS, PHI, Gamma_pictur
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
 from hess_explorer.scenes.framework.sliders import accuracy_level, parameter, time_span
 from hess_explorer.scenes.framework.solid_body import Solid, constrained_solid, solid_body
+from hess_explorer.scenes.framework.swarm import turned_swarm
 from hess_explorer.scenes.framework.trial import Trial, curve_error
 from hess_explorer.scenes.framework.work import orbit_status
 from hess_explorer.scenes.parts.orbits.proof import OrbitProof, show_proved_error
@@ -272,6 +273,7 @@ SCENE = Scene(
     lead=("curve",),
     title="Chaplygin ball",
     summary="A ball rolls inside the body: every orbit crosses a strip between two ellipses, from Nᵘ to Nˢ.",
+    swarm=turned_swarm(),
     tracks={"orbit": lambda s: plane.orbit_columns(s.orbit.path, Gamma=s.Gamma)},
     views=(
         solid_body(ball=True, field=False),

@@ -17,6 +17,7 @@ from hess_explorer.scenes.framework.part import Start, part
 from hess_explorer.scenes.framework.periodic_search import NONE, ClosedOrbit
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene
 from hess_explorer.scenes.framework.solid_body import Solid, constrained_solid, solid_body
+from hess_explorer.scenes.framework.swarm import turned_swarm
 from hess_explorer.scenes.framework.windows import box_window
 from hess_explorer.scenes.parts.diagrams.controls import (
     BACKWARD,
@@ -200,6 +201,7 @@ def diagram_scene(
         module,
         presets=presets,
         charts=Charts((section,), over=("h", "I13")),
+        swarm=turned_swarm(),
         tracks={"orbit": lambda s: orbit_columns(s.orbit.path, turning=s.vertical_rate)},
         views=_pictures(state, ball),
         **words,

@@ -29,6 +29,7 @@ from hess_explorer.scenes.framework.sliders import (
     time_span,
 )
 from hess_explorer.scenes.framework.solid_body import Solid, heavy_solid, solid_body
+from hess_explorer.scenes.framework.swarm import turned_swarm
 from hess_explorer.scenes.framework.windows import inside
 from hess_explorer.scenes.parts.diagrams.hess_split import HessSplit, split_picture
 from hess_explorer.scenes.parts.orbits.exponent import exponent_picture, exponent_trial
@@ -337,6 +338,7 @@ SCENE = Scene(
     ),
     title="Euler–Poisson: sections",
     summary="A heavy body near the Hess case: two stochastic layers with a barrier between them, a meandering torus.",
+    swarm=turned_swarm(lambda s, states: dict(zip("lx", s.poincare.places_of(states).T, strict=True)), angles=("l",)),
     tracks={"orbit": EulerPoisson.track},
     angles=("l",),
     views=(

@@ -18,6 +18,7 @@ from hess_explorer.scenes.framework.circle_left import Gamma_picture
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
 from hess_explorer.scenes.framework.sliders import ONE_TURN, Slider, accuracy_level, choice, parameter, time_span
 from hess_explorer.scenes.framework.solid_body import Solid, constrained_solid, solid_body
+from hess_explorer.scenes.framework.swarm import turned_swarm
 from hess_explorer.scenes.framework.work import orbit_status
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
@@ -306,6 +307,7 @@ SCENE = Scene(
     ),
     title="Free Suslov problem",
     summary="No field: ω passes from an unstable to a stable state; γ leaves one circle and joins another.",
+    swarm=turned_swarm(),
     tracks={
         "orbit": FreeSuslov.orbit_columns,
         "second": lambda s: plane.velocity_columns(None, s.second.omega, s.second.gamma),

@@ -24,6 +24,7 @@ from hess_explorer.scenes.framework.sliders import (
     time_span,
 )
 from hess_explorer.scenes.framework.solid_body import Solid, constrained_solid, solid_body
+from hess_explorer.scenes.framework.swarm import turned_swarm
 from hess_explorer.scenes.framework.work import orbit_status
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
@@ -352,6 +353,7 @@ SCENE = Scene(
     lead=("period",),
     title="Principal axis, b₃ = 0",
     summary="Parabolas in an ellipse: all orbits are periodic, except those that touch the equator from inside.",
+    swarm=turned_swarm(lambda s, states: dict(zip(("q1", "q2"), s.body.to_plane(states)[0].T, strict=True))),
     tracks={"orbit": Kharlamova.orbit_columns},
     views=(
         solid_body(),

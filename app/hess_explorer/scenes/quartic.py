@@ -16,6 +16,7 @@ from hess_explorer.scenes.framework.part import Start, part
 from hess_explorer.scenes.framework.scene import Preset, Scene
 from hess_explorer.scenes.framework.sliders import Slider, number, parameter, slider_within, time_span
 from hess_explorer.scenes.framework.solid_body import solid_body
+from hess_explorer.scenes.framework.swarm import turned_swarm
 from hess_explorer.scenes.framework.windows import Window
 from hess_explorer.scenes.parts.sections import (
     PLAIN,
@@ -236,6 +237,7 @@ SCENE = Scene(
     lead=("section",),
     title="Principal axis, b₁ = b₂ = 0",
     summary="The body as a point in a quartic potential: integrable for I₁₁ = I₂₂, else curves and seas in a section.",
+    swarm=turned_swarm(lambda s, states: dict(zip(("q1", "q2"), s.body.to_plane(states)[0].T, strict=True))),
     tracks={
         "orbit": lambda s: plane_domain.plane_columns(
             s.orbit.path, s.body.to_plane(s.orbit.path.states)[0], momentum=s.momentum

@@ -17,6 +17,7 @@ from hess_explorer.scenes.framework.circle_left import CIRCLES, DIGITS, PHI, sph
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
 from hess_explorer.scenes.framework.sliders import Slider, accuracy_level, parameter
 from hess_explorer.scenes.framework.solid_body import Solid, constrained_solid, solid_body
+from hess_explorer.scenes.framework.swarm import turned_swarm
 from hess_explorer.scenes.framework.trial import Trial, curve_error
 from hess_explorer.scenes.framework.work import drift_status
 from hess_explorer.views import theme
@@ -243,6 +244,7 @@ SCENE = Scene(
     lead=("curve",),
     title="Scattering",
     summary="No field: the circle that γ leaves and its phase determine the circle that it joins.",
+    swarm=turned_swarm(),
     tracks={"orbit": lambda s: velocity_columns(s.orbit.times, s.orbit.omega, s.orbit.gamma)},
     views=(
         solid_body(field=False),

@@ -16,6 +16,7 @@ from hess_explorer.scenes.framework.part import part
 from hess_explorer.scenes.framework.scene import Preset, Scene
 from hess_explorer.scenes.framework.sliders import TURN, choice, parameter, places, time_span
 from hess_explorer.scenes.framework.solid_body import solid_body
+from hess_explorer.scenes.framework.swarm import turned_swarm
 from hess_explorer.scenes.parts.orbits.exponent import exponent_trial
 from hess_explorer.scenes.parts.sections import (
     PLAIN,
@@ -231,6 +232,7 @@ SCENE = Scene(
     ),
     title="Suslov problem with gravity",
     summary="Regular orbits, seas, strange attractors: sections forward and backward in time.",
+    swarm=turned_swarm(),
     tracks={"orbit": lambda s: orbit_columns(s.orbit.path)},
     views=(
         filled_picture(

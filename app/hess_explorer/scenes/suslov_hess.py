@@ -309,6 +309,7 @@ SCENE = Scene(
     presets=PRESETS,
     measures=_MEASURES,
     charts=Charts(of_torus(lambda s: (s.body.a, s.h, s.f)), over=("h", "f")),
+    swarm=hess_case.torus_swarm(lambda s: (s.body, s.h, s.f, s.phi0, s.map)),
     group="Heavy body",
     essential=("h", "f", "I23", "phi0"),
     handle="bifurcation/here",

@@ -123,8 +123,8 @@ def describe(plot: Plot[Any]) -> dict[str, Any]:
             if layer.glyph == "dots"
         ],
         "points": [
-            {"source": plot.source_of(layer), **layer.style}
+            {"source": source, "columns": list(plot.followers[source]), **layer.style}
             for layer in plot.all_layers
-            if plot.source_of(layer) in plot.followers
+            if (source := plot.source_of(layer)) in plot.followers
         ],
     }

@@ -12,6 +12,12 @@ from hess_explorer.views.cyclic import TURN
 
 __all__ = ["gradient", "in_css"]
 
+
+def _mixed(colour: str) -> str:
+    """Return a colour mixed with two fifths of grey."""
+    return "#" + "".join(f"{round(0.6 * int(colour[i : i + 2], 16) + 0.4 * 0x80):02X}" for i in (1, 3, 5))
+
+
 ORBIT = "#0072B2"
 STABLE = "#009E73"
 UNSTABLE = "#D55E00"
@@ -30,6 +36,8 @@ NUMBER_MAP = "Cividis256"
 """Scale for numbers in an interval."""
 TURN_MAP = TURN
 """Cyclic scale for rotation numbers from −½ to ½."""
+SWARM = tuple(_mixed(colour) for colour in TURN[::8])
+"""Cyclic colours of the starts of a swarm; none is as light as a light page or as dark as a dark one."""
 LEVELS = {"draft": "#E69F00", "standard": "#8A63B8", "precise": "#9A6B2F", "reference": "#3C9DAF"}
 INTEGRALS = ("#CC6677", "#999933", "#6B7FD7", "#808080")
 CHANGED = "#E0245E"

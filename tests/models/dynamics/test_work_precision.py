@@ -133,7 +133,7 @@ def test_captions_say_how_long_the_picture_is_right_and_what_another_method_cost
     pixels = dict.fromkeys(LEVELS, 1.5 * (times == 3.0))
     growing = ErrorGrowth(times, none, pixels, {name: {"E": none[name]} for name in LEVELS})
     state = ACCURACY.of({**ACCURACY.defaults(), "accuracy": "standard"}, ACCURACY.pictures)
-    vars(state.precision).update(followed=replace(motion_of(), unit=2.0), measured=WORK, growing=growing)
+    vars(state.precision).update(limited_motion=replace(motion_of(), unit=2.0), work_points=WORK, growth=growing)
     board = Board(ACCURACY)
     board.show(ACCURACY.draw(state))
     assert "Error below one pixel until t = 6." in board.captions["pixels"]

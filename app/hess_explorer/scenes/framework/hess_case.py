@@ -10,11 +10,14 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
+import numpy as np
+
 from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.specs import Values
 from hess_explorer.scenes.framework.inertia import limits_of_moments
 from hess_explorer.scenes.framework.scene import Motion
 from hess_explorer.scenes.framework.sliders import ONE_TURN, Slider, slider_within
+from hess_explorer.scenes.framework.swarm import Swarm
 from hess_explorer.scenes.framework.work import Work
 from hess_explorer.views.layers import Columns
 from hess_explorer.views.plane.torus_plane import cycle_columns
@@ -26,13 +29,15 @@ from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.euler_poisson.hess_isomorphism import Bridge, largest_area_integral
 from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.balls import Enclosure, exact
+from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov_hess.bifurcation import TurningPoints, f_max, turning_points
 from hess_mechanics.suslov_hess.certificate import claim
 from hess_mechanics.suslov_hess.circle_map import CircleMap, circle_map
 from hess_mechanics.suslov_hess.edge import TWO_EQUILIBRIA, EdgeProof
+from hess_mechanics.suslov_hess.embedding import embed
 from hess_mechanics.suslov_hess.equations import SYSTEM, HessBody
 from hess_mechanics.suslov_hess.proof import NO_CYCLE, TWO_CYCLES, Proof, prove
-from hess_mechanics.suslov_hess.torus import Track, cycles
+from hess_mechanics.suslov_hess.torus import Track, cycles, start_of_track
 
 __all__ = [
     "B3",
@@ -51,6 +56,7 @@ __all__ = [
     "possible_f",
     "proved_statement",
     "reduced_motion",
+    "torus_swarm",
 ]
 
 _MAX_A = 100.0
@@ -264,3 +270,57 @@ class HeavyHess:
             raise Separatrix(
                 "h = μ|r|, f = 0 is the separatrix: n₃ has no period. Choose another h, or a nonzero f."
             ) from None
+
+
+def torus_swarm(torus: Callable[[Any], tuple[HessBody, float, float, float, CircleMap | None]]) -> Swarm[Any]:
+    """Return the swarm on a torus: starts at all phases, each at the lowest n3.
+
+    Parameters
+    ----------
+    torus : callable
+        `torus(state)` returns the body, h and f in units b = 1, φ0, and the circle map, None on the separatrix.
+    """
+
+    def starts(state: Any, angles: Array) -> Array:
+        body, h, f, phi0, theta = torus(state)
+        if theta is None:
+            return np.array([start_of_track(body, h, f, phi0 + angle, 1.0)[0] for angle in angles])
+        turning = turning_points(h, f)
+        return np.array([turning.state_at_lower_turn(phi0 + angle) for angle in angles])
+
+    def columns(state: Any, times: Array, states: Array) -> Columns:
+        body, h, _, _, theta = torus(state)
+        in_body = body.from_reduced(body.from_units_of_b(states))
+        phi = np.arctan2(states[..., 0], states[..., 1])
+        at_return = np.zeros(times.size, int)
+        if theta is not None and times.size > 1:
+            period = round(theta.period / abs(times[1]))
+            at_return = np.arange(times.size) // period * period
+        on_surface = embed(states.reshape(-1, 5), h).reshape(*states.shape[:2], 3)
+        return {
+            "omega1": in_body[..., 0],
+            "omega2": in_body[..., 1],
+            **{f"g{i}": in_body[..., i + 1] for i in (1, 2, 3)},
+            "phi": phi,
+            "phi_start": phi[:, at_return],
+            **{name: on_surface[..., i] for i, name in enumerate("xyz")},
+        }
+
+    def rate(state: Any) -> tuple[float, str] | None:
+        body, *_, theta = torus(state)
+        if theta is None or theta.kind != "hyperbolic":
+            return None
+        stable = theta.fixed_points[0]
+        return (
+            stable.log_multiplier / theta.period * body.frequency_unit,
+            f"Multiplier {digits(stable.multiplier)} per return",
+        )
+
+    return Swarm(
+        starts,
+        columns,
+        angles=("phi",),
+        steps=("phi_start",),
+        period=lambda s: None if (theta := torus(s)[-1]) is None else theta.period,
+        rate=rate,
+    )

@@ -18,6 +18,8 @@ from hess_explorer.scenes.framework.chart_picture import chart_picture
 from hess_explorer.scenes.framework.charted import Charts
 from hess_explorer.scenes.framework.part import Host, Part, part
 from hess_explorer.scenes.framework.sliders import Slider, specs_of
+from hess_explorer.scenes.framework.swarm import SWARM, Swarm, with_swarm
+from hess_explorer.scenes.framework.swarm_picture import spread_picture
 from hess_explorer.scenes.framework.trial import Trial, bare, orbit_trial, sufficient_level
 from hess_explorer.scenes.framework.work import Work
 from hess_explorer.views.layers import Columns, Sign
@@ -240,6 +242,8 @@ class Scene(Generic[S]):
         Computations in addition to the motion whose cost and error are measured at each level.
     charts : Charts, optional
         Numbers that can be charted over the parameters.
+    swarm : Swarm, optional
+        The starts and columns of a swarm.
     place : int
         Position in the menu; the first scene opens the page.
     group : str
@@ -264,6 +268,7 @@ class Scene(Generic[S]):
     angles: tuple[str, ...] = ()
     measures: tuple[Trial[S], ...] = ()
     charts: InitVar[Charts | None] = None
+    swarm: InitVar[Swarm[S] | None] = None
     place: int = 0
     group: str = ""
     essential: tuple[str, ...] = ()
@@ -272,9 +277,13 @@ class Scene(Generic[S]):
     lead: tuple[str, ...] = ()
     chart_set: ClassVar[Charts | None] = None
 
-    def __post_init__(self, charts: Charts | None) -> None:
-        """Add the chart to states and pictures."""
+    def __post_init__(self, charts: Charts | None, swarm: Swarm[S] | None) -> None:
+        """Add the swarm and the chart to states and pictures."""
         object.__setattr__(self, "chart_set", charts)
+        if swarm is not None:
+            object.__setattr__(self, "state", with_swarm(self.state, swarm))
+            object.__setattr__(self, "views", (*self.views, spread_picture()))
+            object.__setattr__(self, "tracks", {**self.tracks, SWARM: lambda s: s.swarm_part.track()})
         if charts is not None:
             object.__setattr__(self, "state", with_chart(self.state, charts))
             object.__setattr__(self, "views", (*self.views, chart_picture(charts)))
@@ -462,7 +471,8 @@ class Scene(Generic[S]):
         for view in self.views:
             if view.name in shown:
                 state.drawn.update(view.data(state))
-        for name in frozenset[str]().union(*(view.tracks for view in views)):
+        # Every picture with a moving point shows the swarm.
+        for name in frozenset({SWARM} & {*self.tracks}).union(*(view.tracks for view in views)):
             state.drawn[f"data-{name}"] = self.tracks[name](state) or {}
         return state
 

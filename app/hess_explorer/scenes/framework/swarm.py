@@ -1,0 +1,255 @@
+"""A swarm: motions from many starts at once, which the pictures show as beads beside the moving point.
+
+A scene says where the starts lie and which columns of "orbit" its pictures follow (`Swarm`).  The choices of the swarm,
+which are parameters of the state, its track and the graph of its spread follow from them.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, make_dataclass, replace
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
+
+import numpy as np
+from scipy.interpolate import CubicSpline
+
+from hess_explorer.compute.cache import Task
+from hess_explorer.protocol.specs import ChoiceSpec
+from hess_explorer.scenes.framework.part import Part, part
+from hess_explorer.scenes.framework.sliders import declare
+from hess_explorer.scenes.framework.swarm_motions import SwarmMotions, swarm_motions, turned
+from hess_explorer.views import theme
+from hess_explorer.views.caption import Caption
+from hess_explorer.views.layers import Columns, Range, column
+from hess_explorer.views.space.body import seen_in_space
+from hess_explorer.views.text import digits
+from hess_mechanics.numerics.results import Array
+from hess_mechanics.rigid_body.attitude import attitude_along
+
+if TYPE_CHECKING:
+    from hess_explorer.scenes.framework.scene import Motion
+
+__all__ = ["SWARM", "Swarm", "turned_swarm", "with_swarm"]
+
+S = TypeVar("S")
+
+SWARM = "swarm"
+"""Name of the track."""
+ONE, SPREAD, NEAR, FORWARD, BACKWARD = "1", "over the phase", "near this start", "forward", "backward"
+_COUNTS = (ONE, "2", "8", "50", "200", "2000")
+_NEAR = 0.02
+"""Share of the phase that a swarm near the chosen start takes."""
+_ABOVE, _ERROR = 10.0, 0.5
+"""A known distance is this many times as large as the errors of both motions, or larger than the second, in pixels."""
+_SEEN = 1e-12, 1e12
+"""Smallest and largest relative distance of the graph."""
+_IN_SPACE = 50
+"""Largest number of bodies whose centres of mass are shown in space."""
+_BYTES = 1_900_000
+"""Largest size of the columns of a swarm."""
+
+
+@dataclass(frozen=True)
+class Swarm(Generic[S]):
+    """How a scene shows a swarm.
+
+    Attributes
+    ----------
+    starts : callable
+        `starts(state, angles)` returns initial states (n, d) of the system of `State.motion`, at angles (n,) from the
+        chosen start, in radians; the phase is one turn.
+    columns : callable
+        `columns(state, times, states)` returns the columns (n, m) that the pictures follow; times (m,) and states
+        (n, m, d) are those of the motion's system.
+    angles, steps : tuple of str
+        Columns that are angles, and those that are constant during a period.
+    period : callable
+        `period(state)` returns the period at whose multiples the steps lie, in the time of the system, or None.
+    rate : callable
+        `rate(state)` returns the rate, per unit of t, at which neighbours separate in the end, expected in either
+        sense of time, and its name; or None.
+    """
+
+    starts: Callable[[S, Array], Array]
+    columns: Callable[[S, Array, Array], Columns]
+    angles: tuple[str, ...] = ()
+    steps: tuple[str, ...] = ()
+    period: Callable[[S], float | None] = lambda state: None
+    rate: Callable[[S], tuple[float, str] | None] = lambda state: None
+
+
+def turned_swarm(
+    more: Callable[[S, Array], Columns] = lambda state, states: {}, angles: tuple[str, ...] = ()
+) -> Swarm[S]:
+    """Return the swarm of `turned` starts, of states (ω1, ω2, γ) or (M, γ).
+
+    Parameters
+    ----------
+    more : callable
+        `more(state, states)` returns further columns (k,) of states (k, d).
+    angles : tuple of str
+        Those of them that are angles.
+    """
+
+    def columns(state: Any, times: Array, states: Array) -> Columns:
+        found = {f"g{i}": states[..., i - 4] for i in (1, 2, 3)}
+        if states.shape[-1] == 5:
+            found |= {f"omega{i}": states[..., i - 1] for i in (1, 2)}
+        flat = more(state, states.reshape(-1, states.shape[-1]))
+        return {**found, **{name: one.reshape(states.shape[:2]) for name, one in flat.items()}}
+
+    return Swarm(lambda state, angles: turned(state.motion(), angles), columns, angles)
+
+
+@dataclass(frozen=True, eq=False)
+class _SwarmPart(Part[Any]):
+    """The swarm of a state."""
+
+    swarm: Swarm[Any]
+
+    @cached_property
+    def angles(self) -> Array:
+        """Angles (n,) of the starts; empty without a swarm."""
+        n = int(self.host.swarm)
+        share = _NEAR if self.host.swarm_from == NEAR else 1.0
+        return share * 2.0 * math.pi * ((np.arange(n) + 0.5) / n - 0.5) if n > 1 else np.empty(0)
+
+    @property
+    def _sign(self) -> float:
+        return -1.0 if self.host.swarm_time == BACKWARD else 1.0
+
+    @property
+    def _motion(self) -> Motion:
+        motion: Motion = self.host.motion()
+        return replace(motion, span=self._sign * motion.span)
+
+    @cached_property
+    def motions(self) -> SwarmMotions | None:
+        """The motions; None without a swarm."""
+        if not self.angles.size:
+            return None
+        starts = tuple(map(tuple, self.swarm.starts(self.host, self.angles).tolist()))
+        named = self.swarm.columns(self.host, np.zeros(1), np.array(starts)[:1, None])
+        most = max(4, _BYTES // (2 * len(starts) * (len(named) + 3)))
+        return self.work.need(Task(swarm_motions, self._motion, starts, most, self.swarm.period(self.host)))
+
+    def track(self) -> Columns | None:
+        """Return the columns of the swarm, see "swarm.js"; None without one."""
+        found = self.motions
+        if found is None:
+            return None
+        columns = {**self.swarm.columns(self.host, found.times, found.states)}
+        columns |= self._centres(found.times * self._motion.unit, columns)
+        values = np.array([one.T for one in columns.values()])
+        low, high = np.nanmin(values, axis=(1, 2)), np.nanmax(values, axis=(1, 2))
+        step = np.maximum((high - low) / 65534.0, 1e-300)
+        quantised = np.nan_to_num((values - low[:, None, None]) / step[:, None, None]) - 32767.0
+        kinds = {**dict.fromkeys(self.swarm.angles, "angle"), **dict.fromkeys(self.swarm.steps, "step")}
+        return {
+            "count": len(found.states),
+            "spacing": float(abs(found.times[1]) * self._motion.unit),
+            "names": [*columns],
+            "kinds": [kinds.get(name, "") for name in columns],
+            "low": low.tolist(),
+            "step": step.tolist(),
+            "until": column(found.until),
+            "values": np.rint(quantised).astype("<i2").ravel(),
+            "palette": list(theme.SWARM),
+        }
+
+    def _centres(self, times: Array, columns: Columns) -> Columns:
+        """Return the places of the centres of mass, of a few constrained bodies; they start around the vertical."""
+        mass = getattr(getattr(self.host, "solid", None), "mass", None)
+        if mass is None or "omega1" not in columns or self.angles.size > _IN_SPACE:
+            return {}
+        velocities = np.stack([columns["omega1"], columns["omega2"], 0.0 * columns["omega1"]], axis=2)
+        verticals = np.stack([columns[f"g{i}"] for i in (1, 2, 3)], axis=2)
+        own = self.host.solid.attitude.in_space(mass.along)[0]
+        places, fine = [], np.linspace(0.0, times[-1], 2 * times.size - 1)
+        velocities, verticals = (
+            CubicSpline(self._sign * times, one, axis=1)(self._sign * fine) for one in (velocities, verticals)
+        )
+        for angle, omega, gamma in zip(self.angles, velocities, verticals, strict=True):
+            attitude = attitude_along(fine, omega, gamma)
+            components = attitude.in_space(mass.along)
+            # γ is known; a turn about it is free.
+            turn = angle + math.atan2(own[2], own[1]) - math.atan2(components[0, 2], components[0, 1])
+            across = np.exp(1j * turn) * (components[:, 1] + 1j * components[:, 2])
+            there = seen_in_space(np.column_stack([components[:, 0], across.real, across.imag]))
+            places.append(CubicSpline(self._sign * attitude.times, there)(self._sign * times))
+        return {f"m{name}": np.array(places)[..., i] for i, name in enumerate("xyz")}
+
+    @cached_property
+    def spread(self) -> tuple[Array, Array] | None:
+        """Times (m,) of the player, and quantiles (3, m) of the distance between neighbours; None without a swarm."""
+        found = self.motions
+        if found is None:
+            return None
+        apart = np.linalg.norm(np.diff(found.states * np.array(self._motion.weights), axis=0), axis=2)
+        # A distance is known while both motions are, and while it is larger than their errors.
+        both = np.arange(found.times.size) <= np.minimum(found.until[1:], found.until[:-1])[:, None]
+        known = both & (apart > np.minimum(_ABOVE * (found.errors[1:] + found.errors[:-1]), _ERROR)[:, None])
+        ratio = np.where(both & (apart[:, :1] > 0.0), apart / np.maximum(apart[:, :1], 1e-300), np.nan)
+        # The graph ends before the tenth of them is lost, so that the others are no selection.
+        enough = known.mean(axis=0) > 0.9
+        quantiles = np.nanquantile(ratio[:, enough], (0.1, 0.5, 0.9), axis=0)
+        return np.abs(found.times[enough]) * self._motion.unit, quantiles
+
+    @property
+    def expected(self) -> tuple[Array, Array] | None:
+        """The expected growth of distances (2,) at the first and the last time (2,); None if none is known."""
+        rate = self.swarm.rate(self.host)
+        if rate is None or self.spread is None:
+            return None
+        ends = self.spread[0][[0, -1]]
+        return ends, np.exp(np.clip(rate[0] * ends, *np.log(_SEEN)))
+
+    @property
+    def heights(self) -> Range:
+        """The vertical axis of the graph."""
+        curves = [] if self.spread is None else [self.spread[1].ravel(), *(self.expected or ())[1:]]
+        values = np.log10(np.clip(np.concatenate([[0.1, 10.0], *curves]), *_SEEN))
+        low, high = float(values.min()) - 0.1, float(values.max()) + 0.1
+        return 10.0**low, 10.0**high
+
+    def notes(self) -> Iterator[str]:
+        """Yield a note if the beads are not drawn to the end."""
+        if not self.has_result("motions") or self.motions is None:
+            return
+        ends = self.motions.until * abs(self.motions.times[1])
+        if ends.max() < 0.99 * abs(self._motion.span):
+            yield f"The {ends.size} bodies are shown up to t = {digits(float(ends.max()) * self._motion.unit)}."
+        elif ends.min() < 0.99 * abs(self._motion.span):
+            yield "Beads vanish when they are not known to half a pixel any more."
+
+    @property
+    def caption(self) -> Caption:
+        """The caption of the graph."""
+        if self.spread is None:
+            return Caption("No swarm.", "Choose more than one body in the group Swarm.")
+        rate = self.swarm.rate(self.host)
+        median = digits(float(self.spread[1][1, -1]), 2)
+        said = "" if rate is None else f" {rate[1]}."
+        return Caption(f"Neighbours at the end: {median} times as far apart (median).", f"Between: 8 of 10.{said}")
+
+
+def _choice(name: str, label: str, options: tuple[str, ...], doc: str) -> ChoiceSpec:
+    return ChoiceSpec(name, label, options, options[0], doc, "Swarm")
+
+
+def with_swarm(state: type[Any], swarm: Swarm[Any]) -> type[Any]:
+    """Return a class of states with the additional choices of a swarm, which do not change other results."""
+    specs = (
+        _choice("swarm", "Bodies", _COUNTS, "How many bodies move at once, each from its own start."),
+        _choice("swarm_from", "Starts", (SPREAD, NEAR), "All around, or within 2 % of a turn of the chosen start."),
+        _choice("swarm_time", "Time of the swarm", (FORWARD, BACKWARD), "Backward, the beads go where they came from."),
+    )
+    return make_dataclass(
+        state.__name__,
+        [(spec.name, str, declare(spec, compare=False)) for spec in specs],
+        bases=(state,),
+        frozen=True,
+        namespace={"__module__": state.__module__, "swarm_part": part(lambda s: _SwarmPart(s, swarm))},
+    )

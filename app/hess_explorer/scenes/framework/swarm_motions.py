@@ -1,0 +1,155 @@
+"""The motions of a swarm, computed as one batch, and starts of the same energy."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from hess_mechanics.dynamics.ensemble import ensemble
+from hess_mechanics.numerics.accuracy import STANDARD
+from hess_mechanics.numerics.results import Array
+
+if TYPE_CHECKING:
+    from hess_explorer.scenes.framework.scene import Motion
+
+__all__ = ["SwarmMotions", "swarm_motions", "turned"]
+
+_ERROR = 0.5
+"""Largest error of a bead, in pixels; from then on it is not drawn."""
+_ASIDE, _SAFETY = 2.0**-50, 4.0
+"""How far other starts are from the first ones, relative to them, and the factor from their distance to an error."""
+_FEW, _FIRST, _TRIALS = 12, 64, 6
+"""Number of motions from which the spacing of the samples is chosen; its first share of the time, and the trials."""
+
+
+def turned(motion: Motion, angles: Array) -> Array:
+    """Return states whose velocity is turned, with the energy of the motion's initial state.
+
+    The angular velocity (ω1, ω2) of states (ω1, ω2, γ) is turned in its plane.  The angular momentum M of states (M, γ)
+    is turned about γ, so that (M, γ) stays the same.
+
+    Parameters
+    ----------
+    motion : Motion
+        The motion; the first integral of its system is quadratic in the velocity.
+    angles : array (n,)
+        Angles in radians.
+
+    Returns
+    -------
+    array (n, d)
+        The states.
+    """
+    state = np.array(motion.state)
+    cos, sin = np.cos(angles)[:, None], np.sin(angles)[:, None]
+    k = 2 if state.size == 5 else 3
+    p, gamma = state[:k], state[-3:]
+    fixed = np.zeros(2) if k == 2 else (p @ gamma) * gamma
+    q = p - fixed
+    across = np.array([-q[1], q[0]]) if k == 2 else np.cross(gamma, q)
+    along = cos * q + sin * across
+
+    def energy(scale: float) -> Array:
+        found = np.tile(state, (len(angles), 1))
+        found[:, :k] = fixed + scale * along
+        return np.asarray(next(iter(motion.system.integrals([*found.T], motion.parameters).values())))
+
+    # Three values determine the quadratic function.
+    zero, plus, minus = energy(0.0), energy(1.0), energy(-1.0)
+    a, b = 0.5 * (plus + minus) - zero, 0.5 * (plus - minus)
+    goal = np.asarray(next(iter(motion.system.integrals([*state], motion.parameters).values())))
+    root = np.sqrt(np.maximum(b * b + 4.0 * a * (goal - zero), 0.0))
+    scale = np.divide(root - b, 2.0 * a, out=np.ones_like(a), where=a > 0.0)
+    found = np.tile(state, (len(angles), 1))
+    found[:, :k] = fixed + scale[:, None] * along
+    return found
+
+
+@dataclass(frozen=True)
+class SwarmMotions:
+    """Motions of a swarm at evenly spaced times.
+
+    Attributes
+    ----------
+    times : array (m,)
+        Times of the system, of either sign.
+    states : array (n, m, d)
+        States.
+    until : array (n,)
+        Index of the sample up to which each motion is right to half a pixel, a real number.
+    errors : array (n,)
+        Largest error of each motion at its samples, in pixels; of one that is lost early it is larger than up to then.
+    """
+
+    times: Array
+    states: Array
+    until: Array
+    errors: Array
+
+
+def _midpoints(x: Array) -> Array:
+    """Return values (n, m − 1, d) halfway between evenly spaced samples (n, m, d), as "swarm.js" interpolates them."""
+    before, after = 3.0 * (x[:, :1] - x[:, 1:2]) + x[:, 2:3], 3.0 * (x[:, -1:] - x[:, -2:-1]) + x[:, -3:-2]
+    p = np.concatenate([before, x, after], axis=1)
+    return np.asarray((9.0 * (p[:, 1:-2] + p[:, 2:-1]) - p[:, :-3] - p[:, 3:]) / 16.0)
+
+
+def _interpolation_errors(states: Array, weights: Array) -> Array:
+    """Return the errors (n, m − 1), in pixels, of interpolation between the even ones of samples (n, 2m − 1, d)."""
+    return np.asarray((np.abs(_midpoints(states[:, ::2]) - states[:, 1::2]) * weights).max(axis=2))
+
+
+def swarm_motions(
+    motion: Motion, starts: tuple[tuple[float, ...], ...], most: int, period: float | None
+) -> SwarmMotions:
+    """Return the motions from several starts, sampled so that cubic interpolation is right to half a pixel.
+
+    Parameters
+    ----------
+    motion : Motion
+        System, parameters, duration of either sign, and pixels per unit of each variable; its own start is not used.
+    starts : tuple of tuple
+        Initial states (n, d).
+    most : int
+        Largest number of samples; if they do not suffice for the whole duration, the motions are shorter.
+    period : float or None
+        The times are divisions of multiples of this period.
+
+    Returns
+    -------
+    SwarmMotions
+        The motions, each with the time up to which it is right.
+    """
+    body, weights = motion.system.at(motion.parameters), np.array(motion.weights)
+
+    def sampled(chosen: Any, span: float, m: int) -> Any:
+        return ensemble(body, chosen, np.linspace(0.0, span, 2 * m - 1), STANDARD)
+
+    few = starts[:: max(1, len(starts) // _FEW)]
+    spacing = abs(motion.span) / _FIRST
+    for _ in range(_TRIALS):
+        m = max(4, min(most, 1 + round(abs(motion.span) / spacing)))
+        states = sampled(few, math.copysign((m - 1) * spacing, motion.span), m).states
+        worst = float(np.nanmax(_interpolation_errors(states, weights), initial=0.0))
+        if worst <= 0.5 * _ERROR:
+            break
+        # The error is proportional to the fourth power of a small spacing.
+        spacing *= 0.9 * (0.5 * _ERROR / worst) ** 0.25
+    if period is not None:
+        spacing = period / math.ceil(period / spacing)
+    m = max(4, min(most, 1 + math.ceil(abs(motion.span) / spacing)))
+    span = math.copysign((m - 1) * spacing, motion.span)
+    found = sampled(starts, span, m)
+    errors = np.repeat(found.errors[:, None] * weights.max(), 2 * m - 2, axis=1)
+    loose = np.flatnonzero(~(errors[:, 0] <= 0.1 * _ERROR))
+    if loose.size:
+        # Even the smallest tolerance was too large: only round-off is left, which grows as from starts beside these.
+        others = ensemble(body, np.array(starts)[loose] * (1.0 + _ASIDE), found.times, STANDARD)
+        errors[loose] = _SAFETY * (np.abs(others.states - found.states[loose]) * weights).max(axis=2)[:, 1:]
+    errors += np.repeat(_interpolation_errors(found.states, weights), 2, axis=1)
+    wrong = ~(errors <= _ERROR)
+    until = np.where(wrong.any(axis=1), 0.5 * np.argmax(wrong, axis=1), m - 1.0)
+    return SwarmMotions(found.times[::2], found.states[:, ::2].copy(), until, found.errors * weights.max())

@@ -1,0 +1,120 @@
+// @ts-check
+// A swarm: motions from many starts, drawn as beads beside the moving point, each in the colour of its start.
+//
+// The source "data-swarm" holds `count` motions at times `spacing` apart.  `values` are whole numbers [column][sample][motion];
+// the value of a column is `low` + `step` (whole + 32767).  Between samples columns are cubic; those of the kind "angle" take the
+// shorter way round, and those of the kind "step" stay.  From the sample `until` on a motion is not known to half a pixel, and not
+// drawn.  See "scenes/framework/swarm.py".
+
+import { listen } from "../base/bus.js"
+import { circlePath, shade } from "./looks.js"
+
+const FIRST = 32767
+const TURN = 2 * Math.PI
+// Radius of a bead by the number of motions: the first size whose number is not exceeded.
+/** @type {[most: number, radius: number][]} */
+const SIZES = [[50, 5], [200, 4], [Infinity, 2]]
+
+/** Return an angle between −π and π. @param {number} angle */
+const wrapped = (angle) => angle - TURN * Math.round(angle / TURN)
+
+// The time of the player.
+let now = 0
+listen({ time({ t }) { now = t } })
+
+/** The motions of a swarm. */
+export class Swarm {
+  /** @param {Data} data */
+  constructor(data) {
+    this.data = data
+    this.samples = data.values.length / (data.count * data.names.length)
+    /** @type {Map<string, {t: number, values: Float32Array}>} */
+    this.columns = new Map()
+  }
+
+  /** @param {string} name */
+  has(name) { return this.data.names.includes(name) }
+
+  /** Return a column of all motions at the time t. @param {string} name @param {number} t */
+  at(name, t) {
+    if (!this.columns.has(name)) this.columns.set(name, { t: NaN, values: new Float32Array(this.data.count) })
+    const column = this.columns.get(name)
+    if (column.t !== t) {
+      column.t = t
+      this.#fill(column.values, this.data.names.indexOf(name), t)
+    }
+    return column.values
+  }
+
+  /** @param {Float32Array} out @param {number} k @param {number} t */
+  #fill(out, k, t) {
+    const { samples, data: { count, spacing, values, kinds: { [k]: kind }, low: { [k]: low }, step: { [k]: step } } } = this
+    const share = t / spacing
+    const left = Math.max(0, Math.min(samples - 2, Math.floor(share)))
+    const s = Math.max(0, Math.min(1, share - left))
+    const at = (/** @type {number} */ row, /** @type {number} */ i) => low + step * (values[(k * samples + row) * count + i] + FIRST)
+    for (let i = 0; i < count; i++) {
+      const b = at(left, i)
+      if (kind === "step") {
+        out[i] = s < 1 ? b : at(left + 1, i)
+        continue
+      }
+      const near = (/** @type {number} */ value) => (kind === "angle" ? b + wrapped(value - b) : value)
+      const c = near(at(left + 1, i))
+      // Beyond the ends the curve goes on as a parabola.
+      const a = left > 0 ? near(at(left - 1, i)) : 3 * b - 3 * c + near(at(left + 2, i))
+      const d = left < samples - 2 ? near(at(left + 2, i)) : 3 * c - 3 * b + a
+      // The cubic through four samples is worst halfway, where the server measures it.
+      const value = (1 - s) * (2 - s) * ((1 + s) * b / 2 - s * a / 6) + (1 + s) * s * ((2 - s) * c / 2 - (1 - s) * d / 6)
+      out[i] = kind === "angle" ? wrapped(value) : value
+    }
+  }
+
+  /** Return whether motion i is known at the time t. @param {number} i @param {number} t */
+  isKnown(i, t) { return t / this.data.spacing <= this.data.until[i] + 1e-6 }
+}
+
+/** @type {WeakMap<Source, {data: Data, swarm: Swarm | null}>} */
+const swarms = new WeakMap()
+
+/**
+ * Return the swarm of a source if it has these columns, otherwise null.
+ * @param {Source} source
+ * @param {string[]} names
+ * @returns {Swarm | null}
+ */
+function swarmOf(source, names) {
+  if (swarms.get(source)?.data !== source.data) {
+    swarms.set(source, { data: source.data, swarm: source.data.count > 0 ? new Swarm(source.data) : null })
+  }
+  const { swarm } = swarms.get(source)
+  return swarm !== null && names.every((name) => swarm.has(name)) ? swarm : null
+}
+
+/**
+ * Draw the beads of a swarm whose columns have these names; nothing without such a swarm.
+ * @param {CanvasRenderingContext2D} ctx
+ * @param {Source} source
+ * @param {string[]} names
+ * @param {(columns: Float32Array[], i: number) => [x: number, y: number, isNear?: boolean]} placeOf returns the place of motion i
+ */
+export function drawBeads(ctx, source, names, placeOf) {
+  const swarm = swarmOf(source, names)
+  if (swarm === null) return
+  const { count, palette } = swarm.data
+  const columns = names.map((name) => swarm.at(name, now))
+  const [, radius] = SIZES.find(([most]) => count <= most)
+  ctx.save()
+  ctx.lineWidth = 0.7
+  ctx.strokeStyle = shade("#101010")
+  for (let i = 0; i < count; i++) {
+    if (!swarm.isKnown(i, now)) continue
+    const [x, y, isNear = true] = placeOf(columns, i)
+    ctx.globalAlpha = isNear ? 1 : 0.35
+    ctx.fillStyle = palette[Math.floor(i * palette.length / count)]
+    circlePath(ctx, x, y, radius)
+    ctx.fill()
+    if (radius > 2) ctx.stroke()
+  }
+  ctx.restore()
+}
