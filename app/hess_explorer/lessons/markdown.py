@@ -15,12 +15,12 @@ from markdown_it.token import Token
 from mdit_py_plugins.dollarmath import dollarmath_plugin
 from mdit_py_plugins.front_matter import front_matter_plugin
 
-__all__ = ["BadFormula", "formula", "parser", "strict_parser", "to_html"]
-
 # A formula in a line and the stops after it, between which a browser would break the line.
 _STOPS = re.compile(r'(<span class="math inline">.*?</span>)([.,;:!?)]+)', re.DOTALL)
 _ELEMENT = re.compile(r"\{http://www\.w3\.org/1998/Math/MathML\}(m[a-z]+)")
 _CHILDREN = {"mfrac": 2, "mroot": 2, "msub": 2, "msup": 2, "munder": 2, "mover": 2, "msubsup": 3, "munderover": 3}
+LAYER, DRAGGED = re.compile(r"()([\w-]+/[\w-]+)"), re.compile(r"(drag:)(\w+)")
+"""Target of a link to a layer of a picture, and of a number that can be dragged."""
 _COMMAND = re.compile(r"\\(?:[A-Za-z]+|.)")
 
 
@@ -53,7 +53,7 @@ def parser() -> MarkdownIt:
     """Return a parser for CommonMark with tables, formulas and front matter; HTML is text."""
     found = _with_plugins(MarkdownIt("commonmark", {"html": False}))
     # The plugin renders a displayed formula in a line as a <div>, which would end the paragraph.
-    found.add_render_rule("math_inline_double", _displayed)
+    found.add_render_rule("math_inline_double", _display_formula)
     found.add_render_rule("image", _image)
     found.add_render_rule("link_open", _link)
     return found
@@ -67,12 +67,12 @@ def strict_parser() -> MarkdownIt:
     return found
 
 
-def _with_plugins(found: MarkdownIt) -> MarkdownIt:
-    found.enable("table").use(front_matter_plugin)
-    return found.use(dollarmath_plugin, renderer=formula, allow_space=False, double_inline=True)
+def _with_plugins(parser: MarkdownIt) -> MarkdownIt:
+    parser.enable("table").use(front_matter_plugin)
+    return parser.use(dollarmath_plugin, renderer=formula, allow_space=False, double_inline=True)
 
 
-def _displayed(_: object, tokens: Sequence[Token], i: int, *rest: object) -> str:
+def _display_formula(_: object, tokens: Sequence[Token], i: int, *rest: object) -> str:
     return f'<span class="math">{formula(tokens[i].content, {"display_mode": True})}</span>'
 
 
@@ -83,12 +83,17 @@ def _image(_: object, tokens: Sequence[Token], i: int, options: object, env: Map
 
 
 def _link(renderer: Any, tokens: Sequence[Token], i: int, options: Any, env: Any) -> str:
-    """Let links to other hosts open a new tab, so that the lesson stays open."""
-    if not str(tokens[i].attrs["href"]).startswith("?"):
+    """Open links to other hosts in a new tab, so that the lesson stays open; names and numbers are buttons."""
+    target = str(tokens[i].attrs["href"])
+    if found := LAYER.fullmatch(target) or DRAGGED.fullmatch(target):
+        end = next(token for token in tokens[i:] if token.type == "link_close")
+        tokens[i].tag = end.tag = "button"
+        tokens[i].attrs = {"class": "drag" if found[1] else "names", "value": found[2]}
+    elif not target.startswith("?"):
         tokens[i].attrSet("target", "_blank")
         tokens[i].attrSet("rel", "noopener")
-    found: str = renderer.renderToken(tokens, i, options, env)
-    return found
+    html: str = renderer.renderToken(tokens, i, options, env)
+    return html
 
 
 def to_html(text: str, images: Mapping[str, str] | None = None, inline: bool = False) -> str:

@@ -26,11 +26,9 @@ from hess_explorer.scenes.framework.scene import Report, Scene
 from hess_explorer.scenes.framework.stage import Stage
 from hess_mechanics.errors import ModelError
 
-__all__ = ["Session"]
-
 logger = logging.getLogger("hess_explorer")
 
-FAILED = "This state could not be computed. Press Reset, and please report the link."
+FAILURE = "This state could not be computed. Press Reset, and please report the link."
 
 
 class Session:
@@ -77,6 +75,8 @@ class Session:
         # Scene, requested values and notes of the drawn state, and its pictures; None if nothing valid is drawn.
         self._drawn: tuple[str, Values, list[str]] | None = None
         self._drawn_pictures: Collection[str] = ()
+        # Names of the values that the model has limited.
+        self._limited: set[str] = set()
         # True if a control shows a wrong value.
         self._mistaken = False
 
@@ -118,7 +118,7 @@ class Session:
             self._tasks.drop()
             self._drawn = None
             self.values = dict(self.requested.values)
-            self._say(self._refuse(FAILED), [])
+            self._say(self._refuse(FAILURE), [])
         lesson = self._lessons.get(request.lesson or "")
         lesson_text = describe_lesson(lesson) if lesson else ""
         if request.requested is None:
@@ -252,10 +252,11 @@ class Session:
         more : bool
             True to redraw it with new results of the background tasks.
         """
-        wanted, ended = self.requested, self._tasks.ended(more)
+        wanted, ended = self.requested, self._tasks.is_done(more)
         self.values, notes = wanted.values, list[str]()
         try:
             self.values, notes = self.scene.admit(wanted.values)
+            self._say_limits({name for name, value in self.values.items() if value != wanted.values[name]}, notes)
             state = self.scene.compute(self.values, self._in_sight, self._held)
             report = self.stage.show(state, hold_axes=self._held)
         except ModelError as error:
@@ -273,6 +274,12 @@ class Session:
         self._drawn = self.scene.name, dict(wanted.values), wanted.notes
         self._drawn_pictures, self._mistaken = self._in_sight, False
         return None
+
+    def _say_limits(self, limited: set[str], notes: list[str]) -> None:
+        """Say beside the controls of limited values why they are limited."""
+        for name in limited | self._limited:
+            self.wire.say(f"limit-{name}", "\n".join(notes) if name in limited else "")
+        self._limited = limited
 
     def _say(self, report: Report, notes: list[str]) -> None:
         self.wire.say("summary", report.summary)

@@ -22,8 +22,6 @@ from hess_explorer.views.layers import Layer
 if TYPE_CHECKING:
     from hess_explorer.views.plot import Plot
 
-__all__ = ["build", "describe"]
-
 _LETTERS = 26
 """Number of letters that fit side by side under the smallest picture; beside it any number fits."""
 
@@ -89,7 +87,7 @@ def build(plot: Plot[Any]) -> figure:
             for column in layer.columns:
                 source.data.setdefault(column, [])
             look = {**dict(zip(positions, layer.columns, strict=False)), **layer.style}
-            root.add_glyph(source, glyph(**look), level="overlay" if layer.moving else "glyph")
+            root.add_glyph(source, glyph(**look), name=layer.name, level="overlay" if layer.moving else "glyph")
     return root
 
 

@@ -16,8 +16,6 @@ from hess_explorer.views.layers import Axes, Columns, Layer
 from hess_explorer.views.tag_kernels import along, best, fill, mark
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["label_places"]
-
 _CELLS = 48
 """Cells of the grid along each side."""
 _LETTER, _LINE = 0.027, 0.068

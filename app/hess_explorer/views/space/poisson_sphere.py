@@ -13,21 +13,6 @@ from hess_explorer.views.layers import MOVING_POINT, Columns, Sign, Sources, col
 from hess_explorer.views.picture import Picture
 from hess_mechanics.numerics.results import Array
 
-__all__ = [
-    "EQUATOR",
-    "Circle",
-    "Direction",
-    "Mark",
-    "Sphere",
-    "along_the_orbit",
-    "centre_of_mass",
-    "drawn",
-    "ends",
-    "gamma_columns",
-    "levels_about",
-    "parallels",
-]
-
 S = TypeVar("S")
 
 
@@ -140,7 +125,7 @@ class Sphere(Picture[S]):
     def data(self, state: S) -> Sources:
         """Return the columns of the axis, circles and marks."""
         look = {} if self.colour is None else {"look": f"chosen-{self.colour(state)}"}
-        return {self.name: {**drawn(self.axis(state), self.circles(state), self.marks(state)), **look}}
+        return {self.name: {**shape_columns(self.axis(state), self.circles(state), self.marks(state)), **look}}
 
 
 def along_the_orbit(
@@ -161,7 +146,7 @@ def along_the_orbit(
     )
 
 
-def drawn(axis: Direction | None, circles: Sequence[Circle], marks: Sequence[Mark]) -> Columns:
+def shape_columns(axis: Direction | None, circles: Sequence[Circle], marks: Sequence[Mark]) -> Columns:
     """Return the columns of an axis, circles and marks."""
     return {
         "axis": [] if axis is None else [float(x) for x in axis.along],
