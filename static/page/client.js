@@ -253,8 +253,9 @@ export function startClient(model, host) {
       },
     })
     tell("client", own)
-    // The lesson of a link begins when the page is ready; with a bare address this is the introduction.
-    if (own.lesson !== "" || (model.lesson !== "" && isFirstVisit())) tell("lesson-read", { lesson: JSON.parse(model.lesson), step: Math.max(0, Number(own.step) - 1) })
+    // The lesson of a link begins when the page is ready.  With a bare address this is the introduction, whose state is to come.
+    if (own.lesson !== "") tell("lesson-read", { lesson: JSON.parse(model.lesson), step: Math.max(0, Number(own.step) - 1) })
+    else if (model.lesson !== "" && isFirstVisit()) tell("lesson-read", { lesson: JSON.parse(model.lesson), step: null })
     send = host.connect(onAnswer, onLost, requests.silence)
     requests.begin(unanswered)
   }

@@ -192,12 +192,11 @@ export function render({ index, record, el }) {
     panel.hidden = false
     menu.hidden = tries.hidden = true
     tell("reading", true)
-    if (isHere) {
-      showStep()
-      const here = () => arrive(lesson.steps[at])
-      if (gallery.shown === null) arriving = here
-      else here()
-    } else turnTo(at)
+    const here = () => (isHere ? arrive(lesson.steps[at]) : turnTo(at))
+    const isPainted = gallery.shown !== null
+    if (isHere || !isPainted) showStep()
+    if (isPainted) here()
+    else arriving = here
   }
 
   function leave() {

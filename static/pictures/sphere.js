@@ -118,13 +118,13 @@ export function sphere(el, options, source, isShown) {
     guest?.middle?.(on)
     drawHalf(on, true)
     ctx.globalAlpha = 1
-    if (guest !== null && !inSpace) paintPoint(on)
+    if (guest !== null) paintPoint(on)
   }
 
   /** @param {Sheet} on */
   function paintPoint(on) {
     const { ctx, px, py, depth } = on
-    drawBeads(ctx, source("data-swarm"), ["g1", "g2", "g3"], ([x, y, z], i) => (
+    drawBeads(ctx, source("data-swarm"), inSpace ? ["mx", "my", "mz"] : ["g1", "g2", "g3"], ([x, y, z], i) => (
       [px(x[i], y[i]), py(x[i], y[i], z[i]), depth(x[i], y[i], z[i]) >= 0]))
     if (point !== null) drawPoint(on, point, on.isNear(point))
   }

@@ -3,8 +3,11 @@
 import numpy as np
 import pytest
 from pytest import approx
+from scipy.interpolate import CubicSpline
 
 import oracle
+from hess_explorer.export.columns import columns_of
+from hess_explorer.export.picture_data import picture_data
 from hess_explorer.protocol.wire import Wire
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Motion
@@ -157,7 +160,7 @@ def test_a_batch_is_as_long_as_its_size_allows():
 def test_the_introduction_says_what_its_fifty_bodies_do():
     gathered = {}
     for I23 in (0.05, 0.154, 0.16, 0.28):
-        state, part = swarm_of("suslov-hess", I23=I23, span=400.0)
+        part = swarm_of("suslov-hess", I23=I23, span=400.0)[1]
         phases = np.arctan2(*np.moveaxis(part.motions.states[:, -1, :2], 1, 0))
         close = np.abs((phases - np.median(phases) + np.pi) % (2 * np.pi) - np.pi) < 0.01
         gathered[I23] = close.mean()
@@ -167,3 +170,41 @@ def test_the_introduction_says_what_its_fifty_bodies_do():
     # Between 0.153 and 0.155 the loops appear.
     kinds = [swarm_of("suslov-hess", I23=I23)[0].kind for I23 in (0.05, 0.153, 0.155, 0.16)]
     assert kinds == ["elliptic", "elliptic", "hyperbolic", "hyperbolic"]
+
+
+@pytest.mark.parametrize("sense", ["forward", "backward"])
+def test_the_centres_of_mass_move_in_space_with_the_angular_velocity_of_their_bodies(sense):
+    state, part = swarm_of("suslov-hess", swarm="8", swarm_time=sense, span=20.0)
+    found, sign = part.motions, -1.0 if sense == "backward" else 1.0
+    columns = part.swarm.columns(state, found.times, found.states)
+    times = found.times / state.body.frequency_unit
+    places = part._centres(times, columns)
+    r = np.asarray(state.solid.mass.along)
+    for i in range(8):
+        omega = np.column_stack([columns["omega1"][i], columns["omega2"][i], np.zeros(times.size)])
+        gamma = np.column_stack([columns[f"g{k}"][i] for k in (1, 2, 3)])
+        place = np.column_stack([places[f"m{name}"][i] for name in "xyz"])
+        # γ points down.
+        assert place[:, 2] == approx(-gamma @ r, abs=1e-3)
+        moving = CubicSpline(sign * times, place, axis=0).derivative()(sign * times) * sign
+        turning = np.cross(place, moving) @ [0.0, 0.0, -1.0]
+        inner = slice(3, -3)
+        assert np.linalg.norm(moving, axis=1)[inner] == approx(
+            np.linalg.norm(np.cross(omega, r), axis=1)[inner], abs=0.02
+        )
+        expected = np.sum(omega * gamma, axis=1) - (omega @ r) * (gamma @ r)
+        assert turning[inner] == approx(expected[inner], abs=0.02)
+    # They start evenly around the vertical.
+    around = np.unwrap([np.arctan2(-places["my"][i, 0], places["mx"][i, 0]) for i in range(8)])
+    assert np.abs(np.diff(around)) == approx(np.pi / 4, abs=1e-6)
+
+
+def test_a_table_has_a_row_for_each_bead_at_the_time_of_the_link():
+    data = picture_data("scene=suslov-hess&swarm=8&t=2.0", "omega")
+    _, part = swarm_of("suslov-hess", swarm="8")
+    found = columns_of(data).layer("swarm")
+    assert [*found["body"]] == [1, 2, 3, 4, 5, 6, 7, 8]
+    sample = int(np.argmin(np.abs(part.motions.times / data.state.body.frequency_unit - 2.0)))
+    unit = data.state.body.frequency_unit
+    assert found["t"] == approx(part.motions.times[sample] / unit)
+    assert found["omega1"] == approx(unit * part.motions.states[:, sample, 0], abs=1e-3)

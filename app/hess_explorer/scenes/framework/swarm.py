@@ -13,6 +13,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 import numpy as np
+from scipy.interpolate import CubicSpline
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.specs import ChoiceSpec
@@ -22,8 +23,10 @@ from hess_explorer.scenes.framework.swarm_motions import SwarmMotions, swarm_mot
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import Columns, Range, column
+from hess_explorer.views.space.body import seen_in_space
 from hess_explorer.views.text import digits
 from hess_mechanics.numerics.results import Array
+from hess_mechanics.rigid_body.attitude import attitude_along
 
 if TYPE_CHECKING:
     from hess_explorer.scenes.framework.scene import Motion
@@ -42,6 +45,8 @@ _ABOVE, _ERROR = 10.0, 0.5
 """A known distance is this many times as large as the errors of both motions, or larger than the second, in pixels."""
 _SEEN = 1e-12, 1e12
 """Smallest and largest relative distance of the graph."""
+_IN_SPACE = 50
+"""Largest number of bodies whose centres of mass are shown in space."""
 _BYTES = 1_900_000
 """Largest size of the columns of a swarm."""
 
@@ -127,7 +132,7 @@ class _SwarmPart(Part[Any]):
             return None
         starts = tuple(map(tuple, self.swarm.starts(self.host, self.angles).tolist()))
         named = self.swarm.columns(self.host, np.zeros(1), np.array(starts)[:1, None])
-        most = max(4, _BYTES // (2 * len(starts) * len(named)))
+        most = max(4, _BYTES // (2 * len(starts) * (len(named) + 3)))
         return self.work.need(Task(swarm_motions, self._motion, starts, most, self.swarm.period(self.host)))
 
     def track(self) -> Columns | None:
@@ -135,7 +140,8 @@ class _SwarmPart(Part[Any]):
         found = self.motions
         if found is None:
             return None
-        columns = self.swarm.columns(self.host, found.times, found.states)
+        columns = {**self.swarm.columns(self.host, found.times, found.states)}
+        columns |= self._centres(found.times * self._motion.unit, columns)
         values = np.array([one.T for one in columns.values()])
         low, high = np.nanmin(values, axis=(1, 2)), np.nanmax(values, axis=(1, 2))
         step = np.maximum((high - low) / 65534.0, 1e-300)
@@ -153,6 +159,28 @@ class _SwarmPart(Part[Any]):
             "palette": list(theme.SWARM),
         }
 
+    def _centres(self, times: Array, columns: Columns) -> Columns:
+        """Return the places of the centres of mass, of a few constrained bodies; they start around the vertical."""
+        mass = getattr(getattr(self.host, "solid", None), "mass", None)
+        if mass is None or "omega1" not in columns or self.angles.size > _IN_SPACE:
+            return {}
+        velocities = np.stack([columns["omega1"], columns["omega2"], 0.0 * columns["omega1"]], axis=2)
+        verticals = np.stack([columns[f"g{i}"] for i in (1, 2, 3)], axis=2)
+        own = self.host.solid.attitude.in_space(mass.along)[0]
+        places, fine = [], np.linspace(0.0, times[-1], 2 * times.size - 1)
+        velocities, verticals = (
+            CubicSpline(self._sign * times, one, axis=1)(self._sign * fine) for one in (velocities, verticals)
+        )
+        for angle, omega, gamma in zip(self.angles, velocities, verticals, strict=True):
+            attitude = attitude_along(fine, omega, gamma)
+            components = attitude.in_space(mass.along)
+            # γ is known; a turn about it is free.
+            turn = angle + math.atan2(own[2], own[1]) - math.atan2(components[0, 2], components[0, 1])
+            across = np.exp(1j * turn) * (components[:, 1] + 1j * components[:, 2])
+            there = seen_in_space(np.column_stack([components[:, 0], across.real, across.imag]))
+            places.append(CubicSpline(self._sign * attitude.times, there)(self._sign * times))
+        return {f"m{name}": np.array(places)[..., i] for i, name in enumerate("xyz")}
+
     @cached_property
     def spread(self) -> tuple[Array, Array] | None:
         """Times (m,) of the player, and quantiles (3, m) of the distance between neighbours; None without a swarm."""
@@ -163,8 +191,9 @@ class _SwarmPart(Part[Any]):
         # A distance is known while both motions are, and while it is larger than their errors.
         both = np.arange(found.times.size) <= np.minimum(found.until[1:], found.until[:-1])[:, None]
         known = both & (apart > np.minimum(_ABOVE * (found.errors[1:] + found.errors[:-1]), _ERROR)[:, None])
-        ratio = np.where(known & (apart[:, :1] > 0.0), apart / np.maximum(apart[:, :1], 1e-300), np.nan)
-        enough = known.mean(axis=0) > 0.5
+        ratio = np.where(both & (apart[:, :1] > 0.0), apart / np.maximum(apart[:, :1], 1e-300), np.nan)
+        # The graph ends before the tenth of them is lost, so that the others are no selection.
+        enough = known.mean(axis=0) > 0.9
         quantiles = np.nanquantile(ratio[:, enough], (0.1, 0.5, 0.9), axis=0)
         return np.abs(found.times[enough]) * self._motion.unit, quantiles
 
