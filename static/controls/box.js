@@ -3,7 +3,7 @@
 // one step, with Shift by ten.
 
 import { tell } from "../base/bus.js"
-import { element } from "../base/elements.js"
+import { element, update } from "../base/elements.js"
 
 const TYPE = "Type a value or an expression such as pi/3, then press Enter."
 /** @type {Record<string, number>} */
@@ -20,29 +20,43 @@ function numberOf(text) {
 }
 
 /**
+ * Return the line beside a field for the reason why its text is refused, and the function that marks the field; "" removes the mark.
+ * @param {HTMLInputElement} field
+ */
+export function reasonFor(field) {
+  const why = element("p.why", { role: "alert", hidden: true })
+  /** @param {string} text */
+  const say = (text) => update(why, { textContent: text, hidden: text === "" })
+  return {
+    why, say,
+    /** @param {string} text */
+    mark(text) {
+      if (text === "" && field.ariaInvalid !== "true") return
+      field.ariaInvalid = String(text !== "")
+      say(text)
+    },
+  }
+}
+
+/**
  * Return the box and the functions that fill, mark and disable it.
  * @param {import("./number.js").Controlled} number
  */
 export function exactBox({ name, symbol, help, value, change, nudge, stepOf }) {
   const box = element("input.exact", {
     type: "text", inputMode: "decimal", spellcheck: false, title: `${help} ${TYPE}`, ariaLabel: `${symbol}, exact value`,
-    onchange: take, oninput: () => box.setCustomValidity(""), onkeydown,
+    onchange: take, oninput: () => mark(""), onkeydown,
   })
+  const { why, say, mark } = reasonFor(box)
   // Whether the server is evaluating an expression.
   let isAsked = false
 
   const isFocused = () => /** @type {ShadowRoot} */ (box.getRootNode()).activeElement === box
-  /** Mark the box as invalid for a reason; "" removes the mark. @param {string} why */
-  const mark = (why) => {
-    box.ariaInvalid = String(why !== "")
-    box.setCustomValidity(why)
-  }
   /** @param {number} shown */
   const put = (shown) => {
     isAsked = false
     box.value = String(shown)
-    box.setCustomValidity("")
-    box.ariaInvalid = null
+    mark("")
   }
 
   function take() {
@@ -53,7 +67,7 @@ export function exactBox({ name, symbol, help, value, change, nudge, stepOf }) {
       return tell("expression", { [name]: pointed(text) })
     }
     mark(text === "" ? "This is not a number: type one like 1.5, 1e-8 or pi/3." : "")
-    if (text === "") return void box.reportValidity()
+    if (text === "") return
     if (typed !== value()) change(typed)
     // As the server will write it; any other text is one that is being typed.
     box.value = String(typed)
@@ -72,7 +86,9 @@ export function exactBox({ name, symbol, help, value, change, nudge, stepOf }) {
   }
 
   return {
-    box, put,
+    box, put, why,
+    /** Say that the model limits the number; "" removes the sentence. */
+    limit: say,
     /**
      * Show the value of a state, unless a number is being typed.
      * @param {number} before
@@ -84,14 +100,13 @@ export function exactBox({ name, symbol, help, value, change, nudge, stepOf }) {
       isAsked = false
       // A disabled box cannot be scrolled: show as many digits as fit.
       box.value = String(isIdle ? Number(shown.toPrecision(6)) : shown)
-      box.ariaInvalid = null
+      mark("")
     },
     /** Mark an expression that the server refuses. @param {string} sentence */
     refuse(sentence) {
       if (!isAsked) return
       isAsked = false
       mark(sentence)
-      if (isFocused()) box.reportValidity()
     },
     /** Disable the box for a reason; "" enables it. @param {string} why */
     rest(why) {

@@ -3,13 +3,15 @@
 
 import { listen, tell } from "../base/bus.js"
 import { element } from "../base/elements.js"
+import { reasonFor } from "./box.js"
 import { optionsOf } from "./dialog.js"
 import { number } from "./number.js"
 
 /**
- * A control; show(value) shows the value of a state, refuse(why) marks an expression as refused, and follow(value) shows a
- * change from elsewhere before the server answers.
- * @typedef {{item: HTMLElement, show: (value: any) => void, refuse?: (why: string) => void, follow?: (value: any) => void}} Control
+ * A control; show(value) shows the value of a state, refuse(why) marks an expression as refused, limit(why) says that the model
+ * limits the value, and follow(value) shows a change from elsewhere before the server answers.
+ * @typedef {{item: HTMLElement, show: (value: any) => void, refuse?: (why: string) => void, limit?: (why: string) => void,
+ *   follow?: (value: any) => void}} Control
  */
 
 /** @param {string[]} names @returns {[string, string][]} */
@@ -86,11 +88,7 @@ function formula({ name, label, help }) {
       if ((event.ctrlKey || event.metaKey) && line.value !== shown) event.stopPropagation()
     },
   })
-  /** Mark the line as invalid for a reason; "" removes the mark. @param {string} why */
-  const mark = (why) => {
-    line.ariaInvalid = String(why !== "")
-    line.setCustomValidity(why)
-  }
+  const { why, mark } = reasonFor(line)
   const isFocused = () => /** @type {ShadowRoot} */ (line.getRootNode()).activeElement === line
   /** @param {string} value */
   const show = (value) => {
@@ -102,7 +100,7 @@ function formula({ name, label, help }) {
     isAsked = false
     shown = value
   }
-  const item = element("div", element(`label.menu.param-${name}`, element("span", label), line), element("p.text.help", help))
+  const item = element("div", element(`label.menu.param-${name}`, element("span", label), line), why, element("p.text.help", help))
   return { item, show, refuse: mark }
 }
 
@@ -139,11 +137,12 @@ export function followers() {
         parts[name]?.follow?.(value)
       }
     },
-    // Key "error-" and the name of a number or formula: the reason that it is refused.
+    // Key "error-" and the name of a number or formula: why it is refused; "limit-": why it has another value.
     texts(texts) {
-      for (const [name, { refuse }] of Object.entries(parts)) {
-        const why = texts[`error-${name}`]
+      for (const [name, { refuse, limit }] of Object.entries(parts)) {
+        const [why, within] = [texts[`error-${name}`], texts[`limit-${name}`]]
         if (why !== undefined) refuse?.(why)
+        if (within !== undefined) limit?.(within)
       }
     },
   })

@@ -95,7 +95,7 @@ export function number({ name, label, symbol, help, range }) {
       const steps = Math.max(1, Math.round((high - low) / FULL_DRAG / step)) * (shiftKey ? 10 : 1)
       controlled.move(from + Math.round(clientX - x) * steps * step)
     })
-  const frame = element(`div.number.param-${name}`, title, exact.box, slider)
+  const frame = element(`div.number.param-${name}`, title, exact.box, slider, exact.why)
 
   /** @param {boolean} idle */
   const rest = (idle) => {
@@ -128,5 +128,5 @@ export function number({ name, label, symbol, help, range }) {
     slider.valueAsNumber = value
     exact.put(tidy(value))
   }
-  return { item: frame, show, refuse: exact.refuse, follow }
+  return { item: frame, show, refuse: exact.refuse, limit: exact.limit, follow }
 }

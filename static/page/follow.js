@@ -4,6 +4,7 @@
 
 import { render as renderPictures, gallery } from "../pictures/gallery.js"
 import { createGuess } from "../pictures/guess.js"
+import { lightNames } from "../pictures/named.js"
 import { createVeil } from "../pictures/veil.js"
 import { listen, tell } from "../base/bus.js"
 import { element } from "../base/elements.js"
@@ -28,6 +29,7 @@ function renderStep({ el }) {
   const question = element("div.question")
   const panel = element("section.lesson", { hidden: true, ariaLabel: "Lesson" }, of, title, said, text, question)
   el.append(panel)
+  lightNames(el)
   listen({
     followed({ step, lesson = "", number }) {
       panel.hidden = step === null

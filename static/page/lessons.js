@@ -1,12 +1,13 @@
 // @ts-check
 // A lesson beside the pictures, step by step, and suggestions to try in the scene on show.
 //
-// PageDown (the key of a presenter) reveals the truth of a guess, then the answer of a question, then goes to the next step.
-// PageUp goes back.
+// PageDown (the key of a presenter) shows the rest of the text, reveals the truth of a guess, then the answer of a question, then
+// goes to the next step.  PageUp goes back.
 
 import { stepControls } from "../controls/step_controls.js"
 import { gallery } from "../pictures/gallery.js"
 import { createGuess } from "../pictures/guess.js"
+import { lightNames } from "../pictures/named.js"
 import { createVeil } from "../pictures/veil.js"
 import { createAnimation } from "./animation.js"
 import { listen, tell } from "../base/bus.js"
@@ -31,12 +32,15 @@ export function isFirstVisit() {
 /** @param {string} name @param {string} words */
 const html = (name, words) => element(name, { innerHTML: byHand(words) })
 
+/** Bring a part of a step to the top, in a hall to the page of the slide that it begins on. @param {HTMLElement} part */
+const toTop = (part) => part.scrollIntoView({ block: "start", inline: "start" })
+
 /** Return the question of a step and its answer. @param {LessonStep} step @returns {HTMLElement[]} */
 const questionOf = ({ question, answer }) => (question === "" ? [] : [
   html("div.question", question), element("details.answer", {
     // Above the buttons of the step, which would cover it.
     /** @param {{currentTarget: HTMLDetailsElement}} event */
-    ontoggle({ currentTarget: item }) { if (item.open) item.scrollIntoView({ block: "start" }) },
+    ontoggle({ currentTarget: item }) { if (item.open) toTop(item) },
   }, element("summary", "Answer"), html("div", answer)),
 ])
 
@@ -52,6 +56,7 @@ export function render({ index, record, el }) {
   const controls = stepControls()
   const veil = createVeil()
   el.append(menu, ...(record ? [record.box] : []), panel, tries)
+  lightNames(el)
 
   /** @type {Lesson | null} */
   let lesson = null
@@ -116,13 +121,13 @@ export function render({ index, record, el }) {
     }
     expected = step
     panel.classList.toggle("alone", isAlone)
-    controls.fill(step.controls)
     const title = element("h2.title", { innerHTML: step.title, tabIndex: -1 })
     const progress = element("progress", { max: lesson.steps.length, value: at + 1, ariaLabel: "Steps" })
     panel.replaceChildren(
-      element("p.of", lesson.title), title, html("div.text", step.text), buttons, said, audience, ...questionOf(step),
+      element("p.of", lesson.title), title,
+      element("div.slide", html("div.text", step.text), buttons, said, audience, ...questionOf(step)),
       element("div.steps", controls.group, element("div.row",
-        button("button.param-back-a-step", () => turnTo(at - 1), {
+        button("button.param-back-a-step", back, {
           disabled: at === 0, title: at === 0 ? "Disabled: this is the first step" : "Back (Page Up)",
         }, "Back"),
         button("button.param-next-step", next, {
@@ -132,6 +137,7 @@ export function render({ index, record, el }) {
           ? button("button.param-leave-lesson", leave, { title: "Show the whole page (Esc)" }, "Skip")
           : button("button.param-leave-lesson", leave, { title: "Leave the lesson" }, "Leave")]),
         element("div.where", progress, element("span.count", `${at + 1} / ${lesson.steps.length}`)))))
+    controls.fill(step.controls, panel.querySelectorAll("button.drag"))
     said.hidden = guess === null
     buttons.hidden = guess === null && animation === null
     tell("url", { lesson: lesson.name, step: String(at + 1) })
@@ -166,13 +172,25 @@ export function render({ index, record, el }) {
       veil(lesson.steps[at].hide ?? null)
       shown.reveal()
       // The verdict on the guess stands under the button: scroll it above the buttons of the step.
-      pressed.scrollIntoView({ block: "start" })
+      toTop(pressed)
     })
     return true
   }
 
+  /** Turn the pages of a slide, and return whether there was one more. @param {1 | -1} by */
+  function turnPage(by) {
+    const slide = panel.querySelector(".slide")
+    const before = slide.scrollLeft
+    slide.scrollBy({ left: by * slide.clientWidth })
+    return Math.round(slide.scrollLeft - before) !== 0
+  }
+
+  function back() {
+    if (!turnPage(-1)) turnTo(at - 1)
+  }
+
   function next() {
-    if (reveal()) return
+    if (turnPage(1) || reveal()) return
     /** @type {HTMLDetailsElement | null} */
     const answer = panel.querySelector(".answer:not([open])")
     if (answer !== null) answer.open = true
@@ -286,6 +304,6 @@ export function render({ index, record, el }) {
     next()
   }, { capture: true, passive: false })
   onKeys({
-    pagedown: () => lesson !== null && next(), pageup: () => lesson !== null && turnTo(at - 1), escape: () => isAlone() && leave(),
+    pagedown: () => lesson !== null && next(), pageup: () => lesson !== null && back(), escape: () => isAlone() && leave(),
   })
 }

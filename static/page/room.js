@@ -68,7 +68,7 @@ export function createRoom({ query }) {
       guesses = count
       sayGuesses()
     }
-    if (cloud !== undefined && prediction() !== undefined) {
+    if (cloud !== undefined && prediction() !== undefined && isThere()) {
       endAudience()
       audience = createAudience(prediction(), cloud, (text) => tell("audience", text))
     }
@@ -95,7 +95,16 @@ export function createRoom({ query }) {
       connect()
     },
     url({ lesson, step, large }) {
-      if (lesson !== undefined) wanted = { ...wanted, lesson, step: Number(step), revealed: false }
+      if (lesson !== undefined) {
+        // The guesses go with their step.
+        if (lesson !== wanted.lesson || Number(step) !== wanted.step) endAudience()
+        wanted = { ...wanted, lesson, step: Number(step), revealed: false }
+        // No state follows the end of a lesson.
+        if (lesson === "") {
+          there = wanted
+          show()
+        }
+      }
       if (large !== undefined) {
         wanted = { ...wanted, picture: large.split(",")[0] }
         // It needs no new state, unless the page is on the way to one.
@@ -110,10 +119,7 @@ export function createRoom({ query }) {
     paint() { if (isThere()) show() },
     painted() {
       if (!isThere()) {
-        if (wanted.step !== there.step || wanted.lesson !== there.lesson) {
-          endAudience()
-          guesses = 0
-        }
+        if (wanted.step !== there.step || wanted.lesson !== there.lesson) guesses = 0
         there = wanted
         sayGuesses()
       }

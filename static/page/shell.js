@@ -123,7 +123,7 @@ function answerLine(el) {
  */
 function sentencesAbove(el, stage, reading) {
   const line = answerLine(el)
-  const sentence = element("p.text.moves")
+  const sentence = element("p.text.moves", { role: "region", ariaLabel: "What to do, or what has changed" })
   const place = () => {
     if (PHONE.matches) reading.prepend(line, sentence)
     else stage.before(line, sentence)
@@ -144,29 +144,31 @@ function sentencesAbove(el, stage, reading) {
 export function buildPage(model, host, { mount, bar, lessons, styles }, el) {
   /** @param {string} key @param {string} [tag] */
   const text = (key, tag) => mount("text", renderText, { key, tag })
-  const controls = element("section.controls.column", { id: "controls" },
-    mount("controls", renderControls), folding("Derived numbers", text("derived", "div"), text("fixed", "div")))
+  const numbers = folding("Derived numbers", text("derived", "div"), text("fixed", "div"))
+  // They would move down when the controls come.
+  numbers.hidden = true
+  const controls = element("section.controls.column", { id: "controls" }, mount("controls", renderControls), numbers)
   const reader = element("section.reader.column", { id: "text" },
     element("div.reading", mount("lessons", renderLessons, lessons), mount("prose", renderProse, { part: "words" })),
-    Object.assign(folding("Legend", mount("prose", renderProse, { part: "legend" })), { className: "signs" }))
+    Object.assign(folding("Legend", mount("prose", renderProse, { part: "legend" })), { className: "signs", ariaLabel: "Legend" }))
   // Scrolling columns are reached with the keyboard.
   const [reading, signs] = /** @type {Iterable<HTMLElement>} */ (reader.children)
   for (const column of [controls, reading, signs]) column.tabIndex = 0
-  for (const [column, ariaLabel] of /** @type {[HTMLElement, string][]} */ ([[reading, "What you see"], [signs, "Legend"]])) {
-    Object.assign(column, { role: "region", ariaLabel })
-  }
+  Object.assign(reading, { role: "region", ariaLabel: "What you see" })
   const stage = element("main.stage", mount("pictures", renderPictures),
     element("div.below", mount("player", renderPlayer), mount("progress", renderProgress)))
   el.classList.add("frame")
   el.append(
     ...styles, skipTo(controls), element("header.bar", ...bar, element("div.news", text("busy"))),
-    stage, tabsOf({ Controls: controls, Text: reader }), controls, reader,
-    element("div.foot", text("notes"), mount("status", renderStatus, {}, element("div.status-line"))), opener("a.opener", "Open in Hess Explorer"), drawer(el), spot())
+    stage, element("aside.side", { ariaLabel: "Controls and text" }, tabsOf({ Controls: controls, Text: reader }), controls, reader,
+      opener("a.opener", "Open in Hess Explorer")),
+    element("div.foot", text("notes"), mount("status", renderStatus, {}, element("div.status-line"))), drawer(el), spot())
   el.append(announcer(sentencesAbove(el, stage, reading)))
   wear(el)
   listen({
     reading: (on) => el.classList.toggle("in-lesson", on),
     alone: (names) => el.classList.toggle("alone", names.length > 0),
+    enter() { numbers.hidden = false },
   })
   onKeys({ f: () => tell("fullscreen"), p: () => tell("present") })
   return startClient(model, host)

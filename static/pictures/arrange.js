@@ -124,7 +124,9 @@ export function arrange(viewport, leading, rest, names = 0) {
   const aside = rest === 0 ? { width: 0, height: -gap } : sizeOf(rest, strip.columns, strip.edge, title, gap)
   const room = isBeside ? width - first.width - gap : width
   const taken = namesIn(room, names, isColumn, viewport)
-  const across = isBeside ? first.width + gap + (rest === 0 && !isColumn ? room : aside.width) + taken.width : Math.max(first.width, aside.width)
+  // Names alone fill a row beside the lead; without any the lead stands in the middle.
+  const beside = rest > 0 || isColumn ? aside.width : names > 0 ? room : -gap
+  const across = isBeside ? first.width + gap + beside + taken.width : Math.max(first.width, aside.width)
   const down = isBeside ? Math.max(first.height, aside.height + taken.height) : first.height + gap + aside.height + taken.height
   const [left, top] = [(width - across) / 2, Math.max(0, (height - down) / 2)]
   const [x, y] = isBeside ? [left + first.width + gap, top] : [(width - aside.width) / 2, top + first.height + gap]

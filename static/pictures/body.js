@@ -146,14 +146,16 @@ export function bodyIn(source, attitude) {
     /** @param {number} value */
     set t(value) { t = value },
     /** Place the body for all the painting that follows. @param {Sheet} sheet */
-    begin(sheet) { held = now(sheet) },
+    begin(sheet) {
+      held = now(sheet)
+      if (held?.seen.length) drawShadow(sheet, held.placed, source.data.semi)
+    },
     /** @param {Sheet} sheet @param {boolean} near */
     paint(sheet, near) {
       const { ctx, stroke, use, isNear } = sheet
       const {
         semi = [], names = [], section = [], weights = [], rods = [], wheels = [], trail = [], curves = [], axis, label = "",
       } = source.data
-      if (!near && held?.seen.length) drawShadow(sheet, held.placed, semi)
       const alpha = ctx.globalAlpha
       ctx.globalAlpha = near ? 1 : 0.45
       for (const [look, weight, ...curve] of curves) {

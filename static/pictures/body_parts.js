@@ -80,12 +80,12 @@ export function drawMass(ctx, x, y, radius, ink, dark) {
 }
 
 /**
- * Draw the soft shadow of an ellipsoid on the ground below the sphere, in light from above.
+ * Draw the soft shadow of an ellipsoid on the ground below the sphere, in light from above, before everything else.
  * @param {Sheet} sheet
  * @param {Vector[]} axes in space
  * @param {number[]} semi
  */
-export function drawShadow({ ctx, dark, px, py, at }, axes, semi) {
+export function drawShadow({ ctx, dark, half, px, py, at }, axes, semi) {
   const [x, y] = at([0, 0, -1])
   const [a, b] = [px(1, 0) - x, py(1, 0, -1) - y]
   const [c, d] = [px(0, 1) - x, py(0, 1, -1) - y]
@@ -105,10 +105,19 @@ export function drawShadow({ ctx, dark, px, py, at }, axes, semi) {
     ctx.fill()
   }
   // On a dark page the ground has to be lit for a shadow to show.
-  if (dark) fade("200, 215, 235", 0.28, 1.4)
+  if (dark) fade("200, 215, 235", 0.09, 1.4)
   ctx.rotate(angle)
   ctx.scale(long, short)
-  fade(dark ? "0, 0, 0" : "30, 36, 48", dark ? 0.8 : 0.42, 1.1)
+  fade(dark ? "0, 0, 0" : "30, 36, 48", dark ? 0.24 : 0.13, 1.1)
+  ctx.restore()
+  // It ends before the picture does.
+  const frame = ctx.createRadialGradient(half, half, 0.78 * half, half, half, half)
+  frame.addColorStop(0, "#000")
+  frame.addColorStop(1, "transparent")
+  ctx.save()
+  ctx.globalCompositeOperation = "destination-in"
+  ctx.fillStyle = frame
+  ctx.fillRect(0, 0, 2 * half, 2 * half)
   ctx.restore()
 }
 

@@ -89,7 +89,7 @@ const zip = (xs, ys) => Array.from(xs, (x, i) => [x, ys[i]]).filter((place) => p
 
 /**
  * Return the data of the source as polylines; a point is a polyline of length one.
- * @param {Prediction} prediction
+ * @param {Pick<Prediction, "source" | "columns" | "what">} layer
  * @returns {number[][][]}
  */
 export function linesOf({ source, columns: [x, y], what }) {

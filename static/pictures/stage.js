@@ -17,8 +17,8 @@ import { sizePlot } from "./plot_looks.js"
 const MOST_LARGE = 3
 const ENLARGE = "M5 9V5h4M15 5h4v4M19 15v4h-4M9 19H5v-4"
 const REDUCE = "M9 5v4H5M19 9h-4V5M15 19v-4h4M5 15h4v4"
-// Smallest edge of a picture of the strip, in pixels, and height of the strip on a phone.
-const [LEAST, LEAST_ON_PHONE] = [150, 118]
+// Smallest edge of a picture of the strip, in pixels, and in a hall, in units of the font size; height of the strip on a phone.
+const [LEAST, LEAST_IN_HALL, LEAST_ON_PHONE] = [150, 8, 118]
 // Height below which a phone, turned, has no room for a second picture, and height of a row of names there.
 const [LOW, ROW] = [400, 48]
 
@@ -34,6 +34,7 @@ export function createStage(shelf, gallery) {
   // The pictures that a step of a lesson shows alone; all if there is none.
   /** @type {string[]} */
   let alone = []
+  let isReading = false
   // Names of the pictures that start folded; on a phone of all pictures.
   const chips = element("div.chips", { role: "group", ariaLabel: "Pictures" })
   shelf.after(chips)
@@ -80,7 +81,8 @@ export function createStage(shelf, gallery) {
     /** @param {string} name of a length in units of the font size, in "pictures.css" */
     const heightOf = (name) => Math.ceil(type * Number.parseFloat(style.getPropertyValue(name)))
     return {
-      width: shelf.clientWidth, height: shelf.clientHeight, gap: Math.round(0.6 * type), least: !PHONE.matches ? LEAST : shelf.clientHeight < LOW ? ROW : LEAST_ON_PHONE,
+      width: shelf.clientWidth, height: shelf.clientHeight, gap: Math.round(0.6 * type),
+      least: PHONE.matches ? (shelf.clientHeight < LOW ? ROW : LEAST_ON_PHONE) : isPresenting() ? LEAST_IN_HALL * type : LEAST,
       head: heightOf("--caption-height"), title: heightOf("--title-height"), names: heightOf("--name-height"),
     }
   }
@@ -97,7 +99,8 @@ export function createStage(shelf, gallery) {
     const chosenAlone = open.filter((cell) => alone.includes(nameOf(cell)))
     const cells = chosenAlone.length > 0 ? chosenAlone : open
     const leads = leadsOf(scene, cells)
-    const others = cells.filter((cell) => !leads.includes(cell))
+    // In a hall the text of a lesson needs the room of the others.
+    const others = isReading && isPresenting() ? [] : cells.filter((cell) => !leads.includes(cell))
     // A phone shows one picture, and a small one beside the names.
     const second = alone.length > 0 || shelf.clientHeight < LOW || leads.length + others.length < 2 ? [] : [leads[1] ?? others[0]]
     const seen = PHONE.matches ? [leads[0], ...second] : [...leads, ...others]
@@ -206,6 +209,10 @@ export function createStage(shelf, gallery) {
       requestAnimationFrame(placeShown)
     },
     presenting: () => requestAnimationFrame(placeShown),
+    reading(on) {
+      isReading = on
+      placeShown()
+    },
     unfolding({ name, on }) {
       if (name !== "details") return
       shelf.parentElement.classList.toggle("detailed", on)

@@ -83,6 +83,9 @@ MISTAKES = [
     ("It stays.", "It\nstays $5", 22, "a dollar stands alone"),
     ("It stays.", "It\n<b>stays</b>.", 22, "'<b>' is HTML"),
     ("It stays.", "[It](javascript:stays)", 21, "'javascript:stays' leads nowhere"),
+    ("It stays.", "[It](circel/stable)", 21, "picture of 'circel/stable' must be one of omega, bifurcation, circle"),
+    ("It stays.", "It\n[stays](circle/stabel)", 22, "layer of 'circle/stabel' must be one of"),
+    ("It stays.", "It [stays](drag:circle)", 21, "a number to drag must be one of I22"),
     ("It stays.", "```step\nlook: omega\n```\n```step\n```", 24, "two fences named step"),
 ]
 
@@ -113,7 +116,7 @@ def test_a_file_that_is_no_lesson_is_told_of(tmp_path):
 
 
 def problems(text):
-    return [one.message for one in problems_in(text, 1, Images(None))]
+    return [one.message for one in problems_in(text, 1, Images(None), SCENES["suslov-hess"])]
 
 
 def test_html_of_a_lesson_is_text_and_it_asks_no_other_host():
@@ -133,7 +136,8 @@ def test_html_of_a_lesson_is_text_and_it_asks_no_other_host():
 
 
 def test_what_can_be_shown_is_no_problem():
-    text = r"""Costs \$5, $x$ and $$y$$, `$z[^1]`, *not* \[^1], [a](https://a.org/b?c=d) <https://a.org>.
+    text = r"""Costs \$5, $x$ and $$y$$, `$z[^1]`, *not* \[^1], [a](https://a.org/b?c=d) <https://a.org>,
+and [$d$](omega/orbit) at [0.5](drag:h).
 
 | $a$ | b |
 |-----|---|
@@ -146,6 +150,8 @@ def test_what_can_be_shown_is_no_problem():
     assert html.count("<td>") == 2
     assert '<a href="?scene=suslov-hess&amp;h=1.5">c</a>' in html
     assert '<a href="https://a.org" target="_blank" rel="noopener">' in html
+    assert '<button class="names" value="omega/orbit"><span' in html
+    assert '<button class="drag" value="h">0.5</button>.' in html
     # A displayed formula can stand in a line.
     assert ' and <span class="math"><math' in html and 'display="block"' in html
 

@@ -3,6 +3,7 @@
 import json
 from math import dist, pi
 
+from playwright.sync_api import expect
 from pytest import approx
 
 from hess_explorer.headless.browser import wait_ready
@@ -38,13 +39,20 @@ def test_a_box_takes_an_exact_value_and_marks_what_is_none(explorer):
         explorer.type("h", text)
         # The server parses everything that is not a plain number.
         marked.wait_for()
-        assert box.evaluate("box => box.validationMessage").startswith(why)
+        expect(explorer.page.locator(".param-h .why")).to_contain_text(why)
         wait_ready(explorer.page)
         assert box.input_value() == text
         box.press("Escape")
         assert marked.count() == 0
         assert box.input_value() == "7.25"
     assert_orbit(explorer, values)
+    # What the model limits says so beside the slider, until another value is chosen.
+    explorer.change(explorer.type, "f", "9")
+    expect(explorer.page.locator(".why:visible")).to_have_text(explorer.text("notes"))
+    assert "f was set to this limit" in explorer.text("notes")
+    assert box.get_attribute("aria-invalid") != "true"
+    explorer.change(explorer.type, "f", "0.5")
+    expect(explorer.page.locator(".why:visible")).to_have_count(0)
 
 
 def test_arrows_nudge_a_box_shift_by_ten_steps_and_a_label_is_dragged(explorer):

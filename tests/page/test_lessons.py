@@ -8,6 +8,7 @@ import pytest
 from PIL import Image
 from playwright.sync_api import expect
 
+from hess_explorer.headless.browser import wait_ready
 from hess_explorer.lessons import package_lessons, tries
 from hess_explorer.lessons.collection import read_paths
 from hess_explorer.lessons.reading import read
@@ -74,6 +75,11 @@ CYCLES = "limit-cycles-and-locking"
 # Width of each planar picture in sight, as Bokeh has drawn it and as the page lays it out.
 WIDTHS = """() => hess.plots.filter(({ canvas_view: { el } }) => el.checkVisibility({ visibilityProperty: true }))
   .map(({ bbox, canvas_view: { el } }) => [bbox.width, el.clientWidth])"""
+# How many pixels of a canvas are not empty.
+PAINTED = """item => {
+  const { data } = item.getContext("2d").getImageData(0, 0, item.width, item.height)
+  return data.filter((alpha, i) => i % 4 === 3 && alpha > 0).length
+}"""
 # [lines of an element, how many of them can be seen at their places].
 LINES = """item => {
   const range = document.createRange()
@@ -100,6 +106,13 @@ def test_a_lesson_in_a_narrow_and_a_wide_window_keeps_text_slider_and_pictures_i
     wait_frames(explorer)
     assert sheet.evaluate("item => [getComputedStyle(item).outlineStyle, item.style.boxShadow]") == ["none", ""]
     assert sheet.evaluate("item => item.getRootNode().activeElement") is None
+    # Words light up what they name, while they are pointed at.
+    explorer.turn_to_step(6)
+    word, glow = page.locator(".lesson .names").filter(has_text="green cycle"), page.locator("canvas.glow")
+    word.hover()
+    assert glow.evaluate(PAINTED) > 500
+    page.locator(".lesson .title").hover()
+    expect(glow).to_have_count(0)
     # A narrow window has the text of the lesson; the slider follows what is animated, beside the text too.
     explorer.turn_to_step(7)
     explorer.resize(1280, 720)
@@ -120,6 +133,17 @@ def test_a_lesson_in_a_narrow_and_a_wide_window_keeps_text_slider_and_pictures_i
     moved = float(explorer.wait_url(h=column.input_value())["h"])
     assert moved > steps[9].at.values["h"]
     assert beside.input_value() == column.input_value()
+    # So it is when a number in the text is dragged or moved by a key.
+    word, number = page.locator(".lesson .drag"), page.locator(".lesson .drag .scrub")
+    explorer.change(word.press, "ArrowRight")
+    before = float(beside.input_value())
+    assert float(number.inner_text()) == before > moved
+    x, y, wide, high = number.bounding_box().values()
+    page.mouse.move(x + wide / 2, y + high / 2)
+    page.mouse.down()
+    explorer.change(page.mouse.move, x + wide / 2 + 30, y + high / 2)
+    page.mouse.up()
+    assert float(number.inner_text()) == float(beside.input_value()) > before
     explorer.resize(*WIDE)
     assert page.locator(".step-controls").is_hidden()
     # A picture has its new size in a scene that is entered again.
@@ -201,6 +225,50 @@ def test_what_is_done_by_hand_is_recorded_and_replayed(explorer):
     page.locator(".lesson-menu > summary").click()
 
 
+# Pages of the slide on show and the one in sight; what stands outside of them; the widths of the sliders of the step.
+SLIDE = f"""() => {{
+  {ALL}
+  const found = all(document)
+  const [slide, title, steps] = [".slide", ".lesson .title", ".lesson .steps"]
+    .map((selector) => found.find((item) => item.matches(selector)))
+  const [wide, room] = [slide.clientWidth, slide.getBoundingClientRect()]
+  const isOut = (item) => [...item.getClientRects()].some(({{ left, right, top, bottom }}) => (
+    top < 0 || bottom > innerHeight
+    || wide > 0 && (right - left > wide + 1 || slide.contains(item) && bottom > room.bottom + 1)))
+  const parts = [title, steps, ...slide.querySelectorAll("*")].filter((item) => item.checkVisibility())
+  const [pages, page] = wide === 0 ? [1, 0] : [Math.round(slide.scrollWidth / wide), slide.scrollLeft / wide]
+  const hands = found.filter((item) => item.matches(".step-controls .hand")).map((item) => item.clientWidth)
+  return [pages, page, parts.filter(isOut).map((item) => item.textContent), hands]
+}}"""
+
+
+def test_in_a_hall_each_step_is_a_slide_of_which_the_clicker_skips_nothing(explorer):
+    page, count = explorer.page, explorer.page.locator(".lesson .count")
+    explorer.resize(1280, 720)
+    explorer.tell("present")
+    for lesson in package_lessons().values():
+        explorer.change(explorer.tell, "lesson", lesson.name)
+        for number, step in enumerate(lesson.steps, 1):
+            expect(count).to_have_text(f"{number} / {len(lesson.steps)}")
+            if step.controls:
+                wait_ready(page)
+            wait_frames(explorer, 2)
+            seen = set()
+            while count.text_content().startswith(f"{number} /"):
+                pages, at_page, out, hands = page.evaluate(SLIDE)
+                assert out == [], step.title
+                assert all(wide >= 200 for wide in hands), step.title
+                assert len(hands) == len(step.controls)
+                assert at_page == pytest.approx(round(at_page), abs=0.01)
+                seen.add(round(at_page))
+                if number == len(lesson.steps) and len(seen) == pages:
+                    break
+                page.keyboard.press("PageDown")
+                wait_frames(explorer, 2)
+            assert seen == set(range(pages)), step.title
+    explorer.tell("present")
+
+
 SIZES = {"present": (1600, 950), "phone": (390, 844)}
 # A lesson that is computed fast.  Narrow and wide windows have a test of their own.
 FAST = ((NAME, "present"),)
@@ -211,6 +279,15 @@ GIVEN = [
     for place in SIZES
 ]
 MOST_LINES = 6
+
+
+def read_on(tab):
+    """Turn the pages of a slide to the last."""
+    pages, at_page, *_ = tab.page.evaluate(SLIDE)
+    for _ in range(pages - 1 - round(at_page)):
+        tab.page.keyboard.press("PageDown")
+
+
 # [title, count, lines of the text, boxes of what must be in sight, width of the picture], after some frames.
 SHOWN = f"""async picture => {{
   {ALL}
@@ -269,6 +346,7 @@ def test_a_lesson_is_given_from_start_to_end(request, name, place):
             guess(tab, step.prediction, press)
             # The picture has taken none of the clicks.
             assert here(tab)[1] == step.at.values
+            read_on(tab)
             tab.change(page.keyboard.press, "PageDown")
             assert here(tab)[1] == step.prediction.then.values
             assert page.evaluate(SEEN, wanted) == [True]
@@ -279,10 +357,12 @@ def test_a_lesson_is_given_from_start_to_end(request, name, place):
         if step.question:
             answer = page.locator(".answer > div")
             assert answer.is_hidden()
+            read_on(tab)
             page.keyboard.press("PageDown")
             wait_frames(tab, 2)
             assert_in_sight(answer, 3)
         if number < len(lesson.steps):
+            read_on(tab)
             tab.change(page.keyboard.press, "PageDown")
     if place == "present":
         tab.tell("present")

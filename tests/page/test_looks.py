@@ -3,6 +3,7 @@
 import base64
 import io
 
+import numpy as np
 import pytest
 from PIL import Image, ImageStat
 from playwright.sync_api import expect
@@ -10,7 +11,7 @@ from pytest import approx
 
 from hess_explorer.scenes import scenes
 from support.accessible import assert_accessible, contrast
-from support.page import HESS, SLIDERS, brought_on_phone, own_tab, wait_frames
+from support.page import ALL, HESS, SLIDERS, brought_on_phone, own_tab, wait_frames
 from support.thorough import sample
 
 SIZES = {"wide": (1600, 950), "laptop": (1280, 720), "phone": (390, 844), "sideways": (844, 390)}
@@ -89,6 +90,29 @@ def assert_covered(places, size, name):
     if len(boxes) >= 3:
         assert sum(box["width"] * box["height"] for box in boxes) >= COVERED[name] * width * height, name
         assert min(box["width"] for box in boxes) >= 150, name
+
+
+# Where the pictures in sight are, those that lead first and how many lead.
+HALL = f"""() => {{
+  {ALL}
+  const cells = all(document).filter((item) => item.matches(".gallery:not(.away) .picture") && item.checkVisibility())
+  const isAside = (item) => item.classList.contains("aside")
+  const boxes = cells.sort((a, b) => isAside(a) - isAside(b)).map((item) => {{
+    const {{ left, top, right, bottom, width }} = item.getBoundingClientRect()
+    return [left, top, right, bottom, width]
+  }})
+  return [boxes, cells.filter((item) => !isAside(item)).length]
+}}"""
+
+
+def assert_fills_hall(page, width, height, share, least):
+    boxes, leading = page.evaluate(HALL)
+    for left, top, right, bottom, edge in boxes:
+        assert 0 <= left < right <= width + 1
+        assert 0 <= top < bottom <= height + 1
+        assert edge >= least
+    left, top, right, bottom, _ = np.array(boxes[:leading]).T
+    assert max((max(right) - min(left)) / width, (max(bottom) - min(top)) / height) >= share
 
 
 def assert_in_sight(places, width, height, count, share=0.5):
@@ -198,6 +222,17 @@ def test_a_scene_has_its_columns_and_colours_and_nothing_is_covered_cut_off_or_h
     tab.resize(*SIZES["laptop"])
     assert_in_sight(places_of(tab.page, scene), *SIZES["laptop"], len(scenes()[scene].open_pictures))
     assert_covered(places_of(tab.page, scene), "laptop", "laptop")
+    tab.tell("present")
+    for size in ((1600, 950), (1920, 1080), SIZES["laptop"]):
+        tab.resize(*size)
+        # The strip can be read from afar.
+        assert_fills_hall(tab.page, *size, 0.9, 200)
+    for key in ("1", "Shift+Digit4", "m"):
+        tab.page.keyboard.press(key)
+        wait_frames(tab, 4)
+        assert_fills_hall(tab.page, *SIZES["laptop"], 0.9 if key == "1" else 0, 100 if key == "m" else 200)
+    tab.tell("present")
+    tab.page.keyboard.press("Escape")
     tab.resize(*SIZES["phone"])
     assert_looks(tab.page, scene, "phone", theme, artefacts)
 
@@ -216,7 +251,7 @@ def test_a_phone_has_all_of_it_and_one_hand_suffices(look_at, artefacts, scene, 
     page = look_at(scene, size, theme).page
     assert_looks(page, scene, size, theme, artefacts)
     # A term is a word of a sentence, as high as its line.
-    for name, smallest in page.locator("button:not(.term), select, input").evaluate_all(TARGETS):
+    for name, smallest in page.locator("button:not(.term, .names), select, input").evaluate_all(TARGETS):
         assert smallest >= 43.9, name
     if size == "phone":
         assert_accessible(page)
@@ -227,6 +262,20 @@ def test_a_phone_has_all_of_it_and_one_hand_suffices(look_at, artefacts, scene, 
     assert places_of(page, scene) == before
     assert reader.evaluate("item => item.scrollWidth - item.clientWidth") <= 0
     reader.evaluate("item => item.scrollTo(0, 0)")
+
+
+# Sums up how far the layout shifts without a hand.
+SHIFTS = """window.shifted = 0
+new PerformanceObserver((list) => { for (const { value } of list.getEntries()) window.shifted += value })
+  .observe({ type: "layout-shift", buffered: true })"""
+
+
+@pytest.mark.parametrize("size", ["laptop", "wide"])
+def test_nothing_moves_while_the_page_loads(browser, server, size):
+    with own_tab(browser, server, SIZES[size], SHIFTS) as tab:
+        tab.goto(f"/?scene={HESS}")
+        wait_frames(tab, 4)
+        assert tab.page.evaluate("window.shifted") <= 0.05
 
 
 def edges(page):
@@ -321,7 +370,7 @@ def test_no_rule_of_wcag_is_broken(look_at):
     tab.type("h", "abc")
     # The server parses everything that is not a plain number.
     page.locator(".param-h .exact[aria-invalid=true]").wait_for()
-    assert "number" in box.evaluate("item => item.validationMessage")
+    assert "number" in page.locator(".param-h .why").inner_text()
     assert page.locator(".text.notes").is_visible()
     assert page.locator(".comparison").is_visible()
     assert_accessible(page)
@@ -372,7 +421,9 @@ def test_every_control_is_reached_by_the_tab_key_and_every_stop_has_a_name(look_
         "text",
     ]
     # The first picture comes soon, and the player before the groups of controls.
-    assert next(i for i, stop in enumerate(stops) if stop.startswith("CANVAS")) < 12
+    at = {name: next(i for i, stop in enumerate(stops) if name in stop) for name in ("CANVAS", "param-play", "exact")}
+    assert at["CANVAS"] <= 12
+    assert at["param-play"] < at["exact"]
     assert {"sphere", "corner", *(f"param-{name}" for name in (*tools, *SLIDERS))} <= reached
     # Each that is disabled says why.
     said = page.locator(":disabled").evaluate_all("items => items.map((item) => item.title)")

@@ -13,6 +13,7 @@ def test_a_typed_potential_is_shown_and_goes_into_the_link(explorer):
     box = explorer.box("U")
     assert box.input_value() == "g3 +"
     assert box.get_attribute("aria-invalid") == "true"
+    assert explorer.page.locator(".why:visible").inner_text() == explorer.text("notes")
     # Other numbers need no compilation.
     explorer.change(explorer.type, "U", "g3 - 2*g1")
     assert explorer.text("notes") == ""

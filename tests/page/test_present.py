@@ -72,6 +72,7 @@ def test_what_is_presented_is_read_from_afar_and_the_link_keeps_it(explorer):
     assert large["lines"] == pytest.approx({name: 2 * width for name, width in usual["lines"].items()}, rel=0.01)
     assert thick == pytest.approx([2 * width for width in strokes], rel=0.01)
     # All of it is in sight.
+    expect(page.locator(".signs summary")).to_be_in_viewport(ratio=1)
     numbers = page.locator(".number").filter(visible=True)
     assert numbers.count() == len(essential)
     pictures = map(explorer.picture, scenes()[HESS].open_pictures)

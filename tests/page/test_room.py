@@ -114,12 +114,14 @@ def test_a_guess_of_the_audience_from_the_invitation_to_how_far_it_was_off(lectu
     for name, columns in drawn.items():
         if name not in POINTS:
             assert columns == [lengths(column) for column in tab.data(name).values()], name
-    # The next step takes the guesses away.
+    # The end of the step takes the guesses away, also that of the lesson, after which no state comes.
     tab.turn_to_step(STEP + 1)
     page.locator("canvas.audience").wait_for(state="detached")
     small.get_by_role("heading", name=LESSON.steps[STEP].title).wait_for()
     expect(small.locator(".said")).to_be_hidden()
     assert sheet.count() == 0
+    tab.leave_lesson()
+    expect(small.locator(".lesson")).to_be_hidden()
 
 
 @pytest.mark.thorough

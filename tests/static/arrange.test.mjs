@@ -43,6 +43,14 @@ test("a single lead takes 70 % of the height, and the pictures beside it can be 
   }
 })
 
+test("what leads alone stands in the middle", () => {
+  for (const [width, height] of PLACES) for (const leading of [1, 3]) {
+    const lefts = arrange(viewport(width, height), leading, 0).boxes.map(({ x }) => x)
+    const rights = arrange(viewport(width, height), leading, 0).boxes.map(({ x, edge }) => width - x - edge)
+    assert.ok(Math.abs(Math.min(...lefts) - Math.min(...rights)) <= 1)
+  }
+})
+
 test("in a viewport that is too small for that, the pictures of the strip are as large as they can be", () => {
   const { boxes: [, ...strip] } = arrange(viewport(500, 330), 1, 3, 0)
   assert.ok(strip.every(({ edge }) => edge > 70 && edge < LEAST))

@@ -4,19 +4,21 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from typing import Any
 
 from markdown_it.token import Token
 
 from hess_explorer.lessons.images import ImageError, Images
 from hess_explorer.lessons.lesson import LessonError
-from hess_explorer.lessons.markdown import BadFormula, formula, strict_parser
-from hess_explorer.lessons.settings import place_of
+from hess_explorer.lessons.markdown import DRAGGED, LAYER, BadFormula, formula, strict_parser
+from hess_explorer.lessons.settings import dragged_of, named_of, place_of
+from hess_explorer.scenes.framework.scene import Scene
 
 _MOST_SHOWN = 40
 _MATH = {"math_inline": False, "math_inline_double": True, "math_block": True, "math_block_label": True}
 
 
-def problems_in(text: str, line: int, images: Images) -> Iterator[LessonError]:
+def problems_in(text: str, line: int, images: Images, scene: Scene[Any] | None) -> Iterator[LessonError]:
     """Yield the mistakes in a Markdown text that begins at a line.
 
     Parameters
@@ -27,17 +29,19 @@ def problems_in(text: str, line: int, images: Images) -> Iterator[LessonError]:
         Line of its first line in the file, from 1.
     images : Images
         Receives the images of the text.
+    scene : Scene or None
+        The scene whose pictures the text names; None if the step has no valid state.
     """
     for token in strict_parser().parse(text):
-        yield from _problems_of(token, line + (token.map[0] if token.map else 0), images)
+        yield from _problems_of(token, line + (token.map[0] if token.map else 0), images, scene)
 
 
-def _problems_of(token: Token, at: int, images: Images) -> Iterator[LessonError]:
+def _problems_of(token: Token, at: int, images: Images, scene: Scene[Any] | None) -> Iterator[LessonError]:
     for child in token.children or () if token.type == "inline" else ():
-        yield from _problems_of(child, at, images)
+        yield from _problems_of(child, at, images, scene)
         at += child.content.count("\n") + (child.type in ("softbreak", "hardbreak"))
     try:
-        _check(token, at, images)
+        _check(token, at, images, scene)
     except ImageError as error:
         yield LessonError(f"{_short(str(token.attrs['src']))}: {error}", at)
     except BadFormula as error:
@@ -46,7 +50,7 @@ def _problems_of(token: Token, at: int, images: Images) -> Iterator[LessonError]
         yield error
 
 
-def _check(token: Token, at: int, images: Images) -> None:
+def _check(token: Token, at: int, images: Images, scene: Scene[Any] | None) -> None:
     """Raise an error if the page cannot show a token."""
     if token.type == "text" and "$" in token.content:
         raise LessonError("a dollar stands alone: close the formula without a space inside, or write \\$.", at)
@@ -62,8 +66,14 @@ def _check(token: Token, at: int, images: Images) -> None:
         target = str(token.attrs["href"])
         if target.startswith("?"):
             place_of(target, at)
+        elif LAYER.fullmatch(target):
+            if scene is not None:
+                named_of(target, scene, at)
+        elif number := DRAGGED.fullmatch(target):
+            if scene is not None:
+                dragged_of(number[2], scene, at)
         elif not re.match(r"https?://[^/]", target, re.IGNORECASE):
-            ways = "https://…, or ?scene=… for a state of the page"
+            ways = "https://…, ?scene=… for a state of the page, or picture/layer for what a picture shows"
             raise LessonError(f"the link to {_short(target)} leads nowhere: write {ways}.", at)
 
 

@@ -19,6 +19,8 @@ from mdit_py_plugins.front_matter import front_matter_plugin
 _STOPS = re.compile(r'(<span class="math inline">.*?</span>)([.,;:!?)]+)', re.DOTALL)
 _ELEMENT = re.compile(r"\{http://www\.w3\.org/1998/Math/MathML\}(m[a-z]+)")
 _CHILDREN = {"mfrac": 2, "mroot": 2, "msub": 2, "msup": 2, "munder": 2, "mover": 2, "msubsup": 3, "munderover": 3}
+LAYER, DRAGGED = re.compile(r"()([\w-]+/[\w-]+)"), re.compile(r"(drag:)(\w+)")
+"""Target of a link to a layer of a picture, and of a number that can be dragged."""
 _COMMAND = re.compile(r"\\(?:[A-Za-z]+|.)")
 
 
@@ -81,12 +83,17 @@ def _image(_: object, tokens: Sequence[Token], i: int, options: object, env: Map
 
 
 def _link(renderer: Any, tokens: Sequence[Token], i: int, options: Any, env: Any) -> str:
-    """Let links to other hosts open a new tab, so that the lesson stays open."""
-    if not str(tokens[i].attrs["href"]).startswith("?"):
+    """Open links to other hosts in a new tab, so that the lesson stays open; names and numbers are buttons."""
+    target = str(tokens[i].attrs["href"])
+    if found := LAYER.fullmatch(target) or DRAGGED.fullmatch(target):
+        end = next(token for token in tokens[i:] if token.type == "link_close")
+        tokens[i].tag = end.tag = "button"
+        tokens[i].attrs = {"class": "drag" if found[1] else "names", "value": found[2]}
+    elif not target.startswith("?"):
         tokens[i].attrSet("target", "_blank")
         tokens[i].attrSet("rel", "noopener")
-    found: str = renderer.renderToken(tokens, i, options, env)
-    return found
+    html: str = renderer.renderToken(tokens, i, options, env)
+    return html
 
 
 def to_html(text: str, images: Mapping[str, str] | None = None, inline: bool = False) -> str:

@@ -17,7 +17,8 @@ contains its settings as YAML; the headings "Question" and "Answer" one level do
     hide: {picture: omega, layer: stable}
     predict: {picture: circle, layer: stable, then: "?scene=suslov-hess&h=1.5&f=0.6"}
     ```
-    Text with $formulas$.
+    Text with $formulas$, words that light up a layer of a picture, like [stable cycle](omega/stable), and numbers
+    that can be dragged, like [0.5](drag:h).
     ### Question
     ### Answer
 
@@ -265,20 +266,22 @@ def _steps(
     parts = list(_parts(text, level))
     steps: list[LessonStep] = []
     for part in parts[:MAX_STEPS]:
-        mistakes += problems_in(part.title, part.line - 1, images)
-        mistakes += problems_in(part.text, part.line, images)
+        step = None
         try:
             fields = _settings(part)
             place = _state(fields, place)
             step = _step(part, level + 1, fields, place)
         except LessonError as error:
             mistakes.append(error)
-            # Without a first state, the other steps would only say that theirs is missing.
-            if place is None:
-                break
-            continue
-        steps.append(step)
-        place = step.at if step.prediction is None else step.prediction.then
+        scene = None if place is None else scenes()[place.scene]
+        mistakes += problems_in(part.title, part.line - 1, images, scene)
+        mistakes += problems_in(part.text, part.line, images, scene)
+        # Without a first state, the other steps would only say that theirs is missing.
+        if place is None:
+            break
+        if step is not None:
+            steps.append(step)
+            place = step.at if step.prediction is None else step.prediction.then
     if not parts:
         mistakes.append(LessonError(f"there is no step: begin one with a heading, {'#' * level} Its title.", 1))
     if len(parts) > MAX_STEPS:

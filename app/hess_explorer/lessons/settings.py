@@ -164,6 +164,17 @@ def hidden_of(value: object, scene: Scene[Any], line: int) -> HiddenLayer | None
     return HiddenLayer(plot.name, plot.source_of(layer))
 
 
+def named_of(target: str, scene: Scene[Any], line: int) -> None:
+    """Raise an error unless "picture/layer" names a curve or points of a planar picture."""
+    given = dict(zip(("picture", "layer"), target.split("/"), strict=True))
+    _layer(given, f"{target!r}", scene, line, (*_CURVES, *_POINTS))
+
+
+def dragged_of(name: str, scene: Scene[Any], line: int) -> None:
+    """Raise an error unless a number of the scene has this name."""
+    _one_of(name, "a number to drag", [spec.name for spec in scene.specs if isinstance(spec, NumberSpec)], line)
+
+
 def prediction_of(value: object, place: StateLink, line: int) -> Prediction | None:
     """Return the prediction of a step, or None."""
     if value is None:

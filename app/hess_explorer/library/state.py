@@ -41,7 +41,7 @@ class SceneState:
     >>> import hess_explorer as hess
     >>> state = hess.state("suslov-hess", h=1.2, f=0.3, accuracy="draft")
     >>> state.parameters["h"], state.pictures
-    (1.2, ('body', 'omega', 'sphere', 'bifurcation', 'circle', 'surface', 'torus', 'chart'))
+    (1.2, ('body', 'omega', 'sphere', 'bifurcation', 'circle', 'surface', 'torus', 'spread', 'chart'))
     >>> state.body.a
     0.2916666666666667
     """

@@ -75,6 +75,8 @@ class Session:
         # Scene, requested values and notes of the drawn state, and its pictures; None if nothing valid is drawn.
         self._drawn: tuple[str, Values, list[str]] | None = None
         self._drawn_pictures: Collection[str] = ()
+        # Names of the values that the model has limited.
+        self._limited: set[str] = set()
         # True if a control shows a wrong value.
         self._mistaken = False
 
@@ -254,6 +256,7 @@ class Session:
         self.values, notes = wanted.values, list[str]()
         try:
             self.values, notes = self.scene.admit(wanted.values)
+            self._say_limits({name for name, value in self.values.items() if value != wanted.values[name]}, notes)
             state = self.scene.compute(self.values, self._in_sight, self._held)
             report = self.stage.show(state, hold_axes=self._held)
         except ModelError as error:
@@ -271,6 +274,12 @@ class Session:
         self._drawn = self.scene.name, dict(wanted.values), wanted.notes
         self._drawn_pictures, self._mistaken = self._in_sight, False
         return None
+
+    def _say_limits(self, limited: set[str], notes: list[str]) -> None:
+        """Say beside the controls of limited values why they are limited."""
+        for name in limited | self._limited:
+            self.wire.say(f"limit-{name}", "\n".join(notes) if name in limited else "")
+        self._limited = limited
 
     def _say(self, report: Report, notes: list[str]) -> None:
         self.wire.say("summary", report.summary)

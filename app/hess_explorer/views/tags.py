@@ -18,10 +18,12 @@ from hess_mechanics.numerics.results import Array
 
 _CELLS = 48
 """Cells of the grid along each side."""
-_LETTER, _LINE = 0.027, 0.068
-"""Width of a letter and height of a line in a small frame (270 pixels)."""
+_SMALL = 270.0
+"""Edge of a small frame in pixels."""
+_LETTER, _LINE = 0.031, 0.068
+"""Width of a letter and height of a line in a small frame."""
 _GAP = 0.012
-"""Distance between a label and what it names."""
+"""Distance between a label and the line or the marker that it names."""
 _SAMPLES = 800
 """Points by which a curve or a cloud of dots covers the grid."""
 _ANCHORS = 90
@@ -73,7 +75,7 @@ def label_places(
         half = _half(layer.tag)
         inside = _inside(layer, given, frame)
         cost, covered, *place = (
-            best(taken, _FRAME, _around(points, half), *half, _EDGE, _PULL)
+            best(taken, _FRAME, _around(points, half, _gap(layer)), *half, _EDGE, _PULL)
             if inside is None
             else best(taken, inside, _middles(inside), *half, _EDGE, _PULL)
         )
@@ -146,12 +148,17 @@ def _half(word: str) -> tuple[float, float]:
     return 0.5 * _LETTER * len(word), 0.5 * _LINE
 
 
-def _around(points: Array, half: tuple[float, float]) -> Array:
+def _gap(layer: Layer[Any]) -> float:
+    """Return the distance of a label from the points of a layer."""
+    return _GAP + 0.5 * float(layer.style.get("size", 0.0)) / _SMALL
+
+
+def _around(points: Array, half: tuple[float, float], gap: float) -> Array:
     """Return the places (2, n) of a label in eight directions from at most `_ANCHORS` of the points in the frame."""
     (x, y), (width, height) = points, half
     seen = np.flatnonzero((x >= 0.0) & (x <= 1.0) & (y >= 0.0) & (y <= 1.0))
     anchors = points[:, seen[:: seen.size // _ANCHORS + 1]]
-    apart = _DIRECTIONS * [[width + _GAP], [height + _GAP]]
+    apart = _DIRECTIONS * [[width + gap], [height + gap]]
     return np.asarray((anchors[:, :, None] + apart[:, None]).reshape(2, -1))
 
 

@@ -1,0 +1,60 @@
+// @ts-check
+// Words of a lesson that name a layer of a picture: the layer lights up while they have the pointer or the focus, and a click leads
+// with the picture if it does not lead.
+
+import { tell } from "../base/bus.js"
+import { gallery } from "./gallery.js"
+import { linesOf, overlay } from "./guess.js"
+import { circlePath } from "./looks.js"
+
+const [GLOW, WIDTH, RING] = ["rgba(230, 159, 0, 0.5)", 16, 12]
+
+/** Light up what the words in an element name. @param {HTMLElement} el */
+export function lightNames(el) {
+  /** @type {ReturnType<typeof overlay> | null} */
+  let over = null
+  const dim = () => {
+    over?.remove()
+    over = null
+  }
+
+  /** @param {Event} event @returns {string[]} picture and layer */
+  const named = ({ target }) => /** @type {HTMLButtonElement | null} */ (/** @type {Element} */ (target).closest(".names"))?.value.split("/") ?? []
+
+  /** @param {Event} event */
+  function light(event) {
+    const [picture, layer] = named(event)
+    const plot = gallery.plots.find(({ model }) => model.name === picture)
+    // What a guess is about stays dark.
+    const renderer = plot?.model.renderers.find(({ name, visible }) => name === layer && visible)
+    if (renderer === undefined) return
+    dim()
+    const { glyph: { type, x, y, xs = x, ys = y }, data_source: { name: source } } = renderer
+    over = overlay(plot, "glow", { ariaHidden: true }, "pointer-events: none", (ctx) => {
+      const { x0, y0, x1, y1 } = plot.frame.bbox
+      ctx.rect(x0, y0, x1 - x0, y1 - y0)
+      ctx.clip()
+      for (const line of linesOf({ source, columns: [xs.field, ys.field], what: type === "Scatter" ? "point" : "curve" })) {
+        const places = line.map(over.toPixels)
+        if (places.length === 1) circlePath(ctx, ...places[0], RING)
+        else {
+          ctx.beginPath()
+          for (const place of places) ctx.lineTo(...place)
+        }
+        ctx.lineWidth = WIDTH
+        ctx.strokeStyle = GLOW
+        ctx.stroke()
+      }
+    })
+    over.draw()
+  }
+
+  for (const name of ["pointerover", "focusin"]) el.addEventListener(name, light)
+  for (const name of ["pointerout", "focusout"]) el.addEventListener(name, dim)
+  el.addEventListener("click", (event) => {
+    const [picture] = named(event)
+    const cell = gallery.cell(picture)
+    if (cell !== undefined && (!cell.checkVisibility() || cell.classList.contains("aside"))) tell("look", picture)
+    light(event)
+  })
+}
