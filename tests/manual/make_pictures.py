@@ -49,13 +49,8 @@ EDGE = 320
 VIEWPORT = {"width": 560, "height": 680}
 DURATION, FRAMES = 14.0, 70
 SIDE = 400
-BODY = {"I22": 1.5, "I13": 0.5, "I23": 0.7, "span": DURATION}
-SHOWN = (
-    # k = 1.0067 is I11 = 2; the start has the energy h = 2, next to the unstable rotation.
-    ("free-suslov", "body", {"k": 1.0067, "w1": 1.3702, "w2": -0.4040, "Gamma": 0.7, "phi": 0.5}),
-    ("singular-measures", "omega", {"I11": 2.0, "h": 2.0}),
-)
-"""Scene, picture and values of the moving picture, from left to right: one body, and many of its motions."""
+SHOWN = ("sphere", "body")
+"""Pictures of the first step of the introduction, from left to right."""
 INSIDE = """name => {
   const plot = hess.plots.find(({ model }) => model.name === name)
   if (plot === undefined) return null
@@ -87,8 +82,8 @@ def taken(page, base, name, theme):
 def motion(file):
     """Write the moving picture of the README, frame by frame as the export of films draws it."""
     whole = [Image.new("RGB", (SIDE * len(SHOWN), SIDE)) for _ in range(FRAMES)]
-    for column, (scene, picture, values) in enumerate(SHOWN):
-        data = picture_data(urlencode({"scene": scene, **BODY, **values}), picture)
+    for column, picture in enumerate(SHOWN):
+        data = picture_data(urlencode({"scene": "suslov-hess", "swarm": 50, "span": DURATION}), picture)
         drawn = frames(data, FileRequest("webm", 60.0), np.linspace(0.0, DURATION, FRAMES))
         for image, png in zip(whole, drawn, strict=True):
             frame = Image.open(io.BytesIO(png)).convert("RGB")

@@ -6,6 +6,8 @@ from pytest import approx
 from scipy.interpolate import CubicSpline
 
 import oracle
+from hess_explorer.export.columns import columns_of
+from hess_explorer.export.picture_data import picture_data
 from hess_explorer.protocol.wire import Wire
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Motion
@@ -195,3 +197,14 @@ def test_the_centres_of_mass_move_in_space_with_the_angular_velocity_of_their_bo
     # They start evenly around the vertical.
     around = np.unwrap([np.arctan2(-places["my"][i, 0], places["mx"][i, 0]) for i in range(8)])
     assert np.abs(np.diff(around)) == approx(np.pi / 4, abs=1e-6)
+
+
+def test_a_table_has_a_row_for_each_bead_at_the_time_of_the_link():
+    data = picture_data("scene=suslov-hess&swarm=8&t=2.0", "omega")
+    _, part = swarm_of("suslov-hess", swarm="8")
+    found = columns_of(data).layer("swarm")
+    assert [*found["body"]] == [1, 2, 3, 4, 5, 6, 7, 8]
+    sample = int(np.argmin(np.abs(part.motions.times / data.state.body.frequency_unit - 2.0)))
+    unit = data.state.body.frequency_unit
+    assert found["t"] == approx(part.motions.times[sample] / unit)
+    assert found["omega1"] == approx(unit * part.motions.states[:, sample, 0], abs=1e-3)

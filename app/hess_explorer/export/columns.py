@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hess_explorer.export.picture_data import PictureData
+from hess_explorer.scenes.framework.swarm import SWARM
 from hess_explorer.views.layers import Columns, Sources
 from hess_explorer.views.plot import Plot
 from hess_mechanics.errors import InvalidParameter
@@ -21,8 +22,8 @@ __all__ = ["Table", "columns_of"]
 
 ANGLES = ("phi", "phi_start", "theta", "psi", "delta", "l", "φ", "θ", "θ⁻", "θ⁺", "ψ", "δ", "Θ(φ)")
 """Names of columns and axes that are angles, in radians."""
-INDICES = ("part", "ring")
-"""Columns that number the parts of a curve or an area, and its boundary curves, 0 for the outer one."""
+INDICES = ("part", "ring", "body")
+"""Columns that number the parts of a curve or an area, its boundary curves, 0 for the outer one, and bodies."""
 GRID = ("image", "x", "y", "dw", "dh")
 """Columns of cells."""
 
@@ -212,13 +213,16 @@ def angles_of(data: PictureData) -> dict[str, dict[str, str]]:
 
 
 def layers_of(data: PictureData) -> Sources:
-    """Return the columns by layer ("plot-layer" → "layer") or by track; clouds are at the time of the link."""
+    """Return the columns by layer ("plot-layer" → "layer") or by track; clouds and swarms at the time of the link."""
     found: Sources = {}
     own = f"{data.picture.name}-"
     for source, columns in sorted(data.columns.items()):
         layer = source.removeprefix(own).removeprefix("data-")
         # Labels belong to the look of a picture, not to its numbers.
         if layer.endswith("-label"):
+            continue
+        if layer == SWARM:
+            found[layer] = _swarm(columns, data.client["t"]) if columns else {}
             continue
         if "frames0" in columns:
             found |= {f"{layer}-{name}": cloud for name, cloud in _clouds(columns, data.client["t"]).items()}
@@ -235,6 +239,23 @@ def layers_of(data: PictureData) -> Sources:
 
 def _is_list(column: Any) -> bool:
     return isinstance(column, list) and all(isinstance(one, (int, float, str)) for one in column)
+
+
+def _swarm(columns: Columns, time: float) -> Columns:
+    """Return the columns of the known motions of a swarm at the sample nearest to a time, see "swarm.js"."""
+    count, names = columns["count"], columns["names"]
+    values = columns["values"].reshape(len(names), -1, count)
+    sample = min(round(time / columns["spacing"]), values.shape[1] - 1)
+    known = np.flatnonzero(columns["until"] >= sample)
+    scaled = (
+        low + step * (one[sample, known] + 32767.0)
+        for low, step, one in zip(columns["low"], columns["step"], values, strict=True)
+    )
+    return {
+        "body": known + 1.0,
+        "t": np.full(known.size, sample * columns["spacing"]),
+        **dict(zip(names, scaled, strict=True)),
+    }
 
 
 def _clouds(columns: Columns, time: float) -> Sources:
