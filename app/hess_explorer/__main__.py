@@ -11,8 +11,6 @@ from importlib import import_module, metadata
 from hess_explorer.commands import COMMANDS, HEADINGS, CommandError
 from hess_explorer.commands.command import Command, Options
 
-__all__ = ["main", "parse"]
-
 
 def _with_command(words: list[str]) -> list[str]:
     """Prepend `serve` when the arguments name no command."""

@@ -6,8 +6,6 @@ import hashlib
 from functools import cache
 from pathlib import Path
 
-__all__ = ["STATIC", "modules_path"]
-
 _HERE = Path(__file__).resolve().parent
 STATIC = next(folder for folder in (_HERE / "static", _HERE.parents[1] / "static") if folder.is_dir())
 

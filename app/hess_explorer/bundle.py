@@ -8,8 +8,6 @@ from functools import cache
 
 from hess_explorer.assets import STATIC
 
-__all__ = ["bundle"]
-
 # The only forms that the modules use; any other one makes the bundle a syntax error.
 _IMPORT = re.compile(r'^import \{([^}]*)\} from "(\.{1,2}/[\w./]+\.js)"$', re.MULTILINE)
 _EXPORT = re.compile(r"^export ((?:async )?(?:function|const|class)) (\w+)", re.MULTILINE)
@@ -40,7 +38,7 @@ def bundle(entry: str) -> str:
             source = (STATIC / path).read_text(encoding="utf-8")
             exports[path] = ", ".join(found[1] for found in _EXPORT.findall(source))
             # Its place is after the modules that it imports.
-            code = _IMPORT.sub(lambda found: _constants(found[1], add(_resolved(path, found[2]))), source)
+            code = _IMPORT.sub(lambda found: _constants(found[1], add(_resolve(path, found[2]))), source)
             body = _EXPORT.sub(r"\1 \2", code)
             parts[path] = f"// {path}\nconst {name} = (() => {{\n{body}\nreturn {{ {exports[path]} }}\n}})()\n"
         return name
@@ -58,5 +56,5 @@ def _constants(names: str, module: str) -> str:
     return f"const {{{names.replace(' as ', ': ')}}} = {module}"
 
 
-def _resolved(path: str, other: str) -> str:
+def _resolve(path: str, other: str) -> str:
     return posixpath.normpath(posixpath.join(posixpath.dirname(path), other))

@@ -119,7 +119,7 @@ class Parameter:
         low, high = self.bounds
         if not (low <= value <= high and (not self.whole or value == round(value))):
             kind = "is not a whole number" if self.whole else "is not"
-            raise InvalidParameter(f"{self.name} = {plain(value)} {kind} {self.range}: choose it there.")
+            raise InvalidParameter(f"{self.name} = {plain(value)} {kind} {self.range}: choose a value in this range.")
         return value
 
     def changed(self, **changes: Any) -> Mapping[str, Any]:

@@ -171,19 +171,19 @@ def return_map(
     if isinstance(body, SuslovBody | BallBody):
         energy = "E" if h is None else "h"
         kind: type[AngleSection] = SuslovSection if isinstance(body, SuslovBody) else BallSection
-        section = kind(body, 0.0, as_integer("plane", plane, 1, 3)).at_constant(energy, *_given(values, energy))
+        section = kind(body, 0.0, as_integer("plane", plane, 1, 3)).at_constant(energy, *_values_of(values, energy))
         section.require_reached()
     elif isinstance(body, HeavyBody):
-        at = _given(values, "h", "f")
+        at = _values_of(values, "h", "f")
         section = AndoyerSection(body, at[0], at[1], as_integer("sheet", sheet, 0, 2))
     elif isinstance(body, ParametrizedSystem):
         given = {name: value for name, value in values.items() if value is not None}
         section = variable_section(body, {**given, **(integrals or {})}, surface, coordinates, window, sense)
     elif isinstance(body, QuarticBody):
-        _given(values)
+        _values_of(values)
         section = QuarticSection(body)
     else:
-        section = TorusSection(body.a, *_given(values, "h", "f"))
+        section = TorusSection(body.a, *_values_of(values, "h", "f"))
     if longest is not None and not longest > 0.0:
         raise InvalidParameter(f"longest = {longest:g} is not a waiting time: choose a positive number.")
     return ReturnMap(section, as_level(accuracy), backward, longest)
@@ -569,7 +569,7 @@ def basins(
     )
 
 
-def _given(values: dict[str, float | None], *names: str) -> list[float]:
+def _values_of(values: dict[str, float | None], *names: str) -> list[float]:
     """Return the values of these integrals; any other integral must be absent.  Raises `InvalidParameter`."""
     lost = [name for name in names if values[name] is None]
     if lost:

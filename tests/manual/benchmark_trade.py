@@ -34,7 +34,7 @@ def example(scene, trial):
     choices = [spec for spec in scene.specs if isinstance(spec, ChoiceSpec) and spec.name != "accuracy"]
     changed = ({**values, spec.name: one} for values in shown for spec in choices for one in spec.options)
     states = (bare(scene.of(values)) for values in (*shown, *changed))
-    return next(state for state in states if trial.shown(state))
+    return next(state for state in states if trial.applies(state))
 
 
 def measured(scene, trial):

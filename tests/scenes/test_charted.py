@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from pytest import approx
 
-from hess_explorer.commands.serve import _shown
+from hess_explorer.commands.serve import _chart_link
 from hess_explorer.compute.cells import Outcome
 from hess_explorer.export.picture_data import complete, picture_data
 from hess_explorer.page.requested import RequestedState
@@ -138,12 +138,12 @@ def test_an_error_belongs_to_its_number():
 def test_a_periodic_number_and_categories_have_their_own_colours():
     turns = state_of(chart="rotation-number")
     assert turns.chart_part.cells.ends == (-0.5, 0.5)
-    assert np.nanmax(np.abs(turns.drawn["chart-turns"]["image"][0])) <= 0.5
-    assert not turns.drawn["chart-numbers"]
+    assert np.nanmax(np.abs(turns.sources["chart-turns"]["image"][0])) <= 0.5
+    assert not turns.sources["chart-numbers"]
     kinds = state_of(chart="locked", h=1.5, f=0.6)
-    (name,) = (name for name, columns in kinds.drawn.items() if "image" in columns)
+    (name,) = (name for name, columns in kinds.sources.items() if "image" in columns)
     assert name.startswith("chart-kinds")
-    values = kinds.drawn[name]["image"][0]
+    values = kinds.sources[name]["image"][0]
     assert {*values[np.isfinite(values)]} == {0.0, 1.0}
     assert kinds.chart_part.caption.verdict == "locked = two limit cycles."
 
@@ -182,11 +182,11 @@ def stored(**changed):
 
 def test_a_stored_sweep_is_shown_in_the_chart_of_a_scene():
     try:
-        values, _ = decode(_shown(stored()), TORI.specs)
+        values, _ = decode(_chart_link(stored()), TORI.specs)
         state = TORI.compute(values, ["chart"], False)
         assert (values["accuracy"], values["a"]) == ("precise", 0.3)
         assert state.chart_part.window == ((-0.25, -0.75), (2.25, 0.75))
-        assert np.array_equal(state.drawn["chart-numbers"]["image"][0], stored().trace.values.T)
+        assert np.array_equal(state.sources["chart-numbers"]["image"][0], stored().trace.values.T)
         assert state.chart_part.about(2.0, 0.5).endswith("|t| = 7.")
         # Another state has no such sweep.
         assert TORI.of({**values, "a": 0.31}).chart_part.key not in STORED
@@ -198,7 +198,7 @@ def test_a_stored_sweep_is_shown_in_the_chart_of_a_scene():
         (stored(phi=0.3), "No scene shows circle-map"),
     ):
         with pytest.raises(ModelError, match=said):
-            _shown(found)
+            _chart_link(found)
 
 
 def test_derived_scenes_share_the_choices_of_the_chart_but_not_its_picture():

@@ -30,8 +30,8 @@ def test_visits_are_the_histogram_of_the_accurate_crossings_of_a_regular_orbit()
     state = SCENES["ball-section"].compute(
         {**SCENES["ball-section"].defaults(), **values_of(SCENES["ball-section"], "Regular")}, (), False
     )
-    found = visits(state.poincare, WHOLE, (32, 20), [state.given], 400, True, density._LEVEL)
-    exact = section(state.poincare, state.given, state.poincare.surface, 1e5, "precise", 400)
+    found = visits(state.poincare, WHOLE, (32, 20), [state.chosen_start], 400, True, density._LEVEL)
+    exact = section(state.poincare, state.chosen_start, state.poincare.surface, 1e5, "precise", 400)
     counted, _, _ = np.histogram2d(*state.poincare.places_of(exact.states).T, bins=(32, 20), range=np.transpose(WHOLE))
     assert found.counts.sum() == found.points == 400
     # One point in fifty at the edge of a cell may lie in the next one, as 400 points are computed at a coarser level.

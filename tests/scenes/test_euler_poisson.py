@@ -89,7 +89,7 @@ def test_on_the_second_sheet_orbits_start_with_the_smaller_momentum():
 
 def test_where_there_is_no_second_sheet_that_is_said():
     with pytest.raises(ModelError, match=r"crosses the second sheet: choose the largest G"):
-        _ = EP.of({**EP.defaults(), "sheet": "second G"}).clicks.picked
+        _ = EP.of({**EP.defaults(), "sheet": "second G"}).clicks.selection
 
 
 def test_curves_that_do_not_go_round_have_no_rotation_number():

@@ -147,7 +147,7 @@ def test_what_is_said_to_follow_does(name, parameter, pictures):
         state = scene.compute({**values, **changes}, pictures.split(), dragging=True)
         return {
             view.name: {
-                source: state.drawn[source]
+                source: state.sources[source]
                 for source in (*view.data(state), *(f"data-{track}" for track in view.tracks))
             }
             for view in scene.views
@@ -235,7 +235,7 @@ def test_a_state_looks_the_same_whatever_was_shown_before(scene, preset):
     again = board.show(found)
     # Marks across a picture are as long as its axes, and labels find their places within them.
     held = [view for view in scene.views if view.kind == "plot" and view.name not in known]
-    later = {source for view in held for source in view.framed(found, view.first_axes, found.drawn)}
+    later = {source for view in held for source in view.framed(found, view.first_axes, found.sources)}
     assert contents(but(board.sources, later)) == contents(but(first.sources, later))
     for view in scene.views:
         if view.name in known:
@@ -375,7 +375,7 @@ def assert_drawn(scene, values, seen, dragging):
         assert orbit["t"][0] == 0.0
         assert np.all(np.diff(orbit["t"]) >= 0.0)
         # A periodic orbit is followed once round, however long that takes.
-        shown = state.shown if scene.origin else state
+        shown = state.base if scene.origin else state
         closed = admitted.get("periodic", "none") != "none" and shown.periodic_orbit.closed_orbit
         assert 0.0 < orbit["t"][-1] <= (closed.time if closed else admitted.get("span", inf)) * (1.0 + 1e-6)
 
@@ -553,7 +553,8 @@ def quick(monkeypatch):
 
 def unfolded(scene, sources):
     """Return the contents of the sources, except those of pictures that start collapsed."""
-    return {name: columns for name, columns in contents(sources).items() if name.split("-")[0] not in scene.buttons}
+    folded = {view.name for view in scene.views if view.button}
+    return {name: columns for name, columns in contents(sources).items() if name.split("-")[0] not in folded}
 
 
 @pytest.mark.usefixtures("quick")
@@ -704,7 +705,7 @@ def test_values_of_another_scene_are_admitted_by_the_bounds_of_this_one(source, 
     assert given.items() <= dict(browser.session.values).items()
     assert browser.ask(2, scene=target)["scene"] == target
     browser.assert_admissible()
-    assert browser.texts["status"] != session.FAILED
+    assert browser.texts["status"] != session.FAILURE
 
 
 def test_what_is_computed_behind_an_answer_begins_when_that_is_made(monkeypatch):
@@ -748,7 +749,7 @@ def test_whatever_is_raised_the_page_gets_a_state(where, opening, caplog):
         choice = next(spec for spec in BALL.specs if not isinstance(spec, NumberSpec))
         other = next(option for option in choice.options if option != choice.default)
         assert browser.ask(1, values={choice.name: other, "h": 7.0})["answers"] == 1
-    assert browser.texts["status"] == session.FAILED
+    assert browser.texts["status"] == session.FAILURE
     # With the state that reproduces it.
     assert "ZeroDivisionError" in caplog.text
     assert opening or "h=7.0" in caplog.text
@@ -756,6 +757,6 @@ def test_whatever_is_raised_the_page_gets_a_state(where, opening, caplog):
     broken[0] = False
     state = browser.ask(2, values={"h": 8.0})
     assert (state["answers"], browser.session.values["h"]) == (2, 8.0)
-    assert browser.texts["status"] != session.FAILED
+    assert browser.texts["status"] != session.FAILURE
     # Background pieces would continue while the process ends.
     browser.session.background.stop()

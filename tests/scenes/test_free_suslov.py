@@ -24,7 +24,7 @@ def test_captions_circles_and_points_are_those_of_the_model(preset):
     view = View(FREE, preset.values)
     state, points = view.result, view.result.points
     assert view.numbers("omega", "Rate ω₀ = #, E = #.") == shown([points.rate, energy(view.values)])
-    assert view.numbers("gamma1", "By # radians per unit of time") == shown([points.speed])
+    assert view.numbers("gamma1", "At # radians per unit of time") == shown([points.speed])
     assert view.quantities("I₁₁ = #") == shown([tensor_of(view.values)[0]])
     for name, point in (("stable", points.stable), ("unstable", points.unstable)):
         assert view.columns(f"omega-{name}-point", "x", "y")[0] == approx(point, rel=1e-6)

@@ -23,7 +23,7 @@ def test_an_example_of_b3_0_is_what_its_name_says(preset):
     if found.kind == "periodic":
         (shown,) = view.numbers("domain", "back and forth. T = #.")
         period, missed = view.numbers(
-            "period", "T = # in this direction. After T the orbit returns to its start, to #."
+            "period", "T = # in this direction. After T the orbit returns to its start within #."
         )
         assert shown == period == approx(found.period, rel=6e-4)
         assert missed <= 1e-6

@@ -62,7 +62,7 @@ def test_a_manifold_ends_where_the_map_jumps_and_no_line_is_drawn_across():
 def test_where_every_orbit_of_the_ball_closes_the_chosen_one_is_parabolic():
     given = {**values_of(scenes()["ball-section"], "Every orbit"), **LIGHT["ball-section"]}
     view = shown("ball-section", "period 1", *given.items())
-    assert view.text["section"].split("\n")[1].startswith("Period 1, parabolic. Multipliers μ = 1, 1, to ")
+    assert view.text["section"].split("\n")[1].startswith("Period 1, parabolic. Multipliers μ = 1, 1, error ")
     assert drawn(view) == {"neither"}
     assert view.points("neither") == approx(np.array([[view.values["psi"], view.values["delta"]]]), abs=1e-6)
     # It is followed by itself.
@@ -111,12 +111,12 @@ def test_before_it_is_known_the_caption_says_so_and_the_chosen_orbit_is_shown():
 
 def test_while_a_slider_is_held_it_follows_and_its_manifolds_come_later():
     view = shown("ball-section", "period 1", dragging=True)
-    assert view.text["section"].split("\n")[1].startswith("Period 1, saddle. Multipliers μ = 2.19, 0.4566, to ")
+    assert view.text["section"].split("\n")[1].startswith("Period 1, saddle. Multipliers μ = 2.19, 0.4566, error ")
     assert drawn(view) == {"repels"}
     assert "Its manifolds are computed when the slider is released." in view.report.quantities
     let_go = shown("ball-section", "period 1")
     assert not any("released" in line for line in let_go.report.quantities)
-    assert "4 of 4 branches of its manifolds are 5 long" in let_go.report.quantities
+    assert "4 of 4 branches of its manifolds are drawn to length 5" in let_go.report.quantities
 
 
 def test_a_branch_that_ends_early_says_why(monkeypatch):
@@ -126,7 +126,7 @@ def test_a_branch_that_ends_early_says_why(monkeypatch):
         patch.setattr(periodic_search, "_RETURNS", 1000)
         view = shown("ball-section", "period 1", ("reach", 30.0))
     assert view.report.notes[0] == "A branch of a manifold ends early. After 1000 returns of the map."
-    assert "0 of 4 branches of its manifolds are 30 long" in view.report.quantities
+    assert "0 of 4 branches of its manifolds are drawn to length 30" in view.report.quantities
     assert not any("early" in note for note in shown("ball-section", "period 1").report.notes)
 
 

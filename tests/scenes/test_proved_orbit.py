@@ -47,7 +47,7 @@ def test_a_short_orbit_is_right_to_its_end_and_nothing_is_drawn(name):
     found = task.now()
     assert found.sentence.startswith("proved error ≤ ")
     assert found.sentence.endswith("certainly right to ½ pixel to its end")
-    assert (found.band, found.around) == ((), ())
+    assert (found.band, found.circles) == ((), ())
     # So small as the level promises, in units in which the state is O(1), and not nothing.
     assert 0.0 < float(found.sentence.split("≤ ")[1].split(",")[0].replace("−", "-")) < 1e-4
 

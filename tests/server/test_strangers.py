@@ -14,7 +14,7 @@ from hess_explorer.assets import modules_path
 from hess_explorer.server.handlers import replace_handlers
 from hess_explorer.server.headers import GuardedDocument, policy
 from hess_explorer.server.home import home_of
-from hess_explorer.server.hosts import REFUSED
+from hess_explorer.server.hosts import REFUSAL
 from support.asynchronous import finished
 from support.serving import served
 from support.visitor import Visitor
@@ -90,7 +90,7 @@ def test_requests_for_another_host_are_refused_whatever_their_path(caplog):
         "127.0.0.1",
     )
     with served(address="0.0.0.0", origins=("example.org:8443",)) as base:
-        assert finished(refused(base)) == {(403, REFUSED)}
+        assert finished(refused(base)) == {(403, REFUSAL)}
         assert finished(allowed(base, *hosts, "example.org", "example.org:8443")) == {200, 101}
         # The address that a client has connected to is one of the machine.
         assert finished(allowed(base.replace("127.0.0.1", "127.0.0.2"), "127.0.0.2")) == {200, 101}

@@ -52,9 +52,9 @@ COUNTED = re.compile(r"\d[\d,]*(?= (?:Taylor steps|steps|points))|(?<=crossing )
 def view_of(scene, preset, seen=None):
     """Return the view of a preset with all of its pictures, or these; what is refused belongs to the record."""
     less = {name: number for name, number in LESS.items() if name in scene.defaults()}
-    if "diagram" in scene.pictures and seen is None:
-        # Diagrams and what attracts in them are chaotic and take 10 s each: "test_orbit_diagram.py" has them.
-        seen = {"body", "sphere"}
+    if seen is None:
+        # Diagrams and what attracts in them are chaotic and take 10 s each: "test_orbit_diagram.py" has them; no swarm.
+        seen = {"body", "sphere"} if "diagram" in scene.pictures else {*scene.pictures} - {"spread"}
     coarse = {"accuracy": "draft"} if preset.values.get("colours") == "basins" else {}
     return View(scene, {**preset.values, **less, **coarse}, seen=seen, refusing=True)
 

@@ -9,8 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-__all__ = ["COMMANDS", "HEADINGS", "CommandError"]
-
 HEADINGS = ("page", "compute", "prove", "files", "help")
 """Headings of the list of commands; the catalogue has more commands for "compute" and "prove"."""
 

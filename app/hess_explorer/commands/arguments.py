@@ -11,8 +11,6 @@ from urllib.parse import parse_qsl, urlencode
 
 from . import CommandError
 
-__all__ = ["assignment_of", "integer", "run_file", "state", "user_object"]
-
 T = TypeVar("T")
 
 
@@ -20,7 +18,7 @@ def run_file(path: str | Path) -> dict[str, Any]:
     """Run a Python file of the user and return its names.  Raises `CommandError` if the file raises an exception."""
     try:
         return runpy.run_path(str(path))
-    # Whatever the user's code raises.
+    # The user's code may raise anything.
     except Exception as error:
         raise CommandError(f"{str(path)!r} failed with {type(error).__name__}: {error}.") from error
 

@@ -9,8 +9,6 @@ from typing import Any, NoReturn
 
 from hess_explorer.commands import CommandError, arguments
 
-__all__ = ["OUT", "OUTPUT", "STATE", "Command", "Option", "Options", "flag", "integer_option", "option", "picture"]
-
 Options = argparse.Namespace
 """The parsed options of a command."""
 

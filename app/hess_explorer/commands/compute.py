@@ -18,8 +18,6 @@ from .arguments import user_object
 from .command import OUTPUT, Command, Option, Options, option
 from .output import long_computation, write
 
-__all__ = ["command_of", "parse", "titles"]
-
 
 def titles(group: str) -> dict[str, str]:
     """Return the titles of the computations under a heading, by name."""
@@ -60,9 +58,9 @@ def parse(name: str, rest: list[str]) -> Options:
     return overview.parse(f"{prog} SYSTEM", ["--help"])
 
 
-def _unknown(kind: str, name: str, known: list[str]) -> CommandError:
-    close = get_close_matches(name, known, 3)
-    hint = f"did you mean {' or '.join(close)}?" if close else f"choose from {', '.join(known)}."
+def _unknown(kind: str, name: str, names: list[str]) -> CommandError:
+    close = get_close_matches(name, names, 3)
+    hint = f"did you mean {' or '.join(close)}?" if close else f"choose from {', '.join(names)}."
     return CommandError(f"There is no {kind} {name[:60]!r}: {hint}")
 
 
@@ -137,7 +135,7 @@ def _run(what: Computation, options: Options) -> None:
         write(options, result.to_pandas(), facts, result.to_xarray, notes)
 
 
-def _notes_on_body(given: Mapping[str, Any]) -> list[str]:
+def _notes_on_body(values: Mapping[str, Any]) -> list[str]:
     """Return a note if no rigid body has these moments of inertia."""
     from hess_mechanics import HeavyBody, check_body
 
@@ -145,5 +143,5 @@ def _notes_on_body(given: Mapping[str, Any]) -> list[str]:
         ("I11", "I22", "I13", "I23"): check_body,
         ("a1", "a2", "a3"): lambda *moments: HeavyBody(moments, (0.0, 0.0, 0.0), 0.0).check,
     }
-    found = [of(*map(given.get, names)) for names, of in checks.items() if {*names} <= given.keys()]
+    found = [of(*map(values.get, names)) for names, of in checks.items() if {*names} <= values.keys()]
     return [one.sentence for one in found if not one.is_body]

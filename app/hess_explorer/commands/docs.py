@@ -13,8 +13,6 @@ from . import CommandError
 from .command import Command, Options, option
 from .output import show
 
-__all__ = ["COMMAND"]
-
 _SOURCE = Path(str(files("hess_explorer"))) / "docs"
 
 

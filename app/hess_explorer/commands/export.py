@@ -11,8 +11,6 @@ from . import CommandError
 from .command import Command, Options, flag, integer_option, option, picture
 from .output import long_computation, show
 
-__all__ = ["COMMAND"]
-
 
 def _print(done: int, of: int) -> None:
     print(f"{done}/{of}", file=sys.stderr, flush=True)

@@ -9,8 +9,6 @@ from . import CommandError
 from .command import Command, option
 from .output import write_file
 
-__all__ = ["COMMAND"]
-
 _GUIDE = Path(str(files("hess_explorer"))) / "docs/guides/lesson.md"
 
 

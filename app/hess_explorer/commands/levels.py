@@ -5,8 +5,6 @@ from __future__ import annotations
 from .command import Command, Options
 from .output import show
 
-__all__ = ["COMMAND"]
-
 
 def _run(options: Options) -> None:
     from hess_mechanics.numerics.accuracy import levels_table

@@ -15,14 +15,12 @@ from typing import Any
 
 from hess_explorer.commands import CommandError
 
-__all__ = ["LONG", "PATIENCE", "long_computation", "show", "write", "write_file"]
-
 LONG = 2.0
 """Seconds after which a command reports that it is still running."""
 PATIENCE = "Still computing; Ctrl-C ends it."
 _ROWS = 20
 """Most rows of a table in text."""
-_LOST = "null stands for a number that is missing or exceeds the range of double precision."
+_NULLS = "null stands for a number that is missing or exceeds the range of double precision."
 
 
 @contextmanager
@@ -80,7 +78,7 @@ def write(
     """
     lost: list[str] = []
     known = _strict(facts, lost)
-    known["notes"] = [*notes, *([_LOST] if lost else [])]
+    known["notes"] = [*notes, *([_NULLS] if lost else [])]
     if options.format == "json":
         known |= _strict({str(name): column.tolist() for name, column in table.items()}, [])
     lines = {name: json.dumps(value, ensure_ascii=False, allow_nan=False) for name, value in known.items()}
@@ -102,9 +100,9 @@ def _plain(value: Any) -> Any:
     return [value.real, value.imag] if isinstance(value, complex) else value.tolist()
 
 
-def _strict(named: Mapping[str, Any], lost: list[str]) -> dict[str, Any]:
-    """Replace numbers that are not finite by null, and append their names to `lost`."""
-    known: dict[str, Any] = json.loads(json.dumps(named, default=_plain), parse_constant=lost.append)
+def _strict(values: Mapping[str, Any], missing: list[str]) -> dict[str, Any]:
+    """Replace numbers that are not finite by null, and append their names to `missing`."""
+    known: dict[str, Any] = json.loads(json.dumps(values, default=_plain), parse_constant=missing.append)
     return known
 
 

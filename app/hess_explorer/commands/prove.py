@@ -10,9 +10,7 @@ from hess_mechanics.suslov_hess.certificate import claim
 from .command import OUT, Command, Options, integer_option, option
 from .output import long_computation, show
 
-__all__ = ["COMMAND"]
-
-_SHOWN = ("trace", "rotation_number", "period", "fixed_points", "multipliers", "rates", "bits", "versions")
+_FACTS = ("trace", "rotation_number", "period", "fixed_points", "multipliers", "rates", "bits", "versions")
 
 
 def _run(options: Options) -> None:
@@ -22,7 +20,7 @@ def _run(options: Options) -> None:
     if options.format == "json":
         text = json.dumps(found, ensure_ascii=False, allow_nan=False, indent=1)
     else:
-        names = [name for name in _SHOWN if found.get(name) is not None]
+        names = [name for name in _FACTS if found.get(name) is not None]
         text = "\n".join(
             [
                 claim(proof),

@@ -26,8 +26,6 @@ if TYPE_CHECKING:
 
     from hess_explorer.lessons.lesson import Lesson
 
-__all__ = ["COMMAND"]
-
 _MOST_CELLS = 256
 """Largest number of cells of a stored sweep along each side that the page shows."""
 
@@ -47,7 +45,7 @@ def _run(options: Options) -> None:
     if options.chart is not None:
         from hess_explorer.sweep import read
 
-        state = f"/?{_shown(read(options.chart))}&large=chart"
+        state = f"/?{_chart_link(read(options.chart))}&large=chart"
     _require_free(options.address, options.port)
     if options.workers > 1 and not hasattr(os, "fork"):
         raise CommandError("--workers needs an operating system with fork: run the command without it.")
@@ -82,7 +80,7 @@ def _run(options: Options) -> None:
         )
 
 
-def _shown(found: xr.Dataset) -> str:
+def _chart_link(results: xr.Dataset) -> str:
     """Show a sweep over two evenly spaced parameters in the chart of a scene, and return the link of the state.
 
     Raises `InvalidParameter` if no scene has such a chart.
@@ -94,9 +92,9 @@ def _shown(found: xr.Dataset) -> str:
     from hess_explorer.scenes.framework.chart_cells import STORED
     from hess_mechanics.errors import InvalidParameter
 
-    names = tuple(map(str, found.status.dims))
-    found = found.isel({name: slice(None, None, -(-found.sizes[name] // _MOST_CELLS)) for name in names})
-    sides = [found[name].values for name in names]
+    names = tuple(map(str, results.status.dims))
+    results = results.isel({name: slice(None, None, -(-results.sizes[name] // _MOST_CELLS)) for name in names})
+    sides = [results[name].values for name in names]
     steps = [np.diff(side) for side in sides]
     if len(names) != 2 or not all(one.size and one[0] > 0.0 and np.allclose(one, one[0], atol=0.0) for one in steps):
         raise InvalidParameter(
@@ -105,28 +103,28 @@ def _shown(found: xr.Dataset) -> str:
         )
     ends = ((side[0] - one[0] / 2.0, side[-1] + one[0] / 2.0) for side, one in zip(sides, steps, strict=True))
     window: Any = tuple(zip(*ends, strict=True))
-    cells = found.transpose(*reversed(names))
-    fixed = json.loads(found.attrs["parameters"])
+    cells = results.transpose(*reversed(names))
+    fixed = json.loads(results.attrs["parameters"])
     for scene in scenes().values():
         symbols = {one.name: one.symbol for one in scene.specs if isinstance(one, NumberSpec)}
         numbers = {} if scene.chart_set is None or not {*names} <= {*symbols} else scene.chart_set.numbers
         for chart, (source, name) in numbers.items():
             variable = name.replace("-", "_")
-            if source.key != found.attrs["computation"] or variable not in found:
+            if source.key != results.attrs["computation"] or variable not in results:
                 continue
             x, y = names
             chosen = {"chart": chart, "chart_x": symbols[x], "chart_y": symbols[y]}
             own = {name: value for name, value in fixed.items() if name in symbols}
-            values, _ = scene.admit({**scene.defaults(), **own, **chosen, "accuracy": found.attrs["accuracy"]})
+            values, _ = scene.admit({**scene.defaults(), **own, **chosen, "accuracy": results.attrs["accuracy"]})
             key = scene.of(values).chart_part.key
-            corners = ({**fixed, **{name: float(found[name][i]) for name in names}} for i in (0, -1))
+            corners = ({**fixed, **{name: float(results[name][i]) for name in names}} for i in (0, -1))
             if all(_same(key.arguments(one[x], one[y]), one) for one in corners):
                 errors = cells.get(f"{variable}_error", np.full(cells.status.shape, np.nan))
                 STORED[key] = np.stack([cells[variable], errors, cells.status], axis=1), window
                 return encode(scene.name, values)
     raise InvalidParameter(
-        f"No scene shows {found.attrs['computation']} over {' and '.join(names)} with these parameters: open the sweep "
-        "in Python with hess_explorer.sweep.read."
+        f"No scene shows {results.attrs['computation']} over {' and '.join(names)} with these parameters: open the "
+        "sweep in Python with hess_explorer.sweep.read."
     )
 
 
@@ -188,11 +186,11 @@ def _require_free(address: str, port: int) -> None:
 
 def _has_browser() -> bool:
     try:
-        found = webbrowser.get()
+        browser = webbrowser.get()
     except webbrowser.Error:
         return False
     # Without a display only text browsers are found, which block the terminal and cannot show the page.
-    return type(found) is not webbrowser.GenericBrowser or "BROWSER" in os.environ
+    return type(browser) is not webbrowser.GenericBrowser or "BROWSER" in os.environ
 
 
 _SEVERAL = {"nargs": "+", "action": "extend"}

@@ -8,8 +8,6 @@ from .arguments import integer
 from .command import STATE, Command, Options, option
 from .output import write_file
 
-__all__ = ["COMMAND"]
-
 
 def _run(options: Options) -> None:
     from hess_explorer.headless.screenshot import screenshot

@@ -8,8 +8,6 @@ from pathlib import Path
 from .command import Command, Options, integer_option, option
 from .output import long_computation, show
 
-__all__ = ["COMMAND"]
-
 
 def _run(options: Options) -> None:
     from hess_explorer.offline.html import HOME

@@ -17,8 +17,6 @@ from .output import long_computation, write
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["COMMAND"]
-
 
 def _values(text: str) -> tuple[float, float, int] | list[float]:
     """Return the numbers of LOW:HIGH:COUNT or of a list with commas."""
@@ -77,21 +75,21 @@ def _swept(options: Options) -> xr.Dataset:
         raise
 
 
-def _write(options: Options, found: xr.Dataset) -> None:
+def _write(options: Options, results: xr.Dataset) -> None:
     """Write the table of a sweep; as text only its facts if a store has the table."""
     from hess_explorer.sweep import Outcome
 
-    cells = found.to_dataframe(dim_order=[*found.status.dims]).reset_index()
+    cells = results.to_dataframe(dim_order=[*results.status.dims]).reset_index()
     cells["status"] = cells["status"].map({int(one): one.words for one in Outcome})
     facts = {
-        **{name: found.attrs[name] for name in ("computation", "title", "accuracy", "version")},
-        **{name: json.loads(found.attrs[name]) for name in ("parameters", "failures")},
-        "units": {name: one.attrs["units"] for name, one in found.data_vars.items() if name != "status"},
-        "cells": list(found.status.shape),
+        **{name: results.attrs[name] for name in ("computation", "title", "accuracy", "version")},
+        **{name: json.loads(results.attrs[name]) for name in ("parameters", "failures")},
+        "units": {name: one.attrs["units"] for name, one in results.data_vars.items() if name != "status"},
+        "cells": list(results.status.shape),
         "status_counts": cells["status"].value_counts(sort=False).to_dict(),
     }
     table = cells if options.store is None or options.format != "text" else cells[[]]
-    write(options, table, facts, lambda: found)
+    write(options, table, facts, lambda: results)
 
 
 COMMAND = Command(

@@ -15,8 +15,6 @@ from hess_explorer.compute.cache import CACHE, Task
 from hess_explorer.compute.pool import POOL
 from hess_mechanics.errors import ModelError
 
-__all__ = ["SECONDS", "Background"]
-
 SECONDS = 30.0
 """CPU time limit of one task in seconds, summed over all cores."""
 

@@ -15,8 +15,6 @@ from hess_mechanics.errors import WorkLimit
 from hess_mechanics.numerics.jit import seconds_compiling
 from hess_mechanics.numerics.patience import work_limit
 
-__all__ = ["SECONDS", "WAIT", "Budget", "ClientGone", "OverBudget", "check", "time_budget"]
-
 SECONDS = 4.0
 """CPU time limit of one response in seconds, summed over all cores; compilation is not counted."""
 
@@ -47,8 +45,8 @@ class Budget:
             self._elsewhere += seconds
 
     @property
-    def spent(self) -> float:
-        """CPU seconds spent, without compilation.  Only the answering thread sees its own share."""
+    def cpu_seconds(self) -> float:
+        """CPU time spent, in seconds, without compilation.  Only the answering thread sees its own share."""
         own = 0.0
         if threading.get_ident() == self._thread:
             own = max(0.0, time.thread_time() - self._began - (seconds_compiling() - self._compiled))
@@ -89,7 +87,7 @@ def check() -> None:
         return
     if budget.cancellation.is_set():
         raise ClientGone
-    if budget.spent > budget.seconds:
+    if budget.cpu_seconds > budget.seconds:
         raise OverBudget(
             f"{budget.what} takes more than {budget.seconds:g} s to compute, which is the limit: "
             "choose a shorter time span, fewer orbits or a lower accuracy."

@@ -15,8 +15,6 @@ from cachetools import LRUCache
 
 from hess_explorer.compute.budget import ClientGone, OverBudget, check
 
-__all__ = ["CACHE", "ResultCache", "Task", "size_of"]
-
 P = ParamSpec("P")
 T_co = TypeVar("T_co", covariant=True)
 

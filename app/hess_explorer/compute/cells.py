@@ -26,8 +26,6 @@ from hess_mechanics.errors import (
 from hess_mechanics.numerics.accuracy import Level, Status
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["CellResults", "Outcome", "Outcomes", "UserError", "evaluate", "failure"]
-
 logger = logging.getLogger("hess_explorer")
 
 Outcomes: TypeAlias = NDArray[np.uint8]

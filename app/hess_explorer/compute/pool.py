@@ -13,8 +13,6 @@ from contextlib import suppress
 from hess_explorer.compute.budget import ClientGone, time_budget
 from hess_mechanics.numerics.parallel import THREADS
 
-__all__ = ["MOST", "POOL", "Pool", "RequestQueue"]
-
 logger = logging.getLogger("hess_explorer")
 
 MOST = 20
@@ -42,7 +40,7 @@ class Pool:
         self._tasks = ThreadPoolExecutor(self.cores, thread_name_prefix="background")
 
     def answer(self, queue: RequestQueue) -> None:
-        """Run the next request of a session, after those of sessions that were served less recently."""
+        """Schedule the next request of a session; sessions that were served less recently come first."""
         with self._changed:
             self._waiting.append(queue)
             self._busy += 1
@@ -73,7 +71,7 @@ class Pool:
             self._changed.notify_all()
 
     def _submit(self, threads: ThreadPoolExecutor, run: Callable[[], None]) -> None:
-        # An error while the interpreter shuts down.
+        # `submit` raises this while the interpreter shuts down.
         with suppress(RuntimeError):
             threads.submit(run)
 
@@ -98,7 +96,7 @@ class RequestQueue:
         self._left = threading.Event()
 
     def put(self, request: Callable[[], None]) -> None:
-        """Queue a request; of too many the oldest is dropped."""
+        """Queue a request; if too many wait, the oldest is dropped."""
         with self._lock:
             if self._left.is_set():
                 return

@@ -7,8 +7,6 @@ from collections.abc import Iterator, Sequence
 from hess_explorer.export.picture_data import Address
 from hess_explorer.protocol.specs import NumberSpec, Places, Spec, Value, places
 
-__all__ = ["code", "lines_of"]
-
 _WIDTH = 100
 
 
@@ -32,10 +30,10 @@ def lines_of(address: Address) -> list[str]:
     given = {spec.name: _value(spec, address.values[spec.name]) for spec in scene.specs}
     given |= {key: repr(value) for key, value in address.looks.items()}
     words = [repr(scene.name).replace("'", '"'), *(f"{key}={value}" for key, value in given.items() if value)]
-    return ["state = hess.state(", *_filled(words), f'data = state.data("{name}")', f'state.plot("{name}")']
+    return ["state = hess.state(", *_wrap(words), f'data = state.data("{name}")', f'state.plot("{name}")']
 
 
-def _filled(words: Sequence[str]) -> Iterator[str]:
+def _wrap(words: Sequence[str]) -> Iterator[str]:
     """Yield lines with the wrapped arguments and the closing bracket."""
     line = "   "
     for word in words[:-1]:

@@ -27,8 +27,6 @@ from hess_mechanics.numerics.results import Array
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-__all__ = ["PageImage", "as_figure", "as_file", "densities", "figure_bytes", "image_figure"]
-
 _DOTS_PER_INCH = 300
 _POINTS = 0.6
 """Points per pixel of the page."""
@@ -161,7 +159,7 @@ def image_figure(data: PictureData, drawing: PageImage, width: float = 85.0) -> 
         from matplotlib.image import imread
 
         side = width / 25.4
-        lines = _wrapped(data.title, side, _TITLE), _wrapped(data.caption, side, _CAPTION)
+        lines = _wrap(data.title, side, _TITLE), _wrap(data.caption, side, _CAPTION)
         below = _LINE * (sum(map(len, lines)) + 0.5) / 72.0
         figure = Figure(figsize=(side, side + below))
         frame = figure.add_axes((0.0, below / (side + below), 1.0, side / (side + below)))
@@ -190,7 +188,7 @@ def image_figure(data: PictureData, drawing: PageImage, width: float = 85.0) -> 
     return figure
 
 
-def _wrapped(text: str, side: float, size: float) -> list[str]:
+def _wrap(text: str, side: float, size: float) -> list[str]:
     """Wrap a text below an image of a width of `side` inches, at a font size of `size` points."""
     return textwrap.wrap(text, max(10, int(72.0 * side / (_LETTER * size))))
 

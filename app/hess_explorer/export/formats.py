@@ -7,19 +7,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
-__all__ = [
-    "FILM_WIDTHS",
-    "FORMATS",
-    "SECONDS",
-    "SERVED_SECONDS",
-    "WIDTHS",
-    "Bounds",
-    "FileRequest",
-    "Format",
-    "Loop",
-    "formats_of",
-]
-
 
 class Bounds(NamedTuple):
     """Limits of a number."""

@@ -12,8 +12,6 @@ from hess_explorer.views.plot import Plot
 from hess_explorer.views.space.poisson_sphere import Sphere
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["film_times", "loop_lines", "loop_times", "moves", "period"]
-
 _CLOSE, _AWAY = 0.01, 0.1
 """A motion has returned within the first share of its extent, after it was further away than the second."""
 _LETTERS, _LINES = 96, 3

@@ -10,8 +10,6 @@ from typing import Any
 from hess_explorer.export.code import code, lines_of
 from hess_explorer.export.picture_data import Address
 
-__all__ = ["PROGRAMS", "notebook"]
-
 
 def notebook(address: Address) -> str:
     """Return the notebook as JSON in the format nbformat 4.5.

@@ -15,8 +15,6 @@ from hess_explorer.views.picture import Picture
 from hess_explorer.views.plot import Plot
 from hess_mechanics.errors import InvalidParameter
 
-__all__ = ["CLIENT_KEPT", "Address", "PictureData", "address", "complete", "compute", "picture_data", "picture_of"]
-
 T = TypeVar("T")
 
 _ROUNDS = 100
@@ -196,7 +194,9 @@ def picture_of(scene: Scene[Any], name: str) -> Picture[Any]:
 
 def compute(address: Address) -> PictureData:
     """Compute a picture completely.  Raises `ModelError`."""
-    _, data = complete(address.scene, address.values, [address.picture.name], lambda state: _described(address, state))
+    _, data = complete(
+        address.scene, address.values, [address.picture.name], lambda state: _picture_data(address, state)
+    )
     return data
 
 
@@ -238,12 +238,12 @@ def complete(
     return state, found
 
 
-def _described(address: Address, state: Any) -> PictureData:
+def _picture_data(address: Address, state: Any) -> PictureData:
     """Return a picture with the data computed so far."""
     view = address.picture
     caption = view.full_caption(state)
     axes = view.ranges(state, view.first_axes)
-    columns = dict(state.drawn)
+    columns = dict(state.sources)
     for source, more in view.framed(state, axes, columns).items():
         columns[source] = {**columns.get(source, {}), **more}
     return PictureData(
@@ -257,5 +257,5 @@ def _described(address: Address, state: Any) -> PictureData:
         axes=axes,
         title=caption.title,
         caption=caption.words,
-        status=(f"accuracy: {state.work.chosen}", *state.status()),
+        status=(f"accuracy: {state.work.level_name}", *state.status()),
     )

@@ -14,8 +14,6 @@ import numpy as np
 from hess_explorer.export.columns import GRID, INDICES, angles_of, columns_of, is_column, layers_of
 from hess_explorer.export.picture_data import PictureData
 
-__all__ = ["as_csv", "as_json"]
-
 
 def as_csv(data: PictureData) -> str:
     """Return the data as CSV, with the metadata as # comments; coordinates that a layer lacks are empty."""

@@ -14,8 +14,6 @@ from hess_mechanics.errors import ModelError
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, BrowserType, Page
 
-__all__ = ["BrowserError", "find_browser", "headless_browser", "is_root", "wait_ready"]
-
 VARIABLE = "HESS_EXPLORER_BROWSER"
 _COMMANDS = ("chromium", "chromium-headless-shell", "google-chrome")
 _POLLING_MS = 10

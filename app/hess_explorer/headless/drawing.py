@@ -25,8 +25,6 @@ from hess_explorer.scenes import add, scenes
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, BrowserContext, JSHandle
 
-__all__ = ["bytes_of", "page_image", "page_of", "png_of"]
-
 T = TypeVar("T")
 
 _VIEWPORT = 900
@@ -117,7 +115,7 @@ def page_of(data: PictureData) -> Iterator[Callable[[str, Any], Any]]:
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "page.html"
         file.write_bytes(page)
-        context, modules = _in_browser(lambda browser: _opened(browser, file.as_uri()))
+        context, modules = _in_browser(lambda browser: _open(browser, file.as_uri()))
         call = "({ drawing }, [name, argument]) => drawing[name](argument)"
         try:
             yield lambda name, argument: _in_browser(lambda _: modules.evaluate(call, [name, argument]))
@@ -125,7 +123,7 @@ def page_of(data: PictureData) -> Iterator[Callable[[str, Any], Any]]:
             _in_browser(lambda _: context.close())
 
 
-def _opened(browser: Browser, address: str) -> tuple[BrowserContext, JSHandle]:
+def _open(browser: Browser, address: str) -> tuple[BrowserContext, JSHandle]:
     """Open the page of a file, wait until it has drawn its state, and return its window and module exports."""
     context = browser.new_context(
         viewport={"width": _VIEWPORT, "height": _VIEWPORT},

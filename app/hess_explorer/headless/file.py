@@ -15,8 +15,6 @@ from hess_explorer.views.plot import Plot
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-__all__ = ["content", "figure"]
-
 
 def content(
     data: PictureData, request: FileRequest, report: Callable[[int, int], None] = lambda done, of: None

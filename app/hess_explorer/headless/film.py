@@ -15,8 +15,6 @@ from hess_explorer.headless.drawing import bytes_of, page_of
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["as_film", "frames"]
-
 _CODECS: Mapping[str, str] = {
     "webm": "-c:v libvpx-vp9 -b:v 0 -crf 30 -deadline realtime -cpu-used 6 -pix_fmt yuv420p",
     "mp4": "-c:v libx264 -preset veryfast -crf 20 -movflags +faststart+use_metadata_tags -pix_fmt yuv420p",

@@ -15,8 +15,6 @@ from hess_explorer.headless.browser import BrowserError, headless_browser, wait_
 from hess_explorer.server.liveness import is_alive
 from hess_mechanics.errors import ModelError
 
-__all__ = ["ServerError", "free_port", "screenshot", "server_process", "wait_alive"]
-
 _PROGRAM = ("-m", "hess_explorer")
 _START_SECONDS = 60
 _LOAD_SECONDS = 120

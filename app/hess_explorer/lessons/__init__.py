@@ -10,8 +10,6 @@ from hess_explorer.lessons.lesson import Lesson
 from hess_explorer.lessons.reading import read, read_tries
 from hess_explorer.scenes import scenes
 
-__all__ = ["package_lessons", "tries"]
-
 
 @cache
 def package_lessons() -> Mapping[str, Lesson]:

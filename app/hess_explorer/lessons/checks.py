@@ -14,9 +14,7 @@ from hess_explorer.lessons.markdown import DRAGGED, LAYER, BadFormula, formula, 
 from hess_explorer.lessons.settings import dragged_of, named_of, place_of
 from hess_explorer.scenes.framework.scene import Scene
 
-__all__ = ["problems_in"]
-
-_SHOWN = 40
+_MOST_SHOWN = 40
 _MATH = {"math_inline": False, "math_inline_double": True, "math_block": True, "math_block_label": True}
 
 
@@ -80,4 +78,4 @@ def _check(token: Token, at: int, images: Images, scene: Scene[Any] | None) -> N
 
 
 def _short(text: str) -> str:
-    return repr(text if len(text) <= _SHOWN else text[:_SHOWN] + "…").replace("\\\\", "\\")
+    return repr(text if len(text) <= _MOST_SHOWN else text[:_MOST_SHOWN] + "…").replace("\\\\", "\\")

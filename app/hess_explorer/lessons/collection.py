@@ -9,8 +9,6 @@ from hess_explorer.lessons import package_lessons
 from hess_explorer.lessons.lesson import Lesson, LessonError
 from hess_explorer.lessons.reading import examine, name_of
 
-__all__ = ["MAX_LESSONS", "examine_files", "files_in", "read_paths"]
-
 MAX_LESSONS = 100
 
 

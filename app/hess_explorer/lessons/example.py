@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-__all__ = ["EXAMPLE"]
-
 EXAMPLE = r"""---
 # The title in the menu, and about how long the lesson takes.
 title: Two cycles are born

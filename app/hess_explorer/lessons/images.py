@@ -6,14 +6,12 @@ import base64
 from pathlib import Path
 from urllib.parse import unquote
 
-__all__ = ["MAX_ALL", "MAX_ONE", "ImageError", "Images"]
-
 MAX_ONE = 300 * 1024
 """Maximum size of an image in bytes."""
 MAX_ALL = 2 * 1024 * 1024
 """Maximum size of all images of a lesson in bytes; an image counts each time that it is shown."""
 
-_ALLOWED = "png, jpeg and webp"
+_FORMATS = "png, jpeg and webp"
 
 
 class ImageError(ValueError):
@@ -40,7 +38,7 @@ class Images:
         kind = _kind(raw)
         if kind is None:
             what = "an SVG" if b"<svg" in raw[:1024].lower() else "none of these"
-            raise ImageError(f"the image is {what}: {_ALLOWED} are allowed.")
+            raise ImageError(f"the image is {what}: {_FORMATS} are allowed.")
         self._total += len(raw)
         if self._total > MAX_ALL:
             raise ImageError(f"the images of a lesson have at most {MAX_ALL // 1024**2} MB together; leave some out.")

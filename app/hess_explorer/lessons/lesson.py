@@ -9,8 +9,6 @@ from typing import Literal
 from hess_explorer.protocol.specs import Values
 from hess_mechanics.errors import ModelError
 
-__all__ = ["TIME", "Animation", "HiddenLayer", "Lesson", "LessonError", "LessonStep", "Prediction", "StateLink"]
-
 TIME = "time"
 """Name of the player's time, which can be animated like a parameter."""
 

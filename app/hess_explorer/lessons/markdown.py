@@ -15,8 +15,6 @@ from markdown_it.token import Token
 from mdit_py_plugins.dollarmath import dollarmath_plugin
 from mdit_py_plugins.front_matter import front_matter_plugin
 
-__all__ = ["DRAGGED", "LAYER", "BadFormula", "formula", "parser", "strict_parser", "to_html"]
-
 # A formula in a line and the stops after it, between which a browser would break the line.
 _STOPS = re.compile(r'(<span class="math inline">.*?</span>)([.,;:!?)]+)', re.DOTALL)
 _ELEMENT = re.compile(r"\{http://www\.w3\.org/1998/Math/MathML\}(m[a-z]+)")
@@ -55,7 +53,7 @@ def parser() -> MarkdownIt:
     """Return a parser for CommonMark with tables, formulas and front matter; HTML is text."""
     found = _with_plugins(MarkdownIt("commonmark", {"html": False}))
     # The plugin renders a displayed formula in a line as a <div>, which would end the paragraph.
-    found.add_render_rule("math_inline_double", _displayed)
+    found.add_render_rule("math_inline_double", _display_formula)
     found.add_render_rule("image", _image)
     found.add_render_rule("link_open", _link)
     return found
@@ -69,12 +67,12 @@ def strict_parser() -> MarkdownIt:
     return found
 
 
-def _with_plugins(found: MarkdownIt) -> MarkdownIt:
-    found.enable("table").use(front_matter_plugin)
-    return found.use(dollarmath_plugin, renderer=formula, allow_space=False, double_inline=True)
+def _with_plugins(parser: MarkdownIt) -> MarkdownIt:
+    parser.enable("table").use(front_matter_plugin)
+    return parser.use(dollarmath_plugin, renderer=formula, allow_space=False, double_inline=True)
 
 
-def _displayed(_: object, tokens: Sequence[Token], i: int, *rest: object) -> str:
+def _display_formula(_: object, tokens: Sequence[Token], i: int, *rest: object) -> str:
     return f'<span class="math">{formula(tokens[i].content, {"display_mode": True})}</span>'
 
 

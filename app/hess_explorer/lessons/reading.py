@@ -57,19 +57,6 @@ from hess_explorer.lessons.settings import (
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Scene
 
-__all__ = [
-    "KEYS",
-    "MAX_BYTES",
-    "MAX_STEPS",
-    "TRY_THIS",
-    "examine",
-    "name_of",
-    "read",
-    "read_file",
-    "read_tries",
-    "without_tries",
-]
-
 MAX_BYTES = 256 * 1024
 MAX_STEPS = 200
 TRY_THIS = "Try this"
@@ -258,7 +245,7 @@ def _yaml(text: str, line: int) -> Any:
         mark = getattr(error, "problem_mark", None)
         raise LessonError(
             f"this is not YAML ({getattr(error, 'problem', None) or 'it cannot be read'}): write one "
-            f"“name: value” in a line, and quotes round a link.",
+            f"“name: value” per line, and put links in quotes.",
             line + (mark.line if mark else 0),
         ) from error
     except RecursionError as error:

@@ -26,26 +26,10 @@ from hess_explorer.views.layers import Layer
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits
 
-__all__ = [
-    "animation_of",
-    "controls_of",
-    "corrections",
-    "dragged_of",
-    "example_of",
-    "hidden_of",
-    "is_number",
-    "look_of",
-    "named_of",
-    "only",
-    "pictures_of",
-    "place_of",
-    "prediction_of",
-]
-
 _MOST_SECONDS, _MOST_TIME = 600.0, 1e6
 _MOST_NAMES = 6
 # Layers on canvases of the page, which are always shown.
-_PAINTED = ("image", "dots")
+_FILLS = ("image", "dots")
 _CURVES, _POINTS = ("multi_line", "line"), ("scatter",)
 
 
@@ -76,7 +60,7 @@ def _one_of(value: object, what: str, allowed: Sequence[str], line: int) -> str:
 def place_of(text: object, line: int) -> StateLink:
     """Return the state of a link, each value within its bounds."""
     link = Link(urlsplit(text).query if isinstance(text, str) else "")
-    scene = scenes().get(link.given.get("scene", ""))
+    scene = scenes().get(link.texts.get("scene", ""))
     values = {} if scene is None else link.values(scene.specs)
     if scene is not None:
         link.require(scene.name, scene.specs)
@@ -155,21 +139,21 @@ def animation_of(value: object, scene: Scene[Any], line: int) -> Animation | Non
     if value is None:
         return None
     names = ("name", "from", "to", "seconds")
-    given = only(value, "animate", names, line)
-    if len(given) < len(names):
+    settings = only(value, "animate", names, line)
+    if len(settings) < len(names):
         example = "{name: h, from: 0.2, to: 1.5, seconds: 8}"
         raise LessonError(f"animate needs name, from, to and seconds, like {example}.", line)
     bounds = {
         TIME: (0.0, _MOST_TIME),
         **{spec.name: spec.bounds for spec in scene.specs if isinstance(spec, NumberSpec)},
     }
-    name = _one_of(given["name"], "name of animate", tuple(bounds), line)
+    name = _one_of(settings["name"], "name of animate", tuple(bounds), line)
     low, high = bounds[name]
-    if not all(is_number(given[one]) and low <= given[one] <= high for one in ("from", "to")):
+    if not all(is_number(settings[one]) and low <= settings[one] <= high for one in ("from", "to")):
         raise LessonError(f"from and to of {name} must be numbers from {low:g} to {high:g}.", line)
-    if not is_number(given["seconds"]) or not 0 < given["seconds"] <= _MOST_SECONDS:
+    if not is_number(settings["seconds"]) or not 0 < settings["seconds"] <= _MOST_SECONDS:
         raise LessonError(f"seconds must be a positive number up to {_MOST_SECONDS:g}.", line)
-    return Animation(name, float(given["from"]), float(given["to"]), float(given["seconds"]))
+    return Animation(name, float(settings["from"]), float(settings["to"]), float(settings["seconds"]))
 
 
 def hidden_of(value: object, scene: Scene[Any], line: int) -> HiddenLayer | None:
@@ -195,24 +179,24 @@ def prediction_of(value: object, place: StateLink, line: int) -> Prediction | No
     """Return the prediction of a step, or None."""
     if value is None:
         return None
-    given = only(value, "predict", ("picture", "layer", "then"), line)
-    then = place_of(given["then"], line) if "then" in given else place
+    settings = only(value, "predict", ("picture", "layer", "then"), line)
+    then = place_of(settings["then"], line) if "then" in settings else place
     if then.scene != place.scene:
         raise LessonError(f"then must be a state of the same scene, {place.scene}.", line)
-    plot, layer = _layer(given, "predict", scenes()[place.scene], line, (*_CURVES, *_POINTS))
+    plot, layer = _layer(settings, "predict", scenes()[place.scene], line, (*_CURVES, *_POINTS))
     what: Any = "curve" if layer.glyph in _CURVES else "point"
     return Prediction(plot.name, plot.source_of(layer), (layer.columns[0], layer.columns[1]), what, then)
 
 
 def _layer(
-    given: dict[str, Any], key: str, scene: Scene[Any], line: int, glyphs: tuple[str, ...] | None = None
+    settings: dict[str, Any], key: str, scene: Scene[Any], line: int, glyphs: tuple[str, ...] | None = None
 ) -> tuple[Plot[Any], Layer[Any]]:
     """Return the picture and the layer that a mapping names; `glyphs` are the allowed kinds of layers."""
     plots = {view.name: view for view in scene.views if isinstance(view, Plot)}
-    plot = plots[_one_of(given.get("picture"), f"picture of {key}", tuple(plots), line)]
+    plot = plots[_one_of(settings.get("picture"), f"picture of {key}", tuple(plots), line)]
     layers = {
         layer.name: layer
         for layer in plot.layers
-        if (layer.glyph not in _PAINTED if glyphs is None else layer.glyph in glyphs)
+        if (layer.glyph not in _FILLS if glyphs is None else layer.glyph in glyphs)
     }
-    return plot, layers[_one_of(given.get("layer"), f"layer of {key}", tuple(layers), line)]
+    return plot, layers[_one_of(settings.get("layer"), f"layer of {key}", tuple(layers), line)]

@@ -18,8 +18,6 @@ from hess_explorer.views.plot import Plot
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.labelled import Labels, Result
 
-__all__ = ["draw", "draw_result"]
-
 _MILLIMETRES = 71.0
 """Size of the image, which gives two of its pixels per pixel of the figure."""
 
@@ -122,28 +120,28 @@ def draw_result(result: Result) -> Any:
     return hv.Layout(panels).cols(2) if len(panels) > 1 else panels[0]
 
 
-def _axis(known: Labels, name: str) -> Any:
-    return hv.Dimension(name, unit=known.units.get(name) or None)
+def _axis(labels: Labels, name: str) -> Any:
+    return hv.Dimension(name, unit=labels.units.get(name) or None)
 
 
-def _panel(known: Labels, name: str, axes: list[str]) -> Any:
+def _panel(labels: Labels, name: str, axes: list[str]) -> Any:
     """Return a variable over its last dimension, or over its last two if both have coordinates."""
-    dims, values = known.variables[name]
-    x = known.coords[dims[-1]][1]
+    dims, values = labels.variables[name]
+    x = labels.coords[dims[-1]][1]
     if len(dims) > 1 and dims[-2] in axes:
         shared = {"colorbar": True, "title": name}
         return with_options(
             hv.Image(
-                (x, known.coords[dims[-2]][1], values),
-                [_axis(known, dims[-1]), _axis(known, dims[-2])],
-                _axis(known, name),
+                (x, labels.coords[dims[-2]][1], values),
+                [_axis(labels, dims[-1]), _axis(labels, dims[-2])],
+                _axis(labels, name),
             ),
             {"bokeh": {**shared, "frame_width": SIDE // 2}, "matplotlib": {**shared, "aspect": "auto"}},
         )
     curves = [np.column_stack([x, one]) for one in values.reshape(-1, x.size)]
     colour = {"color": theme.ORBIT}
     return with_options(
-        hv.Path(curves, [_axis(known, dims[-1]), _axis(known, name)]),
+        hv.Path(curves, [_axis(labels, dims[-1]), _axis(labels, name)]),
         {
             "bokeh": {**colour, "frame_width": SIDE, "frame_height": SIDE // 3},
             "matplotlib": {**colour, "aspect": 3.0},

@@ -17,8 +17,6 @@ from hess_explorer.library.state import SceneState, from_link, state
 from hess_explorer.server.parent import end_with_stdin
 from hess_explorer.server.serving import serve
 
-__all__ = ["Exploration", "explore", "serve_alone"]
-
 _START_SECONDS = 120.0
 """Timeout of the start, which compiles the first time."""
 _PAGES = 20

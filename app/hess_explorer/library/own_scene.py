@@ -42,12 +42,10 @@ from hess_mechanics.errors import InvalidParameter, ModelError
 from hess_mechanics.numerics.arguments import typed
 from hess_mechanics.parameters import Group
 
-__all__ = ["OwnScene", "scene"]
-
 _EXPONENT, _BRANCH, _CHART = "exponent", "branch", "chart"
 _SECTION = re.compile(r"section(?: (?!on )(\S+) (\S+))?(?: at (\S+) *= *(\S+))?(?: on (.+))?")
 _FARTHEST = 1e6
-_TRIED = 200
+_MOST_TRIALS = 200
 """Places of a section that are tried as the start of a motion."""
 _ESSENTIAL = 4
 """Largest number of parameters whose controls are open at first."""
@@ -212,7 +210,7 @@ def scene(
 
 def _charts(system: System, fields: Sequence[str]) -> Charts:
     """Return the charts over the sliders, initially the first two."""
-    motions = of_motion(system, lambda s: s.given, lambda s: s.long, computations_of(system))
+    motions = of_motion(system, lambda s: s.chosen_start, lambda s: s.long, computations_of(system))
     first, second = [*fields, "long"][:2]
     return Charts(motions, over=(first, second))
 
@@ -260,7 +258,7 @@ def _place(section: VariableSection) -> str:
         place = first_place(section, section.system.example[0])
     if place is None:
         low, high = np.array(section.window).T
-        tried = low + evenly(_TRIED).T * (high - low)
+        tried = low + evenly(_MOST_TRIALS).T * (high - low)
         _, there = section.states_at(*tried.T)
         place = tuple(tried[int(np.argmax(there))])
     return places_text([place])

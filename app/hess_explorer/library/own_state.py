@@ -34,8 +34,6 @@ from hess_mechanics.dynamics.system import ParametrizedSystem, System
 from hess_mechanics.dynamics.variable_section import VariableSection, variable_section
 from hess_mechanics.parameters import MAX_STEP
 
-__all__ = ["LevelState", "OwnState"]
-
 _PIXELS = 300.0
 """Size of an orbit in a picture, in pixels."""
 
@@ -67,14 +65,14 @@ class OwnState(State):
         return self.system.at([getattr(self, f"p_{name}") for name in self.system.parameters])
 
     @property
-    def given(self) -> Start:
+    def chosen_start(self) -> Start:
         """The chosen initial state (d,)."""
         return tuple(getattr(self, f"y_{name}") for name in self.system.variables)
 
     @property
     def start(self) -> Start:
         """The initial state of the current orbit."""
-        return self.given
+        return self.chosen_start
 
     @property
     def duration(self) -> float:
@@ -96,7 +94,7 @@ class OwnState(State):
 
     def levels(self) -> dict[str, float]:
         """Return the levels of the integrals of the section: their values along the motion."""
-        known = self.system.integrals(self.given, self.body.parameters)
+        known = self.system.integrals(self.chosen_start, self.body.parameters)
         needed = len(self.system.variables) - 3
         return {name: float(value) for name, value in [*known.items()][:needed]}
 
@@ -137,14 +135,14 @@ class LevelState(OwnState):
     place: ClassVar[str] = ""
 
     @cached_property
-    def given(self) -> Start:
+    def chosen_start(self) -> Start:
         """The state (d,) at the place.  Raises `OutsideRegion`."""
         return start_on(self.poincare, self.place)
 
     @property
     def start(self) -> Start:
         """The initial state of the current orbit."""
-        return self.given if self.closed_orbit is None else self.closed_orbit.state
+        return self.chosen_start if self.closed_orbit is None else self.closed_orbit.state
 
     @property
     def duration(self) -> float:

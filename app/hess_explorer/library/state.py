@@ -41,13 +41,13 @@ class SceneState:
     >>> import hess_explorer as hess
     >>> state = hess.state("suslov-hess", h=1.2, f=0.3, accuracy="draft")
     >>> state.parameters["h"], state.pictures
-    (1.2, ('body', 'omega', 'sphere', 'bifurcation', 'circle', 'surface', 'torus', 'chart'))
+    (1.2, ('body', 'omega', 'sphere', 'bifurcation', 'circle', 'surface', 'torus', 'spread', 'chart'))
     >>> state.body.a
     0.2916666666666667
     """
 
     _address: Address
-    _known: dict[str, PictureData] = field(default_factory=dict, repr=False)
+    _pictures: dict[str, PictureData] = field(default_factory=dict, repr=False)
 
     @cached_property
     def _state(self) -> Any:
@@ -103,7 +103,7 @@ class SceneState:
         >>> state.periodic.kind, state.periodic.period
         ('elliptic', 1)
         """
-        closed = _first(self._shown("section").state, ("closed_orbit",)) if "section" in self.pictures else None
+        closed = _first(self._picture_data("section").state, ("closed_orbit",)) if "section" in self.pictures else None
         return None if closed is None else closed.orbit
 
     @property
@@ -177,7 +177,7 @@ class SceneState:
         ModelError
             If the state cannot be computed.
         """
-        return columns_of(self._shown(picture))
+        return columns_of(self._picture_data(picture))
 
     def plot(self, picture: str = "") -> Any:
         """Return a picture as a HoloViews object, which can be combined and restyled.
@@ -203,7 +203,7 @@ class SceneState:
         """
         from hess_explorer.library.drawing import draw
 
-        return draw(self._shown(picture))
+        return draw(self._picture_data(picture))
 
     def figure(self, picture: str = "", *, width: float = 85.0, black: bool = False) -> Any:
         """Return a picture as a figure of Matplotlib, as `save` writes it to SVG and PDF.
@@ -240,7 +240,7 @@ class SceneState:
         """
         from hess_explorer.headless.file import figure
 
-        return figure(self._shown(picture), width, black)
+        return figure(self._picture_data(picture), width, black)
 
     def save(
         self, file: str | Path, picture: str = "", *, width: float = 85.0, black: bool = False, seconds: float = 10.0
@@ -288,7 +288,7 @@ class SceneState:
         # Imported here, because drawing needs libraries that data do not.
         from hess_explorer.headless.file import content
 
-        write_whole(path, content(self._shown(picture), FileRequest(kind, width, black, seconds)))
+        write_whole(path, content(self._picture_data(picture), FileRequest(kind, width, black, seconds)))
         return path
 
     def code(self, picture: str = "") -> str:
@@ -327,13 +327,13 @@ class SceneState:
     def _at(self, picture: str) -> Address:
         return replace(self._address, picture=picture_of(self._address.scene, picture))
 
-    def _shown(self, picture: str) -> PictureData:
-        found = self._at(picture)
-        if found.picture.name not in self._known:
+    def _picture_data(self, picture: str) -> PictureData:
+        address = self._at(picture)
+        if address.picture.name not in self._pictures:
             # The kernels check their results for overflow themselves.
             with np.errstate(all="ignore"):
-                self._known[found.picture.name] = compute(found)
-        return self._known[found.picture.name]
+                self._pictures[address.picture.name] = compute(address)
+        return self._pictures[address.picture.name]
 
     def _repr_html_(self) -> str:
         rows = "".join(

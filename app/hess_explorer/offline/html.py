@@ -19,8 +19,6 @@ from hess_explorer.offline.recording import Recording
 from hess_explorer.page.component import styles
 from hess_explorer.protocol.specs import CLIENT
 
-__all__ = ["HOME", "document", "module_address"]
-
 HOME = "http://localhost:5006/"
 """Default address of the explorer."""
 

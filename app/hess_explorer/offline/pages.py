@@ -17,18 +17,16 @@ from hess_explorer.scenes.framework.part import part
 from hess_explorer.scenes.framework.scene import Scene
 from hess_mechanics.numerics.accuracy import DRAFT
 
-__all__ = ["COUNT", "accumulates", "lesson_page", "page_family", "state_page"]
-
 COUNT = 40
 """Number of values of a slider by default."""
 
 
 def page_family(query: str, sliders: Sequence[str], *, grid: bool = False, lenient: bool = False) -> StateFamily:
     """Return the states of a page before they are computed; the parameters and errors are those of `state_page`."""
-    return _varied(address(query, lenient=lenient), sliders, grid)
+    return _slider_states(address(query, lenient=lenient), sliders, grid)
 
 
-def _varied(at: Address, sliders: Sequence[str], grid: bool) -> StateFamily:
+def _slider_states(at: Address, sliders: Sequence[str], grid: bool) -> StateFamily:
     """Return the states of sliders through a state."""
     return family(at.scene, at.values, [read_slider(text, at.scene, at.values, COUNT) for text in sliders], grid=grid)
 
@@ -79,7 +77,7 @@ def state_page(
     wanted = [picture_of(scene, name).name for name in pictures] or scene.open_pictures
     chosen = [name for name in scene.pictures if name in wanted]
     recording = Recording({scene.name: chosen}, report)
-    recording.record([_varied(found, sliders, grid)])
+    recording.record([_slider_states(found, sliders, grid)])
     parameters = ", ".join(f"{name} = {value}" for name, value in found.values.items())
     facts = {
         "link": found.link,
@@ -95,7 +93,7 @@ def state_page(
     return scene.name, document(scene.title, summary, recording, facts, client, home=home)
 
 
-def _moving(scene: Scene[Any]) -> Values:
+def _drag_values(scene: Scene[Any]) -> Values:
     """Return values of parameters in all states of a slider except the first one.
 
     Sections and diagrams shaded by density take seconds at full accuracy, so their sliders move at the accuracy of a
@@ -131,7 +129,7 @@ def _families(lesson: Lesson, count: int) -> list[StateFamily]:
             scene,
             values,
             [(name, tuple(sorted(each))) for name, each in sliders.items() if each],
-            moving=_moving(scene),
+            moving=_drag_values(scene),
         )
         for scene, values, sliders in found.values()
     ]

@@ -16,8 +16,6 @@ from hess_explorer.protocol.specs import NumberSpec, Values
 from hess_explorer.scenes.framework.scene import Scene
 from hess_mechanics.errors import InvalidParameter
 
-__all__ = ["MOST_STATES", "StateFamily", "across", "family", "read_slider", "slider_of"]
-
 MOST_STATES = 4000
 """Maximum number of states of a file."""
 

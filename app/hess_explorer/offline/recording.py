@@ -23,10 +23,8 @@ from hess_explorer.scenes.framework.stage import Stage
 from hess_explorer.views.plot import Plot
 from hess_mechanics.errors import ModelError
 
-__all__ = ["Recording", "Report"]
-
 Report = Callable[[int, int], None]
-"""Gets the number of computed states, that of all states, and the largest size of all in bytes."""
+"""Receives the number of computed states and that of all states."""
 
 _LARGEST_STRIP = 600_000
 """Numbers of a strip, after which the next one begins: the browser decodes a strip within a few frames."""
@@ -34,7 +32,7 @@ _CLICKS = ("tap", "pan")
 """Mouse events of a plot that choose a computed state."""
 
 
-def _fixed(one: StateFamily) -> str:
+def _constants(one: StateFamily) -> str:
     """Return the constant numbers of a file as text."""
     idle = one.scene.idle(one.base)
     specs = [spec for spec in one.scene.specs if isinstance(spec, NumberSpec) and spec.name not in {*one.names, *idle}]
@@ -58,7 +56,7 @@ class Recording:
     _states: dict[str, tuple[int, int]] = field(default_factory=dict)
     _strips: list[OfflineStrip] = field(default_factory=list)
     _families: list[dict[str, Any]] = field(default_factory=list)
-    _varied: dict[str, dict[str, tuple[float, float]]] = field(default_factory=dict)
+    _sliders: dict[str, dict[str, tuple[float, float]]] = field(default_factory=dict)
     _columns: dict[str, dict[str, list[str]]] = field(default_factory=dict)
 
     def record(self, families: Sequence[StateFamily]) -> None:
@@ -86,7 +84,7 @@ class Recording:
                     "points": [list(point) for point in points.values()],
                     "states": [list(self._states[query]) for query in points],
                     "queries": list(points),
-                    "fixed": _fixed(one),
+                    "fixed": _constants(one),
                 }
             )
 
@@ -100,7 +98,7 @@ class Recording:
         return self._strips[-1]
 
     def _note_sliders(self, one: StateFamily) -> None:
-        varied = self._varied.setdefault(one.scene.name, {})
+        varied = self._sliders.setdefault(one.scene.name, {})
         for name, values in zip(one.names, zip(*one.points, strict=True), strict=True):
             low, high = varied.get(name, (np.inf, -np.inf))
             varied[name] = min(low, *values), max(high, *values)
@@ -124,7 +122,7 @@ class Recording:
         else:
             axes = [(plot, plot.ranges(state, plot.first_axes)) for plot in plots]
             texts = {
-                "summary": f"accuracy: {state.work.chosen}",
+                "summary": f"accuracy: {state.work.level_name}",
                 # Without the run times, which say nothing here.
                 "status": " · ".join(state.status()),
                 "derived": "\n".join(report.quantities),
@@ -152,7 +150,7 @@ class Recording:
 
     def _picks(self, name: str) -> dict[str, list[str]]:
         """Return the plots whose axes are varied parameters; a click there selects a computed state."""
-        varied = self._varied.get(name, {})
+        varied = self._sliders.get(name, {})
         handles = {
             view.name: view.handle.columns[:2]
             for view in scenes()[name].views
@@ -162,11 +160,11 @@ class Recording:
 
     def descriptions(self) -> dict[str, Any]:
         """Return the descriptions of the scenes, with the pictures, sliders and gestures of the file."""
-        return {name: self._described(name) for name in self.pictures}
+        return {name: self._description(name) for name in self.pictures}
 
-    def _described(self, name: str) -> dict[str, Any]:
+    def _description(self, name: str) -> dict[str, Any]:
         found = json.loads(describe(name))
-        varied, picks = self._varied.get(name, {}), self._picks(name)
+        varied, picks = self._sliders.get(name, {}), self._picks(name)
         chosen = [one for one in found["pictures"] if one["name"] in self.pictures[name]]
         found["pictures"] = [
             {**one, "folded": None, "picks": list(_CLICKS)} if one["name"] in picks else without_gestures(one)

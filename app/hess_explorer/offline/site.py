@@ -18,8 +18,6 @@ from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.accuracy import DRAFT
 from hess_mechanics.numerics.files import write_whole
 
-__all__ = ["build", "pages"]
-
 _INDEX = "index.html"
 _CLOUD = 500.0
 """Number of points of a cloud in the page of a scene."""

@@ -21,8 +21,6 @@ from hess_explorer.views.layers import Axes
 from hess_explorer.views.plot import Plot
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["EXACT", "PIXELS", "OfflineStrip", "steps_of_plots"]
-
 PIXELS = 16_000
 """Steps across a plot: an eighth of a pixel of a picture that is 2000 pixels wide."""
 EXACT = 0.0
@@ -61,9 +59,9 @@ def steps_of_plots(plots: Sequence[tuple[Plot[Any], Axes]]) -> dict[str, dict[st
     return found
 
 
-def _step(values: Array, column: str, known: float | None) -> float:
-    """Return the quantisation step of an array in single precision; `known` is the step of its plot, if any."""
-    if known == EXACT:
+def _step(values: Array, column: str, step: float | None) -> float:
+    """Return the quantisation step of an array in single precision; `step` is the step of its plot, if any."""
+    if step == EXACT:
         return EXACT
     finite = values[np.isfinite(values)]
     if len(finite) == 0:
@@ -76,12 +74,12 @@ def _step(values: Array, column: str, known: float | None) -> float:
         return 1.0
     if values.size <= _SMALL:
         return max(abs(low), abs(high)) / 2**22
-    step = known or extent / (_SHADES if column == "image" else _SPAN)
+    step = step or extent / (_SHADES if column == "image" else _SPAN)
     # A curve may leave its plot by very far; a constant array has no extent.
     return step if extent < _LARGEST * step else EXACT
 
 
-def _quantised(values: Array, step: float) -> tuple[int, np.ndarray]:
+def _quantise(values: Array, step: float) -> tuple[int, np.ndarray]:
     """Quantise an array: return the least multiple of the step, and the whole numbers (n,)."""
     if step == EXACT:
         return 0, values.view(np.uint32)
@@ -136,9 +134,9 @@ class OfflineStrip:
         self.trees.append({**tree, "sources": sources})
         self._last = places
 
-    def _array(self, values: Array, column: str, known: float | None, before: int | None) -> int:
+    def _array(self, values: Array, column: str, step: float | None, before: int | None) -> int:
         """Store an array unless it equals the previous one; return its number."""
-        step = _step(values, column, known)
+        step = _step(values, column, step)
         if before is not None and len(self._wholes[before]) != len(values):
             before = None
         if before is not None:
@@ -146,7 +144,7 @@ class OfflineStrip:
             # The same step, unless it is too coarse now or much too fine, so that the differences are small.
             if EXACT not in (step, step_before) and 1.0 <= step / step_before <= 2.0:
                 step = step_before
-        low, whole = _quantised(values, step)
+        low, whole = _quantise(values, step)
         away = whole
         if before is not None:
             if (step, low) == (step_before, low_before) and np.array_equal(whole, self._wholes[before]):

@@ -8,8 +8,6 @@ from hess_explorer.compute.background import Background
 from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.scene import Report
 
-__all__ = ["BackgroundTasks"]
-
 
 class BackgroundTasks:
     """Starts, stops and reports the background tasks of the current state.
@@ -49,7 +47,7 @@ class BackgroundTasks:
         self._stopped = False
         self.background.stop()
 
-    def ended(self, more: bool) -> bool:
+    def is_done(self, more: bool) -> bool:
         """Return whether no task is running any more.
 
         Call this before the state is computed, because the last task may end during that computation.

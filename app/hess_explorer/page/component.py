@@ -13,8 +13,6 @@ from panel.custom import JSComponent
 
 from hess_explorer.assets import STATIC
 
-__all__ = ["Explorer", "styles"]
-
 
 def styles() -> dict[str, str]:
     """Return the style sheets of the parts by path, without those for offline files and followers."""
@@ -48,5 +46,5 @@ export function render(detail) {
   document.dispatchEvent(new CustomEvent("component", { detail }))
 }
 """
-    # The page brings its own.
+    # The page has style sheets of its own.
     _stylesheets: ClassVar[list[str]] = []

@@ -11,8 +11,6 @@ from hess_explorer.page.opening import opening
 from hess_explorer.page.session import Session
 from hess_explorer.protocol.messages import Answer, Request, parse
 
-__all__ = ["Connection"]
-
 
 class Connection:
     """Processes the requests of a page one by one, starting with the state of its query.

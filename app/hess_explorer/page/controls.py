@@ -9,8 +9,6 @@ from hess_explorer.protocol.specs import NumberSpec, Values
 from hess_explorer.protocol.wire import Wire
 from hess_explorer.scenes.framework.scene import Scene
 
-__all__ = ["CHOOSE", "example_of", "show_controls", "slider_limits"]
-
 CHOOSE = ""
 """Entry of the menu of examples when the values match no example."""
 

@@ -24,8 +24,6 @@ from hess_explorer.views.text import with_formulas
 from hess_explorer.views.theme import SHADES
 from hess_mechanics.parameters import GROUPS
 
-__all__ = ["describe", "without_gestures"]
-
 
 @cache
 def describe(name: str) -> str:

@@ -9,8 +9,6 @@ from html import escape
 from itertools import count
 from pathlib import Path
 
-__all__ = ["explainer", "glossary"]
-
 _ENTRY = re.compile(r"^- \*\*(.+?)\*\*: (.+?)(?=\n- |\Z)", re.MULTILINE | re.DOTALL)
 
 
@@ -38,14 +36,14 @@ def explainer() -> Callable[[str], str]:
     known: set[str] = set()
     numbers = count()
 
-    def button(found: re.Match[str]) -> str:
-        meaning = glossary()[found[0].lower()]
+    def button(match: re.Match[str]) -> str:
+        meaning = glossary()[match[0].lower()]
         if meaning in known:
-            return found[0]
+            return match[0]
         known.add(meaning)
         name = f"term-{next(numbers)}"
         return (
-            f'<button type="button" class="term" popovertarget="{name}" title="{escape(meaning)}">{found[0]}</button>'
+            f'<button type="button" class="term" popovertarget="{name}" title="{escape(meaning)}">{match[0]}</button>'
             f'<span class="meaning" id="{name}" popover>{escape(meaning)}</span>'
         )
 

@@ -11,8 +11,6 @@ from typing import Any
 from hess_explorer.lessons.lesson import Lesson, LessonStep
 from hess_explorer.lessons.markdown import to_html
 
-__all__ = ["describe_lesson", "steps"]
-
 
 @cache
 def describe_lesson(lesson: Lesson) -> str:

@@ -14,8 +14,6 @@ from hess_explorer.protocol.specs import CLIENT, ChoiceSpec, Controlled, Link, N
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Scene
 
-__all__ = ["THEME", "Opening", "opening", "query_of"]
-
 SPEEDS = (0.25, 0.5, 1.0, 2.0, 4.0, 8.0)
 """Playback speeds."""
 THEME = ChoiceSpec("theme", "Theme", ("system", "light", "dark"), "system")
@@ -83,11 +81,11 @@ def opening(query: str, own: Sequence[Lesson] = (), *, lenient: bool = True) -> 
     """
     lessons = {**{lesson.name: lesson for lesson in own}, **package_lessons()}
     link = Link(query, lenient)
-    first = own[0].name if own and "scene" not in link.given else ""
+    first = own[0].name if own and "scene" not in link.texts else ""
     reading = lessons.get(str(link.value(ChoiceSpec("lesson", "Lesson", ("", *lessons), first))))
     most = len(reading.steps) if reading else 1
     at = int(float(link.value(NumberSpec("step", "step", "Step", 1.0, (1.0, most), 1.0, (1.0, most)))))
-    if reading and "scene" not in link.given:
+    if reading and "scene" not in link.texts:
         # A link with only a step opens the state of that step.
         place = reading.steps[at - 1].at
         scene, state = scenes()[place.scene], dict(place.values)
@@ -108,7 +106,7 @@ def opening(query: str, own: Sequence[Lesson] = (), *, lenient: bool = True) -> 
     client["theme"] = "" if theme == THEME.default else theme
     client |= {spec.name: str(link.value(spec)).strip("0") for spec in (PRESENT, EMBED)}
     # An empty list means the default.
-    parts = {spec.name: str(link.value(spec)) or spec.default for spec in _embedded(scene)}
+    parts = {spec.name: str(link.value(spec)) or spec.default for spec in _embedding(scene)}
     pictures = scene.open_pictures
     # The steps of an embedded lesson, which may be of several scenes, choose pictures and controls themselves.
     if client[EMBED.name] and reading is None:
@@ -117,7 +115,7 @@ def opening(query: str, own: Sequence[Lesson] = (), *, lenient: bool = True) -> 
     return Opening(scene, state, link.notes, lessons, reading, pictures, client)
 
 
-def _embedded(scene: Scene[Any]) -> tuple[Names, Names]:
+def _embedding(scene: Scene[Any]) -> tuple[Names, Names]:
     """Return the parameters "pictures" and "controls" of an embedded page; "none" means no control."""
     controls = tuple(spec.name for spec in scene.specs if isinstance(spec, Controlled))
     return (

@@ -22,8 +22,6 @@ from hess_explorer.page.opening import opening, query_of
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Scene
 
-__all__ = ["page"]
-
 logger = logging.getLogger("hess_explorer")
 
 _FILES = {

@@ -9,8 +9,6 @@ from hess_explorer.protocol.specs import ChoiceSpec, Formula, Link, Value, Value
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Scene
 
-__all__ = ["RequestedState", "scene_and_values"]
-
 
 def scene_and_values(link: Link, here: str) -> tuple[Scene[Any], dict[str, Value]]:
     """Return the scene of a link, by default the scene `here`, and the values of its parameters."""

@@ -26,11 +26,9 @@ from hess_explorer.scenes.framework.scene import Report, Scene
 from hess_explorer.scenes.framework.stage import Stage
 from hess_mechanics.errors import ModelError
 
-__all__ = ["Session"]
-
 logger = logging.getLogger("hess_explorer")
 
-FAILED = "This state could not be computed. Press Reset, and please report the link."
+FAILURE = "This state could not be computed. Press Reset, and please report the link."
 
 
 class Session:
@@ -120,7 +118,7 @@ class Session:
             self._tasks.drop()
             self._drawn = None
             self.values = dict(self.requested.values)
-            self._say(self._refuse(FAILED), [])
+            self._say(self._refuse(FAILURE), [])
         lesson = self._lessons.get(request.lesson or "")
         lesson_text = describe_lesson(lesson) if lesson else ""
         if request.requested is None:
@@ -254,7 +252,7 @@ class Session:
         more : bool
             True to redraw it with new results of the background tasks.
         """
-        wanted, ended = self.requested, self._tasks.ended(more)
+        wanted, ended = self.requested, self._tasks.is_done(more)
         self.values, notes = wanted.values, list[str]()
         try:
             self.values, notes = self.scene.admit(wanted.values)

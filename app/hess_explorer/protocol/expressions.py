@@ -16,8 +16,6 @@ from typing import Any
 
 from simpleeval import InvalidExpression, SimpleEval
 
-__all__ = ["FUNCTIONS", "MOST", "NotANumber", "Unreadable", "calculate", "evaluate", "in_python"]
-
 MOST = 100
 """Maximum length of an expression, in characters."""
 

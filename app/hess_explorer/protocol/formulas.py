@@ -15,8 +15,6 @@ from typing import Any
 from hess_explorer.protocol.expressions import Unreadable, calculate, in_python
 from hess_mechanics.errors import InvalidParameter
 
-__all__ = ["MOST", "drive", "polynomial"]
-
 MOST = 200
 """Maximum length of a formula, in characters."""
 _DEGREE = 6

@@ -29,18 +29,6 @@ from typing import Any, TypeVar
 
 from hess_explorer.protocol.specs import Value
 
-__all__ = [
-    "ALIVE",
-    "Answer",
-    "PictureBox",
-    "PicturePoint",
-    "Request",
-    "StateAnswer",
-    "StepChoice",
-    "number",
-    "parse",
-]
-
 T = TypeVar("T")
 ALIVE = {"alive": True}
 """Request that a page sends after some seconds without a message."""
@@ -104,13 +92,13 @@ def parse(message: Any) -> Request | None:
         return value if isinstance(value, kind) else None
 
     values, expressions, hidden = of(dict, "values"), of(dict, "expressions"), of(list, "hidden")
-    hover = _picked(message.get("hover"))
+    hover = _pick(message.get("hover"))
     return Request(
         requested=of(int, "requested"),
         restore=of(str, "restore"),
         values=values and {name: _value(value) for name, value in values.items()},
-        expressions=expressions and {name: given for name, given in expressions.items() if isinstance(given, str)},
-        picked=_picked(message.get("picked")),
+        expressions=expressions and {name: raw for name, raw in expressions.items() if isinstance(raw, str)},
+        picked=_pick(message.get("picked")),
         hover=hover if isinstance(hover, PicturePoint) else None,
         step=_step(message.get("step")),
         hidden=None if hidden is None else [name for name in hidden if isinstance(name, str)],
@@ -125,8 +113,8 @@ def parse(message: Any) -> Request | None:
     )
 
 
-def _picked(given: Any) -> PicturePoint | PictureBox | None:
-    match given:
+def _pick(raw: Any) -> PicturePoint | PictureBox | None:
+    match raw:
         case [str(picture), *place] if all(map(math.isfinite, numbers := [number(one) for one in place])):
             match numbers:
                 case [x, y]:
@@ -136,8 +124,8 @@ def _picked(given: Any) -> PicturePoint | PictureBox | None:
     return None
 
 
-def _step(given: Any) -> StepChoice | None:
-    match given:
+def _step(raw: Any) -> StepChoice | None:
+    match raw:
         case [str(lesson), int(number), bool(revealed)]:
             return StepChoice(lesson, number, revealed)
     return None

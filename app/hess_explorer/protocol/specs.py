@@ -17,34 +17,11 @@ from hess_explorer.protocol.formulas import polynomial
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.parameters import Group, Parameter, plain
 
-__all__ = [
-    "CLIENT",
-    "MAX_QUERY",
-    "PAGE_KEYS",
-    "VERSION",
-    "ChoiceSpec",
-    "Controlled",
-    "Formula",
-    "Link",
-    "Names",
-    "NumberSpec",
-    "Places",
-    "Spec",
-    "Value",
-    "Values",
-    "decode",
-    "encode",
-    "places",
-    "places_text",
-    "query_in",
-    "refusal",
-]
-
 VERSION = "1"
 MAX_QUERY = 2000
 _SHORT = 60
 """Maximum number of characters of a link that a message quotes."""
-_NAMED = 3
+_MOST_NAMES = 3
 """Maximum number of keys that a message names."""
 
 Value = float | str
@@ -55,10 +32,10 @@ Values = Mapping[str, Value]
 class NumberSpec(Parameter):
     """A numeric parameter; its slider covers `softbounds`, and typed values may lie anywhere within `bounds`."""
 
-    def read(self, given: Value) -> tuple[float, str | None]:
+    def read(self, raw: Value) -> tuple[float, str | None]:
         """Return the number in an untrusted text, clamped to `bounds`, and a note if it was changed."""
         try:
-            value = float(given)
+            value = float(raw)
         except (ValueError, OverflowError):
             value = math.nan
         if not math.isfinite(value):
@@ -81,13 +58,13 @@ class ChoiceSpec:
     doc: str = ""
     group: Group | Literal["Swarm", "Chart"] = "Computation"
 
-    def read(self, given: Value) -> tuple[str, str | None]:
+    def read(self, raw: Value) -> tuple[str, str | None]:
         """Return the option of that name; otherwise the default and a note, which does not quote the text.
 
         The text is untrusted.
         """
-        if given in self.options:
-            return str(given), None
+        if raw in self.options:
+            return str(raw), None
         return self.default, f"{self.label} must be one of {', '.join(self.options)}: set to {self.default}."
 
 
@@ -108,9 +85,9 @@ class Formula:
     group: Group = "Body"
     reads: Callable[[str], object] = polynomial
 
-    def read(self, given: Value) -> tuple[str, str | None]:
+    def read(self, raw: Value) -> tuple[str, str | None]:
         """Return the formula without surrounding spaces; if it is invalid, the default and a note."""
-        text = str(given).strip()
+        text = str(raw).strip()
         try:
             self.reads(text)
         except InvalidParameter as error:
@@ -137,9 +114,9 @@ class Places:
     high: tuple[float, float]
     default: str = ""
 
-    def read(self, given: Value) -> tuple[str, str | None]:
+    def read(self, raw: Value) -> tuple[str, str | None]:
         """Return the last `most` points as a text, and a note if the text was changed."""
-        text = str(given)
+        text = str(raw)
         try:
             pairs = [tuple(map(float, pair.split(","))) for pair in text.split(";") if pair]
             inside = bool(pairs) == bool(text) and all(
@@ -166,12 +143,12 @@ class Names:
     most: int
     default: str = ""
 
-    def read(self, given: Value) -> tuple[str, str | None]:
+    def read(self, raw: Value) -> tuple[str, str | None]:
         """Return the first `most` known names without duplicates, and a note if a name was dropped.
 
         Without any known name, return the default.
         """
-        names = list(dict.fromkeys(name for name in str(given).split(",") if name))
+        names = list(dict.fromkeys(name for name in str(raw).split(",") if name))
         known = [name for name in names if name in self.options]
         note = (
             f"{self.label} may be {', '.join(self.options)}, at most {self.most}: other names in the link are ignored."
@@ -254,8 +231,8 @@ class Link:
 
     Attributes
     ----------
-    given : mapping of str to str
-        The keys of the query and their texts.
+    texts : mapping of str to str
+        The texts of the query by key.
     notes : list of str
         The corrections, without duplicates.
 
@@ -266,43 +243,43 @@ class Link:
     """
 
     def __init__(self, query: str, lenient: bool = True) -> None:
-        self.given: Mapping[str, str] = {}
+        self.texts: Mapping[str, str] = {}
         self.notes: list[str] = []
         self._lenient = lenient
         if len(query) > MAX_QUERY:
             self.note(f"The link is longer than {MAX_QUERY} characters: it was ignored.")
             return
         pairs = parse_qsl(query.lstrip("?"), keep_blank_values=True)
-        self.given = dict(pairs)
+        self.texts = dict(pairs)
         names = [name for name, _ in pairs]
-        twice = _quoted(name for name in self.given if names.count(name) > 1)
+        twice = _quote(name for name in self.texts if names.count(name) > 1)
         if twice and lenient:
             self.notes.append(f"The link contains {twice} more than once: the last value is used.")
         elif twice:
             raise InvalidParameter(f"The link contains {twice} more than once; {_REMEDY}")
-        if self.given.get("v", VERSION) != VERSION:
+        if self.texts.get("v", VERSION) != VERSION:
             self.note("The link was made by another version of this page: its values may have another meaning here.")
 
-    def note(self, note: str, given: str = "") -> None:
+    def note(self, note: str, quotation: str = "") -> None:
         """Append a note on a correction; raise `InvalidParameter` unless the link is lenient.
 
         Parameters
         ----------
         note : str
             The requirement, and the value that was set instead.
-        given : str
+        quotation : str
             Quotation from the link, for the error message.
         """
         if not self._lenient:
-            raise InvalidParameter(f"{given}{refusal(note).removesuffix('.')}; {_REMEDY}")
+            raise InvalidParameter(f"{quotation}{refusal(note).removesuffix('.')}; {_REMEDY}")
         if note not in self.notes:
             self.notes.append(note)
 
     def value(self, spec: Spec) -> Value:
         """Return the value of a parameter; the default if the link does not contain it."""
-        if spec.name not in self.given:
+        if spec.name not in self.texts:
             return spec.default
-        text = self.given[spec.name]
+        text = self.texts[spec.name]
         value, note = spec.read(text)
         if note:
             self.note(note, f"{_short(f'{spec.name}={text}')} cannot be used: ")
@@ -315,7 +292,7 @@ class Link:
     def require(self, scene: str, specs: Sequence[Spec]) -> None:
         """Check that each key belongs to the scene or to the page.  A lenient link ignores unknown keys."""
         names = [spec.name for spec in specs]
-        unknown = _quoted(name for name in self.given if name not in names and name not in PAGE_KEYS)
+        unknown = _quote(name for name in self.texts if name not in names and name not in PAGE_KEYS)
         if unknown:
             others = "" if self._lenient else f", only {', '.join(names)}"
             self.note(f"The scene {scene} has no parameter {unknown}{others}: ignored.")
@@ -328,9 +305,9 @@ def _short(text: str) -> str:
     return repr(text if len(text) <= _SHORT else f"{text[:_SHORT]}…")
 
 
-def _quoted(names: Iterable[str]) -> str:
+def _quote(names: Iterable[str]) -> str:
     """Return the first names in quotation marks, each up to the first character that no name contains."""
-    return ", ".join(_short(re.sub(r"[^\w#.-].*", "…", name, flags=re.DOTALL)) for name in [*names][:_NAMED])
+    return ", ".join(_short(re.sub(r"[^\w#.-].*", "…", name, flags=re.DOTALL)) for name in [*names][:_MOST_NAMES])
 
 
 def decode(query: str, specs: Sequence[Spec]) -> tuple[dict[str, Value], list[str]]:

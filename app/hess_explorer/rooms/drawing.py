@@ -20,8 +20,6 @@ from hess_explorer.protocol.messages import Answer, Request
 from hess_explorer.rooms.messages import Show
 from hess_explorer.scenes.framework.scene import Scene
 
-__all__ = ["Frames", "RoomDrawing", "step_of"]
-
 _LEFT_OUT: dict[str, Any] = {
     "handle": None,
     "words": "",
@@ -128,7 +126,7 @@ class RoomDrawing:
         told: dict[str, Any] = {"scene": scene.title, "number": show.step, "revealed": show.revealed, "step": None}
         if step is not None:
             lesson = self._lessons[show.lesson]
-            # The answer is the lecturer's.
+            # Only the lecturer sees the answer.
             told["step"] = {**json.loads(describe_lesson(lesson))["steps"][show.step - 1], "answer": ""}
             told["lesson"] = lesson.title
             # The lecturer may have left the scene of the step.

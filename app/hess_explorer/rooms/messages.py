@@ -23,8 +23,6 @@ from typing import Any
 from hess_explorer.protocol.messages import number
 from hess_explorer.protocol.specs import MAX_QUERY
 
-__all__ = ["CODE", "MOST_POINTS", "End", "Follow", "Guess", "Lead", "Message", "Open", "Show", "parse"]
-
 CODE = r"[2-9A-HJ-NP-Z]{6}"
 """Regular expression for the code of a room: no letter or digit that is easily mistaken for another one."""
 
@@ -39,19 +37,19 @@ _MOST_STEPS = 1000
 
 @dataclass(frozen=True)
 class Open:
-    """Open a room."""
+    """A request to open a room."""
 
 
 @dataclass(frozen=True)
 class Lead:
-    """Be the lecturer of a room."""
+    """A request to be the lecturer of a room."""
 
     key: str
 
 
 @dataclass(frozen=True)
 class Follow:
-    """Follow the lecturer.
+    """A request to follow the lecturer.
 
     Attributes
     ----------
@@ -97,7 +95,7 @@ class Guess:
 
 @dataclass(frozen=True)
 class End:
-    """End the room."""
+    """A request to end the room."""
 
 
 Message = Open | Lead | Follow | Show | Guess | End
@@ -122,8 +120,8 @@ def parse(message: Any) -> Message | None:
     return None
 
 
-def _show(shown: dict[str, Any]) -> Show | None:
-    match shown:
+def _show(message: dict[str, Any]) -> Show | None:
+    match message:
         case {
             "query": str(query),
             "lesson": str(lesson),
@@ -135,8 +133,8 @@ def _show(shown: dict[str, Any]) -> Show | None:
     return None
 
 
-def _point(given: Any) -> tuple[float, float] | None:
-    match given:
+def _point(raw: Any) -> tuple[float, float] | None:
+    match raw:
         case [x, y] if all(map(math.isfinite, point := (number(x), number(y)))):
             return point
     return None

@@ -8,8 +8,6 @@ from collections.abc import Mapping
 from hess_explorer.lessons.lesson import Lesson
 from hess_explorer.rooms.room import Room
 
-__all__ = ["MOST_ROOMS", "Rooms"]
-
 MOST_ROOMS = 20
 
 

@@ -15,8 +15,6 @@ from hess_explorer.lessons.lesson import Lesson, Prediction
 from hess_explorer.rooms.drawing import Frames, RoomDrawing, step_of
 from hess_explorer.rooms.messages import Guess, Show
 
-__all__ = ["ENDED", "GRACE", "LONGEST", "MOST_FOLLOWERS", "PERIOD", "Member", "Room"]
-
 PERIOD = 0.5
 """Least number of seconds between two states."""
 GRACE = 60.0
@@ -65,7 +63,7 @@ class Room:
         self._show: Show | None = None
         self._is_drawn = True
         self._frames: Frames | None = None
-        self._told: tuple[int, int] | None = None
+        self._counts: tuple[int, int] | None = None
         self._news = asyncio.Event()
         self._is_over = False
 
@@ -82,7 +80,7 @@ class Room:
         """Make a websocket the lecturer's; it replaces an earlier one."""
         if self._lead is not None:
             self._lead.close(*REPLACED)
-        self._lead, self._told = member, None
+        self._lead, self._counts = member, None
         self._news.set()
 
     def follow(self, member: Member, name: str) -> bool:
@@ -179,6 +177,6 @@ class Room:
 
     def _tell_lead(self) -> None:
         told = len(self._followers), len(self._guesses)
-        if self._lead is not None and told != self._told:
-            self._told = told
+        if self._lead is not None and told != self._counts:
+            self._counts = told
             self._lead.put("counts", json.dumps({"followers": told[0], "guesses": told[1]}))

@@ -12,26 +12,24 @@ from hess_explorer.scenes.framework.scene import Scene
 from hess_explorer.scenes.speed_accuracy import speed_and_accuracy
 from hess_mechanics.errors import InvalidParameter
 
-__all__ = ["PLUGINS", "add", "scene_named", "scenes"]
-
 PLUGINS = "hess_explorer.scenes"
 """Entry point group for scenes of other packages."""
 
-_added: list[Scene[Any]] = []
+_additions: list[Scene[Any]] = []
 
 
 @cache
 def scenes() -> dict[str, Scene[Any]]:
     """Return all scenes by name in menu order: added scenes first, "Speed and accuracy" scenes last."""
-    own = _shipped() + [_checked(one.load(), one.value) for one in entry_points(group=PLUGINS)]
-    own = [*_added, *sorted(own, key=lambda scene: scene.place)]
+    own = _package_scenes() + [_require_scene(one.load(), one.value) for one in entry_points(group=PLUGINS)]
+    own = [*_additions, *sorted(own, key=lambda scene: scene.place)]
     found = {scene.name: scene for scene in [*own, *(speed_and_accuracy(scene) for scene in own if scene.trials)]}
     if len(found) < len(own) + sum(bool(scene.trials) for scene in own):
         raise InvalidParameter("Two scenes have the same name: rename your system or file.")
     return found
 
 
-def _shipped() -> list[Scene[Any]]:
+def _package_scenes() -> list[Scene[Any]]:
     modules = (importlib.import_module(f"{__name__}.{module.name}") for module in pkgutil.iter_modules(__path__))
     return [module.SCENE for module in modules if isinstance(getattr(module, "SCENE", None), Scene)]
 
@@ -59,17 +57,17 @@ def add(scene: Any, source: str) -> None:
     InvalidParameter
         If it is not a scene, or its name is taken.
     """
-    _added.append(_checked(scene, source))
+    _additions.append(_require_scene(scene, source))
     scenes.cache_clear()
     try:
         scenes()
     except InvalidParameter:
-        _added.pop()
+        _additions.pop()
         scenes.cache_clear()
         raise
 
 
-def _checked(scene: Any, source: str) -> Scene[Any]:
+def _require_scene(scene: Any, source: str) -> Scene[Any]:
     if not isinstance(scene, Scene):
         raise InvalidParameter(f"{source} is {scene!r}, not a scene: create one with hess.scene(system, pictures).")
     return scene

@@ -149,7 +149,7 @@ class BallSectionState(SectionState):
         return mechanics.BallSection(self.body, self.E)
 
     @cached_property
-    def given(self) -> tuple[float, ...]:
+    def chosen_start(self) -> tuple[float, ...]:
         """The state at (ψ, δ) of the section."""
         return self.poincare.state_at(self.psi, self.delta)
 
@@ -186,7 +186,7 @@ class BallSectionState(SectionState):
 
     def forbidden(self, axes: Axes) -> list[list[Array]]:
         """Return the forbidden band of ψ as rectangles."""
-        if self.band is None or self.section.known.reason:
+        if self.band is None or self.section.known_orbits.reason:
             return []
         return section_plane.band(*self.band, 2.0 * math.pi, axes)
 
@@ -197,22 +197,22 @@ class BallSectionState(SectionState):
             psi = closed.orbit.places[:, 0]
             return np.column_stack([psi, np.roll(psi, -1)])
         psi = self.section.own[:, 0]
-        return None if self.section.known.reason else np.column_stack([psi[:-1], psi[1:]])
+        return None if self.section.known_orbits.reason else np.column_stack([psi[:-1], psi[1:]])
 
     # ---- words --------------------------------------------------------------------------------------------------
 
     def _about_section(self) -> Caption:
         if self.special is not None:
             return self.special
-        if self.section.known.reason:
+        if self.section.known_orbits.reason:
             return Caption("Omitted: too many steps.")
         volume = "The flow preserves volume." if self.I13 == self.I23 == 0.0 else "The flow does not preserve volume."
         visited = occupied_cells(self.section.own, self.poincare.window, _CELLS)
-        counted = self.density.said or f"{len(self.section.own)} points of the "
+        counted = self.density.phrase or f"{len(self.section.own)} points of the "
         return Caption(volume, f"{counted}orbit in {visited} of {_CELLS**2} cells.")
 
     def _about_returns(self) -> Caption:
-        if self.section.known.reason:
+        if self.section.known_orbits.reason:
             return Caption("Omitted: too many steps.")
         if is_reversible(self.body):
             return Caption("One point: every orbit that returns closes.", "Proved by the symmetry γ₃ → −γ₃, t → −t.")
@@ -239,7 +239,7 @@ SCENE = Scene(
     place=10,
     presets=PRESETS,
     measures=section_trials(),
-    charts=Charts(of_motion(SYSTEM, lambda s: s.given), over=("psi", "delta")),
+    charts=Charts(of_motion(SYSTEM, lambda s: s.chosen_start), over=("psi", "delta")),
     group="Ball",
     essential=("h", "I13", "D", "psi"),
     handle="psi",
@@ -264,13 +264,13 @@ SCENE = Scene(
             y_ticks=square.POLAR_TICKS,
             layers=section_layers(
                 forbidden=BallSectionState.forbidden,
-                start=lambda s: [(s.psi, s.delta)] if s.section.known.chosen else [],
+                start=lambda s: [(s.psi, s.delta)] if s.section.known_orbits.chosen else [],
             ),
         ),
         orbit_alone(
             BallSectionState.half_width, energy=lambda s: s.E, label="chosen orbit", proved=lambda s: s.proof.band
         ),
-        along_the_orbit(lambda s: s.r, lambda s: s.proof.around),
+        along_the_orbit(lambda s: s.r, lambda s: s.proof.circles),
         Plot(
             name="returns",
             title="First return",
@@ -280,7 +280,7 @@ SCENE = Scene(
             x=ANGLE,
             y=ANGLE,
             ticks=ANGLE_TICKS,
-            message=lambda s: s.section.known.reason,
+            message=lambda s: s.section.known_orbits.reason,
             layers=section_plane.layers(BallSectionState.returns),
         ),
         branch_picture(),

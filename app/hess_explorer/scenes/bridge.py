@@ -113,7 +113,7 @@ class BothSides(State):
 
     @cached_property
     def heavy(self) -> HeavyHess:
-        """The Euler–Poisson motion of the parameters, used if that side is given."""
+        """The Euler–Poisson motion of the parameters, for states given on that side."""
         return HeavyHess((self.I1, self.I2, self.I3), self.m, self.h, self.f)
 
     def valid_state(self, notes: list[str]) -> BothSides:

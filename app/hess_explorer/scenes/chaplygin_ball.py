@@ -14,12 +14,12 @@ from hess_explorer.scenes.framework.answers import Answer
 from hess_explorer.scenes.framework.charted import Charts, ChartSource, of_motion, tensor_of
 from hess_explorer.scenes.framework.circle_left import DIGITS, PHI, Gamma_picture, sphere
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
-from hess_explorer.scenes.framework.sliders import accuracy_level, parameter, time_span
+from hess_explorer.scenes.framework.sliders import accuracy_level, parameter, show_proved_error, time_span
 from hess_explorer.scenes.framework.solid_body import Solid, constrained_solid, solid_body
 from hess_explorer.scenes.framework.swarm import turned_swarm
 from hess_explorer.scenes.framework.trial import Trial, curve_error
 from hess_explorer.scenes.framework.work import orbit_status
-from hess_explorer.scenes.parts.orbits.proof import OrbitProof, show_proved_error
+from hess_explorer.scenes.parts.orbits.proof import OrbitProof
 from hess_explorer.scenes.parts.sections import BodyOrbit
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption

@@ -51,8 +51,6 @@ from hess_mechanics.rigid_body.inertia import check_body
 from hess_mechanics.rigid_body.reversal import rate, reversals
 from hess_mechanics.suslov.equations import SuslovBody
 
-__all__ = ["DiagramState", "diagram_scene", "regime_in"]
-
 _WINDOW = ((-math.pi, 0.0), (math.pi, math.pi))
 _TOP, _LINE = 0.06, 0.07
 """Distance of the first name of a doubling from the top, and of one name from the next, in heights of the picture."""
@@ -119,7 +117,7 @@ class DiagramState(DiagramControls):
 
     def choose(self, x: float, y: float) -> Values:
         """Return the parameter value and the orbit at (x, y): of the branch if it is near, otherwise of the diagram."""
-        found = self.continuation.chosen(x, y)
+        found = self.continuation.orbit_at(x, y)
         if found is None:
             return self.diagram.choose(x, y)
         value, place, period = found
@@ -133,9 +131,9 @@ class DiagramState(DiagramControls):
 
     def _about_diagram(self) -> Caption:
         if self.branch == NONE:
-            return self.diagram.caption(self.density.said)
+            return self.diagram.caption(self.density.phrase)
         found = self.continuation.caption
-        return replace(found, numbers=f"{self.density.said}{found.numbers}".rstrip())
+        return replace(found, numbers=f"{self.density.phrase}{found.numbers}".rstrip())
 
     def _about_turning(self) -> Caption:
         times = self.reversals.times
@@ -327,7 +325,7 @@ def _pictures(state: type[DiagramState], ball: bool) -> tuple[Picture[Any], ...]
             ),
         ),
         replace(
-            along_the_orbit(lambda s: centre_of_mass(s.body.parameters[-3:]), lambda s: s.proof.around),
+            along_the_orbit(lambda s: centre_of_mass(s.body.parameters[-3:]), lambda s: s.proof.circles),
             button="Show the Poisson sphere",
         ),
     )

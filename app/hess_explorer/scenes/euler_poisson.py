@@ -251,7 +251,7 @@ class EulerPoisson(FilledState):
 
         return HessSurface(torus, self.shade == INVARIANT, orbit, says)
 
-    rotation = part(lambda s: RotationAcross(s, s.section, lambda: s.clicks.picked.places[0], s.turns == _ABOUT))
+    rotation = part(lambda s: RotationAcross(s, s.section, lambda: s.clicks.selection.places[0], s.turns == _ABOUT))
 
     def start_at(self, x: float, y: float) -> Values:
         """Return the parameter values of an orbit that starts at a place of the section."""
@@ -273,7 +273,7 @@ class EulerPoisson(FilledState):
     @cached_property
     def elsewhere(self) -> Array:
         """The points (n, 2) of all orbits on other sheets of the energy surface."""
-        known = *self.section.known.chosen, *self.section.known.batches
+        known = *self.section.known_orbits.chosen, *self.section.known_orbits.batches
         return joined(batch.elsewhere for batch in known if batch.elsewhere is not None)
 
     def hess_curve(self) -> tuple[Array, Array]:
@@ -286,17 +286,17 @@ class EulerPoisson(FilledState):
     def _about_section(self) -> Caption:
         if self.special is not None:
             return self.special
-        kept = [one for batch in self.section.known.batches for one in batch.same_side]
+        kept = [one for batch in self.section.known_orbits.batches for one in batch.same_side]
         return Caption(
             "The two layers never mix." if self.away == 0.0 else "",
-            f"{self.density.said}r·M keeps its sign along {sum(kept)} of {len(kept)} orbits.",
+            f"{self.density.phrase}r·M keeps its sign along {sum(kept)} of {len(kept)} orbits.",
         )
 
     def quantities(self) -> Iterator[str]:
         """Yield a and r, the start of the orbit and the check of the body."""
         yield f"a = {digits(self.body.hess_a)}, r = {vector(self.body.r)}"
         yield from super().quantities()
-        if self.section.has_result("known") and len(self.elsewhere):
+        if self.section.has_result("known_orbits") and len(self.elsewhere):
             yield f"on another sheet: {len(self.elsewhere)} points"
         yield self.body.check.sentence
 
@@ -358,7 +358,7 @@ SCENE = Scene(
         solid_body(wheels=False, section=True),
         rotation_picture(),
         along_the_orbit(
-            lambda s: Direction(math.copysign(1.0, s.m) * np.array(s.body.r), "r"), lambda s: s.proof.around
+            lambda s: Direction(math.copysign(1.0, s.m) * np.array(s.body.r), "r"), lambda s: s.proof.circles
         ),
         exponent_picture(button="Show the Lyapunov exponent"),
         surface_picture(lambda s: s.surface, button="Show the torus in space"),

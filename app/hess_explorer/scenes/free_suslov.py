@@ -45,7 +45,7 @@ _ROOM_BELOW = (-1.25, 1.05)
 
 # The caption of the figure gives tan φ = 0.85/0.28 and 0.53/0.72.
 _ON_CIRCLE: Values = {"w1": 2.0, "w2": 1e-3, "Gamma": -0.44, "phi": 1.2526, "phi2": 0.6346}
-_SLANTING: Values = {"I13": 0.2, "I23": 0.3, "k": 1.2, "w1": 3.0, "w2": -2.001}
+_OBLIQUE: Values = {"I13": 0.2, "I23": 0.3, "k": 1.2, "w1": 3.0, "w2": -2.001}
 
 
 def _portrait(I13: float, I23: float) -> Values:
@@ -69,11 +69,11 @@ PRESETS = (
     Preset("Γ(t), k = 3: F₂ exists, Γ⁺ = −Γ⁻ (figure 3)", **_ON_CIRCLE, k=3.0),
     Preset("Γ(t), k = 1.5: two phases, two circles (figure 3)", **_ON_CIRCLE, k=1.5),
     Preset(
-        "Γ(t), I₁₃ ≠ 0: two phases, two circles (figure 3)", **_SLANTING, Gamma=-0.4687, phi=math.pi, phi2=math.pi / 2
+        "Γ(t), I₁₃ ≠ 0: two phases, two circles (figure 3)", **_OBLIQUE, Gamma=-0.4687, phi=math.pi, phi2=math.pi / 2
     ),
     Preset(
         "Its second orbit as printed, γ₁ = −0.49: off that circle (figure 3)",
-        **_SLANTING,
+        **_OBLIQUE,
         Gamma=-0.5306,
         phi=1.6337,
         phi2=math.pi,
@@ -121,12 +121,12 @@ class FreeSuslov(State):
 
     @property
     def omega(self) -> tuple[float, float]:
-        """ω(0)."""
+        """The initial angular velocity (ω1, ω2)."""
         return self.w1, self.w2
 
     @cached_property
     def passage(self) -> free.Passage:
-        """ω(t).  Raises `InvalidParameter`, `WorkLimit`."""
+        """The passage of ω through its initial value.  Raises `InvalidParameter`, `WorkLimit`."""
         return free.passage(self.body, self.omega)
 
     @cached_property
@@ -154,7 +154,7 @@ class FreeSuslov(State):
 
     @cached_property
     def gamma(self) -> tuple[float, float, float]:
-        """γ(0)."""
+        """The initial vertical."""
         return self.points.gamma(self.Gamma, self.phi)
 
     def _motion(self, gamma: tuple[float, float, float]) -> free.FreeMotion:
@@ -257,7 +257,7 @@ class FreeSuslov(State):
 
     def _about_gamma1(self) -> Caption:
         return Caption(
-            "In the end γ rotates uniformly about ξ.", f"By {digits(self.points.speed)} radians per unit of time."
+            "In the end γ rotates uniformly about ξ.", f"At {digits(self.points.speed)} radians per unit of time."
         )
 
     def _about_Gamma(self) -> Caption:
@@ -273,7 +273,7 @@ class FreeSuslov(State):
         yield f"|ω±| = {digits(points.speed)}"
         yield f"ξ = {vector(points.xi)}"
         if self.F2 is None:
-            yield "F₂: none known (I₁₃ = 0 and k odd, or the like)"
+            yield "F₂: none known (one is for I₁₃ = 0 or I₂₃ = 0 and k odd)"
         else:
             integral, f = self.F2
             yield f"F₂, degree {integral.k} in ω: f = {digits(f)}"

@@ -134,7 +134,7 @@ class HessLeak(State):
         asked = (self.bridge.heavy, tuple(self.states[0].tolist()), end, self.exact.times.size)
         runs = {
             name: self.work.need(Task(mechanics.run_free, *asked, rung))
-            for name, rung in (("own", level(self.work.chosen)), ("reference", REFERENCE))
+            for name, rung in (("own", level(self.work.level_name)), ("reference", REFERENCE))
         }
         return {name: mechanics.Leak(self.bridge, run, self.exact, _IN_A_PERIOD) for name, run in runs.items()}
 
@@ -225,10 +225,10 @@ class HessLeak(State):
         yield f"|trace| = {digits(self.map.trace, 6)}: {self.map.kind}"
         if self.map.fixed_points:
             yield f"ln(multiplier) = ±{digits(growth, 5)}"
-            yield f"Rate = {digits(growth / self.period)} in a unit of time"
-        if "leak" in self.seen and self.map.kind == "hyperbolic":
+            yield f"Rate = {digits(growth / self.period)} per unit of time"
+        if "leak" in self.visible and self.map.kind == "hyperbolic":
             yield from (
-                f"Measured, {leak.run.level}: {digits(leak.growth.per_period, 5)} a period"
+                f"Measured, {leak.run.level}: {digits(leak.growth.per_period, 5)} per period"
                 for leak in self.leaks.values()
                 if leak.growth is not None
             )

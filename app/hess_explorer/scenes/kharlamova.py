@@ -286,7 +286,7 @@ class Kharlamova(State):
             return Caption("T = ∞ in this direction.", "∫dτ/γ₃ diverges.")
         return Caption(
             f"T = {digits(self.arc.period)} in this direction.",
-            f"After T the orbit returns to its start, to {digits(self.closure_error, 1)}.",
+            f"After T the orbit returns to its start within {digits(self.closure_error, 1)}.",
         )
 
     def quantities(self) -> Iterator[str]:
@@ -296,7 +296,7 @@ class Kharlamova(State):
         yield f"Force = {vector((-self.b2 / self.body.axes[0], self.b1 / self.body.axes[1]))}"
         if self.arc.kind == "periodic":
             yield f"T = {digits(self.arc.period)}"
-            yield f"Back after T: {digits(self.closure_error, 1)}"
+            yield f"Distance from the start after T: {digits(self.closure_error, 1)}"
         else:
             yield "T = ∞" if self.arc.kind == "asymptotic" else "A fixed point"
         if self.peek("samples"):

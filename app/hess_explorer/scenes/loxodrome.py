@@ -34,7 +34,7 @@ from hess_mechanics.suslov_hess.equations import SYSTEM
 _TO_THE_POLE = 0.02
 """Distance from the poles at which the drawing ends, as the loxodrome never reaches them."""
 _MOST_TURNS = 30.0
-_DRAWN = 2000
+_SAMPLES = 2000
 
 PRESETS = (
     Preset("High energy: the whole loxodrome (body of figure 13)"),
@@ -109,7 +109,7 @@ class Loxodrome(State):
 
     def loxodrome(self) -> Array:
         """Return the loxodrome without its last windings about the poles, (n, 3)."""
-        return self.pendulum.middle_axis_at(np.linspace(*self.pendulum.windings(_TO_THE_POLE, _MOST_TURNS), _DRAWN))
+        return self.pendulum.middle_axis_at(np.linspace(*self.pendulum.windings(_TO_THE_POLE, _MOST_TURNS), _SAMPLES))
 
     def track(self) -> Columns:
         """Return the height of the centre of mass and l over time."""
@@ -141,8 +141,8 @@ class Loxodrome(State):
         return Caption("The middle axis follows the whole loxodrome.", f"l {range_text(l[0], l[-1])}.")
 
     def _about_angle(self) -> Caption:
-        measured, theta = self.pendulum_motion.measured[1], self.pendulum.angle
-        error = f"; the track agrees to {digits(np.max(np.abs(measured - theta)), 1)}" if measured.size else ""
+        measured, theta = self.pendulum_motion.angles[1], self.pendulum.angle
+        error = f"; the track agrees within {digits(np.max(np.abs(measured - theta)), 1)}" if measured.size else ""
         return Caption("The angle θ is constant.", f"θ = arcsin(1/√(1+a²)) = {digits(theta)}{error}.")
 
     def _about_height(self) -> Caption:
@@ -166,7 +166,7 @@ class Loxodrome(State):
         yield f"Unit of time = {digits(1.0 / p.frequency_unit)}"
         yield f"l(0) = {digits(p.l)}"
         yield f"A rigid body? {'yes' if heavy.check.is_body else 'no'}"
-        yield f"ln of the departure per turn in the full equations, 2π|a| = {digits(2.0 * math.pi * abs(p.a))}"
+        yield f"ln(departure) grows by 2π|a| = {digits(2.0 * math.pi * abs(p.a))} per turn in the full equations"
 
     def status(self) -> Iterator[str]:
         """Yield the status of the attitude and of its orbit."""
@@ -245,7 +245,7 @@ SCENE = Scene(
                 line(
                     "l", lambda s: (s.pendulum_motion.times, s.pendulum_motion.l), color=theme.MAP, label="l", tag="l"
                 ),
-                line("theta", lambda s: s.pendulum_motion.measured, color=theme.ORBIT, label="θ", tag="θ"),
+                line("theta", lambda s: s.pendulum_motion.angles, color=theme.ORBIT, label="θ", tag="θ"),
                 line(
                     "promised",
                     lambda s: ((0.0, s.pendulum_motion.times[-1]), (s.pendulum.angle,) * 2),

@@ -43,8 +43,6 @@ from hess_mechanics.numerics.results import Array, SectionCrossings
 from hess_mechanics.parameters import I11, I13, I22, I23, MAX_STEP, Group
 from hess_mechanics.rigid_body.own_body import OwnBody, Polynomial
 
-__all__ = ["SCENE", "OwnBodyState"]
-
 _MOST_CROSSINGS = 2000
 _NO_WORK = 1e-10
 """Work that is only rounding."""
@@ -184,7 +182,7 @@ class OwnBodyState(State):
     def is_compiled(self) -> bool:
         """True if equations of this form are compiled."""
         # A chain, because a drag must not end the compilation.
-        return self.work.newest([[Task(_compiled, self.body.system)]])[0] is not None
+        return self.work.newest([[Task(_compile, self.body.system)]])[0] is not None
 
     @property
     def periodic_orbit(self) -> NotPeriodic:
@@ -233,7 +231,7 @@ class OwnBodyState(State):
         yield self.body.check.sentence
 
 
-def _compiled(system: System) -> bool:
+def _compile(system: System) -> bool:
     """Compile the equations by integrating the example of the system."""
     solve(*system.example_motion, [0.1], "draft")
     return True
@@ -268,20 +266,20 @@ def _section_caption(s: OwnBodyState) -> Caption:
     return Caption(where, f"{len(s.crossings.times)} crossings up to t = {digits(s.long)}.")
 
 
-def _crossed(s: OwnBodyState) -> Array | None:
+def _crossing_points(s: OwnBodyState) -> Array | None:
     return None if s.crossings is None else s.crossings.states[:, :2]
 
 
 def _crossed_range(i: int) -> Any:
     def of(s: OwnBodyState) -> Range | None:
-        found = _crossed(s)
+        found = _crossing_points(s)
         return None if found is None or not len(found) else with_room(found[:, i], 0.06, 1e-2)
 
     return of
 
 
 def _no_crossing(s: OwnBodyState) -> str:
-    found = _crossed(s)
+    found = _crossing_points(s)
     return "" if found is None or len(found) else "No crossing: choose another motion, or a longer time of the exponent"
 
 
@@ -372,7 +370,7 @@ SCENE = Scene(
             x=_crossed_range(0),
             y=_crossed_range(1),
             message=_no_crossing,
-            layers=section_plane.layers(_crossed),
+            layers=section_plane.layers(_crossing_points),
         ),
     ),
 )

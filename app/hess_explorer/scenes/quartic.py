@@ -131,7 +131,7 @@ class Quartic(SectionState):
         return model.QuarticSection(self.body)
 
     @cached_property
-    def given(self) -> Start:
+    def chosen_start(self) -> Start:
         """The state (d,) at q with direction β."""
         return model.state_at(self.body, (self.Q1, self.Q2), self.beta)
 
@@ -178,7 +178,11 @@ class Quartic(SectionState):
     def impossible(self, axes: Axes) -> list[list[Array]]:
         """Return the forbidden region of the section."""
         reach = 4.0 * max(axes.x[1], self.body.longest)
-        return [] if self.section.known.reason else section_plane.outside(self.body.section_boundaries(), reach, 4.0)
+        return (
+            []
+            if self.section.known_orbits.reason
+            else section_plane.outside(self.body.section_boundaries(), reach, 4.0)
+        )
 
     def start_at(self, x: float, y: float) -> Values:
         """Return the start and direction at a place of the section; empty if no motion crosses it there."""
@@ -191,19 +195,18 @@ class Quartic(SectionState):
 
     def _about_domain(self) -> Caption:
         first, second = map(digits, self.body.axes)
-        hole = self.body.hole > 0.0
-        return Caption(
-            "Motion in a ring." if hole else "Motion in a region without a hole.",
-            f"Level ½: semi-axes {first} and {second}{f', hole (grey) {digits(self.body.hole)}' if hole else ''}.",
-        )
+        if self.body.hole == 0.0:
+            return Caption("Motion in a region without a hole.", f"Semi-axes {first} and {second}.")
+        hole = f"hole (grey) {digits(self.body.hole)} times as large"
+        return Caption("Motion in a ring.", f"Semi-axes {first} and {second}, {hole}.")
 
     def _about_section(self) -> Caption:
         if self.special is not None:
             return self.special
-        if self.section.known.reason:
-            return Caption(numbers=self.section.known.reason)
+        if self.section.known_orbits.reason:
+            return Caption(numbers=self.section.known_orbits.reason)
         visited = occupied_cells(self.section.own, self.poincare.window, _CELLS)
-        counted = self.density.said or f"{len(self.section.own)} points of the "
+        counted = self.density.phrase or f"{len(self.section.own)} points of the "
         return Caption(numbers=f"{counted}orbit in {visited} of {_CELLS * _CELLS} cells.")
 
     def _about_sphere(self) -> Caption:
@@ -219,7 +222,7 @@ class Quartic(SectionState):
         yield f"Start: γ₃ = {digits(self.start[4])}"
         yield f"ω(0) = {vector(self.start[:2])}"
         if self.orbit.has_result("path"):
-            yield f"H = ½ to {digits(model.level_error(self.body, self.orbit.path.states), 1)}"
+            yield f"H = ½ within {digits(model.level_error(self.body, self.orbit.path.states), 1)}"
         yield "Integrable" if self.body.integrable else "Not integrable"
         yield "div v = 0: the standard measure"
 
@@ -230,7 +233,7 @@ SCENE = Scene(
     place=7,
     presets=PRESETS,
     measures=section_trials(),
-    charts=Charts(of_motion(SYSTEM, lambda s: s.given), over=("h", "beta")),
+    charts=Charts(of_motion(SYSTEM, lambda s: s.chosen_start), over=("h", "beta")),
     group="Heavy body",
     essential=("ratio", "h", "Q1", "Q2"),
     answers=(Answer("Each dot is one return: dots on a curve are a regular motion, a cloud of dots is chaos."),),
@@ -268,7 +271,7 @@ SCENE = Scene(
             caption=Quartic._about_sphere,
             looks={"orbit": "orbit"},
             axis=lambda s: centre_of_mass((0.0, 0.0, s.b3)),
-            circles=lambda s: [*parallels((0.0, 0.0, 1.0), [s.body.E / s.body.b3]), *s.proof.around],
+            circles=lambda s: [*parallels((0.0, 0.0, 1.0), [s.body.E / s.body.b3]), *s.proof.circles],
         ),
         plane_domain.momentum_picture(
             lambda s: (s.orbit.path.times, s.momentum),

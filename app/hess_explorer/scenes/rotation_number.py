@@ -206,10 +206,10 @@ def _line(s: RotationNumber, plan: Plan) -> Array:
     return np.stack([np.where(values.possible, values.rho, np.nan), other_family])
 
 
-def _line_error(s: RotationNumber, found: Array, exact: Array) -> float:
-    there = np.isfinite(found) & np.isfinite(exact)
+def _line_error(s: RotationNumber, values: Array, exact: Array) -> float:
+    there = np.isfinite(values) & np.isfinite(exact)
     low, high = rotation_line.RHO
-    return curve_error(found[there], exact[there], high - low, period=1.0) if there.any() else math.nan
+    return curve_error(values[there], exact[there], high - low, period=1.0) if there.any() else math.nan
 
 
 _MEASURES: tuple[Trial[RotationNumber], ...] = (

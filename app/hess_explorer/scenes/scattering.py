@@ -102,7 +102,7 @@ class ScatteringState(State):
 
     @cached_property
     def start(self) -> tuple[tuple[float, float], tuple[float, float, float]]:
-        """ω(0) and γ(0) of the orbit.  Raises `InvalidParameter`, `WorkLimit`."""
+        """The initial ω and γ of the orbit.  Raises `InvalidParameter`, `WorkLimit`."""
         return model.start(self.body, self.points.h, self.theta, self.phi, self.distance)
 
     @property

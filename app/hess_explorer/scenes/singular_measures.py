@@ -209,7 +209,7 @@ class SingularMeasures(State):
         if self.clouds.sides is not None:
             yield "F₂ > 0 at {} points, F₂ < 0 at {}; its sign changes at {}".format(*self.clouds.sides)
         if self.clouds.other is not None:
-            yield f"Beside: I₁₃ = I₂₃ = 0, b₃ = {digits(self.b3)}, div v = 0"
+            yield f"Second cloud: I₁₃ = I₂₃ = 0, b₃ = {digits(self.b3)}, div v = 0"
 
     def status(self) -> Iterator[str]:
         """Yield the size, cost and error of the clouds."""

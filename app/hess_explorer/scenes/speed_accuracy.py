@@ -16,8 +16,6 @@ from hess_explorer.scenes.parts.orbits.costs import Costs, costs_picture
 from hess_explorer.scenes.parts.orbits.precision import PRECISION_PICTURES, Precision
 from hess_explorer.views.picture import Picture
 
-__all__ = ["SpeedAccuracy", "speed_and_accuracy"]
-
 
 @dataclass(frozen=True)
 class Study(State):
@@ -25,43 +23,43 @@ class Study(State):
 
     Attributes
     ----------
-    shown : State
+    base : State
         State of the other scene.
     trials : tuple of Trial
         Its computations.
     """
 
-    shown: State
+    base: State
     trials: tuple[Trial[Any], ...]
 
     @cached_property
     def costs(self) -> Costs:
         """Time and error of all computations of the state."""
-        plain = bare(self.shown)
-        return Costs(self.work, plain, tuple(trial for trial in self.trials if trial.shown(plain)))
+        plain = bare(self.base)
+        return Costs(self.work, plain, tuple(trial for trial in self.trials if trial.applies(plain)))
 
     @cached_property
     def precision(self) -> Precision | None:
         """The motion at every level; None for a scene without one.  Raises `ModelError`."""
-        motion = self.shown.motion()
+        motion = self.base.motion()
         return None if motion is None else Precision(self.work, motion)
 
     def limits(self) -> Mapping[str, Slider]:
         """Return the slider ranges of the other scene."""
-        return self.shown.limits()
+        return self.base.limits()
 
     def quantities(self) -> Iterator[str]:
         """Yield the results for the visible pictures, and the motion or the kinds of computation."""
         if self.precision is None:
             yield f"Computed: {', '.join(str(trial.kind) for trial in self.trials)}"
-        if "trade" in self.seen:
+        if "trade" in self.visible:
             yield from self.costs.rows()
         if self.precision is not None:
             yield from self.precision.quantities()
 
     def status(self) -> Iterator[str]:
         """Yield the chosen level and the cost of every level."""
-        yield f"{self.work.chosen} chosen"
+        yield f"{self.work.level_name} chosen"
         if self.precision is not None:
             yield from self.precision.status()
 
@@ -99,12 +97,12 @@ class SpeedAccuracy(Scene[Study]):
 
     def in_sight(self, state: Study) -> Iterator[tuple[Trial[Any], State]]:
         """Return all computations of the other scene."""
-        return ((trial, state.costs.shown) for trial in state.costs.trials)
+        return ((trial, state.costs.base) for trial in state.costs.trials)
 
-    def of(self, values: Values, seen: Collection[str] = (), dragging: bool = False) -> Study:
+    def of(self, values: Values, visible: Collection[str] = (), dragging: bool = False) -> Study:
         """Return the state with these values, without computing anything."""
-        shown = self.other.of(values, seen, dragging)
-        return Study(shown, self.other.trials, work=shown.work, seen=shown.seen)
+        base = self.other.of(values, visible, dragging)
+        return Study(base, self.other.trials, work=base.work, visible=base.visible)
 
     def admit(self, values: Values) -> tuple[dict[str, Value], list[str]]:
         """Return valid values and notes, by the rules of the other scene."""

@@ -58,7 +58,7 @@ _LATE, _FORWARD = "the later half", "forward only"
 _REGULAR = parameters_of(SuslovBody(1.5, 4.0, 0.0, 0.8, 0.0, 1.0, 0.7))
 _STRANGE = parameters_of(SuslovBody(1.0, 2.5, 0.6, 0.6, -1.0, -0.5, 0.7))
 _TWO = parameters_of(SuslovBody(1.5, 1.0, 0.4, 0.0, 0.3, -0.5, 1.0))
-_REVERSED = parameters_of(SuslovBody(1.0, 3.0, 0.6, 0.6, 1.0, 0.7, 0.3))
+_REVERSAL = parameters_of(SuslovBody(1.0, 3.0, 0.6, 0.6, 1.0, 0.7, 0.3))
 _PRINCIPAL = parameters_of(SuslovBody(1.5, 1.0, 0.0, 0.0, 0.4, -0.3, 0.8))
 PRESETS = (
     Preset("A chaotic sea", **PLAIN, plane="γ₃ = 0"),
@@ -75,7 +75,7 @@ PRESETS = (
     Preset("Two attractors, and their basins", **_TWO, h=2.999584, colours="basins", count=400.0, drop=_LATE),
     # All points but a few lie at the two fixed points.
     Preset(
-        "Reversal: attractor and repeller (not a rigid body)", **_REVERSED, h=2.999981, count=100.0, indicator="nothing"
+        "Reversal: attractor and repeller (not a rigid body)", **_REVERSAL, h=2.999981, count=100.0, indicator="nothing"
     ),
     Preset(
         "On a principal axis, I₁₃ = I₂₃ = 0: volume is preserved",
@@ -191,7 +191,7 @@ class Suslov(FilledState):
         backward = f", {len(second)} backward" if len(second) else ""
         # The later halves of the forward orbits show the attractors.
         later = self.section.points(later=True)
-        counted = self.density.said or f"{len(first)} points forward{backward}; "
+        counted = self.density.phrase or f"{len(first)} points forward{backward}; "
         cells = occupied_cells(later, self.poincare.window, _CELLS)
         return Caption(numbers=f"{counted}late forward points occupy {cells} of {_CELLS**2} cells.")
 
@@ -246,7 +246,7 @@ SCENE = Scene(
         ),
         solid_body(),
         divergence_picture(),
-        along_the_orbit(lambda s: centre_of_mass((s.b1, s.b2, s.b3)), lambda s: s.proof.around),
+        along_the_orbit(lambda s: centre_of_mass((s.b1, s.b2, s.b3)), lambda s: s.proof.circles),
         replace(
             orbit_alone(lambda s: s.half_width, energy=lambda s: s.E, proved=lambda s: s.proof.band),
             button="Show the angular velocity",

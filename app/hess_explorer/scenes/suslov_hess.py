@@ -22,12 +22,19 @@ from hess_explorer.scenes.framework.hess_case import (
     proved_statement,
 )
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
-from hess_explorer.scenes.framework.sliders import Slider, accuracy_level, number, parameter, slider_within
+from hess_explorer.scenes.framework.sliders import (
+    Slider,
+    accuracy_level,
+    number,
+    parameter,
+    show_proved_error,
+    slider_within,
+)
 from hess_explorer.scenes.framework.solid_body import Solid, hess_solid, solid_body
 from hess_explorer.scenes.framework.trial import COLOUR_UNIT, Trial, boundary_error, colour_error, curve_error
 from hess_explorer.scenes.framework.work import orbit_status
 from hess_explorer.scenes.parts.orbits.hess_surface import INVARIANT, HessSurface, shading, surface_picture
-from hess_explorer.scenes.parts.orbits.proof import OrbitProof, show_proved_error
+from hess_explorer.scenes.parts.orbits.proof import OrbitProof
 from hess_explorer.views.layers import CellGrid, Columns
 from hess_explorer.views.maps import bifurcation_diagram as diagram
 from hess_explorer.views.maps import circle_map as circle
@@ -222,7 +229,7 @@ class SuslovHess(State):
     def heights(self) -> list[Circle]:
         """Return the circles that bound n3, and the proved enclosure of γ."""
         ends = (-1.0, 1.0) if self.turning_points is None else self.turning_points.roots[1:]
-        return [*parallels(self.body.n3, ends), *self.orbit_proof.around]
+        return [*parallels(self.body.n3, ends), *self.orbit_proof.circles]
 
     def colours(self, cells: tuple[int, int], level: Level) -> Task[Array]:
         """Return a task that computes the rotation number over the diagram."""

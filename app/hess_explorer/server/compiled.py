@@ -11,8 +11,6 @@ from pathlib import Path
 import hess_mechanics
 from hess_mechanics.numerics.jit import CACHE_FOLDER, source_hash
 
-__all__ = ["KEEPS_KERNELS", "all_compiled", "compiler", "mark_all_compiled"]
-
 KEEPS_KERNELS = CACHE_FOLDER is not None
 """False if no cache folder is writable; then every start compiles the kernels that it needs."""
 

@@ -26,8 +26,6 @@ from hess_explorer.server.slow_file import slow_file
 from hess_explorer.views.plot import Plot
 from hess_mechanics.errors import InvalidParameter, ModelError
 
-__all__ = ["Export"]
-
 _SPECS = (
     ChoiceSpec("format", "Format", tuple(FORMATS), "csv"),
     ChoiceSpec("black", "Black", ("0", "1"), "0"),

@@ -14,8 +14,6 @@ from hess_explorer.server.headers import GuardedDocument
 from hess_explorer.server.websockets import PanelSocket
 from hess_mechanics.errors import ModelError
 
-__all__ = ["HandlerMissing", "replace_handlers"]
-
 
 class HandlerMissing(ModelError):
     """A handler was not found, because the installed version of Panel or Bokeh is not supported."""

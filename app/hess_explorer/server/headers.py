@@ -17,8 +17,6 @@ from hess_explorer.page.opening import THEME
 from hess_explorer.protocol.specs import MAX_QUERY, decode
 from hess_explorer.server.refusal import refuse
 
-__all__ = ["GuardedDocument", "policy"]
-
 QUERY_LIMIT = 4 * MAX_QUERY
 """Maximum length of a query in characters; the websocket request repeats it in a header."""
 

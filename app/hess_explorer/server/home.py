@@ -6,8 +6,6 @@ import re
 
 from tornado.httputil import HTTPServerRequest
 
-__all__ = ["home_of"]
-
 _HOST = re.compile(r"[\w.-]+(:\d{1,5})?|\[[\da-fA-F:]+\](:\d{1,5})?", re.ASCII)
 _SCHEME = re.compile("https?")
 _PREFIX = re.compile(r"(/[\w.-]+)+", re.ASCII)

@@ -23,9 +23,7 @@ from tornado.web import RequestHandler
 
 from hess_explorer.server.refusal import refuse
 
-__all__ = ["REFUSED", "Hosts", "is_allowed_origin"]
-
-REFUSED = (
+REFUSAL = (
     "The explorer is not served under this name. Open it by an address or the name of its machine, or restart it with "
     "--allow-origin and the host that the address bar shows."
 )
@@ -67,7 +65,7 @@ class _Refused(RequestHandler):
     """Handler of requests for other hosts."""
 
     async def prepare(self) -> None:
-        refuse(self, 403, REFUSED)
+        refuse(self, 403, REFUSAL)
 
 
 def _bare(name: str) -> str:

@@ -12,8 +12,6 @@ import time
 import panel as pn
 from tornado.websocket import WebSocketHandler
 
-__all__ = ["MESSAGE_LIMIT", "OPEN_SOCKETS", "Capacity", "RateLimit", "say_goodbye"]
-
 MESSAGE_LIMIT = 256 * 1024
 """Maximum size of a frame in bytes; slider values and clicks are far smaller."""
 
@@ -23,7 +21,7 @@ RATE, BURST = 150.0, 300.0
 # RFC 6455: the reason of a close frame has at most 123 bytes.
 TOO_LARGE = "A message may have at most {} KB: send a smaller one."
 TOO_MANY = "More than {:.0f} messages per second: wait for each response before you send again."
-ENDING = "The server is shutting down or restarting: open the page again in a moment."
+SHUTDOWN = "The server is shutting down or restarting: open the page again in a moment."
 
 OPEN_SOCKETS: set[WebSocketHandler] = set()
 """The open websockets of this process."""
@@ -34,18 +32,18 @@ class Capacity:
 
     def __init__(self, most: int) -> None:
         self.most = most
-        self.there = 0
+        self.sessions = 0
 
     def take(self) -> bool:
         """Count a new session until it is destroyed; return False if the server is full."""
-        if self.there >= self.most:
+        if self.sessions >= self.most:
             return False
-        self.there += 1
-        pn.state.on_session_destroyed(self._gone)
+        self.sessions += 1
+        pn.state.on_session_destroyed(self._release)
         return True
 
-    def _gone(self, context: object) -> None:
-        self.there -= 1
+    def _release(self, context: object) -> None:
+        self.sessions -= 1
 
     @property
     def sentence(self) -> str:
@@ -96,7 +94,7 @@ class RateLimit:
 async def say_goodbye(seconds: float) -> None:
     """Close all websockets and wait for the close handshakes, at most `seconds`."""
     for one in [*OPEN_SOCKETS]:
-        one.close(1001, ENDING)
+        one.close(1001, SHUTDOWN)
     ends = time.monotonic() + seconds
     while OPEN_SOCKETS and time.monotonic() < ends:
         await asyncio.sleep(0.02)

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from http.client import HTTPConnection, HTTPException
 
-__all__ = ["is_alive"]
-
 
 def is_alive(host: str, port: int) -> bool:
     """Return whether an explorer responds at this address within 5 s."""

@@ -10,8 +10,6 @@ from tornado.web import RequestHandler, StaticFileHandler
 from hess_explorer.assets import STATIC, modules_path
 from hess_explorer.bundle import bundle
 
-__all__ = ["module_routes"]
-
 _FILES = r"page/start\.js|thumbnails/[a-z-]+\.jpg"
 _BUNDLES = r"page/(?:served|follow)\.js"
 _YEAR = 365 * 24 * 3600

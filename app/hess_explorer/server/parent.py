@@ -3,8 +3,6 @@
 import os
 import signal
 
-__all__ = ["end_with_stdin"]
-
 
 def end_with_stdin() -> None:
     """Exit at the end of standard input, which the parent process closes when it exits.

@@ -10,8 +10,6 @@ from tornado.web import RequestHandler
 
 from hess_explorer.server.refusal import refuse
 
-__all__ = ["MOST", "QrCode", "drawing"]
-
 MOST = 1500
 """Maximum length of a text in bytes; a phone camera cannot read a denser code from a screen."""
 

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from tornado.web import RequestHandler
 
-__all__ = ["refuse"]
-
 
 def refuse(handler: RequestHandler, status: int, sentence: str) -> None:
     """Respond with an HTTP status and a plain-text message."""

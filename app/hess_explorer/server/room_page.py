@@ -10,8 +10,6 @@ from tornado.web import RequestHandler
 from hess_explorer.assets import STATIC, modules_path
 from hess_explorer.page.component import styles
 
-__all__ = ["RoomPage"]
-
 _PAGE = """<!DOCTYPE html>
 <html lang="en">
 <head>

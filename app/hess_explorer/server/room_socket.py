@@ -15,8 +15,6 @@ from hess_explorer.rooms.room import Room
 from hess_explorer.server.hosts import is_allowed_origin
 from hess_explorer.server.limits import OPEN_SOCKETS, RateLimit
 
-__all__ = ["Outbox", "RoomSocket"]
-
 SIZE, RATE, BURST = 8 * 1024, 10.0, 30.0
 """Maximum size of a message in bytes, messages per second and burst size."""
 

@@ -39,8 +39,6 @@ from hess_explorer.server.shutdown import Workers, end_on_signals, leave
 from hess_explorer.server.warm import warm
 from hess_explorer.server.websockets import StateSocket
 
-__all__ = ["create_server", "serve"]
-
 BODY_LIMIT = 64 * 1024
 """Maximum size of a request body in bytes; no handler uses one."""
 
@@ -63,7 +61,7 @@ class Metrics(RequestHandler):
         counters = {
             **CACHE.metrics(),
             **self._rooms.metrics(),
-            "sessions": self._capacity.there,
+            "sessions": self._capacity.sessions,
             "websockets": len(OPEN_SOCKETS),
             "threads": threading.active_count(),
         }

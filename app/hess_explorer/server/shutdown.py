@@ -15,8 +15,6 @@ from tornado.ioloop import IOLoop
 
 from hess_explorer.server.limits import say_goodbye
 
-__all__ = ["Workers", "end_on_signals", "leave"]
-
 GOODBYE = 2.0
 """Timeout for closing the websockets, in seconds."""
 

@@ -13,8 +13,6 @@ from pathlib import Path
 
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 
-__all__ = ["LONGEST", "slow_file"]
-
 LONGEST = 300.0
 """Wall-clock limit of a file in seconds."""
 _LATER = 15

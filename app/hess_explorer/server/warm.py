@@ -19,8 +19,6 @@ from hess_explorer.views.tag_kernels import compile_labels
 from hess_mechanics.errors import ModelError
 from hess_mechanics.numerics.taylor_kernels import compile_shared
 
-__all__ = ["compile_all", "warm"]
-
 logger = logging.getLogger("hess_explorer")
 
 QUIET_SECONDS, PAGE_SECONDS = 0.3, 8.0

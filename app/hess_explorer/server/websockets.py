@@ -23,8 +23,6 @@ from hess_explorer.protocol.messages import ALIVE
 from hess_explorer.server.hosts import is_allowed_origin
 from hess_explorer.server.limits import OPEN_SOCKETS, Capacity, RateLimit
 
-__all__ = ["PanelSocket", "StateSocket"]
-
 FULL = "The explorer is full: try again in a minute."
 NO_JSON = "A message must be a text frame of JSON."
 

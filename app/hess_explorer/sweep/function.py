@@ -20,8 +20,6 @@ from hess_mechanics.catalogue.declared import real
 from hess_mechanics.errors import InvalidParameter, ModelError
 from hess_mechanics.numerics.accuracy import Kind, Level
 
-__all__ = ["computation_of"]
-
 _ACCURACY = "accuracy"
 """A parameter of this name receives the accuracy of the sweep."""
 _BOUNDS = (-sys.float_info.max, sys.float_info.max)
@@ -31,7 +29,7 @@ _TRIALS = 16
 Function = Callable[..., Any]
 
 
-def _named(function: Function, own: str, takes_accuracy: bool) -> Callable[..., dict[str, float]]:
+def _with_names(function: Function, own: str, takes_accuracy: bool) -> Callable[..., dict[str, float]]:
     """Return a function that returns the numbers of `function` by name; a single number is called `own`."""
 
     def call(accuracy: Level, **cell: float) -> dict[str, float]:
@@ -48,8 +46,8 @@ def _named(function: Function, own: str, takes_accuracy: bool) -> Callable[..., 
 
 
 def _number(name: str, title: str) -> Number:
-    def read(found: Mapping[str, float]) -> float:
-        value = found.get(name, math.nan)
+    def read(values: Mapping[str, float]) -> float:
+        value = values.get(name, math.nan)
         if math.isnan(value):
             raise NoValue(f"{name} is missing or NaN.")
         return value
@@ -74,7 +72,7 @@ def computation_of(
         signature = dict(inspect.signature(function).parameters)
     except (TypeError, ValueError):
         signature = {}
-    call = _named(function, name, signature.pop(_ACCURACY, None) is not None)
+    call = _with_names(function, name, signature.pop(_ACCURACY, None) is not None)
     defaults = {each: one.default for each, one in signature.items() if type(one.default) in (int, float)}
     parameters = (
         real(each, each, float(value), *_BOUNDS, each)

@@ -19,8 +19,6 @@ from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.arguments import as_level
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["PieceResult", "cell_name", "cells_of_a_piece", "compute", "compute_sent", "sendable"]
-
 PieceResult = tuple[dict[str, Array], dict[str, str]]
 """Arrays in the shape of a piece by variable, the status last; and texts of exceptions by cell."""
 _SHORTEST, _LONGEST = 0.25, 2.0
@@ -67,7 +65,7 @@ def sendable(plan: SweepPlan) -> bytes:
     known = catalogue().get(what.key) is what
     try:
         return bytes(cloudpickle.dumps((what.key if known else what, plan.numbers, plan.accuracy, plan.fixed)))
-    # Whatever the objects that a function uses raise.
+    # The objects that a function uses may raise anything.
     except Exception as error:
         raise InvalidParameter(
             f"{what.key} cannot be sent to other processes ({error}): omit workers, or avoid objects that cannot be "
@@ -85,11 +83,11 @@ def _plan_of(content: bytes) -> SweepPlan:
     return SweepPlan(find(what) if isinstance(what, str) else what, numbers, accuracy, {}, fixed)
 
 
-def compute_sent(content: bytes, needed: str, axes: Mapping[str, Array]) -> PieceResult:
+def compute_sent(content: bytes, release: str, axes: Mapping[str, Array]) -> PieceResult:
     """Compute a piece of a serialized plan on a worker.  Raises `WorkersLost` if the versions differ."""
-    if needed != version():
+    if release != version():
         raise WorkersLost(
-            f"A worker has version {version()} of hess-explorer, but the sweep needs {needed}: "
+            f"A worker has version {version()} of hess-explorer, but the sweep needs {release}: "
             "install the same version on all workers."
         )
     return compute(replace(_plan_of(content), axes=axes))

@@ -17,8 +17,6 @@ from hess_mechanics.numerics.arguments import as_number, as_parts
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.parameters import Parameter
 
-__all__ = ["MAX_CELLS", "Axis", "Region", "SweepPlan", "version"]
-
 MAX_CELLS = 10_000_000
 """Maximum number of cells of a sweep."""
 _MOST_AXES = 3

@@ -8,8 +8,6 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import NamedTuple
 
-__all__ = ["Progress", "Report", "progress_report"]
-
 
 class Progress(NamedTuple):
     """Progress of a sweep.

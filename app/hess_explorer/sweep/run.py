@@ -27,8 +27,6 @@ if TYPE_CHECKING:
     import xarray as xr
     from distributed import Client
 
-__all__ = ["explain", "sweep"]
-
 
 def sweep(
     computation: str | Computation | Callable[..., object],

@@ -29,10 +29,8 @@ if TYPE_CHECKING:
     import xarray as xr
     from zarr.storage import MemoryStore
 
-__all__ = ["create", "exists", "load", "missing", "read", "require_libraries", "write"]
-
 _MOST_FAILURES = 1000
-_DAMAGED = (OSError, ValueError, RuntimeError, KeyError)
+_DECODING_ERRORS = (OSError, ValueError, RuntimeError, KeyError)
 """Errors of the decoder for an incomplete file."""
 
 
@@ -134,17 +132,17 @@ def missing(place: Path | MemoryStore, plan: SweepPlan) -> list[Region]:
     stored = _open(place)
     chunks = normalize_chunks(stored.status.encoding["chunks"], plan.shape)
     regions = (dict(zip(plan.axes, one, strict=True)) for one in slices_from_chunks(chunks))
-    return [region for region in regions if not _finished(stored.isel(region), plan)]
+    return [region for region in regions if not _is_finished(stored.isel(region), plan)]
 
 
-def _finished(part: xr.Dataset, plan: SweepPlan) -> bool:
+def _is_finished(part: xr.Dataset, plan: SweepPlan) -> bool:
     """Return whether a piece is readable, each cell has a status, and each cell with a value a finite number."""
     try:
         status = part.status.values
         if not status.all():
             return False
         part.load()
-    except _DAMAGED:
+    except _DECODING_ERRORS:
         return False
     finite = np.any([np.isfinite(part[name]) for name in plan.variables], axis=0)
     return bool((finite | (status >= Outcome.OUTSIDE_REGION)).all())
@@ -174,7 +172,7 @@ def write(place: Path | MemoryStore, region: Region, done: PieceResult) -> None:
 def _reading(place: Any, message: str) -> Iterator[None]:
     try:
         yield
-    except _DAMAGED as error:
+    except _DECODING_ERRORS as error:
         raise StoreError(f"{str(place)!r} {message}") from error
 
 

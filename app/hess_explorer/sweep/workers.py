@@ -18,8 +18,6 @@ from hess_mechanics.numerics.arguments import as_integer
 if TYPE_CHECKING:
     from distributed import Client, Worker
 
-__all__ = ["connection", "dask_setup", "results", "size"]
-
 _WAIT = 60.0
 """Timeout in seconds for the cluster to respond with at least one worker."""
 _AHEAD = 3
@@ -113,7 +111,7 @@ def connection(workers: str | int | None, scheduler: str | Client | None) -> Ite
                 f"No Dask scheduler with a worker responded at {scheduler} within {_WAIT:g} s: start one with "
                 "`dask scheduler`, and workers with `dask worker`."
             ) from error
-        # Dask raises these in a script without the condition, and for tls:// without certificates.
+        # Dask raises these in a script without `if __name__ == "__main__"`, and for tls:// without certificates.
         except (TypeError, RuntimeError) as error:
             raise InvalidParameter(
                 f"The workers cannot be used ({error}): in a script, call `sweep` below `if __name__ == '__main__':`; "

@@ -22,8 +22,6 @@ from hess_explorer.views.layers import Layer
 if TYPE_CHECKING:
     from hess_explorer.views.plot import Plot
 
-__all__ = ["build", "describe"]
-
 _LETTERS = 26
 """Number of letters that fit side by side under the smallest picture; beside it any number fits."""
 

@@ -8,8 +8,6 @@ second.
 
 from __future__ import annotations
 
-__all__ = ["TURN"]
-
 _COUNT = 256
 _EVERY_EIGHTH = (
     "2F2E2C 2F323D 343C53 38486A 3B5383 3C5F9C 3B6BB5 3877D0 "

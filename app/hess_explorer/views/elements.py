@@ -17,8 +17,6 @@ from hess_explorer.views.layers import Axes, Columns, Layer
 if TYPE_CHECKING:
     from hess_explorer.views.plot import Plot
 
-__all__ = ["SIDE", "Colour", "as_it_is", "on_paper", "overlay", "with_options"]
-
 Colour = Callable[[str], str]
 """Maps a colour of the light page to the colour to use."""
 Style = Mapping[str, Any]
@@ -102,10 +100,10 @@ def _frame(plot: Plot[Any], axes: Axes, names: tuple[str, str]) -> Options:
 
 def on_paper(layer: Layer[Any], colour: Colour) -> Options:
     """Return the style of a layer as Matplotlib options."""
-    return _KINDS[layer.glyph].matplotlib(_exchanged(layer.style, colour))
+    return _KINDS[layer.glyph].matplotlib(_with_colours(layer.style, colour))
 
 
-def _exchanged(style: Style, colour: Colour) -> Options:
+def _with_colours(style: Style, colour: Colour) -> Options:
     """Return the style with mapped colours, except colours that encode numbers."""
     found = {name: colour(value) if name.endswith("color") else value for name, value in style.items()}
     return {**found, "palette": [*map(colour, style["palette"])]} if style.get("kinds") or style.get("fine") else found
@@ -116,7 +114,7 @@ def _element(layer: Layer[Any], columns: Columns, colour: Colour) -> hv.Element:
     element = kind.element(layer.name.replace("-", " "), *(columns[name] for name in layer.columns))
     # The ends of the colours of cells may depend on the state.
     ends = {name: columns[name][0] for name in ("low", "high") if layer.glyph == "image" and name in columns}
-    style = _exchanged({**layer.style, **ends}, colour)
+    style = _with_colours({**layer.style, **ends}, colour)
     hooks = {} if kind.hook is None else {"hooks": [kind.hook(style)]}
     return with_options(element, {"bokeh": kind.bokeh(style), "matplotlib": {**kind.matplotlib(style), **hooks}})
 
@@ -174,7 +172,7 @@ def _area(style: Style) -> Options:
     }
 
 
-def _turning(style: Style) -> Options:
+def _rotation(style: Style) -> Options:
     return {**style, "angle": hv.dim("angle") * (180.0 / math.pi)} if "angle" in style else dict(style)
 
 
@@ -202,7 +200,7 @@ def _scale(style: Style) -> Options:
     return {"cmap": style["palette"], "clim": (style["low"], style["high"]), "clipping_colors": {"NaN": "#00000000"}}
 
 
-def _interpolated(style: Style) -> Options:
+def _interpolation(style: Style) -> Options:
     # Cyclic numbers must not be interpolated: −½ and ½ would give 0.
     even = style["smooth"] and not style["cyclic"]
     kept = "antialiased" if style["fine"] else "nearest"
@@ -259,7 +257,7 @@ def _pixels(style: Style) -> Hook:
     return hook
 
 
-def _moved(style: Style) -> Hook:
+def _shift(style: Style) -> Hook:
     """Return a hook that shifts words away from their anchors, on a paper-coloured background."""
 
     def hook(plot: Any, element: hv.Labels) -> None:
@@ -289,9 +287,9 @@ _KINDS: Mapping[str, _Kind] = {
     "line": _Kind(_curve, dict, _stroke),
     "multi_line": _Kind(_curves, dict, _stroke),
     "multi_polygons": _Kind(_areas, dict, _area),
-    "scatter": _Kind(_points, _turning, _marker, _pixels),
+    "scatter": _Kind(_points, _rotation, _marker, _pixels),
     "dots": _Kind(_points, _small, _dot, _pixels),
-    "image": _Kind(_cells, _scale, _interpolated),
-    "text": _Kind(_labels, _word, _letters, _moved),
+    "image": _Kind(_cells, _scale, _interpolation),
+    "text": _Kind(_labels, _word, _letters, _shift),
 }
 """Kinds by the glyph of a layer."""

@@ -15,41 +15,6 @@ from bokeh import palettes
 from hess_explorer.views import theme
 from hess_mechanics.numerics.results import Array
 
-__all__ = [
-    "CENTRE_OF_MASS",
-    "MESSAGE",
-    "MOVING_POINT",
-    "POINT",
-    "TURNS",
-    "Axes",
-    "CellGrid",
-    "Columns",
-    "Layer",
-    "Layers",
-    "Positions",
-    "Range",
-    "Regions",
-    "Sign",
-    "Sources",
-    "arrows",
-    "column",
-    "compose",
-    "curves",
-    "dots",
-    "image",
-    "in_window",
-    "label",
-    "levels",
-    "line",
-    "names",
-    "points",
-    "rectangle",
-    "region",
-    "ring",
-    "target",
-    "text",
-]
-
 S = TypeVar("S")
 T = TypeVar("T")
 U = TypeVar("U")
@@ -184,17 +149,14 @@ Data = Callable[[S], Any] | None
 Within = Callable[[S, Axes], Any] | None
 """The data of a layer as a function of the state and the axes."""
 
-MESSAGE: Layer[Any] = Layer(
-    "message",
-    "text",
-    ("x", "y", "text"),
-    {
-        "text_color": theme.INK,
-        "text_font_size": "15px",
-        "text_align": "center",
-        "text_baseline": "middle",
-    },
-)
+
+def _words(name: str, size: int, **style: Any) -> Layer[Any]:
+    """Return a layer of words, by default centred at their places."""
+    look = {"text_color": theme.INK, "text_font_size": f"{size}px", "text_align": "center", "text_baseline": "middle"}
+    return Layer(name, "text", ("x", "y", "text"), {**look, **style})
+
+
+MESSAGE = _words("message", 15)
 """The sentence shown instead of an empty plot."""
 
 
@@ -529,34 +491,16 @@ def names(
     within: Within[S] = None,
 ) -> Layer[S]:
     """Return a layer of words at or `above` places; `data(state)` returns [(x, y, word), …]."""
-    layer: Layer[S] = Layer(
-        name,
-        "text",
-        ("x", "y", "text"),
-        {
-            "text_color": theme.INK,
-            "text_font_size": f"{size}px",
-            "text_align": "center",
-            "text_baseline": "bottom" if above else "middle",
-            "y_offset": -above,
-            **(_PAPER if on_paper else {}),
-        },
-    )
+    paper = _PAPER if on_paper else {}
+    layer: Layer[S] = _words(name, size, text_baseline="bottom" if above else "middle", y_offset=-above, **paper)
     return _layer(layer, lambda value: _rows(layer.columns, value), data, within)
 
 
 def label(layer: Layer[S]) -> Layer[S]:
     """Return the layer of the label of another layer, in its colour."""
     own = {"line": "line_color", "multi_line": "line_color", "scatter": "fill_color", "dots": "color"}.get(layer.glyph)
-    style = {
-        "text_color": layer.style[own] if own else theme.INK,
-        "text_font_size": "13px",
-        "text_font_style": "bold",
-        "text_align": "center",
-        "text_baseline": "middle",
-        **(_PAPER if own else {}),
-    }
-    return Layer(f"{layer.name}-label", "text", ("x", "y", "text"), style)
+    colour = {"text_color": layer.style[own], **_PAPER} if own else {}
+    return _words(f"{layer.name}-label", 13, text_font_style="bold", **colour)
 
 
 def text(name: str, data: Callable[[S], str]) -> Layer[S]:

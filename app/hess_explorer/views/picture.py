@@ -10,8 +10,6 @@ from typing import Any, ClassVar, Generic, TypeVar
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import Axes, Columns, Layer, Sign, Sources
 
-__all__ = ["Corners", "Picture", "Values"]
-
 S = TypeVar("S")
 T = TypeVar("T")
 Values = Mapping[str, float | str]

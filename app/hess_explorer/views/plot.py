@@ -15,8 +15,6 @@ from hess_explorer.views import tags
 from hess_explorer.views.layers import MESSAGE, POINT, Axes, Columns, Layer, Layers, Range, Sign, Sources, label
 from hess_explorer.views.picture import Picture
 
-__all__ = ["Plot"]
-
 S = TypeVar("S")
 Ticks = Sequence[tuple[float, str]]
 

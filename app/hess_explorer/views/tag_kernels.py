@@ -12,8 +12,6 @@ import numpy as np
 
 from hess_mechanics.numerics.jit import inner, kernel
 
-__all__ = ["along", "best", "compile_labels", "fill", "mark"]
-
 
 @kernel
 def along(x, y, count):
@@ -55,7 +53,7 @@ def fill(grid, ring):
 
 @inner
 def sums(grid):
-    """Return the sums of the cells left of and below each corner of the grid."""
+    """Return the summed-area table of a grid (n, n), with shape (n + 1, n + 1)."""
     cells = grid.shape[0]
     found = np.zeros((cells + 1, cells + 1))
     for row in range(cells):

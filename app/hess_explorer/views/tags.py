@@ -16,8 +16,6 @@ from hess_explorer.views.layers import Axes, Columns, Layer
 from hess_explorer.views.tag_kernels import along, best, fill, mark
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["label_places"]
-
 _CELLS = 48
 """Cells of the grid along each side."""
 _SMALL = 270.0
@@ -36,7 +34,7 @@ _PULL = 0.08
 """Weight of the distance from the upper right corner: few labels jump while a slider moves."""
 _DOTS = 0.25
 """Weight of a cell with dots: a label may stand in a section where few dots are."""
-_CLOSED = 2.0
+_OCCUPANCY = 2.0
 """Mark of cells under a label, where no other label goes."""
 _EDGE = 0.01
 _FRAME = np.ones((_CELLS, _CELLS))
@@ -83,7 +81,7 @@ def label_places(
         )
         if cost == math.inf or covered > _FULL:
             continue
-        taken[_box(place, *half)] = _CLOSED
+        taken[_box(place, *half)] = _OCCUPANCY
         x, y = frame.back(np.array(place))
         found[layer.name] = {"x": [x], "y": [y], "text": [layer.tag]}
     return found

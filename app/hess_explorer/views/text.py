@@ -11,17 +11,6 @@ from latex2mathml.converter import convert
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.parameters import plain
 
-__all__ = [
-    "conjugates",
-    "digits",
-    "range_text",
-    "superscript",
-    "variation_text",
-    "vector",
-    "with_error",
-    "with_formulas",
-]
-
 
 def digits(value: float, count: int = 4) -> str:
     """Return a number with up to `count` significant digits, with a true minus sign; ∞ beyond double range."""

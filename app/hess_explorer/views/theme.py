@@ -10,8 +10,6 @@ import re
 
 from hess_explorer.views.cyclic import TURN
 
-__all__ = ["gradient", "in_css"]
-
 
 def _mixed(colour: str) -> str:
     """Return a colour mixed with two fifths of grey."""
@@ -71,10 +69,10 @@ def gradient(scale: tuple[str, ...]) -> str:
 def in_css(style: str) -> str:
     """Replace the colours of a CSS style by variables of the page's theme."""
 
-    def variable(found: re.Match[str]) -> str:
-        colour, opacity = found[0][:7].upper(), found[0][7:]
+    def variable(match: re.Match[str]) -> str:
+        colour, opacity = match[0][:7].upper(), match[0][7:]
         if colour not in _NAMES:
-            return found[0]
+            return match[0]
         shade = f"var(--{_NAMES[colour]}, {colour})"
         return shade if not opacity else (f"color-mix(in srgb, {shade} {round(int(opacity, 16) / 2.55)}%, transparent)")
 

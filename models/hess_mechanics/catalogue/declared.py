@@ -1,4 +1,4 @@
-"""A computation as data, for commands, sweeps, charts, the documentation and the trade of speed against accuracy."""
+"""A computation as data, for commands, sweeps, charts and the documentation."""
 
 from __future__ import annotations
 
@@ -8,19 +8,16 @@ from dataclasses import dataclass, field, replace
 from operator import attrgetter
 from typing import Any, Literal
 
-import numpy as np
-
 from hess_mechanics.dynamics.motions import Motions
 from hess_mechanics.dynamics.return_map import ReturnMap
-from hess_mechanics.dynamics.trade import LevelCost, measure
 from hess_mechanics.errors import InvalidParameter, ModelError
-from hess_mechanics.numerics.accuracy import PLANS, Accuracy, Kind, Level, Plan, Status
+from hess_mechanics.numerics.accuracy import Accuracy, Kind, Level, Status
 from hess_mechanics.numerics.arguments import as_level, as_number
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.results import Array, Mask
 from hess_mechanics.parameters import Parameter
 
-__all__ = ["Choice", "Computation", "Many", "NoValue", "Number", "Scalar", "declare", "largest_difference", "real"]
+__all__ = ["Choice", "Computation", "Many", "NoValue", "Number", "Scalar", "declare", "real"]
 
 Value = float | str
 
@@ -205,14 +202,9 @@ class Computation:
         The numbers of a result by name; the first is the default of a sweep.
     kind : Kind
         Row of the table of accuracy, which gives levels their meaning.
-    compared : str or callable, default ""
-        Values of a result that `error` compares: an attribute, or the first number by default.  Or the error, as a
-        function of a result and a more accurate one.
     call : callable, optional
         Function call(accuracy, **values) that computes it, if `function` has other arguments.  It raises a
         `ModelError`.
-    unit : str, default "1"
-        Unit of the error.
     choices : tuple of Choice, default ()
         Its arguments that are words.
     example : mapping of str to Value
@@ -233,9 +225,7 @@ class Computation:
     parameters: tuple[Parameter, ...]
     numbers: Mapping[str, Number]
     kind: Kind
-    compared: str | Callable[[Any, Any], float] = ""
     call: Callable[..., Any] | None = None
-    unit: str = "1"
     choices: tuple[Choice, ...] = ()
     example: Mapping[str, Value] = field(default_factory=dict)
     system: str = ""
@@ -300,12 +290,12 @@ class Computation:
             raise InvalidParameter(f"{self.key} has no number {name!r}; choose from {', '.join(self.numbers)}.")
         return self.numbers[name]
 
-    def values(self, given: Mapping[str, Any] | None = None) -> dict[str, Value]:
+    def values(self, arguments: Mapping[str, Any] | None = None) -> dict[str, Value]:
         """Return the checked values of all arguments.
 
         Parameters
         ----------
-        given : mapping of str to object, optional
+        arguments : mapping of str to object, optional
             Values by name; the others have their defaults.
 
         Returns
@@ -318,26 +308,26 @@ class Computation:
         InvalidParameter
             If there is no such argument, or a value is out of range.
         """
-        given = given or {}
-        for name in given.keys() - {one.name for one in self.choices}:
+        arguments = arguments or {}
+        for name in arguments.keys() - {one.name for one in self.choices}:
             self.parameter(name)
         values: dict[str, Value] = {}
         for one in self.parameters:
-            value = one.check(as_number(one.name, given.get(one.name, one.default)))
+            value = one.check(as_number(one.name, arguments.get(one.name, one.default)))
             values[one.name] = int(value) if one.whole else value
         for choice in self.choices:
-            word = str(given.get(choice.name, choice.default))
+            word = str(arguments.get(choice.name, choice.default))
             if word not in choice.names:
                 raise InvalidParameter(f"{choice.name} is one of {', '.join(choice.names)}, not {word[:40]!r}.")
             values[choice.name] = word
         return values
 
-    def compute(self, given: Mapping[str, Any] | None = None, accuracy: Accuracy = "precise") -> Any:
+    def compute(self, arguments: Mapping[str, Any] | None = None, accuracy: Accuracy = "precise") -> Any:
         """Return the result for some values.
 
         Parameters
         ----------
-        given : mapping of str to object, optional
+        arguments : mapping of str to object, optional
             Values by name; the others have their defaults.
         accuracy : str or Level, default "precise"
             Accuracy level.
@@ -352,57 +342,8 @@ class Computation:
         ModelError
             If there is no result for these values.
         """
-        result = (self.call or self.function)(accuracy=as_level(accuracy), **self.values(given))
+        result = (self.call or self.function)(accuracy=as_level(accuracy), **self.values(arguments))
         return Scalar(result) if isinstance(result, float) else result
-
-    def error(self, result: Any, exact: Any) -> float:
-        """Return the distance of a result from a more accurate one.
-
-        Parameters
-        ----------
-        result : object
-            The result.
-        exact : object
-            The more accurate result.
-
-        Returns
-        -------
-        float
-            The distance, in `unit`; NaN if there is nothing to compare.
-        """
-        if callable(self.compared):
-            return self.compared(result, exact)
-        read = attrgetter(self.compared) if self.compared else next(iter(self.numbers.values())).read
-        return largest_difference(read(result), read(exact))
-
-    def trade(self, given: Mapping[str, Any] | None = None, repeats: int = 1) -> tuple[LevelCost, ...]:
-        """Return time and error at each level, measured on this machine.
-
-        The error is the distance from a run that is finer than `reference`.
-
-        Parameters
-        ----------
-        given : mapping of str to object, optional
-            Values by name; the others have their defaults.
-        repeats : int, default 1
-            Number of runs at each level, of which the fastest counts.
-
-        Returns
-        -------
-        tuple of LevelCost
-            Costs of the levels, the cheapest first.
-
-        Raises
-        ------
-        ModelError
-            If there is no result for these values.
-        """
-
-        def run(plan: Plan) -> Any:
-            is_named = plan is PLANS[self.kind][plan.level.name]
-            return self.compute(given, plan.level.name if is_named else plan.level)
-
-        return tuple(measure(self.kind, run, self.error, repeats))
 
 
 def declare(of: Motions, one: Computation, on_section: bool = False) -> Computation:
@@ -442,22 +383,3 @@ def declare(of: Motions, one: Computation, on_section: bool = False) -> Computat
         system=of.name,
         source=of.source,
     )
-
-
-def largest_difference(values: Any, exact: Any) -> float:
-    """Return the largest difference of two arrays of one shape.
-
-    Parameters
-    ----------
-    values, exact : array_like
-        The arrays.
-
-    Returns
-    -------
-    float
-        The difference; NaN if the shapes differ or the arrays are empty.
-    """
-    one, other = np.asarray(values, float), np.asarray(exact, float)
-    if one.shape != other.shape or not one.size:
-        return math.nan
-    return float(np.max(np.abs(one - other)))

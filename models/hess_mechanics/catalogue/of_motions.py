@@ -30,7 +30,7 @@ _STEPS = (
     known.MAX_STEP,
     whole("max_steps", "N", MAX_STEPS, 1, 10**12, "Largest number of steps of all runs together."),
 )
-_ENCLOSED = (
+_TUBE_PARAMETERS = (
     usual(known.TIME, 2.0),
     whole("samples", "n", 5, 2, MAX_SAMPLES, "Evenly spaced times, with 0."),
     whole("digits", "n", 18, 1, 100, "Number of digits that determines the width of the intervals."),
@@ -55,7 +55,7 @@ def _crossings(body: Body, start: State, offset: float, sense: int, max_step: fl
     return section(body, start, Plane(normal, offset, sense), max_step=max_step or None, **more)
 
 
-def _enclosed(
+def _enclosure(
     function: Callable[..., Any], body: Body, start: State, duration: float, samples: int, seconds: float, **more: Any
 ) -> Any:
     times = np.linspace(0.0, duration, samples)[1:]
@@ -95,7 +95,6 @@ def computations(system: System) -> Iterator[Computation]:
             "error": Number("ε", "estimated error", "error_estimate"),
         },
         Kind.ORBIT,
-        "states",
         lambda body, start, duration, max_step, **more: solve(body, start, duration, max_step=max_step or None, **more),
         example={"duration": 10.0, "samples": 11.0},
     )
@@ -123,9 +122,7 @@ def computations(system: System) -> Iterator[Computation]:
         ),
         {"crossings": Number("n", "number of crossings of the plane", lambda r: len(r.times))},
         Kind.SECTION,
-        "times",
         _crossings,
-        unit="time",
         example={"duration": 20.0},
     )
     yield Computation(
@@ -135,7 +132,6 @@ def computations(system: System) -> Iterator[Computation]:
         (_LONG,),
         {"lyapunov": Number("λ", "largest Lyapunov exponent", "value", "1/time", "spread")},
         Kind.EXPONENT,
-        unit="1/time",
         example={"duration": 50.0},
     )
     yield Computation(
@@ -158,8 +154,6 @@ def computations(system: System) -> Iterator[Computation]:
             "divergence": Number("⟨div ẏ⟩", "mean divergence", "divergence", "1/time", "divergence_error"),
         },
         Kind.EXPONENT,
-        "values",
-        unit="1/time",
         example={"duration": 50.0},
     )
     yield Computation(
@@ -178,7 +172,6 @@ def computations(system: System) -> Iterator[Computation]:
             ),
         },
         Kind.INDICATOR,
-        "values",
         # One thread: the cells of a sweep share the cores.
         lambda body, start, **more: complete(megno(body, [start], threads=1, **more)),
         example={"duration": 50.0},
@@ -187,14 +180,13 @@ def computations(system: System) -> Iterator[Computation]:
         "tube",
         "Proved intervals that contain the motion",
         tube,
-        _ENCLOSED,
+        _TUBE_PARAMETERS,
         {
             "width": Number("w", "largest width of an interval", "width"),
             "end": Number("t", "last enclosed time", lambda r: r.times[-1] if r.times.size else 0.0, "time"),
         },
         Kind.ORBIT,
-        lambda r, exact: r.width,
-        lambda *start, accuracy, **more: _enclosed(tube, *start, **more),
+        lambda *start, accuracy, **more: _enclosure(tube, *start, **more),
         group="prove",
         example={"duration": 1.0, "samples": 3.0},
     )
@@ -202,14 +194,13 @@ def computations(system: System) -> Iterator[Computation]:
         "proved-orbit",
         "Orbit with a proved error",
         proved_orbit,
-        (*_ENCLOSED, real("right_to", "ε", 1e-6, 1e-300, 1e3, "Largest error of an orbit that is right.")),
+        (*_TUBE_PARAMETERS, real("right_to", "ε", 1e-6, 1e-300, 1e3, "Largest error of an orbit that is right.")),
         {
             "error": Number("ε", "upper end of the proved largest error", "largest"),
             "right-until": Number("t", "last time at which the orbit is right", "right_until", "time"),
         },
         Kind.ORBIT,
-        lambda r, exact: r.largest,
-        partial(_enclosed, proved_orbit),
+        partial(_enclosure, proved_orbit),
         group="prove",
         example={"duration": 1.0, "samples": 3.0},
     )

@@ -91,7 +91,7 @@ class Strip:
         if any(self.body.parameters[5:]):
             raise InvalidParameter("The strip between two ellipses needs a ball without a field: set b1 = b2 = b3 = 0.")
         if not self.h > 0.0:
-            raise InvalidParameter(f"h = {self.h:g}: without a field the energy is positive, choose h > 0.")
+            raise InvalidParameter(f"h = {self.h:g}, but without a field the energy is positive: choose h > 0.")
 
     @property
     def xi(self) -> Array:

@@ -174,7 +174,7 @@ def divergence(body: BallBody, omega: Array, gamma: Array) -> Array:
 def _require_cloud(h: float, spread: float, count: int) -> None:
     require_finite(h=h, spread=spread)
     if not h > 0.0:
-        raise InvalidParameter(f"h = {h:g}: without a field the energy is positive, choose h > 0.")
+        raise InvalidParameter(f"h = {h:g}, but without a field the energy is positive: choose h > 0.")
     if not 0.0 < spread < 1.0:
         raise InvalidParameter(f"The cloud's spread is {spread:g}: choose it between 0 and 1.")
     if count < 1:

@@ -74,7 +74,7 @@ def _falling(top, f, share):
 
 @kernel
 def least_excess(h, f, strength, K, P, Q, count, out):
-    """Store the minimum of the energy on the plane minus h in out, over `count` values of G from the largest to |f|."""
+    """Store in out the minimum of the energy on the plane minus h, over `count` values of G from the largest to |f|."""
     for i in range(K.size):
         top = _largest(h, f, strength, K[i])
         least = math.inf
@@ -86,7 +86,7 @@ def least_excess(h, f, strength, K, P, Q, count, out):
 
 @kernel
 def roots_into(h, f, strength, K, P, Q, count, out):
-    """Store all G ≥ |f| > 0 with the energy h in out, decreasing, as many as each row has room for.
+    """Fill each row of out with the solutions G ≥ |f| > 0 of energy h, in decreasing order, as far as they fit.
 
     They are found by bisection between `count` values of G and half as many of α = arccos |f|/G.
     """

@@ -35,9 +35,9 @@ from hess_mechanics.rigid_body.attitude import Attitude, orthonormal
 from hess_mechanics.rigid_body.inertia import require_finite
 from hess_mechanics.suslov_hess.equations import WITH_ATTITUDE
 
-__all__ = ["SETTLED", "LoxodromicMotion", "LoxodromicPendulum", "loxodromic_motion"]
+__all__ = ["SETTLING_TIME", "LoxodromicMotion", "LoxodromicPendulum", "loxodromic_motion"]
 
-SETTLED = 20.0
+SETTLING_TIME = 20.0
 """Time on the separatrix, in units b = 1, after which the centre of mass is within e^−20 of the top."""
 _MOST = 4000
 _AT_THE_POLE = 0.02
@@ -189,7 +189,7 @@ class LoxodromicPendulum:
         return (-reach - middle) / self.a, (reach - middle) / self.a
 
     def length(self, duration: float) -> float:
-        """Return a duration in units b = 1, at most `SETTLED` on the separatrix.
+        """Return a duration in units b = 1, at most `SETTLING_TIME` on the separatrix.
 
         Parameters
         ----------
@@ -202,7 +202,7 @@ class LoxodromicPendulum:
             Time in units b = 1.
         """
         length = duration * self.frequency_unit
-        return min(length, SETTLED) if self.h == 1.0 else length
+        return min(length, SETTLING_TIME) if self.h == 1.0 else length
 
 
 @dataclass(frozen=True)
@@ -248,7 +248,7 @@ class LoxodromicMotion(Printed):
         return float(np.max(np.abs(self.centre[:, 1])))
 
     @cached_property
-    def measured(self) -> tuple[Array, Array]:
+    def angles(self) -> tuple[Array, Array]:
         """Times and angles θ (m,) between consecutive samples, measured from the middle axis on the sphere alone.
 
         A loxodrome meets all meridians, the great circles through ±e, at one angle, whose tangent between two of its

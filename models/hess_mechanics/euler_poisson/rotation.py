@@ -18,9 +18,9 @@ from hess_mechanics.euler_poisson.andoyer import AndoyerSection
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["RESOLVED", "RotationProfile", "on_line", "rotation_along"]
+__all__ = ["RESOLUTION", "RotationProfile", "on_line", "rotation_along"]
 
-RESOLVED = 1e-4
+RESOLUTION = 1e-4
 """Largest difference of the rotation numbers of both halves of an orbit on a closed curve."""
 _FEWEST = 20
 
@@ -82,7 +82,7 @@ class RotationProfile(Result):
         """Place and value of an extremum of ρ inside the line; None if ρ is monotonic."""
         along, rho = self.places, self.numbers
         for i in (int(np.argmin(rho)), int(np.argmax(rho))) if rho.size else ():
-            if 2 <= i <= len(rho) - 3 and min(abs(rho[i] - rho[0]), abs(rho[i] - rho[-1])) > 3 * RESOLVED:
+            if 2 <= i <= len(rho) - 3 and min(abs(rho[i] - rho[0]), abs(rho[i] - rho[-1])) > 3 * RESOLUTION:
                 return float(along[i]), float(rho[i])
         return None
 
@@ -143,7 +143,7 @@ def rotation_along(
     orbits: Sequence[Array],
     about_first: bool,
     count: int,
-    resolved: float = RESOLVED,
+    resolved: float = RESOLUTION,
 ) -> RotationProfile:
     """Return the profile of orbits that start on a line.
 
@@ -159,7 +159,7 @@ def rotation_along(
         Count turns about the first end, over l; otherwise turns of the angle l, over L/G.
     count : int
         Number of equidistant starts.
-    resolved : float, default RESOLVED
+    resolved : float, default RESOLUTION
         Largest difference of the rotation numbers of both halves of an orbit on a closed curve.
 
     Returns

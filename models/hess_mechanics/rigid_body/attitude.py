@@ -92,7 +92,7 @@ def attitude_along(times: Array, omega: Array, gamma: Array) -> Attitude:
     v += step**2 / 12.0 * (slope[:, :-1] - slope[:, 1:] + _cross(w[:, :-1], w[:, 1:]))
     length = np.sqrt(np.einsum("kn,kn->n", v, v))
     g, e, f = _frames(gamma)
-    moved_g, moved_e = _turned((g[:, :-1], e[:, :-1]), v, length)
+    moved_g, moved_e = _rotate((g[:, :-1], e[:, :-1]), v, length)
     defect = float(np.max(np.abs(moved_g - g[:, 1:]), initial=0.0))
     turn = np.arctan2(np.einsum("kn,kn->n", moved_e, f[:, 1:]), np.einsum("kn,kn->n", moved_e, e[:, 1:]))
     angle = np.concatenate([[0.0], np.cumsum(turn)])
@@ -103,7 +103,7 @@ def attitude_along(times: Array, omega: Array, gamma: Array) -> Attitude:
     i = np.clip(np.searchsorted(total, at, side="right") - 1, 0, len(step) - 1)
     share = (at - total[i]) / (total[i + 1] - total[i])
     v, length = share * v[:, i], share * length[i]
-    g, e = _turned((g[:, i], e[:, i]), v, length)
+    g, e = _rotate((g[:, i], e[:, i]), v, length)
     axes = np.stack([g.T, e.T, _cross(g, e).T], axis=1)
     return Attitude(frozen(times[i] + share * step[i]), frozen(axes), defect)
 
@@ -156,7 +156,7 @@ def _frames(gamma: Array) -> tuple[Array, Array, Array]:
     return g, e, _cross(g, e)
 
 
-def _turned(several: tuple[Array, ...], v: Array, length: Array) -> tuple[Array, ...]:
+def _rotate(several: tuple[Array, ...], v: Array, length: Array) -> tuple[Array, ...]:
     """Return exp(−v×) u of each of several columns u (3, n), |v| = length (n,)."""
     sine, cosine = np.sinc(length / np.pi), 0.5 * np.sinc(0.5 * length / np.pi) ** 2
     crossed = [(u, _cross(u, v)) for u in several]

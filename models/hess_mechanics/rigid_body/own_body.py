@@ -276,7 +276,7 @@ class OwnBody:
         is_body = bool(small + middle >= large * (1.0 - 1e-12))
         inequality = f"{plain(small, 4)} + {plain(middle, 4)} {'≥' if is_body else '<'} {plain(large, 4)}"
         words = "A rigid body" if is_body else "Not a rigid body, yet the equations are shown"
-        return BodyCheck(is_body, None, f"{words}: of its principal moments {inequality}.")
+        return BodyCheck(is_body, None, f"{words}: the principal moments satisfy {inequality}.")
 
     @property
     def is_driven(self) -> bool:

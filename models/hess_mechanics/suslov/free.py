@@ -722,7 +722,7 @@ def free_motion(
     )
 
 
-_PASSING = 20.0
+_UNIFORM = 20.0
 """For |u| > 20 the rotation of γ is uniform to 1e-8."""
 
 
@@ -766,7 +766,7 @@ def sample_times(
     if not (math.isfinite(length) and length != 0.0):
         raise InvalidParameter("The time span must be a finite nonzero number.")
     first_u, last_u = sorted((motion.u0, motion.u0 + length))
-    knots = np.clip(np.linspace(-_PASSING, _PASSING, 801), first_u, last_u)
+    knots = np.clip(np.linspace(-_UNIFORM, _UNIFORM, 801), first_u, last_u)
     u = np.unique(np.concatenate([[motion.u0, motion.u0 + length], knots]))
     if u.size == 1:  # u changes by less than round-off
         return np.linspace(0.0, duration, min(most, 17))
@@ -778,7 +778,7 @@ def sample_times(
     acceleration = weights[1] * (speed**2 + first) + weights[0] * motion.rate * second
     density = np.maximum(np.sqrt(acceleration / (8.0 * sagitta)), 16.0 / abs(length))
     share = 0.5 * (density[1:] + density[:-1]) * np.diff(u)
-    passing = np.abs(u[1:] + u[:-1]) < 2.0 * _PASSING
+    passing = np.abs(u[1:] + u[:-1]) < 2.0 * _UNIFORM
     inside, outside = float(share[passing].sum()), float(share[~passing].sum())
     if inside + outside > most - 1 and inside < 0.5 * most:
         share[~passing] *= (most - 1 - inside) / outside

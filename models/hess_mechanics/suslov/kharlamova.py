@@ -317,7 +317,7 @@ def _period(c: Array, low: Array, high: Array, side: Array) -> Array:
     return np.where(np.isnan(T), math.inf, T)
 
 
-def _solved(u0: Array, v0: Array, a: Array, height: float) -> tuple[Array, Array, Array, Array]:
+def _solve(u0: Array, v0: Array, a: Array, height: float) -> tuple[Array, Array, Array, Array]:
     """Return the rows of `arcs` (n, 5) and T (n,) for each v0 (n, 2), P (n, 5) in units of 1/ν, and ν (n,).
 
     Raises `InvalidParameter` if a motion is too fast for double precision.
@@ -368,7 +368,7 @@ def arc(body: PlaneBody, state: Sequence[float]) -> Arc:
     """
     w1, w2, g1, g2, g3 = as_place(SYSTEM.variables, state)
     u0, v0, a = np.array([g1, g2]), np.array([-w2, w1]), body.acceleration
-    rows, (period,), (c,), (rate,) = _solved(u0, v0[None], a, g3)
+    rows, (period,), (c,), (rate,) = _solve(u0, v0[None], a, g3)
     low, high, side, before, after = map(float, rows[0])
     frame = (frozen(u0), frozen(v0), frozen(a), float(rate))
     if rate == 0.0 or (c[0] == 0.0 and c[1] == 0.0):
@@ -405,7 +405,7 @@ def periods_all_round(body: PlaneBody, q: Sequence[float], speed: float) -> Arra
     r1, r2 = body.axes
     angle = np.linspace(-math.pi, math.pi, 721)
     v0 = speed * np.column_stack([-np.sin(angle) / r2, np.cos(angle) / r1])
-    return frozen(np.column_stack([angle, _solved(np.array(state[2:4]), v0, body.acceleration, state[4])[1]]))
+    return frozen(np.column_stack([angle, _solve(np.array(state[2:4]), v0, body.acceleration, state[4])[1]]))
 
 
 def fixed_point_kinds(body: PlaneBody, E: float, count: int = 361) -> tuple[Array, Array]:

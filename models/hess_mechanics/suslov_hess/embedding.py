@@ -70,14 +70,14 @@ def embed(reduced: Array, h: float) -> Array:
     return np.column_stack([w1, w2, (n1 * w2 - n2 * w1) / math.sqrt(square)]) / math.sqrt(square)
 
 
-def cross_section(h: float, turning: TurningPoints | None, count: int) -> CrossSection:
+def cross_section(h: float, turning_points: TurningPoints | None, count: int) -> CrossSection:
     """Return the cross-section of a torus, evenly in θ, n3 = ½(n1 + n2) − ½(n2 − n1) cos θ.
 
     Parameters
     ----------
     h : float
         Energy, h > −1, in units b = 1.
-    turning : TurningPoints or None
+    turning_points : TurningPoints or None
         Turning points of the torus (h, f); None on the separatrix.
     count : int
         Number of points, at least 3.
@@ -94,8 +94,8 @@ def cross_section(h: float, turning: TurningPoints | None, count: int) -> CrossS
     """
     if count < 3:
         raise InvalidParameter(f"A closed curve needs at least three points, not {count}.")
-    n0, n1, n2 = (-1.0, -1.0, 1.0) if turning is None else turning.roots
-    lowest = 0.0 if turning is None else turning.w_squared
+    n0, n1, n2 = (-1.0, -1.0, 1.0) if turning_points is None else turning_points.roots
+    lowest = 0.0 if turning_points is None else turning_points.w_squared
     square = 2.0 * (h + 1.0)
     theta = np.linspace(0.0, 2.0 * math.pi, count)
     sine = np.sin(0.5 * theta)

@@ -33,7 +33,7 @@ __all__ = [
 _MAX_A_OF_BOUNDARY = 1e5
 
 
-def _locked(a: Array | float, h: Array, f: Array, level: Level) -> Array:
+def _lock_function(a: Array | float, h: Array, f: Array, level: Level) -> Array:
     """Return (Im β² − Im α²)/(Im β² + Im α²): positive where the map is locked, 0 where |t| = 2, bounded and smooth."""
     _, im, im_beta, *_ = matrices(a, h, f, level).T
     locked: Array = (im_beta - im) * (im_beta + im) / (im_beta**2 + im**2)
@@ -101,7 +101,7 @@ def lock_boundary(a: float, accuracy: Accuracy, points: int = 48) -> Array:
     s = np.cos(np.linspace(0.0, 0.5 * math.pi, points))[1:-1]
 
     def locked(e: Array) -> Array:
-        return _locked(abs(float(a)), e - 1.0, s * f_max_each(e - 1.0), level)
+        return _lock_function(abs(float(a)), e - 1.0, s * f_max_each(e - 1.0), level)
 
     # In e = h + 1 the boundary lies between half the smaller and twice the larger of its end values.
     ends = (end + 1.0, 2.0)
@@ -137,7 +137,7 @@ def critical_each(h: Array, f: Array, accuracy: Accuracy, high: float) -> Array:
     level, result = as_level(accuracy), np.full(h.size, np.nan)
 
     def locked(a: Array) -> Array:
-        return _locked(a, h[own], f[own], level)
+        return _lock_function(a, h[own], f[own], level)
 
     low, top = np.full(h.size, 1e-9), np.full(h.size, high)
     own = np.arange(h.size)

@@ -374,7 +374,7 @@ def _proof(
         A, B, C, D = p * A + q * C, p * B + q * D, r * A + d * C, r * B + d * D
         theta += arb.atan2(before[0] * C - before[1] * A, before[0] * A + before[1] * C)
         steps.append(ProofStep(start, radius, K, terms, tuple(map(enclosure, matrix))))
-    statement, t = _decided(A, B, C, D)
+    statement, t = _verdict(A, B, C, D)
     rotation = _rotation(statement, t, A, B, C, D, theta)
     cycles = _cycles(t, A, B, C, D) if statement == TWO_CYCLES else ((), ())
     if rotation is None or cycles is None:
@@ -446,7 +446,7 @@ def _step(
     return K, (A, B, C, D)
 
 
-def _decided(A: ArbBall, B: ArbBall, C: ArbBall, D: ArbBall) -> tuple[str, Enclosure]:
+def _verdict(A: ArbBall, B: ArbBall, C: ArbBall, D: ArbBall) -> tuple[str, Enclosure]:
     """Return the statement and t: both forms enclose t, and the one with the smaller product does so more closely."""
     small, large = enclosure(B * C), enclosure(A * D)
     t = Enclosure(2 + 4 * max(small.low, large.low - 1), 2 + 4 * min(small.high, large.high - 1))

@@ -228,7 +228,7 @@ def cycles(
     return _in_body_units(body, orbit), _in_body_units(body, image)
 
 
-def annulus(body: HessBody, h: float, turning: TurningPoints | None) -> tuple[Array, Array]:
+def annulus(body: HessBody, h: float, turning_points: TurningPoints | None) -> tuple[Array, Array]:
     """Return the inner and the outer ellipse that bound the motion in the (ω1, ω2) plane.
 
     |w|² = 2(h + n3) between the turning points; on the separatrix |w|² lies between 0 and 4.
@@ -239,7 +239,7 @@ def annulus(body: HessBody, h: float, turning: TurningPoints | None) -> tuple[Ar
         The body.
     h : float
         Energy, h > −1, in units b = 1.
-    turning : TurningPoints or None
+    turning_points : TurningPoints or None
         Turning points of the torus; None on the separatrix.
 
     Returns
@@ -252,7 +252,7 @@ def annulus(body: HessBody, h: float, turning: TurningPoints | None) -> tuple[Ar
     NoField
         If b = 0.
     """
-    inner, outer = (0.0, 2.0) if turning is None else (turning.initial_rho, turning.final_rho)
+    inner, outer = (0.0, 2.0) if turning_points is None else (turning_points.initial_rho, turning_points.final_rho)
     s = np.linspace(0.0, 2.0 * math.pi, 181)
     unit = body.frequency_unit * np.column_stack([np.sin(s), math.hypot(1.0, body.a) * np.cos(s)])
     return frozen(inner * unit), frozen(outer * unit)

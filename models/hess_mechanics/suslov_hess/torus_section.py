@@ -58,14 +58,14 @@ class TorusSection(PoincareSection):
     system: ClassVar[System] = SYSTEM
 
     @cached_property
-    def turning(self) -> TurningPoints:
+    def turning_points(self) -> TurningPoints:
         """The turning points of n3."""
         return turning_points(self.h, self.f)
 
     @property
     def n3(self) -> float:
-        """The middle of the range of n3."""
-        return 0.5 * (self.turning.roots[1] + self.turning.roots[2])
+        """The value of n3 on the section, the middle of its range."""
+        return 0.5 * (self.turning_points.roots[1] + self.turning_points.roots[2])
 
     @property
     def parameters(self) -> tuple[float, ...]:
@@ -80,7 +80,7 @@ class TorusSection(PoincareSection):
     @property
     def slowness(self) -> float:
         """The time between two crossings in units of the fastest motion, from the period of n3."""
-        return max(1.0, 0.1 * self.turning.period * math.sqrt(2.0 * (self.h + 3.0)))
+        return max(1.0, 0.1 * self.turning_points.period * math.sqrt(2.0 * (self.h + 3.0)))
 
     @property
     def constants(self) -> Mapping[str, float]:

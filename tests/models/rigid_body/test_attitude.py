@@ -80,7 +80,7 @@ def test_the_angle_of_the_track_is_that_of_the_paper(I, h):
     promised = asin(a2 / sqrt(a2 * (a1 + a3) - a1 * a3))  # klas-gess-3
     assert one.angle == approx(promised, rel=1e-14)
     found = loxodromic_motion(one, 12.0, "reference")
-    times, theta = found.measured
+    times, theta = found.angles
     assert times.size > 20
     assert np.max(np.abs(theta - promised)) < 1e-9
 

@@ -6,8 +6,6 @@ from dataclasses import replace
 
 from hess_mechanics import parameters
 
-__all__ = ["B1", "B2", "B3", "I11", "I13", "I22", "I23", "PARAMETERS", "D"]
-
 # Narrower bounds than elsewhere: beyond them a section takes too many Taylor steps.
 _MOMENT, _PRODUCT, _FIELD = (1e-2, 1e2), (-20.0, 20.0), (-1e2, 1e2)
 _NEAR_0 = (-1.0, 1.0)

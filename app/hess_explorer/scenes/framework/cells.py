@@ -11,8 +11,6 @@ from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.work import Work
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["CELLS", "COARSE", "DENSITY", "Arguments", "cells_by_rows", "change_percentage"]
-
 CELLS = (36, 24)
 """Cells across and up a section at the level `standard`."""
 COARSE = 3

@@ -32,8 +32,6 @@ from hess_mechanics import catalogue
 from hess_mechanics.numerics.accuracy import level
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["with_chart"]
-
 _FIRST, _STAGES = 8, 3
 """Cells along a side of the first stage, and the number of stages; one more where many cells are computed at once."""
 _BEYOND = 0.01
@@ -74,7 +72,7 @@ class _Chart(Part[Any]):
         """Cache key of the cells, which do not depend on the values of both sides in this state."""
         x, y = self.axes
         state = y.put(x.put(bare(self.host), x.ends[0]), y.ends[0])
-        return Cells(*self.numbers[self.host.chart], x, y, state, level(self.work.chosen))
+        return Cells(*self.numbers[self.host.chart], x, y, state, level(self.work.level_name))
 
     @cached_property
     def window(self) -> Window:
@@ -84,7 +82,7 @@ class _Chart(Part[Any]):
         return window_of(tidy_window(self.host.chart_window), STORED.get(self.key, ((), whole))[1])
 
     @cached_property
-    def _found(self) -> tuple[Array, int, Window] | None:
+    def _rows(self) -> tuple[Array, int, Window] | None:
         """Rows (n, 3, m) of cells, the number of rows that are still coarse, and the window of the cells."""
         if self.key in STORED:
             cells, window = STORED[self.key]
@@ -105,9 +103,9 @@ class _Chart(Part[Any]):
     @cached_property
     def cells(self) -> CellGrid | None:
         """The cells; the ends of their colours are one turn, the range without outliers, or None for categories."""
-        if self._found is None:
+        if self._rows is None:
             return None
-        values, _, ((x0, y0), (x1, y1)) = self._found
+        values, _, ((x0, y0), (x1, y1)) = self._rows
         number, values = self.number, np.where(np.abs(values[:, 0]) < _LARGEST, values[:, 0], np.nan)
         known, ends = values[np.isfinite(values)], None
         if number.turn:
@@ -144,9 +142,9 @@ class _Chart(Part[Any]):
 
     def about(self, x: float, y: float) -> str:
         """Return a line about the cell at a place."""
-        if self._found is None:
+        if self._rows is None:
             return ""
-        cells, _, window = self._found
+        cells, _, window = self._rows
         at = zip((x, y), *window, (cells.shape[2], cells.shape[0]), strict=True)
         column, row = (min(max(int((one - low) / (high - low) * n), 0), n - 1) for one, low, high, n in at)
         across, up = self.axes
@@ -156,9 +154,9 @@ class _Chart(Part[Any]):
     def caption(self) -> Caption:
         """The caption: the number in this state, and the progress of the cells."""
         verdict = "" if self.own is None else self._says(*self.own[:, 0])
-        if self._found is None or self.cells is None:
+        if self._rows is None or self.cells is None:
             return Caption(verdict, self.work.pending_caption("The chart is"))
-        cells, coarse, _ = self._found
+        cells, coarse, _ = self._rows
         rows, _, columns = cells.shape
         said = [f"{columns} × {rows} cells" + f", {rows - coarse} rows known" * (coarse > 0)]
         if self.cells.ends is not None:

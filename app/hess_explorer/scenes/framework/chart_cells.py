@@ -18,8 +18,6 @@ from hess_mechanics.dynamics.cells import centres
 from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.results import Array, frozen
 
-__all__ = ["STORED", "Cells", "Side", "chart_row"]
-
 
 @dataclass(frozen=True)
 class Side:

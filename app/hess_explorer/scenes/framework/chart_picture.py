@@ -13,8 +13,6 @@ from hess_explorer.views.layers import Axes, CellGrid, Layer, Sign, image, targe
 from hess_explorer.views.plot import Plot
 from hess_mechanics import catalogue
 
-__all__ = ["chart_picture"]
-
 _KINDS = ("#DCDCDC", theme.ORBIT, theme.SHEET, theme.STABLE, theme.UNSTABLE, "#E69F00", theme.MAP, theme.POINT)
 """Colours of categories."""
 

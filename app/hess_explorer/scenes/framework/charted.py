@@ -14,8 +14,6 @@ from hess_mechanics.catalogue import Computation
 from hess_mechanics.dynamics.system import Body, System
 from hess_mechanics.numerics.accuracy import DRAFT
 
-__all__ = ["Arguments", "ChartSource", "Charts", "Numbers", "of_motion", "of_torus", "parameters_of", "tensor_of"]
-
 Arguments = Mapping[str, float]
 Numbers = Mapping[str, tuple["ChartSource", str]]
 """Computation and name of each number, by the option of the menu."""
@@ -31,18 +29,18 @@ class ChartSource:
         Key of the computation.
     arguments : callable
         `arguments(state)` returns the arguments that differ from the defaults; it raises `ModelError`.
-    known : mapping of str to Computation
+    computations : mapping of str to Computation
         The computations by key; empty for the catalogue.
     """
 
     key: str
     arguments: Callable[[Any], Arguments]
-    known: Mapping[str, Computation] = field(default_factory=dict)
+    computations: Mapping[str, Computation] = field(default_factory=dict)
 
     @property
     def computation(self) -> Computation:
         """The computation."""
-        return (self.known or catalogue.catalogue())[self.key]
+        return (self.computations or catalogue.catalogue())[self.key]
 
     def values(self, state: Any) -> Mapping[str, Any]:
         """Return all arguments of a state, clamped to their bounds.  Raises `ModelError`."""
@@ -101,7 +99,7 @@ def of_motion(
     system: System,
     start: Callable[[Any], tuple[float, ...]],
     time: Callable[[Any], float] | None = None,
-    known: Mapping[str, Computation] | None = None,
+    computations: Mapping[str, Computation] | None = None,
 ) -> tuple[ChartSource, ...]:
     """Return MEGNO, exponents and crossings of the chosen motion of a system.
 
@@ -113,10 +111,10 @@ def of_motion(
         `start(state)` returns the initial state (d,); it raises `ModelError`.
     time : callable, optional
         `time(state)` returns the averaging time.
-    known : mapping of str to Computation, optional
+    computations : mapping of str to Computation, optional
         The computations by key; by default the catalogue.
     """
-    known = known or {}
+    computations = computations or {}
 
     def motion(s: Any) -> Arguments:
         return {**parameters_of(s.body), **dict(zip(system.arguments, start(s), strict=True))}
@@ -125,8 +123,8 @@ def of_motion(
         return motion(s) if time is None else {**motion(s), "duration": time(s)}
 
     return (
-        ChartSource(f"megno {system.name}", motion, known),
-        ChartSource(f"lyapunov {system.name}", averaged, known),
-        ChartSource(f"spectrum {system.name}", averaged, known),
-        ChartSource(f"crossings {system.name}", motion, known),
+        ChartSource(f"megno {system.name}", motion, computations),
+        ChartSource(f"lyapunov {system.name}", averaged, computations),
+        ChartSource(f"spectrum {system.name}", averaged, computations),
+        ChartSource(f"crossings {system.name}", motion, computations),
     )

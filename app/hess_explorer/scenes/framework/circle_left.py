@@ -17,8 +17,6 @@ from hess_explorer.views.space.poisson_sphere import Circle, Direction, Sphere, 
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.parameters import CIRCLE_PHASE, Parameter
 
-__all__ = ["CIRCLES", "DIGITS", "PHI", "Gamma_picture", "sphere"]
-
 CIRCLES = (
     Sign("circle joined", "line", f"border-top: 3px solid {theme.STABLE}"),
     Sign("circle left", "line", f"border-top: 3px dashed {theme.UNSTABLE}"),

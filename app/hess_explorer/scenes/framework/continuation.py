@@ -28,19 +28,17 @@ from hess_mechanics.errors import ModelError
 from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["Continuation"]
-
 _TOGETHER = 60
 """Places of a branch computed at once: few enough to arrive soon."""
 _PARTS = 16
 """Largest number of pieces of a branch in each direction."""
 _STEP = 0.02
 """Largest step, as a share of the range: chords are then half a pixel off, as directions differ by 0.3."""
-_CREEPING = 1e-4
+_LEAST_ADVANCE = 1e-4
 """Least advance of a piece, as a share of the range or in a coordinate: shorter pieces show no progress."""
 _NEAR = 12.0
 """Largest distance of the mouse from a branch that it selects, in pixels."""
-_SAID = 8
+_MOST_LISTED = 8
 """Largest number of bifurcations listed."""
 
 
@@ -67,7 +65,7 @@ class Continuation(Part[H_co]):
 
     @property
     @abstractmethod
-    def seen(self) -> Window:
+    def frame(self) -> Window:
         """The visible window."""
 
     @property
@@ -76,14 +74,14 @@ class Continuation(Part[H_co]):
         return self.host.poincare.turns[self.side]
 
     @cached_property
-    def _found(self) -> ClosedOrbit | NotFound | None:
+    def _target(self) -> ClosedOrbit | NotFound | None:
         """The orbit to continue, or the reason why there is none; None until known."""
         return None if self.begin is None else self.work.need(self.begin.search, preview=None)
 
     @property
     def closed_orbit(self) -> ClosedOrbit | None:
         """The orbit to continue; None if there is none."""
-        return self._found if isinstance(self._found, ClosedOrbit) else None
+        return self._target if isinstance(self._target, ClosedOrbit) else None
 
     @cached_property
     def _pieces(self) -> tuple[list[mechanics.Branch], list[str], bool]:
@@ -107,7 +105,7 @@ class Continuation(Part[H_co]):
                 found.append(one)
                 advance = max(float(np.ptp(one.values)) / (high - low), float(np.ptp(one.places, axis=0).max()))
                 # Pieces hardly advance near a tangency with the section.
-                if one.heading is None or advance < _CREEPING:
+                if one.heading is None or advance < _LEAST_ADVANCE:
                     break
         return found, failed, whole
 
@@ -120,7 +118,7 @@ class Continuation(Part[H_co]):
 
     def _pixels(self, values: Array, places: Array, x: float, y: float) -> Array:
         """Return the pixels (n, 2) from (x, y) to places (n, d) at values (n,) of the parameter."""
-        (x0, y0), (x1, y1) = self.seen
+        (x0, y0), (x1, y1) = self.frame
         up = apart((self.turn,), places[:, self.side, None], np.array([y]))[:, 0]
         return np.column_stack([values - x, up]) * (PIXELS / (x1 - x0), PIXELS / (y1 - y0))
 
@@ -140,7 +138,7 @@ class Continuation(Part[H_co]):
         near = min(found, key=itemgetter(0), default=None)
         return near if near is not None and near[0] <= _NEAR else None
 
-    def chosen(self, x: float, y: float) -> tuple[float, Place, int] | None:
+    def orbit_at(self, x: float, y: float) -> tuple[float, Place, int] | None:
         """Return parameter, place and period of the branch's orbit at (x, y); None away from the branch."""
         near = self._nearest(x, y)
         if near is None or self.begin is None:
@@ -169,7 +167,7 @@ class Continuation(Part[H_co]):
         """Return a tooltip on the bifurcation or the orbit of the branch at (x, y)."""
         for one in bifurcations(self.branches):
             if np.hypot(*self._pixels(np.full(len(one.places), one.value), one.places, x, y).T).min() <= _NEAR:
-                return self._named(one)
+                return self._bifurcation_text(one)
         near = self._nearest(x, y)
         if near is None:
             return ""
@@ -183,14 +181,14 @@ class Continuation(Part[H_co]):
 
     # ---- words --------------------------------------------------------------------------------------------------
 
-    def _named(self, one: Bifurcation) -> str:
+    def _bifurcation_text(self, one: Bifurcation) -> str:
         value = f"{digits(one.value, 8)} ± {digits(one.error, 1)}"
         return f"{one.kind} of period {len(one.places)} at {self.branches[0].parameter} = {value}"
 
     @property
     def caption(self) -> Caption:
         """The caption of the branch."""
-        if self.begin is None or isinstance(self._found, NotFound):
+        if self.begin is None or isinstance(self._target, NotFound):
             return Caption("No periodic orbit found near this point.")
         if self.closed_orbit is None:
             return Caption(self.work.pending_caption("A periodic orbit is"))
@@ -205,15 +203,15 @@ class Continuation(Part[H_co]):
     def quantities(self) -> Iterator[str]:
         """Yield the bifurcations."""
         found = bifurcations(self.branches) if self.has_result("_pieces") else []
-        yield from map(self._named, found[:_SAID])
-        if len(found) > _SAID:
-            yield f"and {len(found) - _SAID} more bifurcations of the branch"
+        yield from map(self._bifurcation_text, found[:_MOST_LISTED])
+        if len(found) > _MOST_LISTED:
+            yield f"and {len(found) - _MOST_LISTED} more bifurcations of the branch"
 
     def status(self) -> Iterator[str]:
         """Yield the size and error of the branch."""
         if self.has_result("_pieces") and self.branches:
             yield (
-                f"branch {sum(len(one.values) for one in self.branches)} points, places to "
+                f"branch {sum(len(one.values) for one in self.branches)} points, error "
                 f"{digits(max(one.error_estimate for one in self.branches), 1)}"
             )
 
@@ -221,8 +219,8 @@ class Continuation(Part[H_co]):
         """Yield the reasons why there is no branch, or why it ends inside the range."""
         if not self.has_result("_pieces"):
             return
-        if isinstance(self._found, NotFound):
-            yield self._found.reason
+        if isinstance(self._target, NotFound):
+            yield self._target.reason
         if self.begin is None or self.closed_orbit is None:
             return
         found, failed, whole = self._pieces

@@ -12,8 +12,6 @@ from hess_explorer.scenes.framework.periodic_search import ClosedOrbit, NotFound
 from hess_mechanics.dynamics.return_map import PoincareSection, ReturnMap
 from hess_mechanics.numerics.accuracy import PRECISE
 
-__all__ = ["Begin", "Family"]
-
 
 @dataclass(frozen=True)
 class Family:

@@ -13,8 +13,6 @@ from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.suslov.additional_integral import I11_at
 from hess_mechanics.suslov.equations import SuslovBody
 
-__all__ = ["I13", "I22", "I23", "about_I11", "free_body", "limits_of_k"]
-
 I22 = replace(parameters.I22, default=1.0, softbounds=(0.2, 3.0))
 I13 = replace(
     parameters.I13,

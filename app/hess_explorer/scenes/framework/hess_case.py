@@ -39,26 +39,6 @@ from hess_mechanics.suslov_hess.equations import SYSTEM, HessBody
 from hess_mechanics.suslov_hess.proof import NO_CYCLE, TWO_CYCLES, Proof, prove
 from hess_mechanics.suslov_hess.torus import Track, cycles, start_of_track
 
-__all__ = [
-    "B3",
-    "BY_THE_UNSTABLE_CYCLE",
-    "CYCLE_TRACKS",
-    "I22",
-    "I23",
-    "PHI0",
-    "RIS",
-    "UNSURE",
-    "HeavyHess",
-    "ProvedStatement",
-    "limit_cycles",
-    "map_or_none",
-    "possible_I23",
-    "possible_f",
-    "proved_statement",
-    "reduced_motion",
-    "torus_swarm",
-]
-
 _MAX_A = 100.0
 _MOST_BITS, _MOST_WORK = 256, 1e6
 """Limits of a background proof: it takes less than a second."""
@@ -186,12 +166,12 @@ def proved_statement(I22: float, I23: float, h: float, f: float) -> ProvedStatem
     )
 
 
-def _within(found: Enclosure, count: int) -> str:
-    return f"[{', '.join(found.decimals(count))}]".replace("E+", "e").replace("E-", "e−")
+def _within(result: Enclosure, count: int) -> str:
+    return f"[{', '.join(result.decimals(count))}]".replace("E+", "e").replace("E-", "e−")
 
 
-def _costs(found: Proof) -> str:
-    return f" ({len(found.steps)} steps, {found.bits} bits)"
+def _costs(result: Proof) -> str:
+    return f" ({len(result.steps)} steps, {result.bits} bits)"
 
 
 @dataclass(frozen=True)

@@ -7,8 +7,6 @@ from collections.abc import Mapping
 from hess_explorer.scenes.framework.sliders import Slider
 from hess_mechanics.parameters import I1 as FIRST
 
-__all__ = ["limits_of_moments"]
-
 _ENDS, _STEP = FIRST.softbounds, FIRST.step
 
 

@@ -10,8 +10,6 @@ from hess_mechanics.dynamics.plane_section import SectionPoints
 from hess_mechanics.dynamics.return_map import PoincareSection
 from hess_mechanics.numerics.results import Array, frozen
 
-__all__ = ["OrbitBatch", "batch_of", "in_batches"]
-
 _TOGETHER = 4
 """Orbits computed together: few enough that points arrive soon."""
 

@@ -11,8 +11,6 @@ from hess_explorer.protocol.specs import Values
 from hess_explorer.scenes.framework.work import Work
 from hess_mechanics.dynamics.return_map import PoincareSection
 
-__all__ = ["Host", "Part", "Sectioned", "Start", "part"]
-
 Start = tuple[float, ...]
 """The initial state of a motion."""
 

@@ -13,25 +13,6 @@ from hess_mechanics.dynamics.return_map import ReturnMap
 from hess_mechanics.errors import ModelError
 from hess_mechanics.numerics.patience import go_on
 
-__all__ = [
-    "ANY",
-    "AT_ITS_LENGTH",
-    "MOST_CROSSINGS",
-    "MOST_POINTS",
-    "NONE",
-    "PERIODS",
-    "BranchChoice",
-    "ClosedOrbit",
-    "NotFound",
-    "NotPeriodic",
-    "Periodic",
-    "Place",
-    "Search",
-    "branch_of",
-    "crossings_between",
-    "find_orbit",
-]
-
 Place = tuple[float, ...]
 Search = tuple[ReturnMap, Place, int | None, bool]
 """The map, the starting point, the period if one is given, and whether to search near that point only."""

@@ -5,8 +5,6 @@ from __future__ import annotations
 import math
 import os
 
-__all__ = ["stages_of"]
-
 _MOST = float(os.environ.get("HESS_EXPLORER_POINTS", "1e7"))
 """Largest number of points of a picture, smaller on a server with many visitors."""
 

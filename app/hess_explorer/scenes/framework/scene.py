@@ -29,12 +29,10 @@ from hess_mechanics.dynamics.system import System
 from hess_mechanics.errors import ModelError
 from hess_mechanics.numerics.accuracy import LEVELS, Kind, Level, Plan
 
-__all__ = ["Motion", "Preset", "Report", "Scene", "State"]
-
 S = TypeVar("S", bound="State")
 T = TypeVar("T")
 
-_INCLUDED = re.compile(r"^```\{include\} (\S+)\n```$", re.MULTILINE)
+_INCLUDE = re.compile(r"^```\{include\} (\S+)\n```$", re.MULTILINE)
 """A file whose text several scenes have, as MyST writes it."""
 
 
@@ -120,13 +118,13 @@ class State:
         Level of accuracy and cache.
     seen : frozenset of str
         Names of the visible pictures.
-    drawn : dict of str
+    sources : dict of str
         Columns of these pictures by data source.
     """
 
     work: Work = field(default_factory=Work, kw_only=True, compare=False, repr=False)
-    seen: frozenset[str] = field(default=frozenset(), kw_only=True, compare=False, repr=False)
-    drawn: dict[str, Columns] = field(default_factory=dict, kw_only=True, compare=False, repr=False)
+    visible: frozenset[str] = field(default=frozenset(), kw_only=True, compare=False, repr=False)
+    sources: dict[str, Columns] = field(default_factory=dict, kw_only=True, compare=False, repr=False)
 
     @property
     def level(self) -> Level:
@@ -302,7 +300,7 @@ class Scene(Generic[S]):
     def _text(self) -> tuple[str, str]:
         """The front matter of the Markdown file, and its body with all included files."""
         path = Path(self.module).with_suffix(".md")
-        text = _INCLUDED.sub(
+        text = _INCLUDE.sub(
             lambda part: (path.parent / part[1]).read_text(encoding="utf-8").rstrip(), path.read_text(encoding="utf-8")
         )
         found = re.match(r"---\nmoves: (.+)\n---\n", text)
@@ -357,11 +355,6 @@ class Scene(Generic[S]):
         return tuple(view.name for view in self.views)
 
     @property
-    def buttons(self) -> Mapping[str, str]:
-        """The label of the button of each picture that a button opens."""
-        return {view.name: view.button for view in self.views if view.button}
-
-    @property
     def open_pictures(self) -> tuple[str, ...]:
         """The names of the pictures that are open at first."""
         return tuple(view.name for view in self.views if not view.button)
@@ -391,14 +384,14 @@ class Scene(Generic[S]):
         plain = {one.name: one.default for one in self.specs if not isinstance(one, ChoiceSpec) or one.name in given}
         return {**plain, **preset.values}
 
-    def of(self, values: Values, seen: Collection[str] = (), dragging: bool = False) -> S:
+    def of(self, values: Values, visible: Collection[str] = (), dragging: bool = False) -> S:
         """Return the state of these values, without computing anything."""
         work = Work(str(values.get("accuracy", "standard")), dragging)
         typed: dict[str, Any] = {
             spec.name: float(values[spec.name]) if isinstance(spec, NumberSpec) else str(values[spec.name])
             for spec in self.specs
         }
-        return self.state(**typed, work=work, seen=frozenset(seen))
+        return self.state(**typed, work=work, visible=frozenset(visible))
 
     def admit(self, values: Values) -> tuple[dict[str, Value], list[str]]:
         """Clamp the values to a valid state; return them and a note for each change."""
@@ -436,7 +429,7 @@ class Scene(Generic[S]):
         idle = self.idle(values)
         return {name: meaning for name, meaning in {**labels, **self.of(values).means()}.items() if name not in idle}
 
-    def transfer(self, there: Values, before: Scene[Any], left: Values) -> dict[str, Value]:
+    def transfer(self, there: Values, before: Scene[Any], values: Values) -> dict[str, Value]:
         """Transfer changed values from another scene to parameters with the same meaning.
 
         Parameters
@@ -445,35 +438,35 @@ class Scene(Generic[S]):
             Values of this scene.
         before : Scene
             The other scene.
-        left : mapping of str
+        values : mapping of str
             Its values; values that are impossible in this scene are not transferred.
         """
-        defaults, mine, its = before.defaults(), self._meanings(there), before._meanings(left)
+        defaults, mine, its = before.defaults(), self._meanings(there), before._meanings(values)
         taken = {
-            spec.name: left[spec.name]
+            spec.name: values[spec.name]
             for spec in self.specs
             if spec.name in mine
             and mine[spec.name] == its.get(spec.name)
-            and left[spec.name] != defaults[spec.name]
-            and spec.read(left[spec.name])[1] is None
+            and values[spec.name] != defaults[spec.name]
+            and spec.read(values[spec.name])[1] is None
         }
         return {**there, **taken}
 
-    def compute(self, values: Values, seen: Collection[str], dragging: bool) -> S:
-        """Compute a valid state with the results for the pictures `seen`.  Raises `ModelError`."""
-        return self.draw(self.of(values, seen, dragging))
+    def compute(self, values: Values, visible: Collection[str], dragging: bool) -> S:
+        """Compute a valid state with the results for the pictures `visible`.  Raises `ModelError`."""
+        return self.draw(self.of(values, visible, dragging))
 
     def draw(self, state: S) -> S:
         """Compute the columns of all visible pictures and return the state.  Raises `ModelError`."""
         self._settle(state)
-        views = [view for view in self.views if view.name in state.seen]
-        shown = state.seen.union(*(view.needs for view in views))
+        views = [view for view in self.views if view.name in state.visible]
+        shown = state.visible.union(*(view.needs for view in views))
         for view in self.views:
             if view.name in shown:
-                state.drawn.update(view.data(state))
+                state.sources.update(view.data(state))
         # Every picture with a moving point shows the swarm.
         for name in frozenset({SWARM} & {*self.tracks}).union(*(view.tracks for view in views)):
-            state.drawn[f"data-{name}"] = self.tracks[name](state) or {}
+            state.sources[f"data-{name}"] = self.tracks[name](state) or {}
         return state
 
     def in_sight(self, state: S) -> Iterator[tuple[Trial[Any], State]]:
@@ -482,7 +475,7 @@ class Scene(Generic[S]):
         return (
             (trial, plain)
             for trial in self.trials
-            if trial.shown(state) and (not trial.pictures or state.seen.intersection(trial.pictures))
+            if trial.applies(state) and (not trial.pictures or state.visible.intersection(trial.pictures))
         )
 
     def _settle(self, state: S) -> None:
@@ -497,9 +490,9 @@ class Scene(Generic[S]):
             state.work.settle(max(known, key=[*LEVELS].index))
 
 
-def _or_nothing(found: Callable[[], Mapping[str, T]]) -> Mapping[str, T]:
+def _or_nothing(compute: Callable[[], Mapping[str, T]]) -> Mapping[str, T]:
     """Return the mapping, or an empty one if it raises `ModelError`."""
     try:
-        return found()
+        return compute()
     except ModelError:
         return {}

@@ -13,27 +13,6 @@ from hess_explorer.scenes.framework.work import AUTO
 from hess_mechanics.numerics.accuracy import LEVELS
 from hess_mechanics.parameters import Group, Parameter
 
-__all__ = [
-    "HIDDEN",
-    "ONE_TURN",
-    "SHOWN",
-    "TURN",
-    "Slider",
-    "accuracy_level",
-    "choice",
-    "declare",
-    "exponent_time",
-    "formula",
-    "like",
-    "number",
-    "parameter",
-    "places",
-    "show_proved_error",
-    "slider_within",
-    "specs_of",
-    "time_span",
-]
-
 Slider = tuple[float, float, float]
 """(low, high, step)."""
 

@@ -28,18 +28,7 @@ from hess_mechanics.suslov.free import FreeMotion
 from hess_mechanics.suslov_hess.equations import HessBody
 from hess_mechanics.suslov_hess.torus import Track
 
-__all__ = [
-    "CIRCULAR_SECTION",
-    "Solid",
-    "constrained_solid",
-    "ellipsoid_of_inertia",
-    "free_I33",
-    "heavy_solid",
-    "hess_solid",
-    "solid_body",
-]
-
-_LOST = 0.02
+_LARGEST_DEFECT = 0.02
 """Largest `Attitude.defect` of a motion that is drawn, in radians."""
 _TOO_LONG = Caption("Not drawn: the motion is too long.", "Its samples are too far apart to follow the rotation.")
 _WHEEL = (math.sqrt(0.5), math.sqrt(0.5), 0.0)
@@ -67,7 +56,7 @@ class Solid:
         Its ellipsoid; None if none is drawn.
     about_shape : Caption
         Caption of the picture.
-    drawn : bool
+    is_drawn : bool
         False if the picture stays empty.
     """
 
@@ -77,7 +66,7 @@ class Solid:
     mass: Direction | None
     shape: Shape | None
     about_shape: Caption
-    drawn: bool = True
+    is_drawn: bool = True
 
     @cached_property
     def attitude(self) -> Attitude:
@@ -87,7 +76,7 @@ class Solid:
 
     def in_space(self, held: bool = False) -> tuple[Attitude, Array] | None:
         """Return attitude and times, every second sample if a slider is held; None if nothing is drawn."""
-        if not self.drawn or self.attitude.defect > _LOST:
+        if not self.is_drawn or self.attitude.defect > _LARGEST_DEFECT:
             return None
         found = self.attitude.every_second() if held else self.attitude
         return found, found.times
@@ -95,7 +84,7 @@ class Solid:
     @property
     def caption(self) -> Caption:
         """The caption of its picture."""
-        return _TOO_LONG if self.drawn and self.in_space() is None else self.about_shape
+        return _TOO_LONG if self.is_drawn and self.in_space() is None else self.about_shape
 
 
 def free_I33(tensor: tuple[float, float, float, float], check: BodyCheck) -> float:
@@ -140,7 +129,7 @@ def hess_solid(body: HessBody, track: Track) -> Solid:
         about_shape = Caption(
             "Not drawn: no such rigid body.", "|a| ≥ 1 violates the triangle inequalities for every I₃₃."
         )
-        return Solid(track.times, track.omega, track.gamma, mass, None, about_shape, drawn=False)
+        return Solid(track.times, track.omega, track.gamma, mass, None, about_shape, is_drawn=False)
     # In the axes n1, n2, n3.
     tensor = body.tensor(body.middle_I33)
     moments = ", ".join(map(digits, np.linalg.eigvalsh(tensor)))

@@ -15,8 +15,6 @@ from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import Axes, Columns
 from hess_explorer.views.picture import Corners, Picture, Values
 
-__all__ = ["Stage"]
-
 S = TypeVar("S", bound=State)
 
 
@@ -34,17 +32,17 @@ class Stage(Generic[S]):
     def show(self, state: S, hold_axes: bool) -> Report:
         """Draw a state of `Scene.compute`; `hold_axes` keeps the axes during a drag.  Raises `ModelError`."""
         # Everything that can fail comes first, so that a failing state is not partly drawn.
-        views = [view for view in self.scene.views if view.name in state.seen]
+        views = [view for view in self.scene.views if view.name in state.visible]
         captions = {view.name: view.full_caption(state) for view in views}
         held = {view.name: self._axes[view.name] for view in views}
         axes = held if hold_axes else {view.name: view.ranges(state, held[view.name]) for view in views}
-        drawn = dict(state.drawn)
+        drawn = dict(state.sources)
         for view in views:
             for source, columns in view.framed(state, axes[view.name], drawn).items():
                 drawn[source] = {**drawn.get(source, {}), **columns}
         answer = self.scene.answer(state)
         quantities, notes = [*state.quantities()], [*dict.fromkeys(state.notes())]
-        status = re.sub(r"(?<=\d)e-(?=\d)", "e−", " · ".join([*state.status(), state.work.ended()]))
+        status = re.sub(r"(?<=\d)e-(?=\d)", "e−", " · ".join([*state.status(), state.work.status_end()]))
         self._state = state
         for view in views:
             self._set_axes(view, axes[view.name])
@@ -73,23 +71,23 @@ class Stage(Generic[S]):
 
     def pick(self, picture: str, x: float, y: float) -> Values:
         """Return the values that a click at (x, y) of a picture sets.  Raises `ModelError`."""
-        state, view = self._seen(picture)
+        state, view = self._visible(picture)
         return {} if state is None or view is None or view.on_click is None else view.on_click(state, x, y)
 
     def box(self, picture: str, corners: Corners) -> Values:
         """Return the values that a box from (x0, y0) to (x1, y1) of a picture sets.  Raises `ModelError`."""
-        state, view = self._seen(picture)
+        state, view = self._visible(picture)
         return {} if state is None or view is None or view.on_box is None else view.on_box(state, corners)
 
     def hover(self, picture: str, x: float, y: float) -> str:
         """Return the tooltip at (x, y) of a picture.  Raises `ModelError`."""
-        state, view = self._seen(picture)
+        state, view = self._visible(picture)
         return "" if state is None or view is None or view.on_hover is None else view.on_hover(state, x, y)
 
-    def _seen(self, picture: str) -> tuple[S, Picture[S]] | tuple[None, None]:
+    def _visible(self, picture: str) -> tuple[S, Picture[S]] | tuple[None, None]:
         """Return the current state and a picture; None if the picture is hidden, because it has no results."""
         state = self._state
-        return (None, None) if state is None or picture not in state.seen else (state, self._views[picture])
+        return (None, None) if state is None or picture not in state.visible else (state, self._views[picture])
 
     def _set_axes(self, view: Picture[S], axes: Axes | None) -> None:
         if axes is not None and axes != self._axes[view.name]:

@@ -31,8 +31,6 @@ from hess_mechanics.rigid_body.attitude import attitude_along
 if TYPE_CHECKING:
     from hess_explorer.scenes.framework.scene import Motion
 
-__all__ = ["SWARM", "Swarm", "turned_swarm", "with_swarm"]
-
 S = TypeVar("S")
 
 SWARM = "swarm"

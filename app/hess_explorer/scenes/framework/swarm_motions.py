@@ -15,8 +15,6 @@ from hess_mechanics.numerics.results import Array
 if TYPE_CHECKING:
     from hess_explorer.scenes.framework.scene import Motion
 
-__all__ = ["SwarmMotions", "swarm_motions", "turned"]
-
 _ERROR = 0.5
 """Largest error of a bead, in pixels; from then on it is not drawn."""
 _ASIDE, _SAFETY = 2.0**-50, 4.0

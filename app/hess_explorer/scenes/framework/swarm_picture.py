@@ -10,8 +10,6 @@ from hess_explorer.views.layers import line
 from hess_explorer.views.plot import Plot
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["spread_picture"]
-
 
 def spread_picture() -> Plot[Any]:
     """Return the graph of the distance between neighbours of the swarm over time."""

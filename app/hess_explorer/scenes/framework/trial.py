@@ -25,20 +25,6 @@ from hess_mechanics.numerics.results import Array
 if TYPE_CHECKING:
     from hess_explorer.scenes.framework.scene import Motion, State
 
-__all__ = [
-    "COLOUR_UNIT",
-    "Refusal",
-    "Trial",
-    "bare",
-    "boundary_error",
-    "colour_error",
-    "curve_error",
-    "level_costs",
-    "orbit_trial",
-    "section_error",
-    "sufficient_level",
-]
-
 S = TypeVar("S", bound="State")
 
 _SAMPLES = 400
@@ -47,7 +33,7 @@ _COLOUR = 1.0 / 256.0
 COLOUR_UNIT = "steps of the colour, 99 of 100 cells"
 
 
-def _always(shown: object) -> bool:
+def _always(state: object) -> bool:
     return True
 
 
@@ -69,10 +55,10 @@ class Trial(Generic[S]):
         Unit of the error.
     alike : str
         Setting of a plan that the reference shares with the measured level, because only equal points are compared.
-    seen : float
+    tolerance : float
         Largest invisible error, in `unit`.
-    shown : callable
-        `shown(state)` returns True if the pictures show it in this state.
+    applies : callable
+        `applies(state)` returns True if the pictures show it in this state.
     most : tuple of (str, float)
         Upper limits of parameters with which it takes about a second.
     """
@@ -83,8 +69,8 @@ class Trial(Generic[S]):
     error: Callable[[S, Any, Any], float]
     unit: str = "pixels"
     alike: Alike = ""
-    seen: float = HALF_A_PIXEL
-    shown: Callable[[S], bool] = _always
+    tolerance: float = HALF_A_PIXEL
+    applies: Callable[[S], bool] = _always
     most: tuple[tuple[str, float], ...] = ()
 
     def small(self, state: S) -> S:
@@ -104,7 +90,7 @@ def bare(state: S) -> S:
     """Return the state without its accuracy and pictures in sight, as a cache key."""
     typed: Any = state
     accuracy = {"accuracy": STANDARD.name} if hasattr(state, "accuracy") else {}
-    found: S = replace(typed, **accuracy, work=Work(), seen=frozenset(), drawn={})
+    found: S = replace(typed, **accuracy, work=Work(), visible=frozenset(), sources={})
     return found
 
 
@@ -122,7 +108,7 @@ def level_costs(trial: Trial[S], state: S) -> tuple[LevelCost, ...] | Refusal:
 def sufficient_level(trial: Trial[S], state: S) -> str:
     """Return the cheapest level with an invisible error; `standard` if none can be measured.  Raises `OverBudget`."""
     try:
-        return enough(measure(*_of(trial, state), alike=trial.alike), trial.seen)
+        return enough(measure(*_of(trial, state), alike=trial.alike), trial.tolerance)
     except OverBudget:
         raise
     except ModelError:

@@ -16,10 +16,7 @@ from hess_mechanics.numerics.jit import seconds_compiling
 from hess_mechanics.numerics.results import Orbit
 from hess_mechanics.suslov.free import FreeMotion
 
-__all__ = ["AUTO", "Work", "accuracy_status", "drift_status", "orbit_status"]
-
-
-_NOTED = 0.1
+_LEAST_COMPILE_TIME = 0.1
 """Least compile time, in seconds, that the status line reports."""
 
 AUTO = "auto"
@@ -33,7 +30,7 @@ class Work:
 
     Attributes
     ----------
-    chosen : str
+    level_name : str
         Name of the chosen level, also while a slider is held.
     auto : bool
         True if the level is determined by measurement, see `settle`.
@@ -44,11 +41,11 @@ class Work:
         self._misses = 0
         self.dragging = dragging
         self.auto, self._settled = accuracy == AUTO, False
-        self.chosen = STANDARD.name if self.auto else accuracy
+        self.level_name = STANDARD.name if self.auto else accuracy
         self._todo: list[Task[Any]] = []
         self._refinements: list[Task[Any]] = []
         self.pieces = 0
-        chosen = level(self.chosen)
+        chosen = level(self.level_name)
         # While a slider is dragged, use the cheapest level that is right to half a pixel.
         self.level: Level = min(chosen, cheapest(HALF_A_PIXEL), key=lambda rung: rung.order) if dragging else chosen
 
@@ -59,7 +56,7 @@ class Work:
 
     def settle(self, name: str) -> None:
         """Set the measured level of "auto"; until then it is `standard`."""
-        self._settled, self.chosen, self.level = True, name, level(name)
+        self._settled, self.level_name, self.level = True, name, level(name)
 
     def plan(self, kind: Kind, steady: bool = False) -> Plan:
         """Return the settings of the level for a kind of computation.
@@ -75,7 +72,8 @@ class Work:
         """
         if steady:
             return plan(
-                kind, STANDARD.name if self.dragging and level(self.chosen).order > STANDARD.order else self.chosen
+                kind,
+                STANDARD.name if self.dragging and level(self.level_name).order > STANDARD.order else self.level_name,
             )
         found = plan(kind, self.level.name)
         return replace(found, share=1.0, cells=1.0) if self.dragging else found
@@ -146,14 +144,14 @@ class Work:
         right = "the floor of double precision" if self.level.is_floor else f"1e−{-math.log10(self.level.promise):.0f}"
         return f"{chosen}, right to {right} · {1e3 * self._spent()[0]:.0f} ms"
 
-    def ended(self) -> str:
+    def status_end(self) -> str:
         """Return the end of the status line: computing time, and "computed" or "cached"."""
         spent, compiling = self._spent()
-        once = f"{compiling:.1f} s to compile, once · " if compiling > _NOTED else ""
+        once = f"{compiling:.1f} s to compile, once · " if compiling > _LEAST_COMPILE_TIME else ""
         duration = f"{once}{1e3 * spent:.1f} ms, {'computed' if self._misses else 'cached'}"
         if not self.auto:
             return duration
-        return f"{AUTO}: {self.chosen}{'' if self._settled else ' until it is measured'} · {duration}"
+        return f"{AUTO}: {self.level_name}{'' if self._settled else ' until it is measured'} · {duration}"
 
 
 def orbit_status(orbit: Orbit | FreeMotion) -> list[str]:

@@ -12,8 +12,6 @@ from hess_explorer.views import theme
 from hess_explorer.views.layers import Layer, Range, line
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["LG_OF_0", "POWERS", "clip", "lg", "lg_axis", "limit"]
-
 S = TypeVar("S")
 
 POWERS = [1e-16, 1e-12, 1e-8, 1e-4, 1.0]

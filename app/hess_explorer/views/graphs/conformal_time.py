@@ -16,10 +16,8 @@ from hess_explorer.views.text import digits
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov.principal_axis import Conformal
 
-__all__ = ["about", "picture"]
-
 S = TypeVar("S")
-Found = Callable[[S], Conformal | None]
+Transform = Callable[[S], Conformal | None]
 
 _LEAST = 2.5
 """Half height of the axis at least, so that the brackets, of order 1 away from γ3 = 0, are visible."""
@@ -30,11 +28,11 @@ def about(motion: Conformal) -> Caption:
     turned = {0: "never", 1: "once"}.get(motion.turns, f"{motion.turns} times")
     return Caption(
         "Hamiltonian in the time τ.",
-        f"ẋ = γ₃{{x, E}} to {digits(motion.residual, 1)}; τ reverses {turned} on the equator.",
+        f"ẋ = γ₃{{x, E}} within {digits(motion.residual, 1)}; τ reverses {turned} on the equator.",
     )
 
 
-def _bracket(motion_of: Found[S], i: int) -> Callable[[S, Axes], list[Array]]:
+def _bracket(motion_of: Transform[S], i: int) -> Callable[[S, Axes], list[Array]]:
     """Return the graph of a Poisson bracket, cut where it is infinite, on the equator."""
 
     def graph(state: S, axes: Axes) -> list[Array]:
@@ -48,7 +46,7 @@ def _bracket(motion_of: Found[S], i: int) -> Callable[[S, Axes], list[Array]]:
     return graph
 
 
-def picture(motion_of: Found[S], reason: Callable[[S], str], span: Callable[[S], float]) -> Plot[S]:
+def picture(motion_of: Transform[S], reason: Callable[[S], str], span: Callable[[S], float]) -> Plot[S]:
     """Return the plot of τ, {ω1, γ3} and {ω2, γ3} against t, or of the reason for their absence."""
 
     def caption(state: S) -> Caption:

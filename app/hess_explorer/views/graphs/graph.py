@@ -12,18 +12,6 @@ from hess_explorer.views.layers import Layer, Range, compose, curves
 from hess_explorer.views.plane.velocity_plane import centred, nice_above
 from hess_mechanics.numerics.results import Array, Mask
 
-__all__ = [
-    "ANGLE",
-    "ANGLE_TICKS",
-    "about_0",
-    "branches",
-    "over_time",
-    "pieces",
-    "settled_range",
-    "thin",
-    "with_room",
-]
-
 S = TypeVar("S")
 
 ANGLE: Range = (-math.pi, math.pi)

@@ -12,8 +12,6 @@ from hess_explorer.views.layers import Layers
 from hess_mechanics.euler_poisson.hess_manifold import Leak
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["distances"]
-
 S = TypeVar("S")
 
 

@@ -10,8 +10,6 @@ from hess_explorer.views.layers import Layer, Layers, line, points
 from hess_mechanics.numerics.accuracy import LEVELS
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["curves_of_levels", "integrals", "methods"]
-
 S = TypeVar("S")
 Curve = tuple[Array, Array]
 

@@ -13,8 +13,6 @@ from hess_explorer.views.layers import Axes, Layers, Range, curves, ring
 from hess_explorer.views.plane.velocity_plane import nice_above
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["has_periods", "layers", "period_axis"]
-
 S = TypeVar("S")
 
 

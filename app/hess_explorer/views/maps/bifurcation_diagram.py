@@ -29,8 +29,6 @@ from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov_hess.bifurcation import f_max
 from hess_mechanics.suslov_hess.circle_map import CircleMap, circle_map
 
-__all__ = ["REACH", "about", "about_torus", "impossible", "layers", "window"]
-
 S = TypeVar("S")
 
 
@@ -43,7 +41,7 @@ def window(h: float) -> Axes:
     return Axes((-1.0 - 0.08 * (end + 1.0), end), (-top, top))
 
 
-def _mirrored(half: Array) -> list[Array]:
+def _with_mirror_image(half: Array) -> list[Array]:
     """Return a curve (n, 2) with f ≥ 0 and its mirror image."""
     return [half, half * (1.0, -1.0)]
 
@@ -52,10 +50,10 @@ def impossible(curve: Array, axes: Axes) -> Regions:
     """Return the forbidden region outside the curve with this upper branch (n, 2)."""
     top = axes.y[1]
     edge = [[axes.x[0], 0.0], *curve, [axes.x[1], top], [axes.x[0], top]]
-    return [[one] for one in _mirrored(np.array(edge))]
+    return [[one] for one in _with_mirror_image(np.array(edge))]
 
 
-def _locked(boundary: Array, axes: Axes) -> Regions:
+def _tongue(boundary: Array, axes: Axes) -> Regions:
     """Return the Arnold tongue to the right of |t| = 2; the forbidden region covers the excess."""
     if len(boundary) == 0:
         return []
@@ -92,14 +90,14 @@ def layers(
 
     def lock(state: S) -> list[Array]:
         found = boundary(state)
-        return _mirrored(found) if len(found) else []
+        return _with_mirror_image(found) if len(found) else []
 
     return (
         image("rotation", rotation, palette=theme.TURN_MAP, low=-0.5, high=0.5, cyclic=True, legend=(TURNS,)),
-        region("locked", lambda s: _locked(boundary(s), axes(s)), color=theme.LOCKED, label="locked", tag="locked"),
+        region("locked", lambda s: _tongue(boundary(s), axes(s)), color=theme.LOCKED, label="locked", tag="locked"),
         curves("boundary", lock, moving=False, color=theme.INK),
         region("forbidden", lambda s: impossible(curve(s), axes(s)), label="impossible", tag="impossible"),
-        curves("curve", lambda s: _mirrored(curve(s)), moving=False, color=theme.INK),
+        curves("curve", lambda s: _with_mirror_image(curve(s)), moving=False, color=theme.INK),
         points(
             "special",
             lambda s: ((1.0, -1.0), (0.0, 0.0)),

@@ -9,11 +9,9 @@ import numpy as np
 
 from hess_explorer.views import theme
 from hess_explorer.views.layers import Axes, Layers, curves, names, points
-from hess_explorer.views.plane.periodic import seen, sign_of, within
+from hess_explorer.views.plane.periodic import sign_of, visible_points, within
 from hess_mechanics.dynamics.continuation import Bifurcation, Branch
 from hess_mechanics.numerics.results import Array
-
-__all__ = ["bifurcations", "layers"]
 
 S = TypeVar("S")
 _SHORT = {"Neimark–Sacker": "N–S"}
@@ -54,16 +52,19 @@ def _strands(branch: Branch, side: int, sign: str) -> list[Array]:
 
 
 class Branched(Protocol):
-    """Branches, with the index of the coordinate on the vertical axis and its period (∞ for none)."""
+    """Branches over a parameter."""
 
     @property
-    def branches(self) -> Sequence[Branch]: ...
+    def branches(self) -> Sequence[Branch]:
+        """The branches."""
 
     @property
-    def side(self) -> int: ...
+    def side(self) -> int:
+        """Index of the coordinate on the vertical axis."""
 
     @property
-    def turn(self) -> float: ...
+    def turn(self) -> float:
+        """Its period, ∞ for none."""
 
 
 def layers(of: Callable[[S], Branched]) -> Layers[S]:
@@ -85,7 +86,7 @@ def layers(of: Callable[[S], Branched]) -> Layers[S]:
         shown, up, found = of(state), Axes(axes.y, axes.x), []
         for one in bifurcations(shown.branches):
             y = one.places[:, shown.side]
-            there = seen(np.column_stack([y, np.full(len(y), one.value)]), shown.turn, up)
+            there = visible_points(np.column_stack([y, np.full(len(y), one.value)]), shown.turn, up)
             inside = [(float(x), float(height)) for height, x in there if axes.x[0] <= x <= axes.x[1]]
             # Only the highest place has a label, because labels at all places would overlap.
             found += [

@@ -19,8 +19,6 @@ from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov_hess.circle_map import CircleMap
 from hess_mechanics.suslov_hess.invariant_measure import invariant_measure
 
-__all__ = ["EVENLY", "about", "cobweb", "cycles", "picture", "riccati_matrix"]
-
 S = TypeVar("S")
 Click = Callable[[S, float, float], Values]
 
@@ -44,7 +42,7 @@ def _copies(circle_map: CircleMap) -> list[Array]:
     return [np.column_stack([phi, theta + turn]) for turn in (0.0, -2 * math.pi, 2 * math.pi)]
 
 
-def _fixed(circle_map: CircleMap, stable: bool) -> tuple[list[float], list[float]]:
+def _fixed_points(circle_map: CircleMap, stable: bool) -> tuple[list[float], list[float]]:
     found = [point.phi for point in circle_map.fixed_points if (point.log_multiplier <= 0) == stable]
     return found, found
 
@@ -103,7 +101,7 @@ def picture(
             curves("map", compose(map, _copies), color=theme.MAP, width=2.5, label="Θ", tag="Θ"),
             points(
                 "stable",
-                compose(map, lambda theta: _fixed(theta, True)),
+                compose(map, lambda theta: _fixed_points(theta, True)),
                 columns=here,
                 size=12,
                 edge_width=3,
@@ -112,7 +110,7 @@ def picture(
             ),
             points(
                 "unstable",
-                compose(map, lambda theta: _fixed(theta, False)),
+                compose(map, lambda theta: _fixed_points(theta, False)),
                 columns=here,
                 size=12,
                 edge_width=3,

@@ -15,8 +15,6 @@ from hess_explorer.views.layers import Axes, Layers, curves, levels, ring
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov_hess.rotation_number import TorusValues
 
-__all__ = ["RHO", "TRACE", "Tori", "rho_layers", "trace_layers"]
-
 S = TypeVar("S")
 RHO, TRACE = (-0.52, 0.52), (0.0, 6.0)
 """Vertical axes."""

@@ -18,16 +18,6 @@ from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits
 from hess_mechanics.numerics.results import Array
 
-__all__ = [
-    "POLAR",
-    "POLAR_TICKS",
-    "cosine_axis",
-    "over_orders",
-    "over_phases",
-    "over_square",
-    "spread",
-]
-
 S = TypeVar("S")
 
 POLAR: Range = (0.0, math.pi)

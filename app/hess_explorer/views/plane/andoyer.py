@@ -15,8 +15,6 @@ from hess_explorer.views.layers import Layers, Positions, curves, dots, line, ri
 from hess_explorer.views.plot import Plot
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["between", "picture"]
-
 S = TypeVar("S")
 
 _X_TICKS = [(-1.0, "−1"), (-0.5, "−½"), (0.0, "0"), (0.5, "½"), (1.0, "1")]

@@ -11,8 +11,6 @@ from hess_explorer.views.layers import Layers, Sign, image, in_window
 from hess_mechanics.dynamics.cells import Window
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["layers", "tones"]
-
 S = TypeVar("S")
 _TONES = 256
 _FAINTEST = 0.3

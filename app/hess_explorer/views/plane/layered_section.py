@@ -13,8 +13,6 @@ from hess_mechanics.dynamics.attraction import LOST, Arrivals
 from hess_mechanics.dynamics.cells import Window
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["apart", "basins", "indicator", "layers"]
-
 S = TypeVar("S")
 
 _MANY = 50_000

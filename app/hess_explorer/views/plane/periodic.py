@@ -14,8 +14,6 @@ from hess_mechanics.dynamics.manifolds import Intersection, Manifold
 from hess_mechanics.dynamics.periodic import PeriodicOrbit
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["layers", "places", "seen", "sign_of", "within"]
-
 S = TypeVar("S")
 
 
@@ -40,7 +38,7 @@ def within(curve: Array, turn: float, axes: Axes) -> list[Array]:
     return parts
 
 
-def seen(places: Array, turn: float, axes: Axes) -> Array:
+def visible_points(places: Array, turn: float, axes: Axes) -> Array:
     """Return the visible points (n, 2) over an angle of period `turn` (∞ for other coordinates)."""
     low, high = axes.x
     x, y = places.T
@@ -63,7 +61,7 @@ def layers(
 
     def crossed(state: S, axes: Axes) -> Array | None:
         found = [one.place for one in homoclinic(state)]
-        return seen(np.array(found), manifolds(state)[0].turns[0], axes).T if found else None
+        return visible_points(np.array(found), manifolds(state)[0].turns[0], axes).T if found else None
 
     return (
         curves(

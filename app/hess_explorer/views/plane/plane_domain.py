@@ -17,8 +17,6 @@ from hess_explorer.views.space.poisson_sphere import gamma_columns
 from hess_explorer.views.text import digits, variation_text
 from hess_mechanics.numerics.results import Array, Orbit
 
-__all__ = ["ground", "momentum_picture", "orbit", "picture", "plane_columns"]
-
 S = TypeVar("S")
 
 
@@ -102,7 +100,7 @@ def momentum_picture(
         if is_integral(state):
             return Caption(
                 "An integral, as I₁₁ = I₂₂.",
-                f"{digits(float(values[0]))}, constant to {digits(float(np.ptp(values)), 1)}.",
+                f"{digits(float(values[0]))}, constant within {digits(float(np.ptp(values)), 1)}.",
             )
         return Caption("No integral, as I₁₁ ≠ I₂₂.", f"Here it is {variation_text(values)}.")
 

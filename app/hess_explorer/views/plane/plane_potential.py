@@ -22,8 +22,6 @@ from hess_mechanics.suslov.plane_potential import (
     level_curve,
 )
 
-__all__ = ["about", "picture"]
-
 S = TypeVar("S")
 
 _LEVELS = (0.1, 0.25, 0.5, 0.75, 0.95)
@@ -37,10 +35,10 @@ def about(body: PotentialBody, motion: PlaneMotion) -> Caption:
     if motion.period is not None:
         return Caption(
             "Periodic: it crosses the equator twice.",
-            f"T = {digits(motion.period)}, back to the start to {digits(motion.closure_error, 1)}.",
+            f"T = {digits(motion.period)}, returns to its start within {digits(motion.closure_error, 1)}.",
         )
     integral = (
-        f"F₂ is constant to {digits(motion.integral, 1)}: integrable."
+        f"F₂ is constant within {digits(motion.integral, 1)}: integrable."
         if body.separates
         else f"F₂ changes by {digits(100.0 * motion.integral, 2)} %."
     )

@@ -23,8 +23,6 @@ from hess_explorer.views.layers import (
 )
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["band", "joined", "layers", "outside"]
-
 S = TypeVar("S")
 Points = Callable[[S], Array | None]
 _CLOSES = 12
@@ -71,11 +69,11 @@ def _points(name: str, of: Points[S], color: str, size: float, label: str) -> La
     return dots(name, compose(of, np.transpose), color=color, size=size, label=label)
 
 
-def _few(found: Array | None) -> Array | None:
+def _few(crossings: Array | None) -> Array | None:
     """Return the distinct crossings (2, n) of a closed orbit, which need large marks; None for other orbits."""
-    if found is None or not len(found):
+    if crossings is None or not len(crossings):
         return None
-    places = np.unique(np.round(found, 3), axis=0)
+    places = np.unique(np.round(crossings, 3), axis=0)
     return places.T if len(places) <= _CLOSES else None
 
 

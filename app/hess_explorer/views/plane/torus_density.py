@@ -19,8 +19,6 @@ from hess_mechanics.suslov_hess.bifurcation import TurningPoints
 from hess_mechanics.suslov_hess.circle_map import CircleMap
 from hess_mechanics.suslov_hess.torus import Track
 
-__all__ = ["about", "phases", "picture", "reason_for_no_density"]
-
 S = TypeVar("S")
 
 _SHADES = tuple(f"{theme.STABLE}{round(220 * i / 255):02x}" for i in range(256))

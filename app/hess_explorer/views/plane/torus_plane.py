@@ -18,8 +18,6 @@ from hess_mechanics.suslov_hess.bifurcation import TurningPoints
 from hess_mechanics.suslov_hess.circle_map import CircleMap
 from hess_mechanics.suslov_hess.torus import Track
 
-__all__ = ["about", "about_heights", "cycle_columns", "is_circle", "layers", "phases_at_returns", "track_columns"]
-
 S = TypeVar("S")
 
 _PLANE = ("omega1", "omega2")
@@ -80,9 +78,9 @@ def cycle_columns(cycles: tuple[Track, Track] | None, i: int) -> Columns | None:
     return None if cycles is None else velocity_columns(None, cycles[i].omega, cycles[i].gamma)
 
 
-def is_circle(turning: TurningPoints | None) -> bool:
+def is_circle(turning_points: TurningPoints | None) -> bool:
     """Return whether the torus is a circle to the eye: n3 is constant, on the bifurcation curve."""
-    return turning is not None and turning.roots[2] - turning.roots[1] < 1e-6
+    return turning_points is not None and turning_points.roots[2] - turning_points.roots[1] < 1e-6
 
 
 def about(theta: CircleMap | None, turning_points: TurningPoints | None) -> Caption:

@@ -31,31 +31,6 @@ from hess_explorer.views.text import digits
 from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.numerics.results import Array, Orbit
 
-__all__ = [
-    "about_origin",
-    "arcs",
-    "arrows_at",
-    "arrows_on",
-    "band",
-    "beside",
-    "centred",
-    "energy_levels",
-    "equilibria",
-    "halves",
-    "nice_above",
-    "orbit",
-    "orbit_alone",
-    "orbit_columns",
-    "outside",
-    "picture",
-    "pixels_per_unit",
-    "ring_outside",
-    "room_for",
-    "square",
-    "to_the_edge",
-    "velocity_columns",
-]
-
 S = TypeVar("S")
 
 
@@ -252,6 +227,6 @@ def arrows_on(curves: Sequence[Array], half_width: float) -> Array:
     return _arrows(found)
 
 
-def _arrows(found: Sequence[tuple[Array, Array]]) -> Array:
+def _arrows(arrows: Sequence[tuple[Array, Array]]) -> Array:
     """Return x, y, angle (3, n) of triangles at (place, step); angle 0 points upwards."""
-    return np.array([(*place, np.arctan2(*step[::-1]) - np.pi / 2) for place, step in found]).reshape(-1, 3).T
+    return np.array([(*place, np.arctan2(*step[::-1]) - np.pi / 2) for place, step in arrows]).reshape(-1, 3).T

@@ -12,12 +12,10 @@ import numpy as np
 from hess_explorer.views import theme
 from hess_explorer.views.layers import Sign, Sources, column
 from hess_explorer.views.picture import Picture
-from hess_explorer.views.space.poisson_sphere import Circle, Direction, Mark, drawn
+from hess_explorer.views.space.poisson_sphere import Circle, Direction, Mark, shape_columns
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.rigid_body.attitude import Attitude, contact_arc
 from hess_mechanics.rigid_body.inertia import paired_weights
-
-__all__ = ["BodyInSpace", "Curve", "Rod", "Shape", "Wheels", "seen_in_space"]
 
 S = TypeVar("S")
 
@@ -261,6 +259,6 @@ class BodyInSpace(Picture[S]):
                 **columns,
                 "rods": [[*map(float, one.along), one.look, one.label] for one in self.rods(state)],
                 "curves": [[one.look, one.weight, *column(seen_in_space(one.points).T)] for one in self.curves(state)],
-                **drawn(Direction((0.0, 0.0, -1.0), label), self.circles, self.marks),
+                **shape_columns(Direction((0.0, 0.0, -1.0), label), self.circles, self.marks),
             }
         }

@@ -21,18 +21,6 @@ from hess_mechanics.chaplygin_ball.phase_cloud_density import BIN, SMALLEST, Clo
 from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.numerics.results import Array
 
-__all__ = [
-    "CloudPlane",
-    "about_ends",
-    "about_history",
-    "density_axes",
-    "density_layers",
-    "history_layers",
-    "largest_distance",
-    "room",
-    "status_of",
-]
-
 S = TypeVar("S")
 
 _ANGLES = np.linspace(0.0, 2.0 * math.pi, 97)

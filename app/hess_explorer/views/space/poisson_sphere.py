@@ -13,21 +13,6 @@ from hess_explorer.views.layers import MOVING_POINT, Columns, Sign, Sources, col
 from hess_explorer.views.picture import Picture
 from hess_mechanics.numerics.results import Array
 
-__all__ = [
-    "EQUATOR",
-    "Circle",
-    "Direction",
-    "Mark",
-    "Sphere",
-    "along_the_orbit",
-    "centre_of_mass",
-    "drawn",
-    "ends",
-    "gamma_columns",
-    "levels_about",
-    "parallels",
-]
-
 S = TypeVar("S")
 
 
@@ -136,7 +121,7 @@ class Sphere(Picture[S]):
 
     def data(self, state: S) -> Sources:
         """Return the columns of the axis, circles and marks."""
-        return {self.name: drawn(self.axis(state), self.circles(state), self.marks(state))}
+        return {self.name: shape_columns(self.axis(state), self.circles(state), self.marks(state))}
 
 
 def along_the_orbit(axis: Callable[[S], Direction | None], circles: Callable[[S], Sequence[Circle]]) -> Sphere[S]:
@@ -152,7 +137,7 @@ def along_the_orbit(axis: Callable[[S], Direction | None], circles: Callable[[S]
     )
 
 
-def drawn(axis: Direction | None, circles: Sequence[Circle], marks: Sequence[Mark]) -> Columns:
+def shape_columns(axis: Direction | None, circles: Sequence[Circle], marks: Sequence[Mark]) -> Columns:
     """Return the columns of an axis, circles and marks."""
     return {
         "axis": [] if axis is None else [float(x) for x in axis.along],

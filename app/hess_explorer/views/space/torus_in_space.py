@@ -16,8 +16,6 @@ from hess_mechanics.suslov_hess.bifurcation import TurningPoints
 from hess_mechanics.suslov_hess.circle_map import CircleMap
 from hess_mechanics.suslov_hess.embedding import CrossSection
 
-__all__ = ["FORMULA", "POINTS", "SurfaceCurve", "TorusInSpace", "about"]
-
 S = TypeVar("S")
 
 POINTS = 65

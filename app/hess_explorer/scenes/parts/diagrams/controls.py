@@ -22,19 +22,6 @@ from hess_explorer.scenes.framework.sliders import (
 from hess_mechanics.chaplygin_ball.ball_section import BallSection
 from hess_mechanics.suslov.suslov_section import SuslovSection
 
-__all__ = [
-    "BACKWARD",
-    "BOUNDS",
-    "COORDINATES",
-    "FALLING",
-    "FARTHEST",
-    "FOLLOWED",
-    "RISING",
-    "WAYS",
-    "DiagramControls",
-    "parameter_of_diagram",
-]
-
 COORDINATES = ("ψ", "δ")
 RISING, FALLING, BACKWARD = "rising", "falling", "backward"
 WAYS = {

@@ -22,13 +22,11 @@ from hess_mechanics.dynamics.section_density import Visits, visits_over
 from hess_mechanics.numerics.accuracy import Accuracy, Kind, cheapest, plan
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["DiagramDensity"]
-
 _COLUMNS, _ROWS = 4, 512
 """Columns of pixels for each value of the parameter in the diagram, and rows."""
 _GROUPS = 2
 """Groups of columns of each way, computed one after the other: for two cores, and so that points arrive soon."""
-_SKIPPED = 30
+_TRANSIENT = 30
 """Crossings left out: the orbit of a column starts where the nearest value of the diagram ended, so it has settled."""
 _FIRST, _GROWTH = 50_000, 4
 """Crossings in all columns in the first stage, and how many times as many each further stage has."""
@@ -75,7 +73,7 @@ class DiagramDensity(Part[OrbitDiagram]):
         shares = (np.arange(self._columns) + 0.5) / self._columns
         values = x0 + shares * (x1 - x0)
         starts = ends[np.rint(shares * (len(ends) - 1)).astype(int)]
-        points, stages = stages_of(_FIRST, _STAGES[self.work.chosen], _GROWTH)
+        points, stages = stages_of(_FIRST, _STAGES[self.work.level_name], _GROWTH)
         first = max(1, points // (len(self.host.pieces) * self._columns))
         level = plan(Kind.SECTION, cheapest(_ERRORS * (y1 - y0) / _ROWS)).level
         groups = (
@@ -94,7 +92,7 @@ class DiagramDensity(Part[OrbitDiagram]):
         return [[Task(_stage, one, number) for number in range(stages)] for one in groups]
 
     @cached_property
-    def _found(self) -> list[tuple[str, Visits | None]]:
+    def _visits(self) -> list[tuple[str, Visits | None]]:
         """Way and newest visits of each group of columns; empty while a slider is held."""
         if self.work.dragging:
             return []
@@ -105,18 +103,18 @@ class DiagramDensity(Part[OrbitDiagram]):
     @property
     def points(self) -> int:
         """The number of known points in the window."""
-        return sum(one.points for _, one in self._found if one is not None)
+        return sum(one.points for _, one in self._visits if one is not None)
 
     @property
     def _complete(self) -> bool:
         """True if all columns of all ways are known."""
-        return {way for way, one in self._found if one is not None} == set(self.host.pieces) and all(
-            one is not None for _, one in self._found
+        return {way for way, one in self._visits if one is not None} == set(self.host.pieces) and all(
+            one is not None for _, one in self._visits
         )
 
     def counts(self, way: str) -> Array:
         """Return the number of points of a way in each pixel, (n, m)."""
-        groups = [one.counts for name, one in self._found if one is not None and name == way]
+        groups = [one.counts for name, one in self._visits if one is not None and name == way]
         return np.concatenate(groups, axis=1) if groups else np.zeros((_ROWS, self._columns), np.uint32)
 
     @cached_property
@@ -132,15 +130,15 @@ class DiagramDensity(Part[OrbitDiagram]):
         return view.tones((backward, np.where(near, 0, back), there + np.where(near, back, 0)))
 
     @property
-    def said(self) -> str:
+    def phrase(self) -> str:
         """The number of points as a sentence; an empty string until they are shown."""
         return f"{self.points:,} points. " if self.tones else ""
 
     def status(self) -> Iterator[str]:
         """Yield the size and drift of the density."""
-        if self.has_result("_found") and self.points:
+        if self.has_result("_visits") and self.points:
             yield f"density {self.points} points"
-            yield from drift_status(one.drift for _, one in self._found if one is not None)
+            yield from drift_status(one.drift for _, one in self._visits if one is not None)
 
 
 @dataclass(frozen=True)
@@ -156,15 +154,15 @@ class _Columns:
     forward: bool
     level: Accuracy
 
-    def visits(self, starts: Sequence[Place] | Array, skipped: int, crossings: int) -> Visits:
+    def visits(self, starts: Sequence[Place] | Array, transient: int, crossings: int) -> Visits:
         """Return the visits of orbits that start at these places."""
         some = self.family, self.values, self.side, self.reach, _ROWS
-        return visits_over(*some, starts, skipped, crossings, self.forward, self.level)
+        return visits_over(*some, starts, transient, crossings, self.forward, self.level)
 
 
 def _stage(columns: _Columns, number: int) -> Visits:
     """Return the visits of some columns, including earlier stages."""
     if number == 0:
-        return columns.visits(columns.starts, _SKIPPED, columns.first)
+        return columns.visits(columns.starts, _TRANSIENT, columns.first)
     before = Task(_stage, columns, number - 1).get()
     return columns.visits(before.ends, 0, columns.first * _GROWTH**number).after(before)

@@ -27,7 +27,7 @@ from hess_explorer.scenes.parts.diagrams.controls import (
     WAYS,
     DiagramControls,
 )
-from hess_explorer.scenes.parts.diagrams.courses import Course, doublings, piece, visible_range
+from hess_explorer.scenes.parts.diagrams.ramps import Ramp, doublings, piece, visible_range
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import Range
 from hess_explorer.views.plane.section_plane import joined
@@ -38,8 +38,6 @@ from hess_mechanics.errors import OutsideRegion
 from hess_mechanics.numerics.accuracy import Kind, plan
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov.suslov_section import SuslovSection
-
-__all__ = ["DiagramBranch", "OrbitDiagram"]
 
 _FEW = 30
 """Largest number of values while a slider is held."""
@@ -104,7 +102,7 @@ class OrbitDiagram(Part[DiagramControls]):
         if self.host.window:
             return low, high
         values = tuple(np.linspace(left, right, _GLANCES).tolist())
-        glance = Course(self.family, values, self.place, 200, 30, True, plan(Kind.SECTION, "draft").level)
+        glance = Ramp(self.family, values, self.place, 200, 30, True, plan(Kind.SECTION, "draft").level)
         return self.work.need(Task(visible_range, glance, self.side, (low, high)), preview=None)
 
     @cached_property
@@ -142,27 +140,27 @@ class OrbitDiagram(Part[DiagramControls]):
         return np.linspace(self.frame[0][0], self.frame[1][0], steps)
 
     @cached_property
-    def _courses(self) -> dict[str, Course]:
-        """The course of each requested way."""
+    def _ramps(self) -> dict[str, Ramp]:
+        """The ramp of each requested way."""
         level = self.work.plan(Kind.SECTION).level
         left, shown = (40, 20) if self.work.dragging else (int(self.host.transient), int(self.host.count))
         values = tuple(self.along_values.tolist())
-        rising = Course(self.family, values, self.place, left, shown, self.host.begins == FOLLOWED, level)
-        courses = {
+        rising = Ramp(self.family, values, self.place, left, shown, self.host.begins == FOLLOWED, level)
+        ramps = {
             RISING: rising,
             FALLING: replace(rising, values=values[::-1], before=rising),
             BACKWARD: replace(rising, backward=True),
         }
-        return {way: courses[way] for way in WAYS[self.host.ways]}
+        return {way: ramps[way] for way in WAYS[self.host.ways]}
 
     @cached_property
     def pieces(self) -> dict[str, list[Diagram]]:
         """The known pieces of each way, in order."""
-        found: dict[str, list[Diagram]] = {way: [] for way in self._courses}
+        found: dict[str, list[Diagram]] = {way: [] for way in self._ramps}
         # The way back comes last, because it starts where the way there ends.
-        numbers = product(self._courses, self._courses[RISING].pieces)
+        numbers = product(self._ramps, self._ramps[RISING].pieces)
         for way, i in sorted(numbers, key=lambda one: (one[0] == FALLING, one[1])):
-            task = Task(piece, self._courses[way], i)
+            task = Task(piece, self._ramps[way], i)
             known = self.work.need(task, preview=task if self.work.dragging else None)
             found[way] += [] if known is None else [known]
         return found
@@ -196,7 +194,7 @@ class OrbitDiagram(Part[DiagramControls]):
     @cached_property
     def cascade(self) -> Cascade | str | None:
         """The located period doublings, or why none was located; None if unknown or none is visible."""
-        return (self.work.need(Task(doublings, self._courses[RISING]), preview=None) or None) if self._locates else None
+        return (self.work.need(Task(doublings, self._ramps[RISING]), preview=None) or None) if self._locates else None
 
     @property
     def flips(self) -> Array:
@@ -220,7 +218,7 @@ class OrbitDiagram(Part[DiagramControls]):
 
     def caption(self, points: str = "") -> Caption:
         """Return the caption: progress, period doublings or periods; `points` is a sentence on their number."""
-        known, asked = sum(self.progress.values()), self.along_values.size * len(self._courses)
+        known, asked = sum(self.progress.values()), self.along_values.size * len(self._ramps)
         if known < asked:
             return Caption(self.work.pending_caption(), f"{known} of {asked} values are known.")
         if all(one.conservative.all() for one in self.pieces[RISING]):
@@ -246,7 +244,7 @@ class OrbitDiagram(Part[DiagramControls]):
     def status(self) -> Iterator[str]:
         """Yield the error of the doublings."""
         if self.has_result("cascade") and self.flips.size and isinstance(self.cascade, Cascade):
-            yield f"doublings to {digits(self.cascade.error_estimate, 1)}"
+            yield f"error of the doublings {digits(self.cascade.error_estimate, 1)}"
 
     def notes(self) -> Iterator[str]:
         """Yield the reason why a doubling could not be located."""
@@ -287,6 +285,6 @@ class DiagramBranch(Continuation[OrbitDiagram]):
         return self.host.side
 
     @property
-    def seen(self) -> Window:
+    def frame(self) -> Window:
         """The visible window."""
         return self.host.frame

@@ -23,8 +23,6 @@ from hess_mechanics.numerics.accuracy import PRECISE
 from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["HessSplit", "split_picture"]
-
 _QUARTERS = np.arange(-4, 5) / 4.0
 _WIDE = 0.02
 """Half-width of the graph if ε = 0."""
@@ -53,7 +51,7 @@ class HessSplit(Part[Host]):
         return abs(self.away) or _WIDE
 
     @cached_property
-    def _found(self) -> dict[float, Split | NotFound] | None:
+    def _splits(self) -> dict[float, Split | NotFound] | None:
         """The splits by ε, for the graph and for the slope; None until all are known."""
         # Without separatrices at ε = 0 nothing can split.
         first = self.work.need(Task(_split, self.torus, 0.0), preview=None)
@@ -65,13 +63,13 @@ class HessSplit(Part[Host]):
         return known if len(known) == len(found) else None
 
     def _split_at(self, value: float) -> Split | None:
-        found = (self._found or {}).get(value)
+        found = (self._splits or {}).get(value)
         return found if isinstance(found, Split) else None
 
     @property
     def splits(self) -> list[Split]:
         """The known splits within the graph, sorted by ε."""
-        return [one for value in self._found or () if abs(value) <= self.reach and (one := self._split_at(value))]
+        return [one for value in self._splits or () if abs(value) <= self.reach and (one := self._split_at(value))]
 
     @property
     def split(self) -> Split | None:
@@ -87,11 +85,11 @@ class HessSplit(Part[Host]):
     @property
     def _reasons(self) -> list[str]:
         """The reasons why splits are missing."""
-        return sorted({one.reason for one in (self._found or {}).values() if isinstance(one, NotFound)})
+        return sorted({one.reason for one in (self._splits or {}).values() if isinstance(one, NotFound)})
 
     def caption(self) -> Caption:
         """Return the caption of the picture."""
-        if self._found is None:
+        if self._splits is None:
             return Caption(self.work.pending_caption())
         if self.split is None or self.slope is None:
             return Caption("No separatrices found here.")
@@ -110,12 +108,12 @@ class HessSplit(Part[Host]):
 
     def quantities(self) -> Iterator[str]:
         """Yield the slope of the split at ε = 0."""
-        if self.has_result("_found") and self.slope is not None:
+        if self.has_result("_splits") and self.slope is not None:
             yield f"split/ε → {with_error(*self.slope)}"
 
     def notes(self) -> Iterator[str]:
         """Yield the reasons for missing splits in the graph."""
-        if self.has_result("_found") and self.splits:
+        if self.has_result("_splits") and self.splits:
             yield from (f"Some splits are not known. {reason}" for reason in self._reasons)
 
 
@@ -127,12 +125,12 @@ def _split(torus: HessTorus, away: float) -> Split | NotFound:
         return NotFound(str(error))
 
 
-def _values(found: HessSplit) -> Array | None:
-    return np.array([(one.away, one.value) for one in found.splits]).T if found.splits else None
+def _values(splits: HessSplit) -> Array | None:
+    return np.array([(one.away, one.value) for one in splits.splits]).T if splits.splits else None
 
 
-def _line(found: HessSplit, axes: Axes) -> list[Array]:
-    return [] if found.slope is None else [np.array([[x, found.slope[0] * x] for x in axes.x])]
+def _line(splits: HessSplit, axes: Axes) -> list[Array]:
+    return [] if splits.slope is None else [np.array([[x, splits.slope[0] * x] for x in axes.x])]
 
 
 split_picture = Plot[HessSplit](

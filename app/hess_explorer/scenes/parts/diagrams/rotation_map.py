@@ -38,8 +38,6 @@ from hess_mechanics.suslov_hess import rotation_number as mechanics
 from hess_mechanics.suslov_hess.bifurcation import f_max_each
 from hess_mechanics.suslov_hess.rotation_number import Torus, TorusValues
 
-__all__ = ["BOUNDS", "FULL", "RotationMap", "rotation_map", "window_over"]
-
 _COARSE, _FINE = (75, 50), (300, 200)
 _ROWS = 25  # of the fine map in one task
 _ON_CURVE = 48  # points of the boundary of the lock zone

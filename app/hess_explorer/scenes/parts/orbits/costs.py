@@ -22,8 +22,6 @@ from hess_mechanics.dynamics.trade import LevelCost, enough
 from hess_mechanics.numerics.accuracy import LEVELS
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["Costs", "costs_picture"]
-
 _ERRORS, _MS = (1e-9, 1e3), (1e-2, 1e5)
 _TICKS = [1e-8, 1e-6, 1e-4, 1e-2, 1.0, 100.0]
 _LINES = (("solid", 1.5), ("dashed", 2.0), ("dotted", 3.0), ("solid", 4.0))
@@ -38,20 +36,20 @@ class Costs:
     ----------
     work : Work
         Computation of the state.
-    shown : State
+    base : State
         The `bare` state to measure.
     trials : tuple of Trial
         Its computations.
     """
 
     work: Work
-    shown: State
+    base: State
     trials: tuple[Trial[Any], ...]
 
     @cached_property
     def results(self) -> dict[Trial[Any], tuple[LevelCost, ...] | Refusal | None]:
         """The measurements of each trial, one per level, or the reason why there are none; None until known."""
-        return {trial: self.work.need(Task(level_costs, trial, self.shown), preview=None) for trial in self.trials}
+        return {trial: self.work.need(Task(level_costs, trial, self.base), preview=None) for trial in self.trials}
 
     @cached_property
     def samples(self) -> dict[Trial[Any], tuple[LevelCost, ...]]:
@@ -65,14 +63,14 @@ class Costs:
     @cached_property
     def enough(self) -> dict[Trial[Any], str]:
         """The first level of each trial whose error is invisible."""
-        return {trial: enough(samples, trial.seen) for trial, samples in self.samples.items()}
+        return {trial: enough(samples, trial.tolerance) for trial, samples in self.samples.items()}
 
     @cached_property
     def curves(self) -> dict[Trial[Any], tuple[Array, Array]]:
         """Errors, in units of the largest invisible error, and times in milliseconds of the levels, by trial."""
         return {
             trial: (
-                np.clip([one.error / trial.seen for one in samples], *_ERRORS),
+                np.clip([one.error / trial.tolerance for one in samples], *_ERRORS),
                 np.array([max(one.ms, _MS[0]) for one in samples]),
             )
             for trial, samples in self.samples.items()

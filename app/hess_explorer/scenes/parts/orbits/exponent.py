@@ -26,8 +26,6 @@ from hess_mechanics.errors import MotionEnds
 from hess_mechanics.numerics.accuracy import Kind, Level, Plan
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["OrbitExponent", "exponent_picture", "exponent_trial"]
-
 _LONG = 2000.0
 """The longest time for which levels are compared."""
 
@@ -151,6 +149,6 @@ def exponent_trial() -> Trial[Any]:
         lambda s, plan: s.exponent.at(plan),
         lambda s, found, truth: abs(found.value - truth.value) / max(truth.spread, 1e-12),
         unit="of what it changes by in the second half of its time",
-        seen=10.0,
+        tolerance=10.0,
         most=(("long", _LONG),),
     )

@@ -23,8 +23,6 @@ from hess_mechanics.suslov_hess.circle_map import CircleMap
 from hess_mechanics.suslov_hess.embedding import CrossSection, cross_section, density_along, embed
 from hess_mechanics.suslov_hess.torus import Track
 
-__all__ = ["INVARIANT", "HeavyTorus", "HessSurface", "OnTorus", "shading", "surface_picture"]
-
 PLAIN, INVARIANT = "plain", "invariant density"
 
 

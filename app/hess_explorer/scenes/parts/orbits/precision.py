@@ -22,8 +22,6 @@ from hess_mechanics.dynamics import work_precision as mechanics
 from hess_mechanics.numerics.accuracy import LEVELS, level
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["PRECISION_PICTURES", "Precision"]
-
 SAMPLES = 400
 _FLOOR, _PIXEL_FLOOR = 1e-17, 1e-14
 _ERRORS = (_FLOOR, 10.0)
@@ -70,11 +68,11 @@ class Precision:
 
     @property
     def _here(self) -> mechanics.WorkPoint:
-        return next(point for point in self._taylor if point.setting == self.work.chosen)
+        return next(point for point in self._taylor if point.setting == self.work.level_name)
 
     @property
     def _drifts(self) -> Mapping[str, Array]:
-        return self.growth.drifts[self.work.chosen]
+        return self.growth.drifts[self.work.level_name]
 
     # ---- pictures -----------------------------------------------------------------------------------------------
 
@@ -87,7 +85,7 @@ class Precision:
         i = [*LEVELS].index(name)
         return errors[i : i + 1], ms[i : i + 1]
 
-    def _chosen(self) -> list[tuple[float, float]]:
+    def _level_point(self) -> list[tuple[float, float]]:
         return [(max(self._here.error, _FLOOR), max(self._here.ms, _FLOOR))]
 
     def _over_time(self, values: Array, floor: float = _FLOOR) -> Curve:
@@ -104,9 +102,9 @@ class Precision:
         """Return the columns that the moving points follow."""
         return {
             "t": column(self.times),
-            "growth": column(clip(self.growth.errors[self.work.chosen], _FLOOR)),
+            "growth": column(clip(self.growth.errors[self.work.level_name], _FLOOR)),
             "drift": column(clip(np.max([*self._drifts.values()], axis=0), _FLOOR)),
-            "pixels": column(clip(self.growth.pixels[self.work.chosen], _PIXEL_FLOOR)),
+            "pixels": column(clip(self.growth.pixels[self.work.level_name], _PIXEL_FLOOR)),
         }
 
     def choose(self, x: float, y: float) -> Mapping[str, str]:
@@ -119,30 +117,34 @@ class Precision:
 
     def _about_cost(self) -> Caption:
         here = self._here
-        numbers_text = f"{self.work.chosen}: {digits(here.ms, 2)} ms, error {digits(here.error, 2)}"
+        numbers_text = f"{self.work.level_name}: {digits(here.ms, 2)} ms, error {digits(here.error, 2)}"
         other = mechanics.quickest_other(self.work_points, 10.0 * here.error)
         if other is not None:
             numbers_text += f"; {other.method}: {digits(other.ms / here.ms, 2)} × as long, {digits(other.error, 2)}"
         return Caption(numbers=f"{numbers_text}.")
 
     def _about_growth(self) -> Caption:
-        own, promise = float(self.growth.errors[self.work.chosen][-1]), level(self.work.chosen).promise
-        return Caption(numbers=f"{self.work.chosen}: {digits(own, 2)} at the end; promised {digits(promise)} (dotted).")
+        own, promise = float(self.growth.errors[self.work.level_name][-1]), level(self.work.level_name).promise
+        return Caption(
+            numbers=f"{self.work.level_name}: {digits(own, 2)} at the end; promised {digits(promise)} (dotted)."
+        )
 
     def _about_drift(self) -> Caption:
         largest = ", ".join(
             f"({i + 1}) {name} {digits(float(drift.max()), 2)}" for i, (name, drift) in enumerate(self._drifts.items())
         )
-        return Caption(numbers=f"{self.work.chosen}: largest drift {largest}.")
+        return Caption(numbers=f"{self.work.level_name}: largest drift {largest}.")
 
     def _about_pixels(self) -> Caption:
-        t, pixels = self.times, self.growth.pixels[self.work.chosen]
+        t, pixels = self.times, self.growth.pixels[self.work.level_name]
         wrong = np.flatnonzero(pixels > 1.0)
         if wrong.size:
             until = digits(float(t[wrong[0]]))
-            return Caption(f"{self.work.chosen}: not accurate to the end.", f"Error below one pixel until t = {until}.")
+            return Caption(
+                f"{self.work.level_name}: not accurate to the end.", f"Error below one pixel until t = {until}."
+            )
         return Caption(
-            f"{self.work.chosen}: accurate to the end.",
+            f"{self.work.level_name}: accurate to the end.",
             f"Error below one pixel until t = {digits(float(t[-1]))} (at most {digits(pixels.max(), 2)}).",
         )
 
@@ -183,7 +185,7 @@ PRECISION_PICTURES: tuple[Plot[Precision], ...] = (
         on_click=Precision.choose,
         layers=(
             *methods(Precision._of_method, Precision._at_level),
-            ring("chosen", Precision._chosen, size=20, label="chosen level"),
+            ring("chosen", Precision._level_point, size=20, label="chosen level"),
         ),
     ),
     Plot(
@@ -197,7 +199,7 @@ PRECISION_PICTURES: tuple[Plot[Precision], ...] = (
         y_tick_count=5,
         dot=("t", "growth"),
         layers=(
-            limit(lambda s: level(s.work.chosen).promise),
+            limit(lambda s: level(s.work.level_name).promise),
             *curves_of_levels(lambda s, name: s._over_time(s.growth.errors[name])),
         ),
     ),

@@ -12,7 +12,7 @@ import numpy as np
 from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.part import Host, Part
 from hess_explorer.scenes.framework.scene import Motion
-from hess_explorer.scenes.framework.sliders import HIDDEN, SHOWN, show_proved_error
+from hess_explorer.scenes.framework.sliders import SHOWN
 from hess_explorer.views.space.poisson_sphere import Circle
 from hess_explorer.views.text import digits
 from hess_mechanics.dynamics.tube import ProvedOrbit, tube
@@ -20,8 +20,6 @@ from hess_mechanics.errors import ModelError
 from hess_mechanics.numerics.balls import has_flint
 from hess_mechanics.numerics.results import Array, Orbit
 from hess_mechanics.suslov_hess.torus import Track
-
-__all__ = ["HIDDEN", "SHOWN", "OrbitProof", "ProvedError", "hull", "proved_error", "show_proved_error"]
 
 _DIGITS, _MOST_WORK = 16, 1e6
 """Digits and work limit of a tube: far below double round-off; about 1.5 s of CPU time, 4 s for the ball."""
@@ -40,13 +38,13 @@ class ProvedError:
         Entry in the status line.
     band : tuple of array (n, 2)
         Convex polygons in (ω1, ω2).
-    around : tuple
+    circles : tuple
         Pairs of a centre γ (3,) and an angular radius in radians.
     """
 
     sentence: str
     band: tuple[Array, ...] = ()
-    around: tuple[tuple[tuple[float, float, float], float], ...] = ()
+    circles: tuple[tuple[tuple[float, float, float], float], ...] = ()
 
 
 class _Host(Host, Protocol):
@@ -88,9 +86,9 @@ class OrbitProof(Part[_Host]):
         return [] if self.error is None else [[one] for one in self.error.band]
 
     @property
-    def around(self) -> list[Circle]:
+    def circles(self) -> list[Circle]:
         """Circles on the sphere that enclose the true orbit at some samples."""
-        found = () if self.error is None else self.error.around
+        found = () if self.error is None else self.error.circles
         return [Circle(gamma, float(np.cos(radius)), "muted") for gamma, radius in found]
 
     def status(self) -> Iterator[str]:
@@ -134,7 +132,7 @@ def proved_error(orbit_task: Task[Orbit | Track], motion: Motion, units: tuple[f
     band, around = [], []
     if first == 2 and motion.weights[0] > 0.0:
         band = _band(omega[: len(errors)], errors[:, :2] * np.array(units), sizes[0])
-    seen = _drawn(sizes[1])
+    seen = _visible_samples(sizes[1])
     for i in seen[:: max(1, -(-len(seen) // _CIRCLES))]:
         x, y, z = (float(value) for value in gamma[i] / np.linalg.norm(gamma[i]))
         # An angle is a little larger than its chord, and the computed γ is slightly off the sphere.
@@ -142,7 +140,7 @@ def proved_error(orbit_task: Task[Orbit | Track], motion: Motion, units: tuple[f
     return ProvedError(sentence, tuple(band), tuple(around))
 
 
-def _drawn(sizes: Array) -> list[int]:
+def _visible_samples(sizes: Array) -> list[int]:
     """Return the indices of samples with a visible error, up to the first error that would fill the picture."""
     far = np.flatnonzero(sizes > _FAR)
     end = int(far[0]) if far.size else len(sizes)
@@ -151,7 +149,7 @@ def _drawn(sizes: Array) -> list[int]:
 
 def _band(omega: Array, errors: Array, sizes: Array) -> list[Array]:
     """Return the convex hulls of the error boxes of neighbouring samples."""
-    seen = _drawn(sizes)
+    seen = _visible_samples(sizes)
     step = max(1, -(-len(seen) // _BOXES))
     found = []
     for begin in range(0, len(seen), step):

@@ -19,11 +19,9 @@ from hess_mechanics.errors import NoReturn
 from hess_mechanics.numerics.accuracy import Kind
 from hess_mechanics.numerics.results import Array, frozen
 
-__all__ = ["OrbitRegime", "few", "sets_of"]
-
 _NOTHING = np.empty((0, 2))
 _LONG = 500, 1500
-"""Crossings left out of a set and kept for it."""
+"""Numbers of crossings left out of a set and of those in it."""
 _MANY = 24
 """Largest number of places drawn as large marks: so few dots would be hard to see."""
 
@@ -91,22 +89,22 @@ class OrbitRegime(Part[_Host]):
         return Caption(f"{kind}. Looks {found.verdict}.", f"{div}; repeller {away}.")
 
 
-def sets_of(map_: ReturnMap, start: Place, transient: int, kept: int) -> tuple[Array, Array]:
+def sets_of(map_: ReturnMap, start: Place, transient: int, crossings: int) -> tuple[Array, Array]:
     """Return the attractor and the repeller (n, d) of the orbit from `start`; empty if it does not return.
 
     Raises `OutsideRegion` if no motion is possible there, and `WorkLimit`.
     """
     attractor, repeller = (
-        frozen(one.orbit(np.array(start), transient + kept)[transient:].copy()) for one in (map_, map_.inverse())
+        frozen(one.orbit(np.array(start), transient + crossings)[transient:].copy()) for one in (map_, map_.inverse())
     )
     return attractor, repeller
 
 
-def _dynamics(map_: ReturnMap, start: Place, transient: int, kept: int, duration: float) -> Dynamics:
+def _dynamics(map_: ReturnMap, start: Place, transient: int, crossings: int, duration: float) -> Dynamics:
     """Classify the orbit from `start`, without comparing its sets if it does not return."""
-    motion = regime(map_, start, transient, min(kept, 400), duration)
+    motion = regime(map_, start, transient, min(crossings, 400), duration)
     try:
-        return comparison(map_, motion, start, transient, kept)
+        return comparison(map_, motion, start, transient, crossings)
     except NoReturn:
         return Dynamics(motion, motion.places[:0], motion.places[:0], ())
 

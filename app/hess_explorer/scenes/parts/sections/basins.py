@@ -31,8 +31,6 @@ from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array, Mask
 from hess_mechanics.suslov.suslov_section import SuslovSection
 
-__all__ = ["SectionBasins", "basins_trial"]
-
 _PIXELS = (512, 512)
 _STAGES = 6
 """Each stage has twice as many cells across and up as the one before; those of the last are the pixels."""
@@ -44,7 +42,7 @@ _MOST = 20_000
 """Most orbits of a later stage: a boundary in so many cells is no curve, and its cells are left as they are."""
 _SPREAD = evenly(20_000).T
 """Points of the unit square at which cells are measured."""
-_TRIED = 8
+_SEARCHES = 8
 """Number of boundary points at which the search for saddles starts."""
 _NUMBERS = {2: "Two", 3: "Three", 4: "Four", 5: "Five"}
 
@@ -131,7 +129,7 @@ class SectionBasins(Part[_Host]):
         return min(-1 if one is None else one.stage for one in pieces)
 
     @property
-    def known(self) -> bool:
+    def is_complete(self) -> bool:
         """True if every cell is known."""
         return self.stage == _STAGES - 1
 
@@ -152,7 +150,7 @@ class SectionBasins(Part[_Host]):
     @cached_property
     def _searches(self) -> tuple[Search, ...]:
         """The searches for saddles on the boundaries; empty until these are known."""
-        if self._what is None or not self.known:
+        if self._what is None or not self.is_complete:
             return ()
         return self.work.need(Task(_saddles, self._what), preview=None) or ()
 
@@ -196,7 +194,7 @@ class SectionBasins(Part[_Host]):
         if not there.size:
             return Caption("No motion is possible in this window.")
         m, n = numbers.shape[::-1]
-        said = "" if self.known else f" So far {m} × {n} cells."
+        said = "" if self.is_complete else f" So far {m} × {n} cells."
         lost = 100.0 * float(np.mean(there == LOST))
         late = f" {digits(lost, 2)} % arrive nowhere in {CROSSINGS} crossings." if lost else ""
         if count == 1:
@@ -210,7 +208,7 @@ class SectionBasins(Part[_Host]):
 
     def status(self) -> Iterator[str]:
         """Yield the effect of the cell size on the basins, once all cells are known, and the error of the manifolds."""
-        if self.has_result("arrivals") and self.arrivals is not None and self.known:
+        if self.has_result("arrivals") and self.arrivals is not None and self.is_complete:
             cells = resolved(self.arrivals.number)
             n, m = cells.shape
             change = digits(100.0 * unsure(cells), 2)
@@ -250,7 +248,7 @@ def _at_once(what: _BasinGrid) -> Arrivals:
     return cells
 
 
-def _sampled(what: _BasinGrid) -> Arrivals:
+def _sample(what: _BasinGrid) -> Arrivals:
     """Compute the arrivals of points spread over the window, as a reference for cells of any size."""
     low, high = np.array(what.window)
     there = attractors(what.section, what.long, what.level)
@@ -277,7 +275,7 @@ def _saddles(what: _BasinGrid) -> tuple[Search, ...]:
         return int(arrivals(what.orbits, sets, place[:1], place[1:]).number[0])
 
     found: dict[tuple[float, ...], Search] = {}
-    for row, column in pairs[np.linspace(0, len(pairs) - 1, min(_TRIED, len(pairs))).astype(int)].tolist():
+    for row, column in pairs[np.linspace(0, len(pairs) - 1, min(_SEARCHES, len(pairs))).astype(int)].tolist():
         go_on()
         try:
             left_end, right_end = (np.array([x[i], y[row]]) for i in (column, column + 1))
@@ -295,9 +293,9 @@ def basins_trial() -> Trial[Any]:
     return Trial(
         Kind.BASINS,
         ("section",),
-        lambda s, plan: (_sampled if plan.level.aside else _at_once)(s.basins.target(plan)).number.astype(float),
+        lambda s, plan: (_sample if plan.level.aside else _at_once)(s.basins.target(plan)).number.astype(float),
         lambda s, cells, truth: _error(cells, truth),
         unit="% of the cells that change",
-        seen=3.0,
-        shown=lambda s: s.basins.is_on,
+        tolerance=3.0,
+        applies=lambda s: s.basins.is_on,
     )

@@ -22,17 +22,9 @@ from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import Axes, Range, curves, points
 from hess_explorer.views.maps import branch as view
 from hess_explorer.views.picture import Corners, Picture
-from hess_explorer.views.plane.periodic import seen
+from hess_explorer.views.plane.periodic import visible_points
 from hess_explorer.views.plot import Plot
 from hess_mechanics.numerics.results import Array
-
-__all__ = [
-    "SectionBranch",
-    "branch_picture",
-    "coordinate_of_branch",
-    "end_of_branch",
-    "parameter_of_branch",
-]
 
 _AROUND = 0.125
 """Half-width of the default range, as a share of the slider's."""
@@ -183,14 +175,14 @@ class SectionBranch(Continuation[_Section]):
         return middle - half, middle + half
 
     @property
-    def seen(self) -> Window:
+    def frame(self) -> Window:
         """The visible window."""
         low, high = self.upwards_range or self._whole
         return (self.ends[0], low), (self.ends[1], high)
 
     def choose(self, x: float, y: float) -> Values:
         """Return the parameter values that show the orbit of the branch at (x, y), with the same visible range."""
-        found = self.chosen(x, y)
+        found = self.orbit_at(x, y)
         if found is None:
             return {}
         value, place, period = found
@@ -250,7 +242,7 @@ def branch_picture() -> Picture[Any]:
 
     def shown(s: SectionBranch, axes: Axes) -> Array | None:
         here = s.here
-        return None if here is None else seen(here[::-1].T, s.turn, Axes(axes.y, axes.x))[:, ::-1].T
+        return None if here is None else visible_points(here[::-1].T, s.turn, Axes(axes.y, axes.x))[:, ::-1].T
 
     return Plot[SectionBranch](
         name="branch",

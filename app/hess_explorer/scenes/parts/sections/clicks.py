@@ -22,8 +22,6 @@ from hess_mechanics.dynamics.return_map import PoincareSection
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["Clicks", "filled_section", "orbits_spread", "points_of_each"]
-
 Place = tuple[float, float]
 
 
@@ -88,13 +86,13 @@ class _Chosen:
         Places in the section.
     states : sequence of tuple
         States (d,) at these places.
-    refused : tuple or None
+    impossible : tuple or None
         Chosen place of the current orbit, if no motion is possible there.
     """
 
     places: Sequence[Place]
     states: Sequence[Start]
-    refused: Place | None = None
+    impossible: Place | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -122,7 +120,7 @@ class Clicks(Part[_Host]):
         return {"starts": self.host.starts or self._spec.default}
 
     @cached_property
-    def picked(self) -> _Chosen:
+    def selection(self) -> _Chosen:
         """The chosen starts with a motion; if the last one has none, another start replaces all of them.
 
         Raises `InvalidParameter` if no motion is possible in the window.
@@ -144,7 +142,11 @@ class Clicks(Part[_Host]):
     def rings(self) -> list[Place]:
         """The places where the chosen orbits start."""
         closed = self.host.closed_orbit
-        return [*self.picked.places] if closed is None else [*self.picked.places[:-1], _place(closed.orbit.places[0])]
+        return (
+            [*self.selection.places]
+            if closed is None
+            else [*self.selection.places[:-1], _place(closed.orbit.places[0])]
+        )
 
     @cached_property
     def impossible(self) -> Array:
@@ -153,7 +155,7 @@ class Clicks(Part[_Host]):
 
     def add(self, x: float, y: float) -> Values:
         """Return the starts with another orbit added at (x, y)."""
-        return {"starts": places_text([*self.picked.places, self._inside(x, y)])}
+        return {"starts": places_text([*self.selection.places, self._inside(x, y)])}
 
     def move(self, x: float, y: float) -> Values:
         """Return the starts with the current orbit moved to (x, y)."""
@@ -177,10 +179,10 @@ class Clicks(Part[_Host]):
 
     def notes(self) -> Iterator[str]:
         """Yield a note if no motion is possible at the chosen start."""
-        if self.picked.refused is not None:
+        if self.selection.impossible is not None:
             yield (
-                f"At {self._at(self.picked.refused)} {self.excuse}: the chosen orbit starts at "
-                f"{self._at(self.picked.places[0])}."
+                f"At {self._at(self.selection.impossible)} {self.excuse}: the chosen orbit starts at "
+                f"{self._at(self.selection.places[0])}."
             )
 
 
@@ -203,7 +205,7 @@ def filled_section(state: Any, held: int, **more: Any) -> Section:
 
     return Section(
         state,
-        lambda: state.clicks.picked.states,
+        lambda: state.clicks.selection.states,
         seeds=seeds,
         at_once=False,
         **more,
@@ -214,5 +216,5 @@ def _spread(state: _Host, count: int) -> tuple[Start, ...]:
     return state.work.need(Task(type(state.poincare).spread, state.poincare, count, state.section.frame))
 
 
-def _place(found: Array) -> Place:
-    return float(found[0]), float(found[1])
+def _place(point: Array) -> Place:
+    return float(point[0]), float(point[1])

@@ -20,8 +20,6 @@ from hess_mechanics.dynamics.section_density import Visits, visits
 from hess_mechanics.numerics.accuracy import Kind, plan
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["SectionDensity"]
-
 _PIXELS = (512, 512)
 _ORBITS = 128
 """More orbits would cover the gaps between the curves of islands."""
@@ -69,7 +67,7 @@ class SectionDensity(Part[Section]):
         ]
 
     @cached_property
-    def _found(self) -> list[Visits | None]:
+    def _visits(self) -> list[Visits | None]:
         """The newest visits of each group of orbits; empty during a drag."""
         if not self.is_on or self.work.dragging:
             return []
@@ -88,18 +86,18 @@ class SectionDensity(Part[Section]):
 
     @property
     def _stages(self) -> int:
-        return stages_of(_ORBITS * _FIRST, _STAGES[self.work.chosen])[1]
+        return stages_of(_ORBITS * _FIRST, _STAGES[self.work.level_name])[1]
 
     @property
     def points(self) -> int:
         """The number of known crossings in the window."""
-        return sum(one.points for one in self._found if one is not None)
+        return sum(one.points for one in self._visits if one is not None)
 
     @cached_property
     def counts(self) -> tuple[Array, ...]:
         """Number of crossings in each pixel, (n, m), for each kind of orbits; empty until some are known."""
         counts = np.zeros((len(self._ways), *_PIXELS[::-1]), np.uint32)
-        for (kind, _), one in zip(self._kinds, self._found, strict=False):
+        for (kind, _), one in zip(self._kinds, self._visits, strict=False):
             if one is not None:
                 counts[kind] += one.counts
         return tuple(counts) if self.points else ()
@@ -110,15 +108,15 @@ class SectionDensity(Part[Section]):
         return view.tones(self.counts) if self.counts else ()
 
     @property
-    def said(self) -> str:
+    def phrase(self) -> str:
         """The number of crossings as a phrase; an empty string until some are known."""
         return f"{self.points:,} points; " if self.points else ""
 
     def status(self) -> Iterator[str]:
         """Yield the size and drift of the density."""
-        if self.has_result("_found") and self.points:
+        if self.has_result("_visits") and self.points:
             yield f"density {self.points} crossings"
-            yield from drift_status(one.drift for one in self._found if one is not None)
+            yield from drift_status(one.drift for one in self._visits if one is not None)
 
 
 def _starts(section: PoincareSection, window: Window) -> tuple[Start, ...]:

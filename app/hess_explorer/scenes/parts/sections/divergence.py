@@ -20,8 +20,6 @@ from hess_mechanics.dynamics.basins import MeanDivergence, mean_divergence
 from hess_mechanics.numerics.accuracy import Kind
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["Divergence", "divergence_picture"]
-
 
 @dataclass(frozen=True, eq=False)
 class Divergence(OrbitExponent):

@@ -25,8 +25,6 @@ from hess_mechanics.dynamics.megno_map import ENDED, row_of_cells, time_of
 from hess_mechanics.numerics.accuracy import Kind, Plan
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["MEGNO", "Indicator", "colouring", "indicator_layer", "indicator_trial"]
-
 MEGNO = "MEGNO"
 _TURNS = 300.0
 """Time of the indicator, in units of 1/ν: some fifty returns."""
@@ -79,7 +77,7 @@ class Indicator(Part[Section]):
             return None
         plan = self.work.plan(Kind.INDICATOR)
         return cells_by_rows(
-            self.work, row_of_cells, (self.rows(plan, COARSE), self.rows(plan)), lambda: self.host.known
+            self.work, row_of_cells, (self.rows(plan, COARSE), self.rows(plan)), lambda: self.host.known_orbits
         )
 
     @property
@@ -143,6 +141,6 @@ def indicator_trial() -> Trial[Any]:
         lambda s, plan: np.stack([row_of_cells(*row)[1] for row in s.megno.rows(plan)]),
         lambda s, cells, truth: change_percentage(cells, truth),
         unit="% of the cells that change",
-        seen=3.0,
-        shown=lambda s: s.megno.is_on,
+        tolerance=3.0,
+        applies=lambda s: s.megno.is_on,
     )

@@ -23,8 +23,6 @@ from hess_mechanics.dynamics.system import Body
 from hess_mechanics.numerics import results
 from hess_mechanics.numerics.accuracy import Level
 
-__all__ = ["BodyOrbit", "orbit_picture"]
-
 
 class _Host(Host, Protocol):
     @property

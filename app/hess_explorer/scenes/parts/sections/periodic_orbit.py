@@ -38,8 +38,6 @@ from hess_mechanics.dynamics.manifolds import Intersection, Manifold
 from hess_mechanics.dynamics.return_map import ReturnMap
 from hess_mechanics.numerics.accuracy import PRECISE, Status
 
-__all__ = ["NONE", "SectionPeriodicOrbit", "length_of_manifolds", "periodic_layers", "which"]
-
 T = TypeVar("T")
 
 _WHOLE = 3
@@ -120,7 +118,7 @@ class SectionPeriodicOrbit(Part[Section]):
         return self._result if isinstance(self._result, ClosedOrbit) else None
 
     @property
-    def _drawn(self) -> tuple[Search, list[BranchChoice], float] | None:
+    def _manifold_key(self) -> tuple[Search, list[BranchChoice], float] | None:
         """Cache key of a saddle's manifolds: search, branches, size of a pixel; None for any other orbit."""
         orbit = self._saddle
         if orbit is None or self._search is None:
@@ -135,11 +133,11 @@ class SectionPeriodicOrbit(Part[Section]):
     @cached_property
     def _branches(self) -> list[Manifold | NotFound] | None:
         """The branches of a saddle's manifolds, empty for any other orbit; None until all are known."""
-        if self._drawn is None:
+        if self._manifold_key is None:
             return []
         if self.work.dragging:
             return None
-        search, branches, pixel = self._drawn
+        search, branches, pixel = self._manifold_key
         found = [self.work.need(Task(branch_of, search, one, self.reach, pixel), preview=None) for one in branches]
         return _all(found)
 
@@ -149,11 +147,11 @@ class SectionPeriodicOrbit(Part[Section]):
         return [one for one in self._branches or () if isinstance(one, Manifold)]
 
     @cached_property
-    def _met(self) -> list[tuple[Intersection, ...]] | None:
+    def _intersections(self) -> list[tuple[Intersection, ...]] | None:
         """The crossings of each unstable branch with each stable one; None until all are known."""
-        if self._drawn is None or not self._branches:
+        if self._manifold_key is None or not self._branches:
             return None
-        search, branches, pixel = self._drawn
+        search, branches, pixel = self._manifold_key
         found = [
             self.work.need(Task(crossings_between, search, one, other, self.reach, pixel), preview=None)
             for one in branches
@@ -166,7 +164,7 @@ class SectionPeriodicOrbit(Part[Section]):
     @property
     def homoclinic(self) -> list[Intersection]:
         """The reliable crossings of the drawn manifolds of a saddle."""
-        return [one for some in self._met or () for one in some if one.certain]
+        return [one for some in self._intersections or () for one in some if one.certain]
 
     @property
     def _saddle(self) -> mechanics.PeriodicOrbit | None:
@@ -213,7 +211,7 @@ class SectionPeriodicOrbit(Part[Section]):
         )
         return Caption(
             f"Period {orbit.period}, {orbit.kind}.",
-            f"Multipliers μ = {multipliers}, to {digits(orbit.multiplier_error, 1)}.",
+            f"Multipliers μ = {multipliers}, error {digits(orbit.multiplier_error, 1)}.",
         )
 
     def quantities(self) -> Iterator[str]:
@@ -221,13 +219,13 @@ class SectionPeriodicOrbit(Part[Section]):
         if self.closed_orbit is None:
             return
         orbit = self.closed_orbit.orbit
-        yield f"T = {digits(self.closed_orbit.time)}, periodic; places to {digits(orbit.error_estimate, 1)}"
-        yield from (f"symmetric under: {name}" for name in orbit.symmetric)
+        yield f"T = {digits(self.closed_orbit.time)}, periodic; error of its points {digits(orbit.error_estimate, 1)}"
+        yield from (f"symmetric under {name}" for name in orbit.symmetric)
         if self._saddle is not None and self._branches is None:
             yield self.work.pending_caption("Its manifolds are")
         elif self._branches:
-            whole = sum(_ended(one) == AT_ITS_LENGTH for one in self._branches)
-            yield f"{whole} of {len(self._branches)} branches of its manifolds are {digits(self.reach)} long"
+            whole = sum(_end_reason(one) == AT_ITS_LENGTH for one in self._branches)
+            yield f"{whole} of {len(self._branches)} branches of its manifolds are drawn to length {digits(self.reach)}"
             yield self._about_crossings()
 
     def status(self) -> Iterator[str]:
@@ -247,14 +245,14 @@ class SectionPeriodicOrbit(Part[Section]):
         """Yield the reasons why there is no periodic orbit, or why its manifolds end."""
         if isinstance(self._result, NotFound):
             yield self._result.reason
-        reasons = {_ended(one) for one in self._branches or ()} - {AT_ITS_LENGTH}
+        reasons = {_end_reason(one) for one in self._branches or ()} - {AT_ITS_LENGTH}
         yield from (f"A branch of a manifold ends early. {reason}" for reason in sorted(reasons))
         if any(one.status is not Status.OK for one in self.manifolds):
             yield (
                 "The manifolds are less exact than their picture: choose a shorter length of manifolds, or a higher "
                 "accuracy."
             )
-        apart = sum(not one.certain for some in self._met or () for one in some)
+        apart = sum(not one.certain for some in self._intersections or () for one in some)
         if apart:
             yield (
                 f"At {apart} more place{'s' * (apart > 1)} the manifolds meet within their error: whether they "
@@ -266,25 +264,25 @@ class SectionPeriodicOrbit(Part[Section]):
 
     def _about_crossings(self) -> str:
         """Return a sentence on the number of homoclinic points and their error."""
-        if self._met is None:
+        if self._intersections is None:
             return self.work.pending_caption("Where they cross is")
         found = self.homoclinic
         if not found:
             return "No homoclinic point is visible on the drawn parts of the manifolds"
-        least = "at least " if any(len(some) == MOST_CROSSINGS for some in self._met) else ""
+        least = "at least " if any(len(some) == MOST_CROSSINGS for some in self._intersections) else ""
         return (
-            f"{least}{len(found)} homoclinic point{'s' * (len(found) > 1)} on the drawn parts of the manifolds, to "
+            f"{least}{len(found)} homoclinic point{'s' * (len(found) > 1)} on the drawn parts of the manifolds, error "
             f"{digits(max(one.error for one in found), 1)}; longer manifolds cross more often"
         )
 
 
-def _all(found: Sequence[T | None]) -> list[T] | None:
+def _all(results: Sequence[T | None]) -> list[T] | None:
     """Return the results; None until all are known."""
-    known = [one for one in found if one is not None]
-    return known if len(known) == len(found) else None
+    known = [one for one in results if one is not None]
+    return known if len(known) == len(results) else None
 
 
-def _ended(branch: Manifold | NotFound) -> str:
+def _end_reason(branch: Manifold | NotFound) -> str:
     return branch.end_reason if isinstance(branch, Manifold) else branch.reason
 
 

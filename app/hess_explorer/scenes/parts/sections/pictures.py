@@ -19,8 +19,6 @@ from hess_explorer.views.plot import Plot
 from hess_mechanics.numerics.accuracy import Kind
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["filled_picture", "section_layers", "section_picture", "section_trials"]
-
 _MOST_COMPARED = 400.0
 """Largest number of crossings of each orbit for which levels are compared."""
 
@@ -64,7 +62,7 @@ def section_picture(**more: Any) -> Plot[Any]:
         "axes": lambda s: s.section.poincare.names,
         "x": side(0),
         "y": side(1),
-        "message": lambda s: s.section.known.reason,
+        "message": lambda s: s.section.known_orbits.reason,
         "on_click": lambda s, x, y: s.start_at(x, y),
         "layers": section_layers(ended=lambda s: s.section.points(ends=True)),
     }
@@ -117,7 +115,7 @@ def filled_picture(
         return lambda s: np.empty((0, 2)) if s.density.tones else s.section.points(first)
 
     return section_picture(
-        message=lambda s: s.section.known.reason or _unseen(s),
+        message=lambda s: s.section.known_orbits.reason or _unseen(s),
         first=Axes((x0, x1), (y0, y1)),
         on_click=lambda s, x, y: s.clicks.add(x, y),
         on_box=lambda s, corners: s.clicks.look_closer(corners),

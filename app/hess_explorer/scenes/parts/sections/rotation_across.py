@@ -23,17 +23,15 @@ from hess_explorer.views.picture import Picture
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits
 from hess_mechanics.euler_poisson.andoyer import AndoyerSection
-from hess_mechanics.euler_poisson.rotation import RESOLVED, RotationProfile, on_line, rotation_along
+from hess_mechanics.euler_poisson.rotation import RESOLUTION, RotationProfile, on_line, rotation_along
 from hess_mechanics.numerics.accuracy import Kind, Plan
 from hess_mechanics.numerics.results import Array
-
-__all__ = ["RotationAcross", "rotation_picture", "rotation_trial"]
 
 _ACROSS = 48
 """Number of orbits on the line."""
 _ON_LINE = 3000
-"""Crossings of each orbit: fewer do not resolve the rotation number in a chain of islands to `RESOLVED`."""
-_HELD = (16, 40, 1e-2)
+"""Crossings of each orbit: fewer do not resolve the rotation number in a chain of islands to `RESOLUTION`."""
+_PREVIEW = (16, 40, 1e-2)
 """While a slider is held: orbits, crossings of each, and the resolution of the rotation number."""
 
 
@@ -89,32 +87,35 @@ class RotationAcross(Part[_Host]):
             (
                 [share for share, _ in some],
                 self.section.batch(
-                    tuple(state for _, state in some), True, _HELD[1] if self.work.dragging else crossings, plan.level
+                    tuple(state for _, state in some),
+                    True,
+                    _PREVIEW[1] if self.work.dragging else crossings,
+                    plan.level,
                 ),
             )
             for some in in_batches(starts)
         ]
 
     def _count(self, plan: Plan) -> int:
-        return _HELD[0] if self.work.dragging else plan.side(_ACROSS)
+        return _PREVIEW[0] if self.work.dragging else plan.side(_ACROSS)
 
     @cached_property
-    def _known(self) -> list[tuple[list[float], OrbitBatch | None]]:
+    def _results(self) -> list[tuple[list[float], OrbitBatch | None]]:
         held, pieces = self.work.dragging, self._pieces(self.work.plan(Kind.ROTATION))
         return [(shares, self.work.need(task, preview=task if held else None)) for shares, task in pieces]
 
     @property
     def _complete(self) -> bool:
-        return all(batch is not None for _, batch in self._known)
+        return all(batch is not None for _, batch in self._results)
 
     @cached_property
     def profile(self) -> RotationProfile:
         """The known rotation numbers along the line; from a few short orbits during a drag."""
-        return self._profile(self._known, self.work.plan(Kind.ROTATION))
+        return self._profile(self._results, self.work.plan(Kind.ROTATION))
 
     @property
-    def _resolved(self) -> float:
-        return _HELD[2] if self.work.dragging else RESOLVED
+    def _resolution(self) -> float:
+        return _PREVIEW[2] if self.work.dragging else RESOLUTION
 
     def _profile(self, pieces: Sequence[tuple[list[float], OrbitBatch | None]], plan: Plan) -> RotationProfile:
         known = [(shares, batch.orbits) for shares, batch in pieces if batch is not None]
@@ -124,7 +125,7 @@ class RotationAcross(Part[_Host]):
             [orbit for _, orbits in known for orbit in orbits],
             self.about_middle,
             self._count(plan),
-            self._resolved,
+            self._resolution,
         )
 
     def at(self, plan: Plan) -> RotationProfile:
@@ -173,12 +174,12 @@ class RotationAcross(Part[_Host]):
 
     def _turns(self, rho: float) -> str:
         """Return a rotation number, rounded to its resolution."""
-        return digits(round(float(rho) / self._resolved) * self._resolved)
+        return digits(round(float(rho) / self._resolution) * self._resolution)
 
 
-def _axis_of(found: RotationProfile) -> Range:
-    shown = np.concatenate([found.numbers, np.zeros(min(1, found.librations.size))])
-    return with_room(shown, 0.06, 1e-4) if found.numbers.size else (-0.56, 0.56)
+def _axis_of(profile: RotationProfile) -> Range:
+    shown = np.concatenate([profile.numbers, np.zeros(min(1, profile.librations.size))])
+    return with_room(shown, 0.06, 1e-4) if profile.numbers.size else (-0.56, 0.56)
 
 
 def rotation_trial() -> Trial[Any]:
@@ -189,12 +190,12 @@ def rotation_trial() -> Trial[Any]:
         lambda s, plan: s.rotation.at(plan),
         lambda s, found, truth: found.distance(truth),
         unit="turns, the median",
-        seen=RESOLVED,
+        tolerance=RESOLUTION,
     )
 
 
-def _branches(found: RotationProfile) -> list[Array]:
-    return [np.column_stack(part) for part in zip(found.along, found.rho, strict=True)]
+def _branches(profile: RotationProfile) -> list[Array]:
+    return [np.column_stack(part) for part in zip(profile.along, profile.rho, strict=True)]
 
 
 def rotation_picture() -> Picture[Any]:

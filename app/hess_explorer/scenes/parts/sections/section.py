@@ -25,15 +25,13 @@ from hess_mechanics.errors import OutsideRegion, WorkLimit
 from hess_mechanics.numerics.accuracy import STANDARD, Kind, Level, Plan
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["KnownOrbits", "Section", "Seeds", "about_section", "crossings_of_each", "first_place", "start_on"]
-
 _FEW, _LEAST = 30, 20
 """Crossings of each orbit while a slider is dragged, and until all are known; and their least number at any level."""
 _ON = 1e-9
 """Largest relative distance of a start that counts as on the section."""
 _ORBITS, _MOST_STEPS = 20, 100_000
 """Defaults: number of other orbits, and largest number of Taylor steps of each."""
-_COMPARED = 3
+_TRIALS = 3
 """Batches that are computed twice for an error estimate, in addition to the current orbit."""
 
 
@@ -93,7 +91,7 @@ class _Host(Sectioned, Protocol):
         """The visible window, as in a link; empty for the whole."""
 
     @property
-    def given(self) -> Start:
+    def chosen_start(self) -> Start:
         """The chosen initial state.  Raises `ModelError`."""
 
     @property
@@ -188,7 +186,7 @@ class Section(Part[_Host]):
     @property
     def starts(self) -> Sequence[Start]:
         """The initial states of the chosen orbits; the last one is the current orbit.  Raises `ModelError`."""
-        return (self.host.given,) if self.chosen is None else self.chosen()
+        return (self.host.chosen_start,) if self.chosen is None else self.chosen()
 
     @cached_property
     def aim(self) -> Place | None:
@@ -209,7 +207,7 @@ class Section(Part[_Host]):
         how = crossings or self._count, forward, level or plan.level, self.most_steps
         return Task(self.compute, self.poincare, starts, *how)
 
-    def _filling(self, crossings: int = 0, level: Level | None = None) -> list[Task[OrbitBatch]]:
+    def _other_tasks(self, crossings: int = 0, level: Level | None = None) -> list[Task[OrbitBatch]]:
         return [self.batch(starts, way, crossings, level) for starts in self.seeds(self) for way in self.ways]
 
     @property
@@ -219,19 +217,19 @@ class Section(Part[_Host]):
         return int(min(crossings, _FEW)) if self.work.dragging else self.work.plan(Kind.SECTION).part(crossings, _LEAST)
 
     @cached_property
-    def known(self) -> KnownOrbits:
+    def known_orbits(self) -> KnownOrbits:
         """The known orbits."""
         states = self.starts if self.host.periodic_orbit.closed_orbit is None else self.starts[:-1]
         held = self.work.dragging
         try:
             own = [self.batch((state,)) for state in states]
-            others = self._filling()
+            others = self._other_tasks()
             known = KnownOrbits(
                 [self.work.need(task, preview=task if held or self.at_once else None) for task in own],
                 [self.work.need(task, preview=task if held else None) for task in others],
             )
             if self.at_once and None in known.others:
-                few = [self.work.need(task) for task in self._filling(min(self._count, _FEW))]
+                few = [self.work.need(task) for task in self._other_tasks(min(self._count, _FEW))]
                 known = replace(known, few=few)
         except WorkLimit:
             much = f"{self._count} crossings take an orbit more than {self.most_steps} steps here"
@@ -241,9 +239,9 @@ class Section(Part[_Host]):
     @cached_property
     def own(self) -> Array:
         """The drawn points (n, 2) of the chosen orbits."""
-        return joined(self._shown(orbit) for batch in self.known.chosen for orbit in batch.orbits)
+        return joined(self._visible_part(orbit) for batch in self.known_orbits.chosen for orbit in batch.orbits)
 
-    def _shown(self, orbit: Array, later: bool = False) -> Array:
+    def _visible_part(self, orbit: Array, later: bool = False) -> Array:
         return orbit[len(orbit) // 2 :] if self.later or later else orbit
 
     def points(self, first: bool = True, ends: bool = False, later: bool = False) -> Array:
@@ -260,8 +258,8 @@ class Section(Part[_Host]):
         """
         if (first, ends, later) not in self._points:
             self._points[first, ends, later] = joined(
-                self._shown(orbit, later)
-                for batch in self.known.batches
+                self._visible_part(orbit, later)
+                for batch in self.known_orbits.batches
                 for orbit, is_first, reason in zip(batch.orbits, batch.firsts, batch.reasons, strict=True)
                 if (is_first, reason != "") == (first, ends)
             )
@@ -274,7 +272,7 @@ class Section(Part[_Host]):
     def orbits_at(self, plan: Plan) -> list[Array]:
         """Compute all orbits (n, 2) of the section at once; the chosen ones come first."""
         how = plan.part(self.host.count, _LEAST), plan.level
-        tasks = [*(self.batch((state,), True, *how) for state in self.starts), *self._filling(*how)]
+        tasks = [*(self.batch((state,), True, *how) for state in self.starts), *self._other_tasks(*how)]
         return [orbit for task in tasks for orbit in task.now().orbits]
 
     @cached_property
@@ -283,15 +281,15 @@ class Section(Part[_Host]):
 
         This compares with a second run at a hundredth of the tolerance; None until known, and during a drag.
         """
-        periodic, own = self.host.periodic_orbit, self.known.own
+        periodic, own = self.host.periodic_orbit, self.known_orbits.own
         if self.work.dragging or periodic.is_searching or periodic.closed_orbit is not None or not own:
             return None
         level, step = self.work.plan(Kind.SECTION).level.tighter(), len(self.ways)
-        tasks = [self.batch((self.starts[-1],), level=level), *self._filling(level=level)[::step][:_COMPARED]]
+        tasks = [self.batch((self.starts[-1],), level=level), *self._other_tasks(level=level)[::step][:_TRIALS]]
         fine: list[OrbitBatch | None] = [self.work.need(task, preview=None) for task in tasks]
         counts = [
             right_crossings(one.orbits, other.orbits, pixels_in(self.frame), self.poincare.turns)
-            for one, other in zip([own[-1], *self.known.others[::step]], fine, strict=False)
+            for one, other in zip([own[-1], *self.known_orbits.others[::step]], fine, strict=False)
             if one is not None and other is not None
         ]
         if len(counts) < len(fine):
@@ -302,8 +300,8 @@ class Section(Part[_Host]):
 
     def status(self) -> Iterator[str]:
         """Yield the size, cost and drift of the section, and the accuracy of the current orbit."""
-        if self.has_result("known") and not self.known.reason:
-            known = [*self.known.chosen, *self.known.batches]
+        if self.has_result("known_orbits") and not self.known_orbits.reason:
+            known = [*self.known_orbits.chosen, *self.known_orbits.batches]
             points = len(self.own) + len(self.points()) + len(self.points(False))
             yield f"section {points} points, {sum(batch.steps for batch in known)} Taylor steps"
             yield from drift_status(batch.drift for batch in known)
@@ -311,30 +309,32 @@ class Section(Part[_Host]):
 
     def notes(self) -> Iterator[str]:
         """Yield the reason why the section is omitted, or why a chosen orbit ends early."""
-        if self.has_result("known"):
-            reasons = (reason for batch in self.known.chosen for reason in batch.reasons)
-            yield from filter(None, (self.known.reason, *reasons))
+        if self.has_result("known_orbits"):
+            reasons = (reason for batch in self.known_orbits.chosen for reason in batch.reasons)
+            yield from filter(None, (self.known_orbits.reason, *reasons))
 
 
 def about_section(section: Section) -> Caption:
     """Return the caption of a section: the number of crossings, or the reason why it is omitted."""
-    if section.known.reason:
-        return Caption(numbers=section.known.reason)
-    reasons = [reason for batch in section.known.batches for reason in batch.reasons]
+    if section.known_orbits.reason:
+        return Caption(numbers=section.known_orbits.reason)
+    reasons = [reason for batch in section.known_orbits.batches for reason in batch.reasons]
     count = sum(map(bool, reasons))
     ends = f" {count} of {len(reasons)} others end early." if count else ""
     return Caption(
-        "The chosen orbit ends early." if any(reason for one in section.known.chosen for reason in one.reasons) else "",
+        "The chosen orbit ends early."
+        if any(reason for one in section.known_orbits.chosen for reason in one.reasons)
+        else "",
         f"{len(section.own)} crossings of the chosen orbit, {len(section.points())} of others.{ends}",
     )
 
 
 def _first_place(section: PoincareSection, state: Start, crossed: Callable[[], OrbitBatch]) -> Place | None:
     """Return the place of a state in the section, or of its first crossing; None without one."""
-    given = np.array([state])
-    place = section.places_of(given)
+    start = np.array([state])
+    place = section.places_of(start)
     states, there = section.states_at(*place.T)
-    if not (there[0] and np.abs(states - given).max() < _ON * max(1.0, float(np.abs(given).max()))):
+    if not (there[0] and np.abs(states - start).max() < _ON * max(1.0, float(np.abs(start).max()))):
         (place,) = crossed().orbits
     return tuple(map(float, place[0])) if len(place) else None
 

@@ -9,7 +9,7 @@ from functools import cached_property
 from hess_explorer.protocol.specs import Value, Values, places_text
 from hess_explorer.scenes.framework.cells import DENSITY
 from hess_explorer.scenes.framework.part import Start, part
-from hess_explorer.scenes.framework.periodic_search import ClosedOrbit
+from hess_explorer.scenes.framework.periodic_search import NONE, ClosedOrbit
 from hess_explorer.scenes.framework.scene import Motion, State
 from hess_explorer.scenes.framework.sliders import accuracy_level, exponent_time, show_proved_error, time_span
 from hess_explorer.scenes.framework.solid_body import Solid, constrained_solid
@@ -19,13 +19,11 @@ from hess_explorer.scenes.parts.sections.clicks import orbits_spread, points_of_
 from hess_explorer.scenes.parts.sections.density import SectionDensity
 from hess_explorer.scenes.parts.sections.indicator import MEGNO, Indicator, colouring
 from hess_explorer.scenes.parts.sections.orbit import BodyOrbit
-from hess_explorer.scenes.parts.sections.periodic_orbit import NONE, SectionPeriodicOrbit, length_of_manifolds, which
+from hess_explorer.scenes.parts.sections.periodic_orbit import SectionPeriodicOrbit, length_of_manifolds, which
 from hess_explorer.scenes.parts.sections.section import Section, crossings_of_each, start_on
 from hess_explorer.views.caption import Caption
 from hess_mechanics.dynamics.return_map import PoincareSection
 from hess_mechanics.dynamics.system import Body
-
-__all__ = ["PLAIN", "FilledState", "SectionState"]
 
 PLAIN: dict[str, Value] = {"periodic": NONE, "indicator": DENSITY}
 """Choices of the first preset; every other example then sets them too, see `Scene.example`."""
@@ -36,7 +34,7 @@ class SectionState(State, ABC):
     """A state with an orbit that starts in a section, or a periodic orbit in its place, among other orbits.
 
     A scene adds its parameters, `poincare`, `body` if it is not the section, and `weights`, the pixels per unit of each
-    variable.  The orbit starts at the parameter `place`, or at another state `given`.
+    variable.  The orbit starts at the parameter `place`, or at another state `chosen_start`.
     """
 
     periodic: str = which()
@@ -60,7 +58,7 @@ class SectionState(State, ABC):
         return self.poincare
 
     @property
-    def given(self) -> Start:
+    def chosen_start(self) -> Start:
         """The chosen initial state.  Raises `ModelError`."""
         return start_on(self.poincare, self.place)
 
@@ -84,7 +82,7 @@ class SectionState(State, ABC):
     @property
     def start(self) -> Start:
         """The initial state (d,) of the orbit."""
-        return self.given if self.closed_orbit is None else self.closed_orbit.state
+        return self.chosen_start if self.closed_orbit is None else self.closed_orbit.state
 
     @property
     def duration(self) -> float:
@@ -122,6 +120,6 @@ class FilledState(SectionState):
     exponent = part(OrbitExponent)
 
     @property
-    def given(self) -> Start:
+    def chosen_start(self) -> Start:
         """The last chosen initial state.  Raises `ModelError`."""
         return self.section.starts[-1]

@@ -1,4 +1,4 @@
-"""Orbits followed through the values of a parameter, in pieces; period doublings and ranges of these orbits."""
+"""Ramps: orbits followed while a parameter changes, in pieces; their period doublings and ranges."""
 
 from __future__ import annotations
 
@@ -18,8 +18,6 @@ from hess_mechanics.errors import ModelError, WorkLimit
 from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["Course", "doublings", "piece", "visible_range"]
-
 _TOGETHER = 30
 """Values of the parameter computed at once: few enough that points arrive soon."""
 _DOUBLINGS = 4
@@ -32,8 +30,8 @@ _ROOM, _LEAST = 0.1, 0.01
 
 
 @dataclass(frozen=True)
-class Course:
-    """An orbit followed through the values of a parameter, in pieces.
+class Ramp:
+    """An orbit followed while a parameter changes, in pieces.
 
     Attributes
     ----------
@@ -51,8 +49,8 @@ class Course:
         Level of accuracy.
     backward : bool
         True to follow the orbit backward in time.
-    before : Course or None
-        The course whose end is the start of this one.
+    before : Ramp or None
+        The ramp whose end is the start of this one.
     """
 
     family: Family
@@ -63,11 +61,11 @@ class Course:
     follow: bool
     level: Level
     backward: bool = False
-    before: Course | None = None
+    before: Ramp | None = None
 
     @property
     def pieces(self) -> range:
-        """The numbers of the pieces."""
+        """The indices of the pieces."""
         return range(-(-len(self.values) // _TOGETHER))
 
     def over(self, values: Sequence[float], start: Place) -> Diagram:
@@ -84,27 +82,27 @@ class Course:
         )
 
 
-def piece(course: Course, number: int) -> Diagram:
-    """Return a piece of a course; computes the previous pieces first."""
-    return course.over(course.values[number * _TOGETHER : (number + 1) * _TOGETHER], _reached(course, number))
+def piece(ramp: Ramp, number: int) -> Diagram:
+    """Return a piece of a ramp; computes the previous pieces first."""
+    return ramp.over(ramp.values[number * _TOGETHER : (number + 1) * _TOGETHER], _reached(ramp, number))
 
 
-def _reached(course: Course, number: int) -> Place:
+def _reached(ramp: Ramp, number: int) -> Place:
     """Return the last place of the orbit in the section before a piece."""
     if number == 0:
-        return course.place if course.before is None else _reached(course.before, len(course.before.pieces))
-    before: Diagram = Task(piece, course, number - 1).get()
+        return ramp.place if ramp.before is None else _reached(ramp.before, len(ramp.before.pieces))
+    before: Diagram = Task(piece, ramp, number - 1).get()
     ends = before.ends[np.isfinite(before.ends).all(axis=1)]
-    return tuple(ends[-1].tolist()) if len(ends) else _reached(course, number - 1)
+    return tuple(ends[-1].tolist()) if len(ends) else _reached(ramp, number - 1)
 
 
-def doublings(course: Course) -> Cascade | str:
+def doublings(ramp: Ramp) -> Cascade | str:
     """Return the period doublings from the first visible one, or why none was located; "" if none is visible."""
-    seen = first_doubling([Task(piece, course, number).get() for number in course.pieces])
+    seen = first_doubling([Task(piece, ramp, number).get() for number in ramp.pieces])
     if seen is None:
         return ""
     value, places, end = seen
-    family = course.family
+    family = ramp.family
     try:
         orbit = find_periodic(family.map_at(value), places, len(places))
         return cascade(family.map_at, family.name, orbit, value, end, _DOUBLINGS)
@@ -114,11 +112,11 @@ def doublings(course: Course) -> Cascade | str:
         return str(error)
 
 
-def visible_range(course: Course, side: int, whole: Range) -> Range:
+def visible_range(ramp: Ramp, side: int, whole: Range) -> Range:
     """Return the range of a coordinate that contains the attractor, and the repeller if it is near."""
     attractor, repeller = (
         [some[:, side] for some in way.over(way.values, way.place).places]
-        for way in (course, replace(course, backward=True))
+        for way in (ramp, replace(ramp, backward=True))
     )
     if not any(map(len, attractor)):
         return whole
