@@ -9,7 +9,7 @@ import numpy as np
 
 from hess_mechanics.numerics.results import Array, frozen
 
-__all__ = ["Attitude", "attitude_along", "contact_arc", "orthonormal"]
+__all__ = ["Attitude", "attitude_along", "contact_arc", "orthonormal", "second_directions"]
 
 
 @dataclass(frozen=True)
@@ -85,18 +85,9 @@ def attitude_along(times: Array, omega: Array, gamma: Array) -> Attitude:
     Attitude
         The attitude at more times.
     """
-    w, step = omega.T, np.diff(times)
-    slope = np.gradient(w, times, axis=1) if len(times) > 2 else np.zeros_like(w)
-    # ė = e × ω is e → exp(−v×) e over a step.
-    v = 0.5 * step * (w[:, :-1] + w[:, 1:])
-    v += step**2 / 12.0 * (slope[:, :-1] - slope[:, 1:] + _cross(w[:, :-1], w[:, 1:]))
-    length = np.sqrt(np.einsum("kn,kn->n", v, v))
-    g, e, f = _frames(gamma)
-    moved_g, moved_e = _rotate((g[:, :-1], e[:, :-1]), v, length)
+    (g, e, _), v, moved_g = _carried(times, omega.T, gamma.T)
+    step, length = np.diff(times), _length(v)
     defect = float(np.max(np.abs(moved_g - g[:, 1:]), initial=0.0))
-    turn = np.arctan2(np.einsum("kn,kn->n", moved_e, f[:, 1:]), np.einsum("kn,kn->n", moved_e, e[:, 1:]))
-    angle = np.concatenate([[0.0], np.cumsum(turn)])
-    e = np.cos(angle) * e + np.sin(angle) * f
     # Sample the total rotation in steps of TURN; the small term avoids a division by 0 for a body at rest.
     total = np.concatenate([[0.0], np.cumsum(length + 1e-12)])
     at = np.linspace(0.0, total[-1], max(2, int(min(MOST_TURNS, np.ceil(total[-1] / TURN))) + 1))
@@ -106,6 +97,27 @@ def attitude_along(times: Array, omega: Array, gamma: Array) -> Attitude:
     g, e = _rotate((g[:, i], e[:, i]), v, length)
     axes = np.stack([g.T, e.T, _cross(g, e).T], axis=1)
     return Attitude(frozen(times[i] + share * step[i]), frozen(axes), defect)
+
+
+def second_directions(times: Array, omega: Array, gamma: Array) -> Array:
+    """Return a second direction e, fixed in space, along several orbits, as `attitude_along` follows it.
+
+    Parameters
+    ----------
+    times : ndarray, shape (m,)
+        Times in order, the same for all orbits.
+    omega : ndarray, shape (n, m, 3)
+        Angular velocities in the axes of the body, in rad/T.
+    gamma : ndarray, shape (n, m, 3)
+        Unit vectors γ in the axes of the body.
+
+    Returns
+    -------
+    ndarray, shape (n, m, 3)
+        Unit vectors e in the axes of the body, orthogonal to γ.
+    """
+    (_, e, _), *_ = _carried(times, np.moveaxis(omega, 2, 0), np.moveaxis(gamma, 2, 0))
+    return np.moveaxis(e, 0, 2)
 
 
 def contact_arc(axes: Array, at: Sequence[float] | Array, e: Sequence[float] | Array) -> Array:
@@ -136,8 +148,31 @@ def contact_arc(axes: Array, at: Sequence[float] | Array, e: Sequence[float] | A
     return frozen(np.concatenate([[0.0], np.cumsum(arcs)]))
 
 
+def _carried(times: Array, w: Array, gamma: Array) -> tuple[tuple[Array, Array, Array], Array, Array]:
+    """Return γ, e and γ × e along orbits, the rotation of each step, and γ after it; columns (3, …, m) of ω and γ."""
+    step = np.diff(times)
+    slope = np.gradient(w, times, axis=-1) if len(times) > 2 else np.zeros_like(w)
+    # ė = e × ω is e → exp(−v×) e over a step.
+    v = 0.5 * step * (w[..., :-1] + w[..., 1:])
+    v += step**2 / 12.0 * (slope[..., :-1] - slope[..., 1:] + _cross(w[..., :-1], w[..., 1:]))
+    g, e, f = _frames(gamma)
+    moved_g, moved_e = _rotate((g[..., :-1], e[..., :-1]), v, _length(v))
+    turn = np.arctan2(_dot(moved_e, f[..., 1:]), _dot(moved_e, e[..., 1:]))
+    angle = np.concatenate([np.zeros_like(turn[..., :1]), np.cumsum(turn, axis=-1)], axis=-1)
+    e = np.cos(angle) * e + np.sin(angle) * f
+    return (g, e, _cross(g, e)), v, moved_g
+
+
+def _dot(u: Array, v: Array) -> Array:
+    return np.asarray(np.einsum("k...,k...->...", u, v))
+
+
+def _length(v: Array) -> Array:
+    return np.asarray(np.sqrt(_dot(v, v)))
+
+
 def _cross(u: Array, v: Array) -> Array:
-    """Return u × v of columns (3, n); `np.cross` takes several times as long."""
+    """Return u × v of columns (3, …); `np.cross` takes several times as long."""
     product = np.empty(u.shape)
     for k in range(3):
         i, j = (k + 1) % 3, (k + 2) % 3
@@ -146,18 +181,17 @@ def _cross(u: Array, v: Array) -> Array:
 
 
 def _frames(gamma: Array) -> tuple[Array, Array, Array]:
-    """Return for each γ of (n, 3) a right-handed frame with γ as the first axis, (3, n) each."""
-    g = (gamma / np.linalg.norm(gamma, axis=1)[:, None]).T
-    e = np.zeros_like(g)
-    smallest, all_of = np.argmin(np.abs(g), axis=0), np.arange(g.shape[1])
-    e[smallest, all_of] = 1.0
-    e -= g * g[smallest, all_of]
-    e /= np.sqrt(np.einsum("kn,kn->n", e, e))
+    """Return for each γ of (3, …) a right-handed frame with γ as the first axis."""
+    g = gamma / _length(gamma)
+    smallest = np.argmin(np.abs(g), axis=0)[None]
+    e = -g * np.take_along_axis(g, smallest, 0)
+    np.put_along_axis(e, smallest, np.take_along_axis(e, smallest, 0) + 1.0, 0)
+    e /= _length(e)
     return g, e, _cross(g, e)
 
 
 def _rotate(several: tuple[Array, ...], v: Array, length: Array) -> tuple[Array, ...]:
-    """Return exp(−v×) u of each of several columns u (3, n), |v| = length (n,)."""
+    """Return exp(−v×) u of each of several columns u (3, …), |v| = length (…)."""
     sine, cosine = np.sinc(length / np.pi), 0.5 * np.sinc(0.5 * length / np.pi) ** 2
     crossed = [(u, _cross(u, v)) for u in several]
     return tuple(u + sine * first + cosine * _cross(first, v) for u, first in crossed)

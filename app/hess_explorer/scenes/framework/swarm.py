@@ -26,7 +26,7 @@ from hess_explorer.views.layers import Columns, Range, column
 from hess_explorer.views.space.body import seen_in_space
 from hess_explorer.views.text import digits
 from hess_mechanics.numerics.results import Array
-from hess_mechanics.rigid_body.attitude import attitude_along
+from hess_mechanics.rigid_body.attitude import second_directions
 
 if TYPE_CHECKING:
     from hess_explorer.scenes.framework.scene import Motion
@@ -164,20 +164,19 @@ class _SwarmPart(Part[Any]):
             return {}
         velocities = np.stack([columns["omega1"], columns["omega2"], 0.0 * columns["omega1"]], axis=2)
         verticals = np.stack([columns[f"g{i}"] for i in (1, 2, 3)], axis=2)
-        own = self.host.solid.attitude.in_space(mass.along)[0]
-        places, fine = [], np.linspace(0.0, times[-1], 2 * times.size - 1)
+        fine = np.linspace(0.0, times[-1], 2 * times.size - 1)
         velocities, verticals = (
             CubicSpline(self._sign * times, one, axis=1)(self._sign * fine) for one in (velocities, verticals)
         )
-        for angle, omega, gamma in zip(self.angles, velocities, verticals, strict=True):
-            attitude = attitude_along(fine, omega, gamma)
-            components = attitude.in_space(mass.along)
-            # γ is known; a turn about it is free.
-            turn = angle + math.atan2(own[2], own[1]) - math.atan2(components[0, 2], components[0, 1])
-            across = np.exp(1j * turn) * (components[:, 1] + 1j * components[:, 2])
-            there = seen_in_space(np.column_stack([components[:, 0], across.real, across.imag]))
-            places.append(CubicSpline(self._sign * attitude.times, there)(self._sign * times))
-        return {f"m{name}": np.array(places)[..., i] for i, name in enumerate("xyz")}
+        second = second_directions(fine, velocities, verticals)[:, ::2]
+        verticals = verticals[:, ::2]
+        down, e, f = (one @ mass.along for one in (verticals, second, np.cross(verticals, second)))
+        # A turn about γ is free.
+        own = self.host.solid.attitude.in_space(mass.along)[0]
+        turn = self.angles + math.atan2(own[2], own[1]) - np.arctan2(f[:, 0], e[:, 0])
+        across = np.exp(1j * turn)[:, None] * (e + 1j * f)
+        places = seen_in_space(np.stack([down, across.real, across.imag], axis=2))
+        return {f"m{name}": places[..., i] for i, name in enumerate("xyz")}
 
     @cached_property
     def spread(self) -> tuple[Array, Array] | None:
