@@ -1,4 +1,4 @@
-"""Everything in the catalogue, in each way in which it can be used: Python, command, sweep and chart."""
+"""Everything in the catalogue, in each way in which it can be used: Python, command, sweep, chart and trade."""
 
 import json
 import math
@@ -10,7 +10,7 @@ import hess_mechanics
 from hess_explorer.__main__ import main
 from hess_explorer.compute.cells import Outcome, evaluate
 from hess_explorer.sweep import sweep
-from hess_mechanics import System, level
+from hess_mechanics import LEVELS, System, level
 from hess_mechanics.catalogue import NoValue, catalogue, computations_of, find
 from hess_mechanics.errors import InvalidParameter
 
@@ -97,6 +97,18 @@ def test_a_sweep_and_the_cells_of_a_chart_hold_the_same_number(key, drafted):
     assert cells.values[name][0] == exact
     assert Outcome.NOT_COMPUTED not in cells.status
     assert Outcome.FAILED not in cells.status
+
+
+SLOW = "plane-potential-section"
+
+
+@pytest.mark.parametrize("key", [key for key in catalogue() if not key.endswith(SLOW)])
+def test_the_trade_has_cost_and_error_of_each_level(key):
+    of = find(key)
+    found = of.trade(of.example)
+    assert [one.level for one in found] == [*LEVELS]
+    assert all(one.ms > 0.0 for one in found)
+    assert all(one.error >= 0.0 for one in found if one.is_measured)
 
 
 # ---- what is refused ---------------------------------------------------------------------------------------------

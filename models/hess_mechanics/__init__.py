@@ -17,7 +17,7 @@ from typing import Any
 
 import lazy_loader
 
-# The names of the stub beside this file; each module is imported when one of its names is used first.
+# The names of the stub beside this file; each module is imported when one of its names is first used.
 _found, _stub_names, _ = lazy_loader.attach_stub(__name__, __file__)
 
 

@@ -53,8 +53,9 @@ def view_of(scene, preset, seen=None):
     """Return the view of a preset with all of its pictures, or these; what is refused belongs to the record."""
     less = {name: number for name, number in LESS.items() if name in scene.defaults()}
     if seen is None:
-        # Diagrams and what attracts in them are chaotic and take 10 s each: "test_orbit_diagram.py" has them; no swarm.
-        seen = {"body", "sphere"} if "diagram" in scene.pictures else {*scene.pictures} - {"spread"}
+        # Diagrams and what attracts in them are chaotic and take 10 s each: "test_orbit_diagram.py" has them.  Charts
+        # and swarms have tests of their own.
+        seen = {"body", "sphere"} if "diagram" in scene.pictures else {*scene.pictures} - {"chart", "spread"}
     coarse = {"accuracy": "draft"} if preset.values.get("colours") == "basins" else {}
     return View(scene, {**preset.values, **less, **coarse}, seen=seen, refusing=True)
 

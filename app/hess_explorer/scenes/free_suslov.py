@@ -273,7 +273,7 @@ class FreeSuslov(State):
         yield f"|ω±| = {digits(points.speed)}"
         yield f"ξ = {vector(points.xi)}"
         if self.F2 is None:
-            yield "F₂: none known (one is for I₁₃ = 0 or I₂₃ = 0 and k odd)"
+            yield "F₂: none known (known for odd k if I₁₃ = 0 or I₂₃ = 0)"
         else:
             integral, f = self.F2
             yield f"F₂, degree {integral.k} in ω: f = {digits(f)}"

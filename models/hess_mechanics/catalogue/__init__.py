@@ -1,7 +1,8 @@
 """The catalogue: every system and every computation, declared once.
 
-Commands, sweeps, charts and the documentation read it.  What applies to every system with a motion is declared in
-`of_motions`, to every system with a section in `of_sections`, and what belongs to one problem in `of_problems`.
+Commands, sweeps, charts, the trade of speed against accuracy and the documentation read it.  What applies to every
+system with a motion is declared in `of_motions`, to every system with a section in `of_sections`, and what belongs to
+one problem in `of_problems`.
 
 >>> from hess_mechanics.catalogue import find
 >>> find("circle-map").compute({"h": 1.5, "f": 0.6, "a": 0.5}).kind

@@ -1,4 +1,4 @@
-"""A computation as data, for commands, sweeps, charts and the documentation."""
+"""A computation as data, for commands, sweeps, charts, the documentation and the trade of speed against accuracy."""
 
 from __future__ import annotations
 
@@ -8,16 +8,19 @@ from dataclasses import dataclass, field, replace
 from operator import attrgetter
 from typing import Any, Literal
 
+import numpy as np
+
 from hess_mechanics.dynamics.motions import Motions
 from hess_mechanics.dynamics.return_map import ReturnMap
+from hess_mechanics.dynamics.trade import LevelCost, measure
 from hess_mechanics.errors import InvalidParameter, ModelError
-from hess_mechanics.numerics.accuracy import Accuracy, Kind, Level, Status
+from hess_mechanics.numerics.accuracy import PLANS, Accuracy, Kind, Level, Plan, Status
 from hess_mechanics.numerics.arguments import as_level, as_number
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.results import Array, Mask
 from hess_mechanics.parameters import Parameter
 
-__all__ = ["Choice", "Computation", "Many", "NoValue", "Number", "Scalar", "declare", "real"]
+__all__ = ["Choice", "Computation", "Many", "NoValue", "Number", "Scalar", "declare", "largest_difference", "real"]
 
 Value = float | str
 
@@ -202,9 +205,14 @@ class Computation:
         The numbers of a result by name; the first is the default of a sweep.
     kind : Kind
         Row of the table of accuracy, which gives levels their meaning.
+    comparison : str or callable, default ""
+        Values of a result that `error` compares: an attribute, or the first number by default.  Or the error, as a
+        function of a result and a more accurate one.
     call : callable, optional
         Function call(accuracy, **values) that computes it, if `function` has other arguments.  It raises a
         `ModelError`.
+    unit : str, default "1"
+        Unit of the error.
     choices : tuple of Choice, default ()
         Its arguments that are words.
     example : mapping of str to Value
@@ -225,7 +233,9 @@ class Computation:
     parameters: tuple[Parameter, ...]
     numbers: Mapping[str, Number]
     kind: Kind
+    comparison: str | Callable[[Any, Any], float] = ""
     call: Callable[..., Any] | None = None
+    unit: str = "1"
     choices: tuple[Choice, ...] = ()
     example: Mapping[str, Value] = field(default_factory=dict)
     system: str = ""
@@ -345,6 +355,55 @@ class Computation:
         result = (self.call or self.function)(accuracy=as_level(accuracy), **self.values(arguments))
         return Scalar(result) if isinstance(result, float) else result
 
+    def error(self, result: Any, exact: Any) -> float:
+        """Return the distance of a result from a more accurate one.
+
+        Parameters
+        ----------
+        result : object
+            The result.
+        exact : object
+            The more accurate result.
+
+        Returns
+        -------
+        float
+            The distance, in `unit`; NaN if there is nothing to compare.
+        """
+        if callable(self.comparison):
+            return self.comparison(result, exact)
+        read = attrgetter(self.comparison) if self.comparison else next(iter(self.numbers.values())).read
+        return largest_difference(read(result), read(exact))
+
+    def trade(self, arguments: Mapping[str, Any] | None = None, repeats: int = 1) -> tuple[LevelCost, ...]:
+        """Return time and error at each level, measured on this machine.
+
+        The error is the distance from a run that is finer than `reference`.
+
+        Parameters
+        ----------
+        arguments : mapping of str to object, optional
+            Values by name; the others have their defaults.
+        repeats : int, default 1
+            Number of runs at each level, of which the fastest counts.
+
+        Returns
+        -------
+        tuple of LevelCost
+            Costs of the levels, the cheapest first.
+
+        Raises
+        ------
+        ModelError
+            If there is no result for these values.
+        """
+
+        def run(plan: Plan) -> Any:
+            is_named = plan is PLANS[self.kind][plan.level.name]
+            return self.compute(arguments, plan.level.name if is_named else plan.level)
+
+        return tuple(measure(self.kind, run, self.error, repeats))
+
 
 def declare(of: Motions, one: Computation, on_section: bool = False) -> Computation:
     """Return a computation of the motions of a system.
@@ -383,3 +442,22 @@ def declare(of: Motions, one: Computation, on_section: bool = False) -> Computat
         system=of.name,
         source=of.source,
     )
+
+
+def largest_difference(values: Any, exact: Any) -> float:
+    """Return the largest difference of two arrays of one shape.
+
+    Parameters
+    ----------
+    values, exact : array_like
+        The arrays.
+
+    Returns
+    -------
+    float
+        The difference; NaN if the shapes differ or the arrays are empty.
+    """
+    one, other = np.asarray(values, float), np.asarray(exact, float)
+    if one.shape != other.shape or not one.size:
+        return math.nan
+    return float(np.max(np.abs(one - other)))

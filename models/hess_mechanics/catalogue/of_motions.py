@@ -95,6 +95,7 @@ def computations(system: System) -> Iterator[Computation]:
             "error": Number("ε", "estimated error", "error_estimate"),
         },
         Kind.ORBIT,
+        "states",
         lambda body, start, duration, max_step, **more: solve(body, start, duration, max_step=max_step or None, **more),
         example={"duration": 10.0, "samples": 11.0},
     )
@@ -122,7 +123,9 @@ def computations(system: System) -> Iterator[Computation]:
         ),
         {"crossings": Number("n", "number of crossings of the plane", lambda r: len(r.times))},
         Kind.SECTION,
+        "times",
         _crossings,
+        unit="time",
         example={"duration": 20.0},
     )
     yield Computation(
@@ -132,6 +135,7 @@ def computations(system: System) -> Iterator[Computation]:
         (_LONG,),
         {"lyapunov": Number("λ", "largest Lyapunov exponent", "value", "1/time", "spread")},
         Kind.EXPONENT,
+        unit="1/time",
         example={"duration": 50.0},
     )
     yield Computation(
@@ -154,6 +158,8 @@ def computations(system: System) -> Iterator[Computation]:
             "divergence": Number("⟨div ẏ⟩", "mean divergence", "divergence", "1/time", "divergence_error"),
         },
         Kind.EXPONENT,
+        "values",
+        unit="1/time",
         example={"duration": 50.0},
     )
     yield Computation(
@@ -172,6 +178,7 @@ def computations(system: System) -> Iterator[Computation]:
             ),
         },
         Kind.INDICATOR,
+        "values",
         # One thread: the cells of a sweep share the cores.
         lambda body, start, **more: complete(megno(body, [start], threads=1, **more)),
         example={"duration": 50.0},
@@ -186,6 +193,7 @@ def computations(system: System) -> Iterator[Computation]:
             "end": Number("t", "last enclosed time", lambda r: r.times[-1] if r.times.size else 0.0, "time"),
         },
         Kind.ORBIT,
+        lambda r, exact: r.width,
         lambda *start, accuracy, **more: _enclosure(tube, *start, **more),
         group="prove",
         example={"duration": 1.0, "samples": 3.0},
@@ -200,6 +208,7 @@ def computations(system: System) -> Iterator[Computation]:
             "right-until": Number("t", "last time at which the orbit is right", "right_until", "time"),
         },
         Kind.ORBIT,
+        lambda r, exact: r.largest,
         partial(_enclosure, proved_orbit),
         group="prove",
         example={"duration": 1.0, "samples": 3.0},

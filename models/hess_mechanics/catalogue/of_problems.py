@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from functools import lru_cache
 
@@ -32,6 +33,7 @@ __all__ = ["COMPUTATIONS"]
 
 # ---- Suslov–Hess: tori (a, h, f) --------------------------------------------------------------------------------
 
+_ANGLES = np.linspace(-math.pi, math.pi, 64, endpoint=False)
 _TORUS = (known.A_HESS, known.H_PLANE, known.F_HESS)
 
 
@@ -147,7 +149,10 @@ COMPUTATIONS: tuple[Computation, ...] = (
             ),
         },
         Kind.MAP,
+        # Differences of angles up to full turns.
+        lambda r, exact: np.abs(np.angle(np.exp(1j * (r.of.theta(_ANGLES) - exact.of.theta(_ANGLES))))).max(),
         _circle_map,
+        unit="rad",
         example={"a": 0.5, "h": 1.5, "f": 0.6},
         source="eq0003",
         many=_tori,
@@ -184,6 +189,7 @@ COMPUTATIONS: tuple[Computation, ...] = (
         },
         Kind.MAP,
         call=_scattering,
+        unit="rad",
         source="fig0111",
     ),
     Computation(
@@ -213,6 +219,7 @@ COMPUTATIONS: tuple[Computation, ...] = (
         call=lambda accuracy, theta, phi, distance, **body: ball_scattering(
             BallBody(**body), theta, [phi], 1.0, distance, accuracy
         ),
+        unit="rad",
     ),
     Computation(
         "period",
@@ -222,6 +229,7 @@ COMPUTATIONS: tuple[Computation, ...] = (
         {"period": Number("T", "period, by arithmetic-geometric means (Kharlamova's case)", unit="time")},
         Kind.ORBIT,
         call=_plane_period,
+        unit="time",
     ),
     Computation(
         "ball-period",
@@ -240,6 +248,7 @@ COMPUTATIONS: tuple[Computation, ...] = (
         call=lambda accuracy, I11, I22, b1, b2, D, **start: period(
             BallBody(I11, I22, 0.0, 0.0, D, b1, b2, 0.0), _state(**start), accuracy
         ),
+        unit="time",
     ),
     Computation(
         "cloud",
@@ -248,6 +257,7 @@ COMPUTATIONS: tuple[Computation, ...] = (
         _CLOUD,
         {"volume": Number("V", "volume relative to that at t = 0", lambda r: r.volume[-1])},
         Kind.CLOUD,
+        "log_s",
         _cloud,
         example=_SMALL,
     ),
@@ -258,6 +268,7 @@ COMPUTATIONS: tuple[Computation, ...] = (
         _CLOUD,
         {"growth": Number("ln s/s₀", "mean growth of small volumes", lambda r: r.log_growth[0, -1])},
         Kind.CLOUD,
+        "log_growth",
         lambda **values: history(_cloud(**values)),
         example=_SMALL,
     ),

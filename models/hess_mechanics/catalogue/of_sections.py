@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from hess_mechanics import parameters as known
-from hess_mechanics.catalogue.declared import Choice, Computation, NoValue, Number, real
+from hess_mechanics.catalogue.declared import Choice, Computation, NoValue, Number, largest_difference, real
 from hess_mechanics.dynamics.manifolds import manifold
 from hess_mechanics.dynamics.motions import usual, whole
 from hess_mechanics.dynamics.orbit_diagram import Cascade
@@ -17,6 +17,7 @@ from hess_mechanics.dynamics.regime import MotionKind, Regime, dynamics_of, regi
 from hess_mechanics.dynamics.return_map import PoincareSection, ReturnMap
 from hess_mechanics.numerics.accuracy import Kind
 from hess_mechanics.return_maps import (
+    PlanePoints,
     basins,
     continued_orbit,
     orbit_diagram,
@@ -134,6 +135,7 @@ def computations(example: PoincareSection, period: int) -> Iterator[Computation]
             "period": Number("N", "number of returns", "period"),
         },
         Kind.ORBIT,
+        "places",
         _periodic,
     )
     yield Computation(
@@ -146,6 +148,7 @@ def computations(example: PoincareSection, period: int) -> Iterator[Computation]
             "end": Number("λ", "value of the parameter at the end", lambda r: r.values[-1]),
         },
         Kind.ORBIT,
+        lambda r, exact: largest_difference(r.places[-1], exact.places[-1]),
         _from_orbit(continued_orbit),
         choices=over,
         example={"points": 5.0},
@@ -160,6 +163,7 @@ def computations(example: PoincareSection, period: int) -> Iterator[Computation]
             "first": Number("λ₁", "value of the parameter at the first doubling", _first),
         },
         Kind.ORBIT,
+        "values",
         _from_orbit(period_doublings),
         choices=over,
         example={"most": 1.0},
@@ -178,6 +182,7 @@ def computations(example: PoincareSection, period: int) -> Iterator[Computation]
         ),
         {"period": Number("N", "period at the last value, 0 if none is seen", lambda r: r.periods[-1])},
         Kind.SECTION,
+        "periods",
         lambda map_, place, backward, **more: _along(orbit_diagram)(
             map_.inverse() if backward else map_, place, **more
         ),
@@ -191,6 +196,7 @@ def computations(example: PoincareSection, period: int) -> Iterator[Computation]
         _REGIME_PARAMETERS,
         _OF_MOTION,
         Kind.INDICATOR,
+        lambda r, exact: float(r.kind is not exact.kind),
         example={"transient": 50.0, "duration": 50.0},
     )
     yield Computation(
@@ -218,6 +224,7 @@ def computations(example: PoincareSection, period: int) -> Iterator[Computation]
         ),
         {"points": Number("n", "number of points", lambda r: sum(map(len, r.orbits)))},
         Kind.SECTION,
+        _points_away,
         lambda map_, place, orbits, crossings: section_orbits(
             map_, starts=() if orbits else (place,), orbits=orbits or 1, crossings=crossings
         ),
@@ -235,6 +242,7 @@ def computations(example: PoincareSection, period: int) -> Iterator[Computation]
         ),
         {"length": Number("s", "length of the branch", "length", error_reader="error_estimate")},
         Kind.ORBIT,
+        lambda r, exact: largest_difference(r.points[-1], exact.points[-1]),
         _from_orbit(manifold),
         example={"length": 0.1},
     )
@@ -253,8 +261,16 @@ def computations(example: PoincareSection, period: int) -> Iterator[Computation]
         ),
         {"attractors": Number("N", "number of attractors", "attractors")},
         Kind.BASINS,
+        lambda r, exact: float(np.mean(r.attractor != exact.attractor)),
         lambda map_, place, across, up, x0, x1, y0, y1, duration: basins(
             map_, (across, up), ((x0, y0), (x1, y1)), duration
         ),
+        unit="fraction of the cells",
         example={"across": 2.0, "up": 2.0, "duration": 200.0},
     )
+
+
+def _points_away(one: PlanePoints, exact: PlanePoints) -> float:
+    """Return the largest distance of the first twenty points of each orbit; later ones of chaotic orbits differ."""
+    pairs = zip(one.orbits, exact.orbits, strict=False)
+    return max((largest_difference(a[:20], b[:20]) for a, b in pairs), default=np.nan)
