@@ -149,7 +149,7 @@ export function createRequests({ send, changed, hidden, known }) {
       target = null
       restart({ step, scene: shown })
     },
-    lesson: (lesson) => add({ lesson }),
+    lesson: (lesson) => want({ lesson }),
     stop: () => want({ stop: true }),
     pick({ pick }) {
       if (Array.isArray(pick) && pick.slice(1).every(Number.isFinite)) want({ picked: pick })

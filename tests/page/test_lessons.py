@@ -225,7 +225,8 @@ def test_what_is_done_by_hand_is_recorded_and_replayed(explorer):
     page.locator(".lesson-menu > summary").click()
 
 
-# Pages of the slide on show and the one in sight; what stands outside of them; the widths of the sliders of the step.
+# Pages of the slide on show and the one in sight; what is outside of them; how many controls the step has, and how wide
+# its sliders are.
 SLIDE = f"""() => {{
   {ALL}
   const found = all(document)
@@ -237,8 +238,9 @@ SLIDE = f"""() => {{
     || wide > 0 && (right - left > wide + 1 || slide.contains(item) && bottom > room.bottom + 1)))
   const parts = [title, steps, ...slide.querySelectorAll("*")].filter((item) => item.checkVisibility())
   const [pages, page] = wide === 0 ? [1, 0] : [Math.round(slide.scrollWidth / wide), slide.scrollLeft / wide]
-  const hands = found.filter((item) => item.matches(".step-controls .hand")).map((item) => item.clientWidth)
-  return [pages, page, parts.filter(isOut).map((item) => item.textContent), hands]
+  const controls = found.filter((item) => item.matches(".step-controls > *"))
+  const hands = controls.flatMap((item) => [...item.querySelectorAll(".hand")]).map((item) => item.clientWidth)
+  return [pages, page, parts.filter(isOut).map((item) => item.textContent), controls.length, hands]
 }}"""
 
 
@@ -249,16 +251,16 @@ def test_in_a_hall_each_step_is_a_slide_of_which_the_clicker_skips_nothing(explo
     for lesson in package_lessons().values():
         explorer.change(explorer.tell, "lesson", lesson.name)
         for number, step in enumerate(lesson.steps, 1):
-            expect(count).to_have_text(f"{number} / {len(lesson.steps)}")
+            expect(count).to_have_text(f"{number} / {len(lesson.steps)}", timeout=60_000)
             if step.controls:
                 wait_ready(page)
             wait_frames(explorer, 2)
             seen = set()
             while count.text_content().startswith(f"{number} /"):
-                pages, at_page, out, hands = page.evaluate(SLIDE)
+                pages, at_page, out, controls, hands = page.evaluate(SLIDE)
                 assert out == [], step.title
                 assert all(wide >= 200 for wide in hands), step.title
-                assert len(hands) == len(step.controls)
+                assert controls == len(step.controls)
                 assert at_page == pytest.approx(round(at_page), abs=0.01)
                 seen.add(round(at_page))
                 if number == len(lesson.steps) and len(seen) == pages:

@@ -9,6 +9,7 @@ from PIL import Image, ImageStat
 from playwright.sync_api import expect
 from pytest import approx
 
+from hess_explorer.headless.browser import wait_ready
 from hess_explorer.scenes import scenes
 from support.accessible import assert_accessible, contrast
 from support.page import ALL, HESS, SLIDERS, brought_on_phone, own_tab, wait_frames
@@ -273,7 +274,8 @@ new PerformanceObserver((list) => { for (const { value } of list.getEntries()) w
 @pytest.mark.parametrize("size", ["laptop", "wide"])
 def test_nothing_moves_while_the_page_loads(browser, server, size):
     with own_tab(browser, server, SIZES[size], SHIFTS) as tab:
-        tab.goto(f"/?scene={HESS}")
+        tab.page.goto(f"{server}/?scene={HESS}")
+        wait_ready(tab.page)
         wait_frames(tab, 4)
         assert tab.page.evaluate("window.shifted") <= 0.05
 

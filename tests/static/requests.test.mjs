@@ -58,6 +58,14 @@ test("one request at a time, and the newest values win", async () => {
   requests.settled()
 })
 
+test("a lesson that is chosen during a request is asked for after it", async () => {
+  const [first] = await told(["change", { h: 1 }])
+  assert.deepEqual(await told(["lesson", "cycles"]), [])
+  assert.ok(requests.isBehind(first.requested))
+  assert.equal((await settled()).lesson, "cycles")
+  requests.settled()
+})
+
 test("an example discards the changes before it and keeps those after it", async () => {
   const [message] = await told(["change", { h: 1 }], ["preset", "No cycle"], ["change", { f: 2 }])
   assert.deepEqual([message.preset, message.values], ["No cycle", { f: 2 }])
