@@ -25,6 +25,7 @@ from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import Columns, Range, column
 from hess_explorer.views.space.body import seen_in_space
 from hess_explorer.views.text import digits
+from hess_mechanics.dynamics.sampling import MOST_SAMPLES
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.rigid_body.attitude import second_directions
 
@@ -130,7 +131,7 @@ class _SwarmPart(Part[Any]):
             return None
         starts = tuple(map(tuple, self.swarm.starts(self.host, self.angles).tolist()))
         named = self.swarm.columns(self.host, np.zeros(1), np.array(starts)[:1, None])
-        most = max(4, _BYTES // (2 * len(starts) * (len(named) + 3)))
+        most = max(4, min(MOST_SAMPLES, _BYTES // (2 * len(starts) * (len(named) + 3))))
         return self.work.need(Task(swarm_motions, self._motion, starts, most, self.swarm.period(self.host)))
 
     def track(self) -> Columns | None:
@@ -180,7 +181,7 @@ class _SwarmPart(Part[Any]):
 
     @cached_property
     def spread(self) -> tuple[Array, Array] | None:
-        """Times (m,) of the player, and quantiles (3, m) of the distance between neighbours; None without a swarm."""
+        """Times (m,) of the player, and quantiles (3, m) of the distance between neighbours; None if unknown."""
         found = self.motions
         if found is None:
             return None
@@ -190,9 +191,11 @@ class _SwarmPart(Part[Any]):
         known = both & (apart > np.minimum(_ABOVE * (found.errors[1:] + found.errors[:-1]), _ERROR)[:, None])
         ratio = np.where(both & (apart[:, :1] > 0.0), apart / np.maximum(apart[:, :1], 1e-300), np.nan)
         # The graph ends before the tenth of them is lost, so that the others are no selection.
-        enough = known.mean(axis=0) > 0.9
-        quantiles = np.nanquantile(ratio[:, enough], (0.1, 0.5, 0.9), axis=0)
-        return np.abs(found.times[enough]) * self._motion.unit, quantiles
+        count = int(np.argmin([*(known.mean(axis=0) > 0.9), False]))
+        if count < 2:
+            return None
+        quantiles = np.nanquantile(ratio[:, :count], (0.1, 0.5, 0.9), axis=0)
+        return np.abs(found.times[:count]) * self._motion.unit, quantiles
 
     @property
     def expected(self) -> tuple[Array, Array] | None:
@@ -222,10 +225,19 @@ class _SwarmPart(Part[Any]):
             yield "Beads vanish when they are not known to half a pixel any more."
 
     @property
+    def reason(self) -> str:
+        """Why there is no graph; empty if there is one."""
+        if self.motions is None:
+            return "Choose more than one body in the group Swarm."
+        return (
+            "" if self.spread is not None else "Neighbours are too close, or lost too soon, to measure their distance."
+        )
+
+    @property
     def caption(self) -> Caption:
         """The caption of the graph."""
         if self.spread is None:
-            return Caption("No swarm.", "Choose more than one body in the group Swarm.")
+            return Caption("No graph.", self.reason)
         rate = self.swarm.rate(self.host)
         median = digits(float(self.spread[1][1, -1]), 2)
         said = "" if rate is None else f" {rate[1]}."

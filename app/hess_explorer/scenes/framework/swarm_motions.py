@@ -19,8 +19,9 @@ _ERROR = 0.5
 """Largest error of a bead, in pixels; from then on it is not drawn."""
 _ASIDE, _SAFETY = 2.0**-50, 4.0
 """How far other starts are from the first ones, relative to them, and the factor from their distance to an error."""
-_FEW, _FIRST, _TRIALS = 12, 64, 6
-"""Number of motions from which the spacing of the samples is chosen; its first share of the time, and the trials."""
+_FEW, _FIRST, _STRIDE, _TRIALS = 12, 64, 50.0, 6
+"""Number of motions from which the spacing of the samples is chosen, least number of first samples, their distance in
+pixels, and the number of trials."""
 
 
 def turned(motion: Motion, angles: Array) -> Array:
@@ -127,7 +128,8 @@ def swarm_motions(
         return ensemble(body, chosen, np.linspace(0.0, span, 2 * m - 1), STANDARD)
 
     few = starts[:: max(1, len(starts) // _FEW)]
-    spacing = abs(motion.span) / _FIRST
+    speed = max(float(np.max(np.abs(motion.system.field(one, motion.parameters)) * weights)) for one in few)
+    spacing = abs(motion.span) / max(_FIRST, speed * abs(motion.span) / _STRIDE)
     for _ in range(_TRIALS):
         m = max(4, min(most, 1 + round(abs(motion.span) / spacing)))
         states = sampled(few, math.copysign((m - 1) * spacing, motion.span), m).states

@@ -25,7 +25,7 @@ def spread_picture() -> Plot[Any]:
         log="y",
         x=lambda s: (0.0, 1.0) if s.swarm_part.spread is None else (0.0, float(s.swarm_part.spread[0][-1])),
         y=lambda s: s.swarm_part.heights,
-        message=lambda s: "" if s.swarm_part.spread is not None else "Choose more than one body in the group Swarm.",
+        message=lambda s: s.swarm_part.reason,
         button="Show the spread of the swarm",
         layers=(
             line(
