@@ -366,10 +366,12 @@ def assert_drawn(scene, values, seen, dragging):
     assert board.fresh or not seen or dragging or report.todo
     said = dict(board.texts)
     assert re.fullmatch(r"[\d,]*", said.pop("signs", ""))
+    # Names of the pictures that show a part.
+    assert {*said.pop("windowed", "").split()} <= {*scene.pictures}
     for words in (*said.values(), report.status, report.summary, *report.quantities, *report.notes):
         assert re.search(r"\w", words)
         assert not re.search(r"\bnan\b|\binf\b", words, re.IGNORECASE), words
-    assert set(seen) <= set(board.texts) <= {*scene.pictures, "answer", "signs"}
+    assert set(seen) <= set(board.texts) <= {*scene.pictures, "answer", "signs", "windowed"}
     orbit = board.fresh.get("data-orbit")
     if orbit is not None:
         assert orbit["t"][0] == 0.0
