@@ -49,7 +49,7 @@ OTHERS = {
     "free-suslov": {"w1": 6.0},
 }
 BALL = SCENES["chaplygin-ball"]
-BESIDE = ("answer", "status", "summary", "notes", "derived", "signs")
+BESIDE = ("answer", "status", "summary", "notes", "derived", "signs", "windowed")
 """The texts beside the captions."""
 OWN = [scene for scene in SCENES.values() if scene.origin is None]
 """The scenes that look into no other one."""
