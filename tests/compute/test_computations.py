@@ -87,7 +87,7 @@ def needed(seen):
     """Return the computations that the Hess scene needs at a state with two cycles."""
     return (
         {MAP}
-        | ({TRACK} if seen - {"chart"} else set())
+        | ({TRACK} if seen - {"chart", "spread"} else set())
         | ({CYCLES} if seen & {"omega", "sphere", "surface"} else set())
         | (ZONES if "bifurcation" in seen else set())
     )
