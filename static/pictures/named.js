@@ -25,7 +25,7 @@ export function lightNames(el) {
   function light(event) {
     const [picture, layer] = named(event)
     const plot = gallery.plots.find(({ model }) => model.name === picture)
-    // What a guess is about stays dark.
+    // A hidden layer is not lit up: it may be the answer of a guess.
     const renderer = plot?.model.renderers.find(({ name, visible }) => name === layer && visible)
     if (renderer === undefined) return
     dim()

@@ -48,7 +48,7 @@ COMMANDS = [
 
 @pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: str(path.relative_to(ROOT)))
 def test_its_links_lead_somewhere(document):
-    # What is quoted is no link.
+    # Quoted code contains no links.
     text = re.sub(r"`[^`\n]*`", "", document.read_text(encoding="utf-8"))
     links = re.findall(r"\]\(([^)#\s]+)\)", text) + re.findall(r'(?:src|srcset|href)="([^"#]+)"', text)
     for link in links:

@@ -46,7 +46,7 @@ def test_a_box_takes_an_exact_value_and_marks_what_is_none(explorer):
         assert marked.count() == 0
         assert box.input_value() == "7.25"
     assert_orbit(explorer, values)
-    # What the model limits says so beside the slider, until another value is chosen.
+    # A message beside the slider says that the model limits it, until another value is chosen.
     explorer.change(explorer.type, "f", "9")
     expect(explorer.page.locator(".why:visible")).to_have_text(explorer.text("notes"))
     assert "f was set to this limit" in explorer.text("notes")

@@ -19,7 +19,7 @@ from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.specs import ChoiceSpec
 from hess_explorer.scenes.framework.part import Part, part
 from hess_explorer.scenes.framework.sliders import declare
-from hess_explorer.scenes.framework.swarm_motions import SwarmMotions, swarm_motions, turned
+from hess_explorer.scenes.framework.swarm_motions import ERROR, SwarmMotions, swarm_motions, turned
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import Columns, Range, column
@@ -40,8 +40,8 @@ ONE, SPREAD, NEAR, FORWARD, BACKWARD = "1", "over the phase", "near this start",
 _COUNTS = (ONE, "2", "8", "50", "200", "2000")
 _NEAR = 0.02
 """Share of the phase that a swarm near the chosen start takes."""
-_ABOVE, _ERROR = 10.0, 0.5
-"""A known distance is this many times as large as the errors of both motions, or larger than the second, in pixels."""
+_ABOVE = 10.0
+"""A known distance is this many times as large as the errors of both motions, or larger than `ERROR`."""
 _SEEN = 1e-12, 1e12
 """Smallest and largest relative distance of the graph."""
 _IN_SPACE = 50
@@ -188,7 +188,7 @@ class _SwarmPart(Part[Any]):
         apart = np.linalg.norm(np.diff(found.states * np.array(self._motion.weights), axis=0), axis=2)
         # A distance is known while both motions are, and while it is larger than their errors.
         both = np.arange(found.times.size) <= np.minimum(found.until[1:], found.until[:-1])[:, None]
-        known = both & (apart > np.minimum(_ABOVE * (found.errors[1:] + found.errors[:-1]), _ERROR)[:, None])
+        known = both & (apart > np.minimum(_ABOVE * (found.errors[1:] + found.errors[:-1]), ERROR)[:, None])
         ratio = np.where(both & (apart[:, :1] > 0.0), apart / np.maximum(apart[:, :1], 1e-300), np.nan)
         # The graph ends before the tenth of them is lost, so that the others are no selection.
         count = int(np.argmin([*(known.mean(axis=0) > 0.9), False]))

@@ -15,7 +15,7 @@ from hess_mechanics.numerics.results import Array
 if TYPE_CHECKING:
     from hess_explorer.scenes.framework.scene import Motion
 
-_ERROR = 0.5
+ERROR = 0.5
 """Largest error of a bead, in pixels; from then on it is not drawn."""
 _ASIDE, _SAFETY = 2.0**-50, 4.0
 """How far other starts are from the first ones, relative to them, and the factor from their distance to an error."""
@@ -51,20 +51,21 @@ def turned(motion: Motion, angles: Array) -> Array:
     across = np.array([-q[1], q[0]]) if k == 2 else np.cross(gamma, q)
     along = cos * q + sin * across
 
-    def energy(scale: float) -> Array:
+    def scaled(scale: float | Array) -> Array:
         found = np.tile(state, (len(angles), 1))
         found[:, :k] = fixed + scale * along
-        return np.asarray(next(iter(motion.system.integrals([*found.T], motion.parameters).values())))
+        return found
+
+    def energy(states: Array) -> Array:
+        return np.asarray(next(iter(motion.system.integrals([*states.T], motion.parameters).values())))
 
     # Three values determine the quadratic function.
-    zero, plus, minus = energy(0.0), energy(1.0), energy(-1.0)
+    zero, plus, minus = (energy(scaled(scale)) for scale in (0.0, 1.0, -1.0))
     a, b = 0.5 * (plus + minus) - zero, 0.5 * (plus - minus)
-    goal = np.asarray(next(iter(motion.system.integrals([*state], motion.parameters).values())))
+    goal = energy(state)
     root = np.sqrt(np.maximum(b * b + 4.0 * a * (goal - zero), 0.0))
     scale = np.divide(root - b, 2.0 * a, out=np.ones_like(a), where=a > 0.0)
-    found = np.tile(state, (len(angles), 1))
-    found[:, :k] = fixed + scale[:, None] * along
-    return found
+    return scaled(scale[:, None])
 
 
 @dataclass(frozen=True)
@@ -134,22 +135,22 @@ def swarm_motions(
         m = max(4, min(most, 1 + round(abs(motion.span) / spacing)))
         states = sampled(few, math.copysign((m - 1) * spacing, motion.span), m).states
         worst = float(np.nanmax(_interpolation_errors(states, weights), initial=0.0))
-        if worst <= 0.5 * _ERROR:
+        if worst <= 0.5 * ERROR:
             break
         # The error is proportional to the fourth power of a small spacing.
-        spacing *= 0.9 * (0.5 * _ERROR / worst) ** 0.25
+        spacing *= 0.9 * (0.5 * ERROR / worst) ** 0.25
     if period is not None:
         spacing = period / math.ceil(period / spacing)
     m = max(4, min(most, 1 + math.ceil(abs(motion.span) / spacing)))
     span = math.copysign((m - 1) * spacing, motion.span)
     found = sampled(starts, span, m)
     errors = np.repeat(found.errors[:, None] * weights.max(), 2 * m - 2, axis=1)
-    loose = np.flatnonzero(~(errors[:, 0] <= 0.1 * _ERROR))
+    loose = np.flatnonzero(~(errors[:, 0] <= 0.1 * ERROR))
     if loose.size:
         # Even the smallest tolerance was too large: only round-off is left, which grows as from starts beside these.
         others = ensemble(body, np.array(starts)[loose] * (1.0 + _ASIDE), found.times, STANDARD)
         errors[loose] = _SAFETY * (np.abs(others.states - found.states[loose]) * weights).max(axis=2)[:, 1:]
     errors += np.repeat(_interpolation_errors(found.states, weights), 2, axis=1)
-    wrong = ~(errors <= _ERROR)
+    wrong = ~(errors <= ERROR)
     until = np.where(wrong.any(axis=1), 0.5 * np.argmax(wrong, axis=1), m - 1.0)
     return SwarmMotions(found.times[::2], found.states[:, ::2].copy(), until, found.errors * weights.max())
