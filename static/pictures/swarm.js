@@ -4,13 +4,15 @@
 // The source "data-swarm" holds `count` motions at times `spacing` apart.  `values` are whole numbers [column][sample][motion];
 // the value of a column is `low` + `step` (whole + 32767).  Between samples columns are cubic; those of the kind "angle" take the
 // shorter way round, and those of the kind "step" stay.  From the sample `until` on a motion is not known to half a pixel, and not
-// drawn.  See "scenes/framework/swarm.py".
+// drawn; shortly before, it fades.  See "scenes/framework/swarm.py".
 
 import { listen } from "../base/bus.js"
 import { circlePath, shade } from "./looks.js"
 
 const FIRST = 32767
 const TURN = 2 * Math.PI
+// A bead fades during the last samples before its motion is no longer known.
+const FADING = 4
 // Radius of a bead by the number of motions: the first size whose number is not exceeded.
 /** @type {[most: number, radius: number][]} */
 const SIZES = [[50, 5], [200, 4], [Infinity, 2]]
@@ -70,8 +72,16 @@ export class Swarm {
     }
   }
 
-  /** Return whether motion i is known at the time t. @param {number} i @param {number} t */
-  isKnown(i, t) { return t / this.data.spacing <= this.data.until[i] + 1e-6 }
+  /**
+   * Return the opacity of motion i at the time t: 0 when it is not known any more; before that it fades.
+   * @param {number} i
+   * @param {number} t
+   */
+  opacity(i, t) {
+    const left = this.data.until[i] + 1e-6 - t / this.data.spacing
+    const isKnownToTheEnd = this.data.until[i] >= this.samples - 1
+    return left < 0 ? 0 : isKnownToTheEnd ? 1 : Math.min(1, left / FADING)
+  }
 }
 
 /** @type {WeakMap<Source, {data: Data, swarm: Swarm | null}>} */
@@ -108,9 +118,10 @@ export function drawBeads(ctx, source, names, placeOf) {
   ctx.lineWidth = 0.7
   ctx.strokeStyle = shade("#101010")
   for (let i = 0; i < count; i++) {
-    if (!swarm.isKnown(i, now)) continue
+    const opacity = swarm.opacity(i, now)
+    if (opacity === 0) continue
     const [x, y, isNear = true] = placeOf(columns, i)
-    ctx.globalAlpha = isNear ? 1 : 0.35
+    ctx.globalAlpha = (isNear ? 1 : 0.35) * opacity
     ctx.fillStyle = palette[Math.floor(i * palette.length / count)]
     circlePath(ctx, x, y, radius)
     ctx.fill()

@@ -97,7 +97,7 @@ def test_neighbours_approach_by_the_multiplier_of_the_cycle_forward_and_backward
     assert np.ptp(np.arctan2(ends[:, 0], ends[:, 1])) < 0.01
 
 
-def test_in_chaos_beads_vanish_when_they_are_not_known_any_more():
+def test_in_chaos_beads_fade_when_they_are_not_known_any_more():
     state, part = swarm_of("suslov", "A chaotic", swarm="8", span=3000.0)
     motion, found = state.motion(), part.motions
     assert found.until.min() < 0.9 * (found.times.size - 1)
@@ -105,11 +105,11 @@ def test_in_chaos_beads_vanish_when_they_are_not_known_any_more():
     share = int(found.until[i]) - 0.5
     (true,) = exact(motion, found.states[i, 0], [found.times[1] * share])
     assert (np.abs(interpolated(found.states[i], share) - true) * motion.weights).max() < PIXEL
-    assert any("vanish" in note or "shown up to" in note for note in state.notes())
+    assert any("fade" in note or "shown up to" in note for note in state.notes())
     # A regular motion is known to its end, and nothing is said.
     state, part = swarm_of("suslov-hess")
     assert part.motions.until.min() == part.motions.times.size - 1
-    assert not any("shown up to" in note or "vanish" in note for note in state.notes())
+    assert not any("shown up to" in note or "fade" in note for note in state.notes())
 
 
 @pytest.mark.parametrize("count", ["2", "8", "2000"])
@@ -178,7 +178,7 @@ def test_the_centres_of_mass_move_in_space_with_the_angular_velocity_of_their_bo
     found, sign = part.motions, -1.0 if sense == "backward" else 1.0
     columns = part.swarm.columns(state, found.times, found.states)
     times = found.times / state.body.frequency_unit
-    places = part._centres(times, columns)
+    places = part._centres(found, columns)
     r = np.asarray(state.solid.mass.along)
     for i in range(8):
         omega = np.column_stack([columns["omega1"][i], columns["omega2"][i], np.zeros(times.size)])

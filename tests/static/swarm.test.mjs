@@ -42,7 +42,10 @@ test("a step stays until the next sample", () => {
   assertNear(swarm.at("c0", 1), [1, 1])
 })
 
-test("a motion is known up to its own time", () => {
+test("a bead fades before its motion is not known any more, unless that is known to the end", () => {
   const swarm = swarmOf([[() => 0, () => 0]], [""])
-  assert.deepEqual([0, 1.25, 1.26, 4].map((t) => [0, 1].map((i) => swarm.isKnown(i, t))), [[true, true], [true, true], [true, false], [true, false]])
+  assert.deepEqual([0, 1.25, 1.26, 4].map((t) => swarm.opacity(0, t)), [1, 1, 1, 1])
+  // Known up to t = 1.25, and all the time in its last four samples.
+  const seen = [0, 0.5, 1.25, 1.26].map((t) => swarm.opacity(1, t))
+  seen.forEach((one, k) => assert.ok(Math.abs(one - [0.625, 0.375, 0, 0][k]) < 1e-6))
 })

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from hess_mechanics.numerics.results import Array, frozen
+from hess_mechanics.rigid_body.attitude_kernels import carry, rotate
 
 __all__ = ["Attitude", "attitude_along", "contact_arc", "orthonormal", "second_directions"]
 
@@ -85,17 +86,17 @@ def attitude_along(times: Array, omega: Array, gamma: Array) -> Attitude:
     Attitude
         The attitude at more times.
     """
-    (g, e, _), v, moved_g = _carried(times, omega.T, gamma.T)
-    step, length = np.diff(times), _length(v)
-    defect = float(np.max(np.abs(moved_g - g[:, 1:]), initial=0.0))
+    e, v, moved = (found[0] for found in _carried(times, omega[None], gamma[None]))
+    g = gamma / np.linalg.norm(gamma, axis=1)[:, None]
+    step, length = np.diff(times), np.linalg.norm(v, axis=1)
+    defect = float(np.max(np.abs(moved - g[1:]), initial=0.0))
     # Sample the total rotation in steps of TURN; the small term avoids a division by 0 for a body at rest.
     total = np.concatenate([[0.0], np.cumsum(length + 1e-12)])
     at = np.linspace(0.0, total[-1], max(2, int(min(MOST_TURNS, np.ceil(total[-1] / TURN))) + 1))
     i = np.clip(np.searchsorted(total, at, side="right") - 1, 0, len(step) - 1)
     share = (at - total[i]) / (total[i + 1] - total[i])
-    v, length = share * v[:, i], share * length[i]
-    g, e = _rotate((g[:, i], e[:, i]), v, length)
-    axes = np.stack([g.T, e.T, _cross(g, e).T], axis=1)
+    g, e = (_rotated(one[i], share[:, None] * v[i]) for one in (g, e))
+    axes = np.stack([g, e, np.cross(g, e)], axis=1)
     return Attitude(frozen(times[i] + share * step[i]), frozen(axes), defect)
 
 
@@ -116,8 +117,7 @@ def second_directions(times: Array, omega: Array, gamma: Array) -> Array:
     ndarray, shape (n, m, 3)
         Unit vectors e in the axes of the body, orthogonal to γ.
     """
-    (_, e, _), *_ = _carried(times, np.moveaxis(omega, 2, 0), np.moveaxis(gamma, 2, 0))
-    return np.moveaxis(e, 0, 2)
+    return _carried(times, omega, gamma)[0]
 
 
 def contact_arc(axes: Array, at: Sequence[float] | Array, e: Sequence[float] | Array) -> Array:
@@ -148,53 +148,19 @@ def contact_arc(axes: Array, at: Sequence[float] | Array, e: Sequence[float] | A
     return frozen(np.concatenate([[0.0], np.cumsum(arcs)]))
 
 
-def _carried(times: Array, w: Array, gamma: Array) -> tuple[tuple[Array, Array, Array], Array, Array]:
-    """Return γ, e and γ × e along orbits, the rotation of each step, and γ after it; columns (3, …, m) of ω and γ."""
-    step = np.diff(times)
-    slope = np.gradient(w, times, axis=-1) if len(times) > 2 else np.zeros_like(w)
-    # ė = e × ω is e → exp(−v×) e over a step.
-    v = 0.5 * step * (w[..., :-1] + w[..., 1:])
-    v += step**2 / 12.0 * (slope[..., :-1] - slope[..., 1:] + _cross(w[..., :-1], w[..., 1:]))
-    g, e, f = _frames(gamma)
-    moved_g, moved_e = _rotate((g[..., :-1], e[..., :-1]), v, _length(v))
-    turn = np.arctan2(_dot(moved_e, f[..., 1:]), _dot(moved_e, e[..., 1:]))
-    angle = np.concatenate([np.zeros_like(turn[..., :1]), np.cumsum(turn, axis=-1)], axis=-1)
-    e = np.cos(angle) * e + np.sin(angle) * f
-    return (g, e, _cross(g, e)), v, moved_g
+def _carried(times: Array, omega: Array, gamma: Array) -> tuple[Array, Array, Array]:
+    """Return e, the rotation of each step, and γ after it, of several orbits, see `carry`."""
+    n, m, _ = gamma.shape
+    e, v, moved = np.empty((n, m, 3)), np.empty((n, m - 1, 3)), np.empty((n, m - 1, 3))
+    carry(*map(np.ascontiguousarray, (times, omega, gamma)), e, v, moved)
+    return e, v, moved
 
 
-def _dot(u: Array, v: Array) -> Array:
-    return np.asarray(np.einsum("k...,k...->...", u, v))
-
-
-def _length(v: Array) -> Array:
-    return np.asarray(np.sqrt(_dot(v, v)))
-
-
-def _cross(u: Array, v: Array) -> Array:
-    """Return u × v of columns (3, …); `np.cross` takes several times as long."""
-    product = np.empty(u.shape)
-    for k in range(3):
-        i, j = (k + 1) % 3, (k + 2) % 3
-        np.subtract(u[i] * v[j], u[j] * v[i], out=product[k])
-    return product
-
-
-def _frames(gamma: Array) -> tuple[Array, Array, Array]:
-    """Return for each γ of (3, …) a right-handed frame with γ as the first axis."""
-    g = gamma / _length(gamma)
-    smallest = np.argmin(np.abs(g), axis=0)[None]
-    e = -g * np.take_along_axis(g, smallest, 0)
-    np.put_along_axis(e, smallest, np.take_along_axis(e, smallest, 0) + 1.0, 0)
-    e /= _length(e)
-    return g, e, _cross(g, e)
-
-
-def _rotate(several: tuple[Array, ...], v: Array, length: Array) -> tuple[Array, ...]:
-    """Return exp(−v×) u of each of several columns u (3, …), |v| = length (…)."""
-    sine, cosine = np.sinc(length / np.pi), 0.5 * np.sinc(0.5 * length / np.pi) ** 2
-    crossed = [(u, _cross(u, v)) for u in several]
-    return tuple(u + sine * first + cosine * _cross(first, v) for u, first in crossed)
+def _rotated(u: Array, v: Array) -> Array:
+    """Return exp(−v×) u for rows of u and v (n, 3)."""
+    out = np.empty(u.shape)
+    rotate(u, v, out)
+    return out
 
 
 def orthonormal(g: Array, e: Array) -> tuple[Array, float]:

@@ -13,7 +13,6 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 import numpy as np
-from scipy.interpolate import CubicSpline
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.specs import ChoiceSpec
@@ -140,7 +139,7 @@ class _SwarmPart(Part[Any]):
         if found is None:
             return None
         columns = {**self.swarm.columns(self.host, found.times, found.states)}
-        columns |= self._centres(found.times * self._motion.unit, columns)
+        columns |= self._centres(found, columns)
         values = np.array([one.T for one in columns.values()])
         low, high = np.nanmin(values, axis=(1, 2)), np.nanmax(values, axis=(1, 2))
         step = np.maximum((high - low) / 65534.0, 1e-300)
@@ -158,18 +157,24 @@ class _SwarmPart(Part[Any]):
             "palette": list(theme.SWARM),
         }
 
-    def _centres(self, times: Array, columns: Columns) -> Columns:
+    def _centres(self, motions: SwarmMotions, columns: Columns) -> Columns:
         """Return the places of the centres of mass, of a few constrained bodies; they start around the vertical."""
         mass = getattr(getattr(self.host, "solid", None), "mass", None)
         if mass is None or "omega1" not in columns or self.angles.size > _IN_SPACE:
             return {}
-        velocities = np.stack([columns["omega1"], columns["omega2"], 0.0 * columns["omega1"]], axis=2)
-        verticals = np.stack([columns[f"g{i}"] for i in (1, 2, 3)], axis=2)
-        fine = np.linspace(0.0, times[-1], 2 * times.size - 1)
-        velocities, verticals = (
-            CubicSpline(self._sign * times, one, axis=1)(self._sign * fine) for one in (velocities, verticals)
-        )
-        second = second_directions(fine, velocities, verticals)[:, ::2]
+        times = motions.times
+        between = self.swarm.columns(self.host, 0.5 * (times[1:] + times[:-1]), motions.halfway)
+
+        def stacked(*names: str) -> Array:
+            """Return vectors (n, 2m − 1, 3) at the samples and halfway between them."""
+            found = np.zeros((*motions.states.shape[:1], 2 * times.size - 1, 3))
+            for k, name in enumerate(names):
+                found[:, ::2, k], found[:, 1::2, k] = columns[name], between[name]
+            return found
+
+        verticals = stacked("g1", "g2", "g3")
+        fine = np.linspace(0.0, times[-1], verticals.shape[1])
+        second = second_directions(self._motion.unit * fine, stacked("omega1", "omega2"), verticals)[:, ::2]
         verticals = verticals[:, ::2]
         down, e, f = (one @ mass.along for one in (verticals, second, np.cross(verticals, second)))
         # A turn about γ is free.
@@ -222,7 +227,7 @@ class _SwarmPart(Part[Any]):
         if ends.max() < 0.99 * abs(self._motion.span):
             yield f"The {ends.size} bodies are shown up to t = {digits(float(ends.max()) * self._motion.unit)}."
         elif ends.min() < 0.99 * abs(self._motion.span):
-            yield "Beads vanish when they are not known to half a pixel any more."
+            yield "Beads fade when they are no longer known to half a pixel."
 
     @property
     def reason(self) -> str:

@@ -78,6 +78,8 @@ class SwarmMotions:
         Times of the system, of either sign.
     states : array (n, m, d)
         States.
+    halfway : array (n, m − 1, d)
+        States halfway between these times.
     until : array (n,)
         Index of the sample up to which each motion is right to half a pixel, a real number.
     errors : array (n,)
@@ -86,6 +88,7 @@ class SwarmMotions:
 
     times: Array
     states: Array
+    halfway: Array
     until: Array
     errors: Array
 
@@ -153,4 +156,5 @@ def swarm_motions(
     errors += np.repeat(_interpolation_errors(found.states, weights), 2, axis=1)
     wrong = ~(errors <= ERROR)
     until = np.where(wrong.any(axis=1), 0.5 * np.argmax(wrong, axis=1), m - 1.0)
-    return SwarmMotions(found.times[::2], found.states[:, ::2].copy(), until, found.errors * weights.max())
+    states, halfway = (found.states[:, i::2].copy() for i in range(2))
+    return SwarmMotions(found.times[::2], states, halfway, until, found.errors * weights.max())
