@@ -6,6 +6,7 @@ from pytest import approx
 from scipy.interpolate import CubicSpline
 
 import oracle
+from hess_explorer.compute.cache import CACHE
 from hess_explorer.export.columns import columns_of
 from hess_explorer.export.picture_data import picture_data
 from hess_explorer.protocol.wire import Wire
@@ -95,6 +96,28 @@ def test_neighbours_approach_by_the_multiplier_of_the_cycle_forward_and_backward
     # Backward they end on the unstable cycle.
     ends = part.motions.states[:, -1]
     assert np.ptp(np.arctan2(ends[:, 0], ends[:, 1])) < 0.01
+
+
+def computed(name, words="", **values):
+    """The swarm of a state whose tasks are done."""
+    for _ in range(4):
+        state, part = swarm_of(name, words, **values)
+        part.expected
+        for task in state.work.todo:
+            CACHE.get(task.function, *task.arguments)
+    return part
+
+
+def test_the_graph_has_the_exponent_of_the_chosen_orbit_if_that_is_chaotic_and_time_runs_forward():
+    part = computed("suslov", "A chaotic")
+    times, growth = part.expected
+    exponent = part.host.exponent.result
+    assert np.log(growth) == approx(exponent.value * times)
+    assert "λ = " in part.caption.numbers
+    assert computed("suslov", "A chaotic", swarm_time="backward").expected is None
+    regular = computed("suslov", "egular")
+    assert regular.host.exponent.result.is_regular
+    assert regular.expected is None
 
 
 def test_in_chaos_beads_fade_when_they_are_not_known_any_more():

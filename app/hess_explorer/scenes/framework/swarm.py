@@ -66,8 +66,8 @@ class Swarm(Generic[S]):
     period : callable
         `period(state)` returns the period at whose multiples the steps lie, in the time of the system, or None.
     rate : callable
-        `rate(state)` returns the rate, per unit of t, at which neighbours separate in the end, expected in either
-        sense of time, and its name; or None.
+        `rate(state)` returns the rate, per unit of t, at which neighbours separate in the end, expected in the sense
+        of time of the swarm, and its name; or None.
     """
 
     starts: Callable[[S, Array], Array]
@@ -98,7 +98,11 @@ def turned_swarm(
         flat = more(state, states.reshape(-1, states.shape[-1]))
         return {**found, **{name: one.reshape(states.shape[:2]) for name, one in flat.items()}}
 
-    return Swarm(lambda state, angles: turned(state.motion(), angles), columns, angles)
+    def rate(state: Any) -> tuple[float, str] | None:
+        # Backward in time another exponent is the largest.
+        return state.exponent.separation if state.swarm_time == FORWARD and hasattr(state, "exponent") else None
+
+    return Swarm(lambda state, angles: turned(state.motion(), angles), columns, angles, rate=rate)
 
 
 @dataclass(frozen=True, eq=False)

@@ -112,6 +112,16 @@ class OrbitExponent(Part[_Host]):
         kind = "Looks regular." if found.is_regular else grows
         return Caption(kind, f"λ = {with_error(found.value, found.spread)} after t = {digits(end)}.")
 
+    @property
+    def separation(self) -> tuple[float, str] | None:
+        """The rate at which neighbours of the orbit separate in the end, and its name; None if unknown or regular."""
+        if self.growth is not None:
+            return self.growth[0], f"Near the periodic orbit: ln|μ₁|/T = {digits(self.growth[0])}"
+        found = self.result
+        if found is None or found.is_regular:
+            return None
+        return found.value, f"λ = {with_error(found.value, found.spread)} along the chosen orbit"
+
     def notes(self) -> Iterator[str]:
         """Yield the reason why the motion ends early, with time and place."""
         if self.has_result("_answer") and isinstance(self._answer, NotFound):
