@@ -5,8 +5,8 @@ import { element } from "../base/elements.js"
 import { byHand } from "../base/windows.js"
 import { unbroken } from "./unbroken.js"
 
-const CROSS = "arrow keys move a cross, Enter chooses"
-const RING = "arrow keys move the ring"
+const CROSS = "arrow keys move a cross, Enter chooses, + and − zoom, 0 shows the whole"
+const RING = "arrow keys move the ring, + and − zoom, 0 shows the whole"
 // Tooltip of a picture and actions of the keyboard, see "plot_keys.js", by what the mouse does there.
 /** @type {Record<string, [string, string]>} */
 const HANDS = {

@@ -181,7 +181,7 @@ export async function buildPlot(host, picture, source) {
   const touch = connectTouch(host, plot, { places: () => placesOf(plot, picture.handle, source), boxes, isAlone: zoom.isAlone })
   connectPicks(model, picks, source(`${picture.name}-box`), { ...touch, ...zoom })
   if (picture.hands !== "") {
-    connectKeys(host, plot, { picks, places: picture.handle === null ? null : () => placesOf(plot, picture.handle, source) })
+    connectKeys(host, plot, { picks, zoom, places: picture.handle === null ? null : () => placesOf(plot, picture.handle, source) })
   }
   return plot
 }

@@ -1,6 +1,6 @@
 // @ts-check
 // The keyboard in a plot: arrow keys move the handle by a pixel, with Shift by ten.  A plot without a handle has a cross, which
-// Enter chooses.
+// Enter chooses.  The plot is zoomed at the handle or the cross.
 
 import { listen, tell } from "../base/bus.js"
 import { element } from "../base/elements.js"
@@ -9,15 +9,17 @@ import { within } from "../base/numbers.js"
 import { choose } from "./picks.js"
 
 const FAR = 10
+/** @type {Record<string, number>} */
+const FACTORS = { "+": 0.8, "=": 0.8, "-": 1.25 }
 
 /**
  * Let the keyboard choose in a plot.
  * @param {HTMLElement} host holds the plot
  * @param {PlotView} plot
- * @param {{picks: string[], places: (() => number[][]) | null}} what the events of the plot, see "picks.js", and the places of
- *   its handle in pixels
+ * @param {{picks: string[], places: (() => number[][]) | null, zoom: {by: (factor: number, place: number[]) => void, restore: () => void}}} what
+ *   the events of the plot, see "picks.js", the places of its handle in pixels, and its zoom
  */
-export function connectKeys(host, plot, { picks, places }) {
+export function connectKeys(host, plot, { picks, places, zoom }) {
   const { frame, model } = plot
   const cross = element("span.cross", { ariaHidden: true, hidden: true })
   host.append(cross)
@@ -38,10 +40,15 @@ export function connectKeys(host, plot, { picks, places }) {
     put()
   }
 
+  function here() {
+    const { x0, x1, y0, y1 } = frame.bbox
+    return at ?? places?.()[0] ?? [(x0 + x1) / 2, (y0 + y1) / 2]
+  }
+
   /** @param {number[]} arrow @param {number} step */
   function move([across, up], step) {
     const { x0, x1, y0, y1 } = frame.bbox
-    const from = at ?? places?.()[0] ?? [(x0 + x1) / 2, (y0 + y1) / 2]
+    const from = here()
     at = [within(from[0] + step * across, x0, x1), within(from[1] - step * up, y0, y1)]
     const [x, y] = valuesAt()
     if (places !== null) return choose(model, x, y, false)
@@ -53,6 +60,8 @@ export function connectKeys(host, plot, { picks, places }) {
     if (isPointed || event.ctrlKey || event.metaKey || event.altKey) return
     const arrow = arrowOf(event)
     if (arrow !== undefined) move(arrow, event.shiftKey ? FAR : 1)
+    else if (event.key in FACTORS) zoom.by(FACTORS[event.key], here())
+    else if (event.key === "0") zoom.restore()
     else if (event.key === "Enter" && at !== null && places === null) {
       const [x, y] = valuesAt()
       choose(model, x, y, false)

@@ -6,8 +6,8 @@ import pytest
 from playwright.sync_api import expect
 
 from support.accessible import assert_accessible
-from support.page import ALL
-from support.pointer import at
+from support.page import ALL, wait_frames
+from support.pointer import at, shares
 
 
 def test_arrow_keys_move_the_ring_of_the_bifurcation_diagram_by_pixels(explorer):
@@ -27,6 +27,18 @@ def test_arrow_keys_move_the_ring_of_the_bifurcation_diagram_by_pixels(explorer)
     assert explorer.shown("f")[0] == pytest.approx(explorer.here()[1], rel=1e-6)
     assert explorer.time == 0.0
     assert_accessible(page, host)
+    # The place of the ring stays where it is.
+    before, ring = explorer.axes("bifurcation"), explorer.here()
+    where = shares(explorer, "bifurcation", *ring)
+    for key in ("+", "+", "-"):
+        host.press(key)
+    wait_frames(explorer)
+    x0, x1, *_ = explorer.axes("bifurcation")
+    assert x1 - x0 == pytest.approx(0.8 * (before[1] - before[0]), rel=1e-6)
+    assert shares(explorer, "bifurcation", *ring) == pytest.approx(where, abs=0.01)
+    host.press("0")
+    assert explorer.axes("bifurcation") == before
+    assert explorer.here() == ring
 
 
 def test_enter_chooses_the_place_of_the_cross_in_a_section(explorer):
