@@ -212,7 +212,7 @@ ROWS = {
     # Of the start ω = (2, 1e-5) of figure 4.
     "scattering": {"δ is $5\\cdot10^{-6}$": lambda s: (1e-5 / np.hypot(2.0, 1e-5),)},
     "suslov": {
-        "They have rank 4": rank,
+        "of rank 4": rank,
         "the other has period 7": other_period,
         "$-0.00046\\pm0.00003$ forward in time and $0.00045\\pm0.00003$": lambda s: divergences(
             "suslov", "A chaotic sea", 40_000.0
