@@ -129,7 +129,7 @@ class Places:
         if not inside:
             low, high = (",".join(map(plain, corner)) for corner in (self.low, self.high))
             return self.default, (f"{self.label} must be points x,y;x,y from {low} to {high}: the default is shown.")
-        note = f"{self.label} may be at most {self.most}: the last ones are kept." if len(pairs) > self.most else None
+        note = f"{self.label} can hold at most {self.most}: the last ones are kept." if len(pairs) > self.most else None
         return places_text(pairs[-self.most :]), note
 
 

@@ -183,7 +183,7 @@ class EulerPoisson(FilledState):
         doc="Where two momenta G have this energy at the same point of the section: the one with which orbits start.",
     )
     shade: str = shading()
-    starts: str = places("The places of the chosen orbits", 12, *_BOUNDS, "0,0.2")
+    starts: str = places("The points of the chosen orbits", 12, *_BOUNDS, "0,0.2")
     window: str = places("The window of the section", 2, *_BOUNDS)
 
     weights: ClassVar[tuple[float, ...]] = (0.0, 0.0, 0.0, *(0.5 * PIXELS,) * 3)

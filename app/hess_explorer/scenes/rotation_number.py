@@ -45,7 +45,7 @@ _ITERATES = 40
 
 
 PRESETS = (
-    Preset("One plateau, and no ladder", over="h, f", line="f"),
+    Preset("One plateau, no devil's staircase", over="h, f", line="f"),
     Preset("Along h", over="h, f", line="h", f=0.6),
     Preset("Along a, to the boundary of the plateau", over="h, a", line="a", h=0.5, f=0.6),
     Preset(
@@ -248,13 +248,13 @@ SCENE = Scene(
     answers=(
         Answer("On the separatrix nothing returns: there is no rotation number.", lambda s: s.map is None),
         Answer(
-            "Locked: two loops exist, and the rotation number stays a whole number.",
+            "Locked: two loops exist, and the rotation number stays an integer.",
             lambda s: s.map is not None and s.map.kind == "hyperbolic",
         ),
         Answer("Not locked: the body winds on, and its rotation number changes smoothly."),
     ),
     title="Rotation number",
-    summary="Is ρ of the Suslov–Hess torus a ladder, as the paper asks? It has one plateau; another family has many.",
+    summary="Is ρ of the Suslov–Hess torus a devil's staircase, as the paper asks? It has one plateau; another family has many.",
     views=(
         rotation_map(lambda s: s.rho),
         Plot(

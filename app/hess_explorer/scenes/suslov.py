@@ -116,7 +116,7 @@ class Suslov(FilledState):
     )
     drop: str = choice("Points shown", ("all", _LATE), "all", doc="The later half shows the attractor.")
     span: float = time_span(60.0, 400.0, what="the chosen orbit")
-    starts: str = places("The places of the chosen orbits", 12, *_BOUNDS, "1,1")
+    starts: str = places("The points of the chosen orbits", 12, *_BOUNDS, "1,1")
     window: str = places("The window of the section", 2, *_BOUNDS)
 
     def valid_state(self, notes: list[str]) -> Suslov:
@@ -234,7 +234,7 @@ SCENE = Scene(
             "On a principal axis volume is preserved: nothing attracts, in either direction of time.",
             lambda s: s.I13 == s.I23 == 0.0,
         ),
-        Answer("Each dot is one return: dots on a line are a regular motion, a cloud of dots is chaos."),
+        Answer("Each dot is one return: dots on a curve are a regular motion, a cloud of dots is chaos."),
     ),
     title="Suslov problem with gravity",
     summary="Regular orbits, seas, strange attractors: sections forward and backward in time.",

@@ -222,7 +222,7 @@ class _SwarmPart(Part[Any]):
         if ends.max() < 0.99 * abs(self._motion.span):
             yield f"The {ends.size} bodies are shown up to t = {digits(float(ends.max()) * self._motion.unit)}."
         elif ends.min() < 0.99 * abs(self._motion.span):
-            yield "Beads vanish when they are not known to half a pixel any more."
+            yield "Dots vanish once their error exceeds half a pixel."
 
     @property
     def reason(self) -> str:
@@ -253,7 +253,7 @@ def with_swarm(state: type[Any], swarm: Swarm[Any]) -> type[Any]:
     specs = (
         _choice("swarm", "Bodies", _COUNTS, "How many bodies move at once, each from its own start."),
         _choice("swarm_from", "Starts", (SPREAD, NEAR), "All around, or within 2 % of a turn of the chosen start."),
-        _choice("swarm_time", "Time of the swarm", (FORWARD, BACKWARD), "Backward, the beads go where they came from."),
+        _choice("swarm_time", "Time of the swarm", (FORWARD, BACKWARD), "Backward: where the motions came from."),
     )
     return make_dataclass(
         state.__name__,

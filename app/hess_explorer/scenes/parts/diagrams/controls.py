@@ -112,14 +112,14 @@ class DiagramControls(State, ABC):
         (NONE, *PERIODS),
         NONE,
         group="State",
-        doc="Over the diagram: the periodic orbit that Newton's method finds near the chosen place, "
+        doc="Over the diagram: the periodic orbit that Newton's method finds near the chosen point,  "
         "continued in the parameter, through folds. A click on it shows that orbit.",
     )
     span: float = time_span(60.0, 400.0, what="the chosen orbit")
     long: float = exponent_time(4000.0, 5000.0, 2e4, "the mean divergence is")
     certain: str = show_proved_error()
     accuracy: str = accuracy_level()
-    chosen: str = places("The place of the chosen orbit", 1, *BOUNDS)
+    chosen: str = places("The point of the chosen orbit", 1, *BOUNDS)
 
     symbols: ClassVar[Mapping[str, str]]
 

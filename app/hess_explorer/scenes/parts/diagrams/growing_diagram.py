@@ -249,7 +249,7 @@ class OrbitDiagram(Part[DiagramControls]):
     def notes(self) -> Iterator[str]:
         """Yield the reason why a doubling could not be located."""
         if self.has_result("cascade") and isinstance(self.cascade, str):
-            yield f"The doubling that is seen was not located: {self.cascade}"
+            yield f"A visible doubling was not located:  {self.cascade}"
 
 
 @dataclass(frozen=True, eq=False)

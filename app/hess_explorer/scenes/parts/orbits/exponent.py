@@ -148,7 +148,7 @@ def exponent_trial() -> Trial[Any]:
         ("exponent",),
         lambda s, plan: s.exponent.at(plan),
         lambda s, found, truth: abs(found.value - truth.value) / max(truth.spread, 1e-12),
-        unit="of what it changes by in the second half of its time",
+        unit="of its change in the second half of the time",
         tolerance=10.0,
         most=(("long", _LONG),),
     )

@@ -249,13 +249,13 @@ class SectionPeriodicOrbit(Part[Section]):
         yield from (f"A branch of a manifold ends early. {reason}" for reason in sorted(reasons))
         if any(one.status is not Status.OK for one in self.manifolds):
             yield (
-                "The manifolds are less exact than their picture: choose a shorter length of manifolds, or a higher "
+                "The manifolds are not known to half a pixel: choose a shorter length of manifolds, or a higher "
                 "accuracy."
             )
         apart = sum(not one.certain for some in self._intersections or () for one in some)
         if apart:
             yield (
-                f"At {apart} more place{'s' * (apart > 1)} the manifolds meet within their error: whether they "
+                f"At {apart} more point{'s' * (apart > 1)} the manifolds meet within their error: whether they "
                 "cross there is not known."
             )
         orbit = self._saddle

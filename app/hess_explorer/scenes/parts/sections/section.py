@@ -54,7 +54,7 @@ def start_on(section: PoincareSection, text: str) -> Start:
     states, there = section.states_at(*np.array(places(text)[-1:]).reshape(-1, 2).T)
     if not there.any():
         names = " and ".join(section.names)
-        raise OutsideRegion(f"No motion crosses the section at this {names}: choose another place, or a larger energy.")
+        raise OutsideRegion(f"No motion crosses the section at this {names}: choose another point, or a larger energy.")
     return tuple(map(float, states[0]))
 
 
