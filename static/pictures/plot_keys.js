@@ -14,10 +14,10 @@ const FAR = 10
  * Let the keyboard choose in a plot.
  * @param {HTMLElement} host holds the plot
  * @param {PlotView} plot
- * @param {{picks: string[], places: (() => number[][]) | null}} what the events of the plot, see "picks.js", and the places of
+ * @param {{picks: string[], points: (() => number[][]) | null}} what the events of the plot, see "picks.js", and the points of
  *   its handle in pixels
  */
-export function connectKeys(host, plot, { picks, places }) {
+export function connectKeys(host, plot, { picks, points }) {
   const { frame, model } = plot
   const cross = element("span.cross", { ariaHidden: true, hidden: true })
   host.append(cross)
@@ -41,10 +41,10 @@ export function connectKeys(host, plot, { picks, places }) {
   /** @param {number[]} arrow @param {number} step */
   function move([across, up], step) {
     const { x0, x1, y0, y1 } = frame.bbox
-    const from = at ?? places?.()[0] ?? [(x0 + x1) / 2, (y0 + y1) / 2]
+    const from = at ?? points?.()[0] ?? [(x0 + x1) / 2, (y0 + y1) / 2]
     at = [within(from[0] + step * across, x0, x1), within(from[1] - step * up, y0, y1)]
     const [x, y] = valuesAt()
-    if (places !== null) return choose(model, x, y, false)
+    if (points !== null) return choose(model, x, y, false)
     put()
     if (picks.includes("hover")) tell("hover", [model.name, x, y])
   }
@@ -53,7 +53,7 @@ export function connectKeys(host, plot, { picks, places }) {
     if (isPointed || event.ctrlKey || event.metaKey || event.altKey) return
     const arrow = arrowOf(event)
     if (arrow !== undefined) move(arrow, event.shiftKey ? FAR : 1)
-    else if (event.key === "Enter" && at !== null && places === null) {
+    else if (event.key === "Enter" && at !== null && points === null) {
       const [x, y] = valuesAt()
       choose(model, x, y, false)
     } else return
@@ -69,5 +69,5 @@ export function connectKeys(host, plot, { picks, places }) {
     isPointed = true
     leave()
   })
-  listen({ painted() { if (places !== null) at = null } })
+  listen({ painted() { if (points !== null) at = null } })
 }

@@ -159,7 +159,7 @@ class _SwarmPart(Part[Any]):
         }
 
     def _centres(self, times: Array, columns: Columns) -> Columns:
-        """Return the places of the centres of mass, of a few constrained bodies; they start around the vertical."""
+        """Return the positions of the centres of mass, of a few constrained bodies; they start around the vertical."""
         mass = getattr(getattr(self.host, "solid", None), "mass", None)
         if mass is None or "omega1" not in columns or self.angles.size > _IN_SPACE:
             return {}
@@ -176,8 +176,8 @@ class _SwarmPart(Part[Any]):
         own = self.host.solid.attitude.in_space(mass.along)[0]
         turn = self.angles + math.atan2(own[2], own[1]) - np.arctan2(f[:, 0], e[:, 0])
         across = np.exp(1j * turn)[:, None] * (e + 1j * f)
-        places = seen_in_space(np.stack([down, across.real, across.imag], axis=2))
-        return {f"m{name}": places[..., i] for i, name in enumerate("xyz")}
+        positions = seen_in_space(np.stack([down, across.real, across.imag], axis=2))
+        return {f"m{name}": positions[..., i] for i, name in enumerate("xyz")}
 
     @cached_property
     def spread(self) -> tuple[Array, Array] | None:

@@ -15,7 +15,7 @@ from hess_explorer.scenes.framework.sliders import (
     choice,
     exponent_time,
     number,
-    places,
+    points,
     show_proved_error,
     time_span,
 )
@@ -106,7 +106,7 @@ class DiagramControls(State, ABC):
         doc="Crossings drawn at each value, after those left out.",
         group="Computation",
     )
-    window: str = places("The window of the diagram", 2, *BOUNDS)
+    window: str = points("The window of the diagram", 2, *BOUNDS)
     branch: str = choice(
         "Branch of a periodic orbit",
         (NONE, *PERIODS),
@@ -119,7 +119,7 @@ class DiagramControls(State, ABC):
     long: float = exponent_time(4000.0, 5000.0, 2e4, "the mean divergence is")
     certain: str = show_proved_error()
     accuracy: str = accuracy_level()
-    chosen: str = places("The point of the chosen orbit", 1, *BOUNDS)
+    chosen: str = points("The point of the chosen orbit", 1, *BOUNDS)
 
     symbols: ClassVar[Mapping[str, str]]
 

@@ -113,7 +113,7 @@ class OrbitExponent(Part[_Host]):
         return Caption(kind, f"λ = {with_error(found.value, found.spread)} after t = {digits(end)}.")
 
     def notes(self) -> Iterator[str]:
-        """Yield the reason why the motion ends early, with time and place."""
+        """Yield the reason why the motion ends early, with time and point."""
         if self.has_result("_answer") and isinstance(self._answer, NotFound):
             yield self._answer.reason
 
