@@ -92,7 +92,7 @@ class SingularMeasures(State):
     b3: float = parameter(
         known.B3,
         1.0,
-        label="Field b₃ of the cloud beside",
+        label="Field b₃ of the second cloud",
         group="State",
         doc="With I₁₃ = I₂₃ = 0 nothing would move without a field; the first cloud has none.",
     )

@@ -241,7 +241,9 @@ class _SwarmPart(Part[Any]):
         rate = self.swarm.rate(self.host)
         median = digits(float(self.spread[1][1, -1]), 2)
         said = "" if rate is None else f" {rate[1]}."
-        return Caption(f"Neighbours at the end: {median} times as far apart (median).", f"Between: 8 of 10.{said}")
+        return Caption(
+            f"Neighbours at the end: {median} times as far apart (median).", f"Thin lines enclose 8 of 10.{said}"
+        )
 
 
 def _choice(name: str, label: str, options: tuple[str, ...], doc: str) -> ChoiceSpec:

@@ -219,7 +219,7 @@ class OrbitDiagram(Part[DiagramControls]):
         """Return the caption: progress, period doublings or periods; `points` is a sentence on their number."""
         known, asked = sum(self.progress.values()), self.along_values.size * len(self._ramps)
         if known < asked:
-            return Caption(self.work.pending_caption(), f"{known} of {asked} values are known.")
+            return Caption(self.work.pending_caption(), f"{known} of {asked} values computed.")
         if all(one.conservative.all() for one in self.pieces[RISING]):
             return Caption("Volume is preserved: no attractors.", f"{points}One orbit for each value.")
         found = self.cascade

@@ -182,7 +182,7 @@ class SectionBasins(Part[_Host]):
         if self._what is None:
             return None
         if self.attractors is None:
-            return Caption(self.work.pending_caption(), "Basins: attractors of 256 orbits first.")
+            return Caption(self.work.pending_caption(), "Searching for attractors with 256 orbits.")
         largest, count = self.attractors.largest, self.attractors.count
         if largest is None:
             return Caption("No motion returns to the section.")
@@ -196,7 +196,7 @@ class SectionBasins(Part[_Host]):
         m, n = numbers.shape[::-1]
         said = "" if self.is_complete else f" So far {m} × {n} cells."
         lost = 100.0 * float(np.mean(there == LOST))
-        late = f" {digits(lost, 2)} % arrive nowhere in {CROSSINGS} crossings." if lost else ""
+        late = f" {digits(lost, 2)} % reach no attractor in {CROSSINGS} crossings." if lost else ""
         if count == 1:
             words = "One attractor for all orbits." if not lost else "One attractor."
             return Caption(words, f"{div}.{late}{said}" if self.attractors.alone else f"{late}{said}".strip())

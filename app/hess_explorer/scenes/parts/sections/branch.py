@@ -54,7 +54,7 @@ def end_of_branch(word: str) -> Any:
         bounds=_FARTHEST,
         label=f"Branch {word}",
         group="Computation",
-        doc="In “Branch of the periodic orbit”. With both ends alike: about the value that the parameter has.",
+        doc="Range of “Branch of the periodic orbit”. If both ends are equal, it surrounds the current value.",
     )
 
 
