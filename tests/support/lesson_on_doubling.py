@@ -79,7 +79,7 @@ ROWS = {
     "There are two.": lambda s: (number_of_points(s.prediction.then),),
     "line means period 1. It splits: from there on the period is 2.": lambda s: cascade().periods[:2],
     "passes −1: the": multipliers,
-    "the motion of period 1 does": lambda s: cascade().periods[:1],
+    "the motion of period 1 no longer": lambda s: cascade().periods[:1],
     "$I_{23}$ = −0.0498, 0.0873, 0.1282 and 0.1376, for the periods 1, 2, 4 and 8. The distances between "
     "them shrink by the factors 3.357 and 4.328": first_cascade,
     "such factors tend to 4.669": lambda s: (FEIGENBAUM,),
