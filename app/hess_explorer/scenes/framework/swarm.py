@@ -161,8 +161,13 @@ class _SwarmPart(Part[Any]):
             "palette": list(theme.SWARM),
         }
 
+<<<<<<< HEAD
     def _centres(self, motions: SwarmMotions, columns: Columns) -> Columns:
         """Return the places of the centres of mass, of a few constrained bodies; they start around the vertical."""
+=======
+    def _centres(self, times: Array, columns: Columns) -> Columns:
+        """Return the positions of the centres of mass, of a few constrained bodies; they start around the vertical."""
+>>>>>>> words1
         mass = getattr(getattr(self.host, "solid", None), "mass", None)
         if mass is None or "omega1" not in columns or self.angles.size > _IN_SPACE:
             return {}
@@ -185,8 +190,8 @@ class _SwarmPart(Part[Any]):
         own = self.host.solid.attitude.in_space(mass.along)[0]
         turn = self.angles + math.atan2(own[2], own[1]) - np.arctan2(f[:, 0], e[:, 0])
         across = np.exp(1j * turn)[:, None] * (e + 1j * f)
-        places = seen_in_space(np.stack([down, across.real, across.imag], axis=2))
-        return {f"m{name}": places[..., i] for i, name in enumerate("xyz")}
+        positions = seen_in_space(np.stack([down, across.real, across.imag], axis=2))
+        return {f"m{name}": positions[..., i] for i, name in enumerate("xyz")}
 
     @cached_property
     def spread(self) -> tuple[Array, Array] | None:
@@ -231,7 +236,11 @@ class _SwarmPart(Part[Any]):
         if ends.max() < 0.99 * abs(self._motion.span):
             yield f"The {ends.size} bodies are shown up to t = {digits(float(ends.max()) * self._motion.unit)}."
         elif ends.min() < 0.99 * abs(self._motion.span):
+<<<<<<< HEAD
             yield "Beads fade when they are no longer known to half a pixel."
+=======
+            yield "Dots vanish once their error exceeds half a pixel."
+>>>>>>> words1
 
     @property
     def reason(self) -> str:
@@ -250,7 +259,9 @@ class _SwarmPart(Part[Any]):
         rate = self.swarm.rate(self.host)
         median = digits(float(self.spread[1][1, -1]), 2)
         said = "" if rate is None else f" {rate[1]}."
-        return Caption(f"Neighbours at the end: {median} times as far apart (median).", f"Between: 8 of 10.{said}")
+        return Caption(
+            f"Neighbours at the end: {median} times as far apart (median).", f"Thin lines enclose 8 of 10.{said}"
+        )
 
 
 def _choice(name: str, label: str, options: tuple[str, ...], doc: str) -> ChoiceSpec:
@@ -262,7 +273,7 @@ def with_swarm(state: type[Any], swarm: Swarm[Any]) -> type[Any]:
     specs = (
         _choice("swarm", "Bodies", _COUNTS, "How many bodies move at once, each from its own start."),
         _choice("swarm_from", "Starts", (SPREAD, NEAR), "All around, or within 2 % of a turn of the chosen start."),
-        _choice("swarm_time", "Time of the swarm", (FORWARD, BACKWARD), "Backward, the beads go where they came from."),
+        _choice("swarm_time", "Time of the swarm", (FORWARD, BACKWARD), "Backward: where the motions came from."),
     )
     return make_dataclass(
         state.__name__,
