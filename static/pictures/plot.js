@@ -181,11 +181,7 @@ export async function buildPlot(host, picture, source) {
   const touch = connectTouch(host, plot, { points: () => pointsOf(plot, picture.handle, source), boxes, isAlone: zoom.isAlone })
   connectPicks(model, picks, source(`${picture.name}-box`), { ...touch, ...zoom })
   if (picture.hands !== "") {
-<<<<<<< HEAD
-    connectKeys(host, plot, { picks, zoom, places: picture.handle === null ? null : () => placesOf(plot, picture.handle, source) })
-=======
-    connectKeys(host, plot, { picks, points: picture.handle === null ? null : () => pointsOf(plot, picture.handle, source) })
->>>>>>> words1
+    connectKeys(host, plot, { picks, zoom, points: picture.handle === null ? null : () => pointsOf(plot, picture.handle, source) })
   }
   return plot
 }

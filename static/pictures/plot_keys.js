@@ -16,17 +16,10 @@ const FACTORS = { "+": 0.8, "=": 0.8, "-": 1.25 }
  * Let the keyboard choose in a plot.
  * @param {HTMLElement} host holds the plot
  * @param {PlotView} plot
-<<<<<<< HEAD
- * @param {{picks: string[], places: (() => number[][]) | null, zoom: {by: (factor: number, place: number[]) => void, restore: () => void}}} what
- *   the events of the plot, see "picks.js", the places of its handle in pixels, and its zoom
+ * @param {{picks: string[], points: (() => number[][]) | null, zoom: {by: (factor: number, place: number[]) => void, restore: () => void}}} what
+ *   the events of the plot, see "picks.js", the points of its handle in pixels, and its zoom
  */
-export function connectKeys(host, plot, { picks, places, zoom }) {
-=======
- * @param {{picks: string[], points: (() => number[][]) | null}} what the events of the plot, see "picks.js", and the points of
- *   its handle in pixels
- */
-export function connectKeys(host, plot, { picks, points }) {
->>>>>>> words1
+export function connectKeys(host, plot, { picks, points, zoom }) {
   const { frame, model } = plot
   const cross = element("span.cross", { ariaHidden: true, hidden: true })
   host.append(cross)
@@ -49,17 +42,13 @@ export function connectKeys(host, plot, { picks, points }) {
 
   function here() {
     const { x0, x1, y0, y1 } = frame.bbox
-    return at ?? places?.()[0] ?? [(x0 + x1) / 2, (y0 + y1) / 2]
+    return at ?? points?.()[0] ?? [(x0 + x1) / 2, (y0 + y1) / 2]
   }
 
   /** @param {number[]} arrow @param {number} step */
   function move([across, up], step) {
     const { x0, x1, y0, y1 } = frame.bbox
-<<<<<<< HEAD
     const from = here()
-=======
-    const from = at ?? points?.()[0] ?? [(x0 + x1) / 2, (y0 + y1) / 2]
->>>>>>> words1
     at = [within(from[0] + step * across, x0, x1), within(from[1] - step * up, y0, y1)]
     const [x, y] = valuesAt()
     if (points !== null) return choose(model, x, y, false)
@@ -71,13 +60,9 @@ export function connectKeys(host, plot, { picks, points }) {
     if (isPointed || event.ctrlKey || event.metaKey || event.altKey) return
     const arrow = arrowOf(event)
     if (arrow !== undefined) move(arrow, event.shiftKey ? FAR : 1)
-<<<<<<< HEAD
     else if (event.key in FACTORS) zoom.by(FACTORS[event.key], here())
     else if (event.key === "0") zoom.restore()
-    else if (event.key === "Enter" && at !== null && places === null) {
-=======
     else if (event.key === "Enter" && at !== null && points === null) {
->>>>>>> words1
       const [x, y] = valuesAt()
       choose(model, x, y, false)
     } else return
