@@ -399,7 +399,7 @@ L_PENDULUM = Parameter(
     (0.02, 3.12),
     0.01,
     (1e-3, math.pi - 1e-3),
-    "Angle of the middle axis from M, which is horizontal, when the centre of mass passes its lowest place.",
+    "Angle of the middle axis from M, which is horizontal, when the centre of mass passes its lowest position.",
     unit="rad",
 )
 
@@ -444,7 +444,7 @@ H_QUARTIC = Parameter(
     (-0.9, 4.0),
     0.01,
     (-1e2, 1e3),
-    "Above −|b₃|. Beyond |b₃| the point may not come near the middle.",
+    "Above −|b₃|. Above |b₃| the point cannot reach the middle.",
 )
 
 # ---- where a motion starts, and how long it is followed -------------------------------------------------------------

@@ -31,7 +31,7 @@ export function comparison() {
       if (compared === null) return
       const { title, isPinnedShown, rows } = compared
       queries = compared.queries
-      said.textContent = title !== null ? `A: ${title}` : isPinnedShown ? "A (pinned) is on show" : "B is on show, A is pinned"
+      said.textContent = title !== null ? `A: ${title}` : isPinnedShown ? "A (pinned) is shown" : "B is shown, A is pinned"
       flip.ariaPressed = String(isPinnedShown)
       table.hidden = rows.length === 0
       body.replaceChildren(...rows.map(([name, one, two]) => (

@@ -15,7 +15,7 @@ const EXAMPLES = "preset"
 /** Render the controls. @param {{el: HTMLElement}} part */
 export function render({ el }) {
   const column = element("div.board")
-  const chooser = element("div.chooser", { role: "group", ariaLabel: "Control at hand" })
+  const chooser = element("div.chooser", { role: "group", ariaLabel: "Current control" })
   el.append(chooser, column, comparison())
   const put = followers()
   // Groups that the user has unfolded, in any scene.

@@ -141,7 +141,7 @@ export function exportDialog(files) {
       if (!answer.ok) return { why: await answer.text() }
       return isSlow ? await slowFileOf(answer, count) : { file: await answer.blob() }
     } catch (error) {
-      return { why: /** @type {Error} */ (error).name === "AbortError" ? "Stopped." : "The server does not answer: no file was made." }
+      return { why: /** @type {Error} */ (error).name === "AbortError" ? "Stopped." : "The server does not answer: nothing was saved." }
     }
   }
 

@@ -17,7 +17,7 @@ export function inviteDialog() {
   const end = button("button.param-end-room", () => tell("end-room"), "End the lecture")
   const dialog = dialogOf("Invite", "menu-of-scenes.invite", [], element("div.invitation",
     code, element("div", scan, address, unreachable, count,
-      element("p.small", "Phones show your scene, state, picture and lesson step, and take guesses. Nobody's name is asked, and " +
+      element("p.small", "Phones show your scene, state, picture and lesson step, and take guesses. No names are collected, and " +
         "nothing is kept when the lecture ends."), end)))
   let drawn = ""
 

@@ -37,7 +37,7 @@ function scaleOf([own, end], low, high, value) {
 
 /**
  * A number as its parts see it: value() is the shown value, limits() the possible [low, high], stepOf() the step of an arrow
- * key; change(value) takes a typed value, nudge(value) the result of an arrow key, move(value) a place within the limits.
+ * key; change(value) takes a typed value, nudge(value) the result of an arrow key, move(value) a position within the limits.
  * @typedef {{name: string, symbol: string, help: string, value: () => number, limits: () => number[], stepOf: () => number,
  *   change: (value: number) => void, nudge: (value: number) => void, move: (value: number) => void}} Controlled
  */

@@ -46,8 +46,8 @@ export function shareDialog() {
   })
   const copyHtml = copyButton("snippet", "Copy HTML", () => html.value)
   const dialog = dialogOf("Share", "menu-of-scenes.share", [], element("div.parts",
-    section("Link", "The page on the screen", link, copyLink, code, why),
-    section("Embed", "Parts of this page in your own", pictures.frame, controls.frame, html, copyHtml)))
+    section("Link", "This state of the page", link, copyLink, code, why),
+    section("Embed", "Parts of this page in a page of yours", pictures.frame, controls.frame, html, copyHtml)))
 
   return {
     box: dialog,

@@ -31,5 +31,5 @@ export async function slowFileOf(answer, count) {
     if (begun) parts.push(value.subarray(from))
   }
   const file = new Blob(parts)
-  return begun && file.size === length ? { file } : { why: "The file is incomplete: none was made." }
+  return begun && file.size === length ? { file } : { why: "The file is incomplete: nothing was saved." }
 }

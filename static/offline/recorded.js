@@ -14,9 +14,9 @@
  *   scenes: Record<string, SceneDescription>, lessons: Record<string, Lesson>}} Recording
  */
 
-const ABSENT = "This file does not hold that state: the link at the top opens the explorer, where it can be reached."
+const ABSENT = "This file does not contain that state: open the explorer by the link at the top."
 const PLAIN = "Type a plain number: expressions need the explorer."
-const NEAREST = "This file holds some states only: the nearest one is shown."
+const NEAREST = "This file contains only some states: the nearest one is shown."
 
 // A slider whose steps reach a little beyond its end could not reach the end.
 const BELOW = 1 - 1e-9
@@ -162,7 +162,7 @@ export function createRecorded({ families, picks, sources, steps, scenes, lesson
   function fixedHere() {
     const { points, fixed } = families[here]
     const count = points.length === 1 ? "one computed state" : `${points.length} computed states here`
-    return `This file holds ${count}.${fixed === "" ? "" : ` Fixed: ${fixed}.`} Everything moves in the explorer.`
+    return `This file contains ${count}.${fixed === "" ? "" : ` Fixed: ${fixed}.`} Everything moves in the explorer.`
   }
 
   /**

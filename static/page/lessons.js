@@ -167,7 +167,7 @@ export function render({ index, record, el }) {
     if (guess === null || guess.isRevealed) return false
     const [shown, pressed] = [guess, revealing]
     shown.wait()
-    Object.assign(pressed, { disabled: true, title: "Disabled: it is revealed" })
+    Object.assign(pressed, { disabled: true, title: "Disabled: already revealed" })
     go(lesson.name, at, true, () => {
       veil(lesson.steps[at].hide ?? null)
       shown.reveal()
@@ -260,8 +260,8 @@ export function render({ index, record, el }) {
     const count = element("span.count")
     tries.append(title, text, element("div.row",
       button("button.param-try", perform, "Do it for me"),
-      button("button.param-try-before", () => turn(-1), { ariaLabel: "The one before" }, "‹"), count,
-      button("button.param-try-next", () => turn(1), { ariaLabel: "The next one" }, "›")))
+      button("button.param-try-before", () => turn(-1), { ariaLabel: "Previous" }, "‹"), count,
+      button("button.param-try-next", () => turn(1), { ariaLabel: "Next" }, "›")))
     turn(0)
   }
 

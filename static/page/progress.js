@@ -11,7 +11,7 @@ export function render({ el }) {
   /** @type {number | null} */
   let since = null
   const bar = element("progress", { ariaLabel: "Computed" })
-  const stop = button("button.param-stop", () => tell("stop"), { title: "Keep what is drawn (Escape)" }, "Stop")
+  const stop = button("button.param-stop", () => tell("stop"), { title: "Stop and keep the points computed so far (Escape)" }, "Stop")
   const box = element("div.computing.idle", { role: "status" }, bar, stop)
   el.append(box)
   document.addEventListener("keydown", (event) => {

@@ -25,7 +25,7 @@ const markdownOf = ({ query, look, controls }, i) => [
   `## Step ${i + 1}`, "", "```step", `state: "?${query}"`,
   ...(look === "" ? [] : [`look: ${look}`]),
   ...(controls.length === 0 ? [] : [`controls: [${controls.join(", ")}]`]),
-  "```", "", "Write here what is to be seen.", "",
+  "```", "", "Describe this step here.", "",
 ].join("\n")
 
 /** Return the button that begins a recording, and the box that is shown while it runs. */
@@ -40,7 +40,7 @@ export function recording() {
     button("button.param-save-recording", save, "Save as a lesson"),
     button("button.param-drop-recording", end, "Discard"))
   const begin = button("button.param-record", start, {
-    title: "Each change by hand becomes a step of a lesson, saved as Markdown",
+    title: "Each change that you make becomes a step of a lesson in Markdown",
   }, "Record a lesson")
 
   function start() {
@@ -78,7 +78,7 @@ export function recording() {
   /** @param {Recorded} step */
   function put(step) {
     steps.push(step)
-    const most = steps.length === MOST ? ", the most there can be: save or discard them" : ""
+    const most = steps.length === MOST ? ", the maximum: save or discard them" : ""
     count.textContent = `Recorded: ${steps.length} step${steps.length === 1 ? "" : "s"}${most}`
   }
 

@@ -154,9 +154,9 @@ export function createRequests({ send, changed, hidden, known }) {
     pick({ pick }) {
       if (Array.isArray(pick) && pick.slice(1).every(Number.isFinite)) want({ picked: pick })
     },
-    hover(place) {
-      // A finger covers the place, and does not leave it when it is lifted.
-      if (!touched && place.slice(1).every(Number.isFinite)) add({ hover: place })
+    hover(point) {
+      // A finger covers the point, and does not leave it when it is lifted.
+      if (!touched && point.slice(1).every(Number.isFinite)) add({ hover: point })
     },
     near(near) { if (!known(near)) add({ near }) },
     scene(scene) {

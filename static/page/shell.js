@@ -123,7 +123,7 @@ function answerLine(el) {
  */
 function sentencesAbove(el, stage, reading) {
   const line = answerLine(el)
-  const sentence = element("p.text.moves", { role: "region", ariaLabel: "What to do, or what has changed" })
+  const sentence = element("p.text.moves", { role: "region", ariaLabel: "Hint, or last change" })
   const place = () => {
     if (PHONE.matches) reading.prepend(line, sentence)
     else stage.before(line, sentence)

@@ -45,8 +45,8 @@ export function createAudience(prediction, cloud, say) {
       return
     }
     for (const point of middle) {
-      const { place } = truthOf(point)
-      if (place !== null) drawRing(ctx, place, TRUTH, [])
+      const { at } = truthOf(point)
+      if (at !== null) drawRing(ctx, at, TRUTH, [])
       drawRing(ctx, toPixels(point), GUESS, [])
     }
   }
@@ -55,7 +55,7 @@ export function createAudience(prediction, cloud, say) {
     if (cloud.length === 0) return "Revealed. Nobody in the audience guessed."
     const many = `${cloud.length} guess${cloud.length === 1 ? "" : "es"} from the audience`
     if (lines.every((line) => line.length === 0)) return `${many}; there is none here.`
-    const off = cloud.map((guess) => meanApart(plot, guess.map((point) => [point, toData(truthOf(point).place)])))
+    const off = cloud.map((guess) => meanApart(plot, guess.map((point) => [point, toData(truthOf(point).at)])))
     return `${many}. Median distance: ${inWords(plot, [0, 1].map((i) => median(off.map((one) => one[i]))))}.`
   }
 

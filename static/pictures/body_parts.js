@@ -151,9 +151,9 @@ export function drawWheel({ ctx, text, dark, depth, at, use }, touching, along, 
   const disc = (aside, radius) => {
     const centre = plus(middle, axle, aside)
     for (let i = 0; i < X.length; i++) {
-      const place = at(plus(centre, [X[i], Y[i], Z[i]], radius))
-      if (i === 0) ctx.moveTo(...place)
-      else ctx.lineTo(...place)
+      const point = at(plus(centre, [X[i], Y[i], Z[i]], radius))
+      if (i === 0) ctx.moveTo(...point)
+      else ctx.lineTo(...point)
     }
     ctx.closePath()
   }

@@ -34,7 +34,7 @@ function sheetOf(columns, rows, { palette, low, high }, valueAt) {
   for (let row = 0, i = 0; row < rows; row++) {
     for (let column = 0; column < columns; column++, i++) {
       const value = valueAt(rows - 1 - row, column)
-      // Cells without a number are left out, in interpolated pictures also places next to them.
+      // Cells without a number are left out, in interpolated pictures also points next to them.
       out[i] = Number.isNaN(value) ? 0 : colours[Math.max(0, Math.min(last, Math.floor((value - low) * scale)))]
     }
   }

@@ -44,7 +44,7 @@ function placing(edge, [x0, x1, y0, y1]) {
     frame, w, h, across: ticksIn(x0, x1), up: ticksIn(y0, y1),
     x: (/** @type {number} */ a) => frame.left + (w * (a - x0)) / (x1 - x0),
     y: (/** @type {number} */ b) => frame.top + (h * (y1 - b)) / (y1 - y0),
-    /** Return the values at a place of the picture. @param {number} left @param {number} top */
+    /** Return the values at a point of the picture. @param {number} left @param {number} top */
     invert: (left, top) => [x0 + ((left - frame.left) / w) * (x1 - x0), y1 - ((top - frame.top) / h) * (y1 - y0)],
   }
 }

@@ -68,7 +68,7 @@ function draw({ picture, side, ratio, isDark = false, isBlack = false, texts }) 
 const onPaper = (picture, width, isBlack) => ({ picture, side: Math.round(DOTS * width / MILLIMETRES), ratio: DOTS / INCH, isBlack })
 
 /**
- * Return a picture of the scene on show as a PNG file of 300 dots an inch.
+ * Return a picture of the scene on show as a PNG file of 300 dots per inch.
  * @param {string} picture
  * @param {number} width in millimetres
  * @param {boolean} isBlack whether it is black on white

@@ -147,14 +147,14 @@ function enter(name) {
 
 /** Return the place beside the first point of a layer, see `sayDragMe`. @param {Extract<Handle, {picture: string}>} handle */
 function besideLayer({ picture, source, columns }) {
-  const place = columns?.map((column) => gallery.source(source).data[column]?.[0])
+  const point = columns?.map((column) => gallery.source(source).data[column]?.[0])
   const cell = gallery.cell(picture)
-  if (place?.[0] === undefined || !isInSight(cell)) return null
+  if (point?.[0] === undefined || !isInSight(cell)) return null
   const { frame, repainted: moved } = gallery.plot(picture)
   return {
     host: cell.querySelector(".host"), moved,
     place: () => ({
-      left: `calc(${frame.x_scale.compute(place[0])}px + 1.2em)`, top: `${frame.y_scale.compute(place[1])}px`,
+      left: `calc(${frame.x_scale.compute(point[0])}px + 1.2em)`, top: `${frame.y_scale.compute(point[1])}px`,
     }),
   }
 }

@@ -22,7 +22,7 @@ const mean = (values) => values.reduce((sum, one) => sum + one, 0) / values.leng
 const axesOf = ({ model: { x_scale: xScale, y_scale: yScale, below: [x], left: [y] } }) => [[xScale, x], [yScale, y]]
 
 /**
- * Return how far places are apart on the average, along both axes; on a logarithmic axis it is the logarithm of a ratio.
+ * Return how far points are apart on the average, along both axes; on a logarithmic axis it is the logarithm of a ratio.
  * @param {PlotView} plot
  * @param {[number[], number[]][]} pairs
  */
@@ -50,9 +50,9 @@ export function overlay(plot, name, properties, style, paint) {
   plot.repainted.connect(draw)
   return {
     sheet, draw,
-    /** @type {(place: number[]) => [number, number]} */
+    /** @type {(point: number[]) => [number, number]} */
     toPixels: ([x, y]) => [frame.x_scale.compute(x), frame.y_scale.compute(y)],
-    /** @type {(place: number[]) => [number, number]} */
+    /** @type {(point: number[]) => [number, number]} */
     toData: ([x, y]) => [frame.x_scale.invert(x), frame.y_scale.invert(y)],
     remove() {
       plot.repainted.disconnect(draw)
@@ -62,30 +62,30 @@ export function overlay(plot, name, properties, style, paint) {
 }
 
 /**
- * Return the point of a polyline that is nearest to a place.
+ * Return the point of a polyline that is nearest to another point.
  * @param {number[][]} line
- * @param {number[]} place
+ * @param {number[]} point
  */
 function nearestOn(line, [x, y]) {
-  /** @type {{distance: number, place: number[] | null}} */
-  let best = { distance: Infinity, place: null }
+  /** @type {{distance: number, at: number[] | null}} */
+  let best = { distance: Infinity, at: null }
   line.forEach(([x1, y1], i) => {
     const [x0, y0] = line[Math.max(0, i - 1)]
     const squared = (x1 - x0) ** 2 + (y1 - y0) ** 2
     const share = squared > 0 ? within(((x - x0) * (x1 - x0) + (y - y0) * (y1 - y0)) / squared, 0, 1) : 0
-    const place = [x0 + share * (x1 - x0), y0 + share * (y1 - y0)]
-    const distance = Math.hypot(place[0] - x, place[1] - y)
-    if (distance < best.distance) best = { distance, place }
+    const point = [x0 + share * (x1 - x0), y0 + share * (y1 - y0)]
+    const distance = Math.hypot(point[0] - x, point[1] - y)
+    if (distance < best.distance) best = { distance, at: point }
   })
   return best
 }
 
-/** Return the point of several polylines that is nearest to a place. @param {number[][][]} lines @param {number[]} place */
-export const nearest = (lines, place) => lines.map((line) => nearestOn(line, place))
-  .reduce((best, one) => (one.distance < best.distance ? one : best), { distance: Infinity, place: null })
+/** Return the point of several polylines that is nearest to another point. @param {number[][][]} lines @param {number[]} point */
+export const nearest = (lines, point) => lines.map((line) => nearestOn(line, point))
+  .reduce((best, one) => (one.distance < best.distance ? one : best), { distance: Infinity, at: null })
 
 /** @param {ArrayLike<number>} xs @param {ArrayLike<number>} ys */
-const zip = (xs, ys) => Array.from(xs, (x, i) => [x, ys[i]]).filter((place) => place.every(Number.isFinite))
+const zip = (xs, ys) => Array.from(xs, (x, i) => [x, ys[i]]).filter((point) => point.every(Number.isFinite))
 
 /**
  * Return the data of the source as polylines; a point is a polyline of length one.
@@ -94,11 +94,11 @@ const zip = (xs, ys) => Array.from(xs, (x, i) => [x, ys[i]]).filter((place) => p
  */
 export function linesOf({ source, columns: [x, y], what }) {
   const { [x]: xs = [], [y]: ys = [] } = gallery.source(source).data
-  if (what === "point") return zip(xs, ys).map((place) => [place])
+  if (what === "point") return zip(xs, ys).map((point) => [point])
   return typeof xs[0] === "number" ? [zip(xs, ys)] : Array.from(xs, (/** @type {number[]} */ part, i) => zip(part, ys[i]))
 }
 
-/** @param {CanvasRenderingContext2D} ctx @param {number[]} place @param {string} colour @param {number[]} dash */
+/** @param {CanvasRenderingContext2D} ctx @param {number[]} point @param {string} colour @param {number[]} dash */
 export function drawRing(ctx, [x, y], colour, dash) {
   for (const [weight, style] of /** @type {[number, string][]} */ ([[6, "white"], [3, colour]])) {
     circlePath(ctx, x, y, RING)
@@ -139,8 +139,8 @@ export function createGuess(prediction, say, guessed = null) {
     const lines = linesOf(prediction).map((line) => line.map(toPixels))
     const found = clicks.map((click) => nearest(lines, toPixels(click)))
     if (found.length === 0) return say("Revealed. There was no guess.")
-    if (found.some(({ place }) => place === null)) return say("Revealed: there is none here.")
-    truth = found.map(({ place }) => toData(place))
+    if (found.some(({ at }) => at === null)) return say("Revealed: there is none here.")
+    truth = found.map(({ at }) => toData(at))
     const distances = meanApart(plot, clicks.map((click, i) => [click, truth[i]]))
     say(`${isCurve ? "On average" : "You were"} ${inWords(plot, distances)} away.`)
   }
@@ -151,25 +151,25 @@ export function createGuess(prediction, say, guessed = null) {
     const { toPixels } = over
     for (const [i, click] of clicks.map(toPixels).entries()) {
       if (truth !== null) {
-        const place = toPixels(truth[i])
+        const point = toPixels(truth[i])
         ctx.beginPath()
         ctx.setLineDash([4, 4])
         ctx.moveTo(...click)
-        ctx.lineTo(...place)
+        ctx.lineTo(...point)
         ctx.lineWidth = 2
         ctx.strokeStyle = GUESS
         ctx.stroke()
-        drawRing(ctx, place, TRUTH, [])
+        drawRing(ctx, point, TRUTH, [])
       }
       drawRing(ctx, click, GUESS, [4, 4])
     }
   }
 
-  /** Add a guess at a place of the picture, or at the nearest place in the frame. @param {number} x @param {number} y */
+  /** Add a guess at a point of the picture, or at the nearest one in the frame. @param {number} x @param {number} y */
   function add(x, y) {
     const { x0, x1, y0, y1 } = plot.frame.bbox
-    const place = over.toData([within(x, x0, x1), within(y, y0, y1)])
-    clicks = isCurve ? [...clicks, place].slice(-MOST) : [place]
+    const point = over.toData([within(x, x0, x1), within(y, y0, y1)])
+    clicks = isCurve ? [...clicks, point].slice(-MOST) : [point]
     over.draw()
     guessed?.(clicks)
     say(isCurve ? `Your curve: ${clicks.length} point${clicks.length === 1 ? "" : "s"}.` : "Your guess is set.")

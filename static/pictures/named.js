@@ -35,11 +35,11 @@ export function lightNames(el) {
       ctx.rect(x0, y0, x1 - x0, y1 - y0)
       ctx.clip()
       for (const line of linesOf({ source, columns: [xs.field, ys.field], what: type === "Scatter" ? "point" : "curve" })) {
-        const places = line.map(over.toPixels)
-        if (places.length === 1) circlePath(ctx, ...places[0], RING)
+        const points = line.map(over.toPixels)
+        if (points.length === 1) circlePath(ctx, ...points[0], RING)
         else {
           ctx.beginPath()
-          for (const place of places) ctx.lineTo(...place)
+          for (const point of points) ctx.lineTo(...point)
         }
         ctx.lineWidth = WIDTH
         ctx.strokeStyle = GLOW

@@ -20,7 +20,7 @@ export function toPixel(value, { start, end }, pixels, scale) {
 }
 
 /**
- * Choose a place of a plot.
+ * Choose a point of a plot.
  * @param {PlotModel} model
  * @param {number} x
  * @param {number} y
@@ -35,7 +35,7 @@ export function choose(model, x, y, drag) {
  * Connect the events of a plot.
  * @param {PlotModel} model
  * @param {string[]} picks Bokeh events that choose a point ("tap", "doubletap", "pan"), "box" for a drag that draws a box and
- *   chooses its corners, "hover" for the place of the mouse
+ *   chooses its corners, "hover" for the position of the mouse
  * @param {Source} box gets the box while it is drawn
  * @param {{isDragging: () => boolean, isOnHandle: () => boolean, isAlone: () => boolean, onceSingle: (act: () => void) => void}} touch
  *   see "touch.js" and "zoom.js"

@@ -1,5 +1,5 @@
 // @ts-check
-// The cell of a picture: caption, corner button, host of the picture, and a line about the place under the mouse.
+// The cell of a picture: caption, corner button, host of the picture, and a line about the point under the mouse.
 
 import { element } from "../base/elements.js"
 import { byHand } from "../base/windows.js"
@@ -78,7 +78,7 @@ export function fillCaption(cell, { [nameOf(cell)]: caption }) {
 }
 
 /**
- * Fill a cell with the line about the place under the mouse, if that has changed.
+ * Fill a cell with the line about the point under the mouse, if that has changed.
  * @param {HTMLElement} cell
  * @param {Texts} texts "hover-" and name → line
  */

@@ -93,13 +93,13 @@ function nameAxes({ below: [x], left: [y] }, names) {
 }
 
 /**
- * Return the places of the handle of a picture, in pixels of the plot.
+ * Return the points of the handle of a picture, in pixels of the plot.
  * @param {PlotView} plot
  * @param {[source: string, x: string, y: string] | null} handle
  * @param {FindSource} source
  * @returns {number[][]}
  */
-function placesOf({ frame: { x_scale: xScale, y_scale: yScale } }, handle, source) {
+function pointsOf({ frame: { x_scale: xScale, y_scale: yScale } }, handle, source) {
   if (handle === null) return []
   const [name, x, y] = handle
   const { [x]: xs = [], [y]: ys = [] } = source(name).data
@@ -178,10 +178,10 @@ export async function buildPlot(host, picture, source) {
     invert: (x, y) => [frame.x_scale.invert(x), frame.y_scale.invert(y)],
     show: (axes) => showAxes(model, axes),
   })
-  const touch = connectTouch(host, plot, { places: () => placesOf(plot, picture.handle, source), boxes, isAlone: zoom.isAlone })
+  const touch = connectTouch(host, plot, { points: () => pointsOf(plot, picture.handle, source), boxes, isAlone: zoom.isAlone })
   connectPicks(model, picks, source(`${picture.name}-box`), { ...touch, ...zoom })
   if (picture.hands !== "") {
-    connectKeys(host, plot, { picks, zoom, places: picture.handle === null ? null : () => placesOf(plot, picture.handle, source) })
+    connectKeys(host, plot, { picks, zoom, points: picture.handle === null ? null : () => pointsOf(plot, picture.handle, source) })
   }
   return plot
 }

@@ -16,10 +16,10 @@ const FACTORS = { "+": 0.8, "=": 0.8, "-": 1.25 }
  * Let the keyboard choose in a plot.
  * @param {HTMLElement} host holds the plot
  * @param {PlotView} plot
- * @param {{picks: string[], places: (() => number[][]) | null, zoom: {by: (factor: number, place: number[]) => void, restore: () => void}}} what
- *   the events of the plot, see "picks.js", the places of its handle in pixels, and its zoom
+ * @param {{picks: string[], points: (() => number[][]) | null, zoom: {by: (factor: number, place: number[]) => void, restore: () => void}}} what
+ *   the events of the plot, see "picks.js", the points of its handle in pixels, and its zoom
  */
-export function connectKeys(host, plot, { picks, places, zoom }) {
+export function connectKeys(host, plot, { picks, points, zoom }) {
   const { frame, model } = plot
   const cross = element("span.cross", { ariaHidden: true, hidden: true })
   host.append(cross)
@@ -42,7 +42,7 @@ export function connectKeys(host, plot, { picks, places, zoom }) {
 
   function here() {
     const { x0, x1, y0, y1 } = frame.bbox
-    return at ?? places?.()[0] ?? [(x0 + x1) / 2, (y0 + y1) / 2]
+    return at ?? points?.()[0] ?? [(x0 + x1) / 2, (y0 + y1) / 2]
   }
 
   /** @param {number[]} arrow @param {number} step */
@@ -51,7 +51,7 @@ export function connectKeys(host, plot, { picks, places, zoom }) {
     const from = here()
     at = [within(from[0] + step * across, x0, x1), within(from[1] - step * up, y0, y1)]
     const [x, y] = valuesAt()
-    if (places !== null) return choose(model, x, y, false)
+    if (points !== null) return choose(model, x, y, false)
     put()
     if (picks.includes("hover")) tell("hover", [model.name, x, y])
   }
@@ -62,7 +62,7 @@ export function connectKeys(host, plot, { picks, places, zoom }) {
     if (arrow !== undefined) move(arrow, event.shiftKey ? FAR : 1)
     else if (event.key in FACTORS) zoom.by(FACTORS[event.key], here())
     else if (event.key === "0") zoom.restore()
-    else if (event.key === "Enter" && at !== null && places === null) {
+    else if (event.key === "Enter" && at !== null && points === null) {
       const [x, y] = valuesAt()
       choose(model, x, y, false)
     } else return
@@ -78,5 +78,5 @@ export function connectKeys(host, plot, { picks, places, zoom }) {
     isPointed = true
     leave()
   })
-  listen({ painted() { if (places !== null) at = null } })
+  listen({ painted() { if (points !== null) at = null } })
 }

@@ -29,7 +29,7 @@ function chunk(type, data) {
 /**
  * Return a canvas as a PNG file.
  * @param {HTMLCanvasElement} canvas
- * @param {number} dots an inch
+ * @param {number} dots per inch
  * @param {Record<string, string>} facts texts by keyword
  */
 export async function pngOf(canvas, dots, facts) {

@@ -31,16 +31,16 @@ export function pointLayer() {
      * @param {number} size
      * @param {number} ratio device pixels per unit
      * @param {Points[]} clouds
-     * @param {(cloud: Points, add: (x: number, y: number) => void) => void} places calls add(x, y) in device pixels for each point
+     * @param {(cloud: Points, add: (x: number, y: number) => void) => void} points calls add(x, y) in device pixels for each point
      */
-    draw(ctx, size, ratio, clouds, places) {
+    draw(ctx, size, ratio, clouds, points) {
       const side = Math.round(1.6 * ratio)
       clouds.forEach((cloud, k) => {
         begin(size, cloudColour(k))
         const { data } = pixels
         // Smaller clouds are darker.
         const alpha = Math.max(110, Math.min(230, 1_100_000 / cloud.count))
-        places(cloud, (x, y) => {
+        points(cloud, (x, y) => {
           const [left, top] = [Math.round(x - side / 2), Math.round(y - side / 2)]
           if (!(left >= 0 && top >= 0 && left + side <= size && top + side <= size)) return
           for (let row = 0; row < side; row++) {

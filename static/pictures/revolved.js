@@ -61,10 +61,10 @@ export function outline(radius, height, azimuth, elevation) {
     }
     return found
   }
-  /** @param {number} place @param {number} psi @returns {Vector} */
-  const at = (place, psi) => {
-    const i = Math.min(n - 1, Math.floor(place))
-    const s = place - i
+  /** @param {number} position @param {number} psi @returns {Vector} */
+  const at = (position, psi) => {
+    const i = Math.min(n - 1, Math.floor(position))
+    const s = position - i
     const r = radius[i] + s * (radius[i + 1] - radius[i])
     return [r * Math.cos(azimuth + psi), r * Math.sin(azimuth + psi), height[i] + s * (height[i + 1] - height[i])]
   }
@@ -76,10 +76,10 @@ export function outline(radius, height, azimuth, elevation) {
   for (let j = 1; j <= AROUND; j++) {
     const psi = 2 * Math.PI * j / AROUND
     const found = turns(psi)
-    for (const place of found) {
-      const [nearest] = before.toSorted((one, other) => apart(one, place) - apart(other, place))
-      if (!(apart(nearest, place) < n / 8)) continue
-      const ends = [at(nearest, last), at(place, psi)]
+    for (const position of found) {
+      const [nearest] = before.toSorted((one, other) => apart(one, position) - apart(other, position))
+      if (!(apart(nearest, position) < n / 8)) continue
+      const ends = [at(nearest, last), at(position, psi)]
       segments.push([0, 1, 2].map((k) => ends.map((end) => end[k])))
     }
     last = psi

@@ -99,10 +99,10 @@ export function sphere(el, options, source, isShown) {
     }
     guest?.paint(on, near)
     for (const [x, y, z, look, label] of marks) {
-      const place = [x, y, z]
-      if (isNear(place) !== near) continue
-      drawMark(ctx, ...at(place), look, text)
-      write(label, ...at(scaled(place, 1.15)))
+      const position = [x, y, z]
+      if (isNear(position) !== near) continue
+      drawMark(ctx, ...at(position), look, text)
+      write(label, ...at(scaled(position, 1.15)))
     }
   }
 

@@ -106,9 +106,9 @@ function swarmOf(source, names) {
  * @param {CanvasRenderingContext2D} ctx
  * @param {Source} source
  * @param {string[]} names
- * @param {(columns: Float32Array[], i: number) => [x: number, y: number, isNear?: boolean]} placeOf returns the place of motion i
+ * @param {(columns: Float32Array[], i: number) => [x: number, y: number, isNear?: boolean]} pointOf returns the point of motion i
  */
-export function drawBeads(ctx, source, names, placeOf) {
+export function drawBeads(ctx, source, names, pointOf) {
   const swarm = swarmOf(source, names)
   if (swarm === null) return
   const { count, palette } = swarm.data
@@ -120,7 +120,7 @@ export function drawBeads(ctx, source, names, placeOf) {
   for (let i = 0; i < count; i++) {
     const opacity = swarm.opacity(i, now)
     if (opacity === 0) continue
-    const [x, y, isNear = true] = placeOf(columns, i)
+    const [x, y, isNear = true] = pointOf(columns, i)
     ctx.globalAlpha = (isNear ? 1 : 0.35) * opacity
     ctx.fillStyle = palette[Math.floor(i * palette.length / count)]
     circlePath(ctx, x, y, radius)

@@ -86,8 +86,8 @@ export function torus(el, options, source, isShown) {
       for (const near of [false, true]) drawTrail(on, path, LOOKS[name], near)
       sheet.ctx.globalAlpha = 1
       /** @type {Vector} */
-      const place = path.map((column) => column[column.length - 1])
-      drawPoint(sheet, place, surfaceOf(sheet).shows(...sheet.at(place), sheet.depth(...place), ON_IT))
+      const position = path.map((column) => column[column.length - 1])
+      drawPoint(sheet, position, surfaceOf(sheet).shows(...sheet.at(position), sheet.depth(...position), ON_IT))
     }
   }
 

@@ -30,15 +30,15 @@ const isFine = (low, high) => Math.abs(high - low) > LEAST * Math.max(Math.abs(l
  */
 const contain = ([x0, x1, y0, y1], [a0, a1, b0, b1]) => x0 <= a0 && x1 >= a1 && y0 <= b0 && y1 >= b1
 
-/** @param {number[][]} places */
-const middle = (places) => [0, 1].map((i) => places.reduce((sum, place) => sum + place[i], 0) / places.length)
-/** @param {number[][]} places */
+/** @param {number[][]} points */
+const middle = (points) => [0, 1].map((i) => points.reduce((sum, point) => sum + point[i], 0) / points.length)
+/** @param {number[][]} points */
 const apart = ([[x, y], [a, b] = [x + 1, y]]) => Math.max(1, Math.hypot(a - x, b - y))
 
 /**
- * Return the part of a frame that fills it when places of it are dragged to others.
+ * Return the part of a frame that fills it when points of it are dragged to others.
  * @param {Frame} frame
- * @param {number[][]} from one place, or two
+ * @param {number[][]} from one point, or two
  * @param {number[][]} to
  * @param {number} [factor] of the extent of the part
  * @returns {Frame}
@@ -74,7 +74,7 @@ export function zoomed(zoom, whole) {
  *   the axes on show, invert(x, y) returns the values at a pixel, show(axes) sets the axes
  */
 export function connectZoom(host, zoom, { name, isComputed, frame, axes, invert, show }) {
-  // Places of fingers, or of the mouse with its second button.
+  // Points of fingers, or of the mouse with its second button.
   /** @type {Map<number, number[]>} */
   const held = new Map()
   let isAlone = true
@@ -84,7 +84,7 @@ export function connectZoom(host, zoom, { name, isComputed, frame, axes, invert,
   let clicked = null
 
   /** @param {{clientX: number, clientY: number}} event */
-  const placeOf = ({ clientX, clientY }) => {
+  const pointOf = ({ clientX, clientY }) => {
     const { left, top } = host.getBoundingClientRect()
     return [clientX - left, clientY - top]
   }
@@ -128,9 +128,9 @@ export function connectZoom(host, zoom, { name, isComputed, frame, axes, invert,
     // There the wheel scrolls the page around it, unless it is a pinch.
     if (isEmbedded() && !event.ctrlKey) return
     event.preventDefault()
-    const place = [placeOf(event)]
+    const point = [pointOf(event)]
     const pixels = event.deltaY * (event.deltaMode === WheelEvent.DOM_DELTA_LINE ? LINE : 1)
-    zoomTo(partOf(frame(), place, place, Math.exp(pixels * (event.ctrlKey ? PINCH : WHEEL))))
+    zoomTo(partOf(frame(), point, point, Math.exp(pixels * (event.ctrlKey ? PINCH : WHEEL))))
   }, { passive: false })
   host.addEventListener("contextmenu", (event) => event.preventDefault())
   host.addEventListener("dblclick", () => {
@@ -141,14 +141,14 @@ export function connectZoom(host, zoom, { name, isComputed, frame, axes, invert,
   // Captured: "touch.js" withholds the second finger from Bokeh.
   host.addEventListener("pointerdown", (event) => {
     const isTouch = event.pointerType === "touch"
-    if (isTouch || event.button === 2) held.set(event.pointerId, placeOf(event))
+    if (isTouch || event.button === 2) held.set(event.pointerId, pointOf(event))
     isAlone = held.size < 2
     if (!isTouch && event.button === 2) host.setPointerCapture(event.pointerId)
   }, { capture: true })
   host.addEventListener("pointermove", (event) => {
     if (!held.has(event.pointerId)) return
     const before = [...held.values()]
-    held.set(event.pointerId, placeOf(event))
+    held.set(event.pointerId, pointOf(event))
     if (event.pointerType !== "touch" || held.size === 2) zoomTo(partOf(frame(), before, [...held.values()]))
   }, { capture: true })
   for (const type of /** @type {const} */ (["pointerup", "pointercancel"])) {

@@ -24,7 +24,7 @@ WRONG = {
     "t=-1": "'t=-1' cannot be used: t must lie between 0 and 1e6",
     "h=0.2&f=5": "At h = 0.2 the largest possible |f| is ",
     "scene=own-body&U=abs(g1)": "'U=abs(g1)' cannot be used: Potential U(γ): This is not a polynomial: ",
-    "scene=suslov&starts=1": "'starts=1' cannot be used: The places of the chosen orbits must be points x,y;x,y",
+    "scene=suslov&starts=1": "'starts=1' cannot be used: The points of the chosen orbits must be points x,y;x,y",
 }
 COMMANDS = {
     "export": ("export", "--format", "json", "--out"),

@@ -12,7 +12,7 @@ from hess_explorer.compute.background import Background
 from hess_explorer.compute.cache import ResultCache, Task
 from hess_explorer.page.connection import Connection
 from hess_explorer.page.session import Session
-from hess_explorer.protocol.specs import places, places_text
+from hess_explorer.protocol.specs import points_of, points_text
 from hess_explorer.scenes.framework.scene import Scene
 from hess_explorer.scenes.framework.work import Work
 from hess_mechanics.errors import InvalidParameter
@@ -219,12 +219,12 @@ def test_sessions_take_turns(gate):
     assert long.backlog > 20
 
 
-# ---- Places in the link -----------------------------------------------------------------------------------------
+# ---- Points in the link -----------------------------------------------------------------------------------------
 
 
 def test_of_too_many_places_the_last_ones_are_kept():
     pairs = [(0.01 * n, 0.0) for n in range(20)]
-    assert places(STARTS.read(places_text(pairs))[0]) == pairs[-12:]
+    assert points_of(STARTS.read(points_text(pairs))[0]) == pairs[-12:]
 
 
 def test_a_window_is_two_corners_in_their_order():
@@ -364,7 +364,7 @@ def test_the_last_piece_may_come_while_its_picture_is_drawn(gate):
 def test_a_box_beyond_the_section_is_cut_and_one_that_is_none_is_not_taken(free_gate):
     browser = Browser(EP, SMALL)
     browser.ask(1, picked=["section", 0.0, 0.5, 1.0, 7.0])
-    assert places(browser.session.values["window"]) == [(0.0, 0.5), (1.0, 1.0)]
+    assert points_of(browser.session.values["window"]) == [(0.0, 0.5), (1.0, 1.0)]
     before = dict(browser.session.values)
     for corners in ([0.0, 0.5, 0.0, 0.7], [0.0, 2.0, 1.0, 3.0], ["0", 0, 1, 1]):
         browser.ask(2, picked=["section", *corners])

@@ -85,7 +85,7 @@ def test_a_state_plays_and_turns_from_the_disk(browser, tmp_path):
         assert_point()
         # The page says which parameters are fixed.
         assert page.locator("input.hand").count() == 0
-        expect(page.locator(".fixed")).to_contain_text("This file holds one computed state. Fixed: I₂₂ = 0.96, ")
+        expect(page.locator(".fixed")).to_contain_text("This file contains one computed state. Fixed: I₂₂ = 0.96, ")
         home.dispatch_event("focus")
         assert home.get_attribute("href").startswith("https://explorer.example/?v=1&scene=suslov-hess")
         assert json.loads(page.locator("#facts").text_content())["parameters"] == dict(found.values)

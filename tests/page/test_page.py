@@ -12,7 +12,7 @@ from pytest import approx
 
 from hess_explorer.headless.browser import wait_ready
 from hess_explorer.headless.screenshot import server_process
-from hess_explorer.protocol.specs import NumberSpec, Places
+from hess_explorer.protocol.specs import NumberSpec, Points
 from hess_explorer.scenes import scenes
 from support.page import DEFAULTS, FIRST, SLIDERS, own_tab, wait_frames
 from support.processes import UNWARMED
@@ -26,7 +26,7 @@ def assert_defaults(explorer, scene, **others):
         value = others.get(spec.name, spec.default)
         if isinstance(spec, NumberSpec):
             assert explorer.shown(spec.name) == (value, value), spec.name
-        elif not isinstance(spec, Places):
+        elif not isinstance(spec, Points):
             assert explorer.chosen(spec.name) == value, spec.name
 
 

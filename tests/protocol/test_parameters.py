@@ -16,10 +16,10 @@ from hess_explorer.protocol.specs import (
     Formula,
     Names,
     NumberSpec,
-    Places,
+    Points,
     decode,
     encode,
-    places_text,
+    points_text,
 )
 from hess_explorer.scenes import scenes
 from hess_mechanics import f_max
@@ -47,7 +47,7 @@ def texts_of(places):
     pair = st.tuples(
         *(st.floats(low, high, allow_subnormal=False) for low, high in zip(places.low, places.high, strict=True))
     )
-    return st.lists(pair, max_size=places.most).map(places_text)
+    return st.lists(pair, max_size=places.most).map(points_text)
 
 
 def states(specs):
@@ -57,7 +57,7 @@ def states(specs):
 def is_admissible(spec, value):
     if isinstance(spec, ChoiceSpec):
         return value in spec.options
-    if isinstance(spec, Places | Formula):
+    if isinstance(spec, Points | Formula):
         return spec.read(value) == (value, None)
     return isinstance(value, float) and spec.bounds[0] <= value <= spec.bounds[1]
 

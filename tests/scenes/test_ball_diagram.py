@@ -15,4 +15,4 @@ def test_near_a_doubling_the_period_is_that_of_its_side(D, period):
     # A perturbation of the orbit decays slowly and alternates sides, which made its period look doubled, or infinite.
     state = SCENE.compute({**SCENE.defaults(), "D": D}, (), True)
     map_ = ReturnMap(state.poincare, level("standard"))
-    assert period_of(map_.turns, map_.orbit(np.array(state.diagram.place), 700)[500:], map_.promise) == (period, True)
+    assert period_of(map_.turns, map_.orbit(np.array(state.diagram.point), 700)[500:], map_.promise) == (period, True)

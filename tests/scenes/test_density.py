@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from pytest import approx
 
-from hess_explorer.protocol.specs import places
+from hess_explorer.protocol.specs import points_of
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework import points
 from hess_explorer.scenes.parts.sections import density
@@ -63,7 +63,7 @@ def test_a_section_fills_in_stages_and_says_its_number_of_crossings(name, monkey
 def test_a_window_has_its_own_density_and_the_later_half_only_the_last_stage():
     window = "-0.5,0.5;1,1.5"
     view = shown("suslov", **{**SEA, **FEW, "window": window, "colours": "forward only"})
-    low, high = np.array(places(window))
+    low, high = np.array(points_of(window))
     found, state = view.result.density, view.result
     assert view.result.section.frame == tuple(map(tuple, (low, high)))
     shares = []

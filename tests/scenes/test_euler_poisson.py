@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from pytest import approx
 
-from hess_explorer.protocol.specs import places
+from hess_explorer.protocol.specs import points_of
 from hess_explorer.scenes import scenes
 from hess_mechanics.errors import ModelError
 from hess_mechanics.euler_poisson.andoyer import AndoyerSection, coordinates
@@ -29,7 +29,7 @@ class EulerPoisson(View):
     @property
     def start(self):
         """The state of the chosen orbit."""
-        return AndoyerSection(self.body, self.h, self.f).state_at(*places(self.values["starts"])[-1])
+        return AndoyerSection(self.body, self.h, self.f).state_at(*points_of(self.values["starts"])[-1])
 
 
 # ---- Examples ---------------------------------------------------------------------------------------------------

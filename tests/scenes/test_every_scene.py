@@ -18,7 +18,7 @@ from hess_explorer.assets import STATIC
 from hess_explorer.compute.background import Background
 from hess_explorer.compute.cache import CACHE
 from hess_explorer.page import session
-from hess_explorer.protocol.specs import ChoiceSpec, Formula, NumberSpec, Places, places_text
+from hess_explorer.protocol.specs import ChoiceSpec, Formula, NumberSpec, Points, points_text
 from hess_explorer.scenes.parts.orbits import precision
 from hess_explorer.views import theme
 from hess_explorer.views.layers import Axes
@@ -168,7 +168,7 @@ def test_the_description_of_a_scene_has_all_that_the_browser_needs(scene):
     # A caption is the text of its picture's name: the other texts of the page have others.
     assert not set(scene.pictures) & {"status", "notes", "derived", "busy"}
     assert list(plots_of(scene.name)) == [one["name"] for one in found["pictures"] if one["kind"] == "plot"]
-    controlled = [spec for spec in scene.specs if not isinstance(spec, Places)]
+    controlled = [spec for spec in scene.specs if not isinstance(spec, Points)]
     assert found["drawn"] == (len(controlled) < len(scene.specs))
     # "Speed and accuracy" has no beads, and so no controls of a swarm.
     shown_here = [spec.name for spec in controlled if spec.group != "Swarm" or "swarm" in scene.tracks]
@@ -300,10 +300,10 @@ def test_a_stage_that_fails_shows_the_sentence_and_nothing_of_another_state(scen
 
 def somewhere(spec):
     """Values that may be typed: from the slider, from everywhere, and close to either end, to 0 and to ±1."""
-    if isinstance(spec, Places):
+    if isinstance(spec, Points):
         # No windows: of what is computed for one, some lies outside.
         place = st.tuples(*(st.floats(low, high) for low, high in zip(spec.low, spec.high, strict=True)))
-        return st.lists(place, max_size=3 if spec.most > 2 else 0).map(places_text)
+        return st.lists(place, max_size=3 if spec.most > 2 else 0).map(points_text)
     if isinstance(spec, Formula):
         return st.sampled_from(["", "g3 - 0.5*g1", "g1^4 + g2^4 - g3^2"])
     if not isinstance(spec, NumberSpec):

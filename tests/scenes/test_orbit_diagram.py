@@ -22,7 +22,7 @@ SCENE = scenes()["orbit-diagram"]
 
 
 def image(body, E, place, count=1):
-    """Return the next places (count, 2) of the return map by SciPy."""
+    """Return the next points (count, 2) of the return map by SciPy."""
     section = SuslovSection(body, E, 3)
     return section.places_of(crossings(lambda _, y: field(body, y), section.state_at(*place), count))
 
@@ -113,11 +113,11 @@ def test_a_click_chooses_a_state_that_is_there_and_a_box_looks_closer():
     chosen = state.diagram.choose(0.0501, 0.9)
     assert chosen["I23"] == approx(0.0501, abs=0.005)
     there = SCENE.compute({**SCENE.defaults(), **chosen}, ("section",), True)
-    # The motion there is on its attractor from the beginning, at the upper of its two places; of a drag, to 1e-3.
+    # The motion there is on its attractor from the beginning, at the upper of its two points; of a drag, to 1e-3.
     orbit = there.regime.sets[0]
-    assert np.abs(orbit - there.diagram.place).max(axis=1).min() < 1e-4
+    assert np.abs(orbit - there.diagram.point).max(axis=1).min() < 1e-4
     assert len(np.unique(np.round(orbit[-20:, 0], 3))) == 2
-    assert there.diagram.place[0] == approx(orbit[-20:, 0].max(), abs=1e-3)
+    assert there.diagram.point[0] == approx(orbit[-20:, 0].max(), abs=1e-3)
     view = next(one for one in SCENE.views if one.name == "diagram")
     box = view.on_box(state, (0.05, 0.6, 0.15, 1.1))
     assert box == {"window": "0.05,0.6;0.15,1.1"}

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from pytest import approx
 
-from hess_explorer.protocol.specs import places
+from hess_explorer.protocol.specs import points_of
 from hess_explorer.scenes import scenes
 from hess_mechanics.dynamics.basins import contraction
 from support.deviations import deviations
@@ -104,9 +104,9 @@ def test_the_later_half_are_the_later_points():
 
 def test_a_click_adds_an_orbit_and_a_box_selects_a_window():
     view = View(SCENE, FEW)
-    assert places(view.stage.pick("section", 0.3, 2.0)["starts"]) == [(1.0, 1.0), (0.3, 2.0)]
+    assert points_of(view.stage.pick("section", 0.3, 2.0)["starts"]) == [(1.0, 1.0), (0.3, 2.0)]
     assert view.stage.pick("omega", 0.3, 2.0) == {}
-    low, high = places(view.stage.box("section", (1.0, 4.0, -0.5, 2.0))["window"])
+    low, high = points_of(view.stage.box("section", (1.0, 4.0, -0.5, 2.0))["window"])
     assert low == (-0.5, 2.0)
     assert high == approx((1.0, pi), abs=1e-5)
     assert view.stage.box("section", (1.0, 2.0, 1.0, 3.0)) == view.stage.box("sphere", (1.0, 2.0, 0.0, 3.0)) == {}

@@ -73,6 +73,24 @@ def test_starts_have_the_integrals_of_the_motion_and_lie_evenly_about_it(name):
     assert near == approx(0.02 * part.angles)
 
 
+def test_on_a_line_they_lie_between_the_last_two_clicked_points_where_a_motion_is_possible():
+    state, part = swarm_of("suslov", swarm="8", swarm_from="along a line", starts="1,1;0.2,0.9;1.6,2.3")
+    psi, delta = state.poincare.places_of(part.motions.states[:, 0]).T
+    assert psi == approx(np.linspace(0.2, 1.6, 8))
+    assert delta == approx(np.linspace(0.9, 2.3, 8))
+    # Left of ψ = −π/4 no motion is possible.
+    state, part = swarm_of("suslov", swarm="50", swarm_from="along a line", starts="-2.5,1;1,1")
+    psi = state.poincare.places_of(part.motions.states[:, 0])[:, 0]
+    assert psi == approx(np.linspace(-2.5, 1.0, 50)[-len(psi) :])
+    assert psi.min() == approx(-np.pi / 4, abs=3.5 / 49)
+    assert part.track()["count"] == len(psi)
+    # With one point they are spread, and it is said how to choose the other.
+    state, part = swarm_of("suslov", swarm="8", swarm_from="along a line", starts="1,1")
+    assert part.motions.states[:, 0] == approx(swarm_of("suslov", swarm="8")[1].motions.states[:, 0])
+    assert any("second point" in note for note in state.notes())
+    assert "along a line" not in next(one for one in scenes()["quartic"].specs if one.name == "swarm_from").options
+
+
 def test_a_turned_momentum_keeps_the_area_integral_and_a_turned_velocity_its_direction():
     euler, suslov = (swarm_of(name)[0].motion() for name in ("euler-poisson", "suslov"))
     angles = np.array([-2.0, 0.0, 0.4])
@@ -102,7 +120,7 @@ def computed(name, words="", **values):
     """The swarm of a state whose tasks are done."""
     for _ in range(4):
         state, part = swarm_of(name, words, **values)
-        part.expected
+        _ = part.expected
         for task in state.work.todo:
             CACHE.get(task.function, *task.arguments)
     return part
@@ -115,7 +133,7 @@ def test_the_graph_has_the_exponent_of_the_chosen_orbit_if_that_is_chaotic_and_t
     assert np.log(growth) == approx(exponent.value * times)
     assert "λ = " in part.caption.numbers
     assert computed("suslov", "A chaotic", swarm_time="backward").expected is None
-    regular = computed("suslov", "egular")
+    regular = computed("suslov", "Regular")
     assert regular.host.exponent.result.is_regular
     assert regular.expected is None
 

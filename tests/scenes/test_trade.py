@@ -138,7 +138,7 @@ def test_what_cannot_be_computed_is_measured_as_standard():
 
 def test_the_cost_of_all_is_measured_when_its_picture_is_unfolded():
     scene = scenes()["scattering-accuracy"]
-    assert {view.name: view.button for view in scene.views if view.button} == {"trade": "Measure all that is computed"}
+    assert {view.name: view.button for view in scene.views if view.button} == {"trade": "Measure all computations"}
     # A scene that computes only its motion has no such picture.
     assert "trade" not in scenes()["kharlamova-accuracy"].pictures
     view = View(scene, {}, seen=("trade",))

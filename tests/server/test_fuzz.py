@@ -21,7 +21,7 @@ from hess_explorer.commands.compute import command_of
 from hess_explorer.commands.output import PATIENCE
 from hess_explorer.compute.budget import time_budget
 from hess_explorer.page.requested import scene_and_values
-from hess_explorer.protocol.specs import CLIENT, ChoiceSpec, Formula, Link, NumberSpec, places_text
+from hess_explorer.protocol.specs import CLIENT, ChoiceSpec, Formula, Link, NumberSpec, points_text
 from hess_explorer.scenes import scenes
 from hess_mechanics.catalogue import catalogue
 from support.asynchronous import wait_until
@@ -48,7 +48,7 @@ def value(spec):
         return mostly(st.sampled_from(spec.options))
     if isinstance(spec, Formula):
         return mostly(st.sampled_from(["", "g1", "0.5*g1^2 - g3", "g1^9"]))
-    return mostly(st.lists(st.tuples(*map(st.floats, spec.low, spec.high)), max_size=spec.most + 2).map(places_text))
+    return mostly(st.lists(st.tuples(*map(st.floats, spec.low, spec.high)), max_size=spec.most + 2).map(points_text))
 
 
 def values(specs):

@@ -19,7 +19,7 @@ from support.room import Follower, Lecturer, lecture
 from support.serving import served
 
 ENDED = "4001: The lecture has ended."
-NO_MESSAGE = "1007: This is no message of a room."
+NO_MESSAGE = "1007: This is not a message of a room."
 
 LESSON = next(one for one in package_lessons().values() if any(step.prediction for step in one.steps))
 STEP = next(i for i, step in enumerate(LESSON.steps, 1) if step.prediction)

@@ -11,7 +11,7 @@ from hess_explorer.lessons import package_lessons
 from hess_explorer.page.description import describe
 from hess_explorer.page.session import Session
 from hess_explorer.protocol.messages import Request, parse
-from hess_explorer.protocol.specs import Formula, NumberSpec, Places, decode
+from hess_explorer.protocol.specs import Formula, NumberSpec, Points, decode
 from hess_explorer.protocol.wire import Wire
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.stage import Stage
@@ -274,7 +274,7 @@ class Browser:
             if isinstance(spec, NumberSpec):
                 assert isinstance(value, float)
                 assert spec.bounds[0] <= value <= spec.bounds[1]
-            elif isinstance(spec, Places | Formula):
+            elif isinstance(spec, Points | Formula):
                 assert spec.read(value) == (value, None)
             else:
                 assert value in spec.options

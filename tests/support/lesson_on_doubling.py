@@ -6,7 +6,7 @@ from functools import cache
 import numpy as np
 
 from hess_explorer.lessons import package_lessons
-from hess_explorer.protocol.specs import places
+from hess_explorer.protocol.specs import points_of
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.parts.orbits.regime import sets_of
 from hess_mechanics import ReturnMap, level, period_doublings, periodic_orbit, return_map
@@ -30,7 +30,7 @@ def cascade():
     values = package_lessons()[NAME].steps[0].at.values
     body, E = heavy_body(values)
     map_ = return_map(body, E=E)
-    orbit = periodic_orbit(map_, places(values["chosen"])[-1], 1)
+    orbit = periodic_orbit(map_, points_of(values["chosen"])[-1], 1)
     return period_doublings(map_, orbit, "I23", 0.2, 6)
 
 
@@ -39,7 +39,7 @@ def cascade_of_the_ball():
     """The doublings of the ball over 𝒟, from period 2."""
     scene = scenes()["ball-diagram"]
     state = scene.of({**scene.defaults(), "D": 1.7})
-    settled, _ = sets_of(ReturnMap(state.poincare, level("standard")), state.diagram.place, 500, 2)
+    settled, _ = sets_of(ReturnMap(state.poincare, level("standard")), state.diagram.point, 500, 2)
     map_ = return_map(state.body, h=state.h)
     return period_doublings(map_, periodic_orbit(map_, settled[0], 2), "D", 1.34, 4)
 
@@ -53,12 +53,12 @@ def end(_step):
 def sets_at(values, **changes):
     """Attractor and repeller of a state of "Orbit diagram"."""
     state = scenes()["orbit-diagram"].of({**values, **changes})
-    return sets_of(ReturnMap(state.poincare, level("standard")), state.diagram.place, 500, 1500)
+    return sets_of(ReturnMap(state.poincare, level("standard")), state.diagram.point, 500, 1500)
 
 
-def points_of(place):
-    """The number of places to which the section of a state settles."""
-    return len(np.unique(np.round(sets_at(place.values)[0], 4), axis=0))
+def number_of_points(step):
+    """The number of points to which the section of a state settles."""
+    return len(np.unique(np.round(sets_at(step.values)[0], 4), axis=0))
 
 
 def first_cascade(_step):
@@ -75,11 +75,11 @@ def multipliers(_step):
 
 
 ROWS = {
-    "Its **period** is 1.": lambda s: (points_of(s.at),),
-    "There are two.": lambda s: (points_of(s.prediction.then),),
+    "Its **period** is 1.": lambda s: (number_of_points(s.at),),
+    "There are two.": lambda s: (number_of_points(s.prediction.then),),
     "line means period 1. It splits: from there on the period is 2.": lambda s: cascade().periods[:2],
     "passes −1: the": multipliers,
-    "the motion of period 1 does": lambda s: cascade().periods[:1],
+    "the motion of period 1 no longer": lambda s: cascade().periods[:1],
     "$I_{23}$ = −0.0498, 0.0873, 0.1282 and 0.1376, for the periods 1, 2, 4 and 8. The distances between "
     "them shrink by the factors 3.357 and 4.328": first_cascade,
     "such factors tend to 4.669": lambda s: (FEIGENBAUM,),

@@ -62,7 +62,7 @@ def left(step):
 
 def hardly_moves(time):
     """Return whether the motion that is revealed differs by less than a pixel from a uniform rotation up to a time."""
-    values = STEPS["Nothing happens, for ever?"].prediction.then.values
+    values = STEPS["Nothing happens, forever?"].prediction.then.values
     return values["w2"] * math.exp(time) < 1e-3 * values["w1"]
 
 
@@ -77,6 +77,6 @@ ROWS = {
     "up to $t$ = 400 and sees": lambda s: (hardly_moves,),
     "$e^{691}$ is $10^{300}$: the body leaves at $t$ = 692.6": left,
     "exactly two": two,
-    "more than 2, and there are two. The interval lies above 2": lambda s: (*threshold(s), *two(s), *threshold(s)),
+    "if it exceeds 2, there are two. The interval lies above 2": lambda s: (*threshold(s), *two(s), *threshold(s)),
 }
 """A phrase of the lesson → the numbers in it, computed from the step."""

@@ -41,7 +41,7 @@ def map_of(found):
 def starts_of(found, near):
     """Return states of 24 settled motions, all over the section of a state or next to its chosen one."""
     if near:
-        places = [map_of(found).orbit(np.array(found.diagram.place) + 1e-6 * k, 1500)[-1] for k in range(24)]
+        places = [map_of(found).orbit(np.array(found.diagram.point) + 1e-6 * k, 1500)[-1] for k in range(24)]
     else:
         places = settled(found.poincare, 24, 1, 500)[:, 0]
     return found.poincare.states_at(*np.transpose(places))[0]
@@ -93,7 +93,7 @@ def birth_of_the_torus():
 def on_the_torus(I13):
     """Return I13, how many exponents are 0 besides those of the integrals, the largest, and the rotation number."""
     found = torus(I13)
-    places = map_of(found).orbit(np.array(found.diagram.place), 4000)[1000:]
+    places = map_of(found).orbit(np.array(found.diagram.point), 4000)[1000:]
     values = np.abs(lyapunov_spectrum(found.body, found.poincare.state_at(*places[-1]), 8000.0).values)
     middle = periodic_orbit(map_of(found), tuple(birth_of_the_torus()[1].places[0]), 1).places[0]
     return I13, sum(values < 2e-3) - 2, (values[0], 2e-3), rotation_number(places, tuple(middle))[0]
@@ -102,7 +102,7 @@ def on_the_torus(I13):
 def locked(I13):
     """Return the two folds of the orbit to which the torus is locked, their number, its period, and I13."""
     map_ = map_of(torus(I13))
-    places = map_.orbit(np.array(torus(I13).diagram.place), 4000)[:-50:-1]
+    places = map_.orbit(np.array(torus(I13).diagram.point), 4000)[:-50:-1]
     period = 1 + int(np.argmax(np.abs(places[1:] - places[0]).max(axis=1) < 1e-6))
     orbit = periodic_orbit(map_, tuple(places[0]), period)
     assert orbit.kind == "stable focus"
@@ -212,7 +212,7 @@ ROWS = {
     # Of the start ω = (2, 1e-5) of figure 4.
     "scattering": {"δ is $5\\cdot10^{-6}$": lambda s: (1e-5 / np.hypot(2.0, 1e-5),)},
     "suslov": {
-        "They have rank 4": rank,
+        "of rank 4": rank,
         "the other has period 7": other_period,
         "$-0.00046\\pm0.00003$ forward in time and $0.00045\\pm0.00003$": lambda s: divergences(
             "suslov", "A chaotic sea", 40_000.0

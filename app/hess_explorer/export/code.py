@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from hess_explorer.export.picture_data import Address
-from hess_explorer.protocol.specs import NumberSpec, Places, Spec, Value, places
+from hess_explorer.protocol.specs import NumberSpec, Points, Spec, Value, points_of
 
 _WIDTH = 100
 
@@ -48,6 +48,6 @@ def _value(spec: Spec, value: Value) -> str:
     """Return a value as Python code; empty if the argument is omitted."""
     if isinstance(spec, NumberSpec):
         return repr(float(value))
-    if isinstance(spec, Places):
-        return repr(places(value)).replace(" ", "") if value or spec.default else ""
+    if isinstance(spec, Points):
+        return repr(points_of(value)).replace(" ", "") if value or spec.default else ""
     return f'"{value}"'

@@ -46,7 +46,7 @@ class Format(NamedTuple):
 FORMATS: Mapping[str, Format] = {
     "csv": Format("data", "text/csv; charset=utf-8", "CSV: data, every digit"),
     "json": Format("data", "application/json", "JSON: data, every digit"),
-    "png": Format("figure", "image/png", "PNG, 300 dots an inch"),
+    "png": Format("figure", "image/png", "PNG, 300 dots per inch"),
     "svg": Format("figure", "image/svg+xml; charset=utf-8", "SVG"),
     "pdf": Format("figure", "application/pdf", "PDF"),
     "webm": Format("film", "video/webm", "WebM: a film of the motion"),

@@ -32,7 +32,7 @@ Text in Markdown: *emphasis*, **strong words**, lists, tables, and formulas like
 
 $$\dot u=-b'M_2\,u.$$
 
-An image is a file beside this one, with words for those who do not see it: `![A wheel](wheel.png)`.  A link may lead to
+An image is a file beside this one, with a text alternative: `![A wheel](wheel.png)`.  A link may lead to
 another web page, or [to a state of this one](?scene=suslov-hess&h=1.5&f=0.6).
 
 ### Question
@@ -52,7 +52,7 @@ look: circle
 predict: {picture: circle, layer: stable, then: "?scene=suslov-hess&h=1.5&f=0.6"}
 ```
 
-The energy rises from 0.5 to 1.5. Click the place where the stable cycle will be.
+The energy rises from 0.5 to 1.5. Click where the stable cycle will be.
 
 ## The moment of birth
 

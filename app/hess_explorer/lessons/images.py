@@ -41,12 +41,12 @@ class Images:
             raise ImageError(f"the image is {what}: {_FORMATS} are allowed.")
         self._total += len(raw)
         if self._total > MAX_ALL:
-            raise ImageError(f"the images of a lesson have at most {MAX_ALL // 1024**2} MB together; leave some out.")
+            raise ImageError(f"a lesson may have at most {MAX_ALL // 1024**2} MB of images; leave some out.")
         self.urls[target] = f"data:image/{kind};base64,{base64.b64encode(raw).decode('ascii')}"
 
     def _read(self, target: str) -> bytes:
         if self._folder is None:
-            raise ImageError("this text has no images.")
+            raise ImageError("images are not allowed in this text.")
         if ":" in target or "\\" in target or target.startswith(("/", "?", "#")):
             raise ImageError("an image is a file beside the lesson, like ![A wheel](wheel.png).")
         folder = self._folder.resolve()

@@ -13,11 +13,11 @@ import numpy as np
 from hess_explorer.library.own_state import LevelState, OwnState
 from hess_explorer.protocol.expressions import NotANumber
 from hess_explorer.protocol.expressions import evaluate as number_of
-from hess_explorer.protocol.specs import Value, places_text
+from hess_explorer.protocol.specs import Value, points_text
 from hess_explorer.scenes.framework.charted import Charts, of_motion
 from hess_explorer.scenes.framework.part import part
 from hess_explorer.scenes.framework.scene import Preset, Scene
-from hess_explorer.scenes.framework.sliders import number, places
+from hess_explorer.scenes.framework.sliders import number, points
 from hess_explorer.scenes.parts.orbits.exponent import exponent_picture
 from hess_explorer.scenes.parts.sections import (
     SectionBranch,
@@ -25,7 +25,7 @@ from hess_explorer.scenes.parts.sections import (
     colouring,
     coordinate_of_branch,
     end_of_branch,
-    first_place,
+    first_point,
     orbit_picture,
     parameter_of_branch,
     section_layers,
@@ -46,7 +46,7 @@ _EXPONENT, _BRANCH, _CHART = "exponent", "branch", "chart"
 _SECTION = re.compile(r"section(?: (?!on )(\S+) (\S+))?(?: at (\S+) *= *(\S+))?(?: on (.+))?")
 _FARTHEST = 1e6
 _MOST_TRIALS = 200
-"""Places of a section that are tried as the start of a motion."""
+"""Points of a section that are tried as the start of a motion."""
 _ESSENTIAL = 4
 """Largest number of parameters whose controls are open at first."""
 
@@ -166,10 +166,10 @@ def scene(
         own = _checked_section(system, section)
         section["ranges"] = tuple(ends.get(name, range_) for name, range_ in zip(own.names, own.window, strict=True))
         low, high = (-_FARTHEST, -_FARTHEST), (_FARTHEST, _FARTHEST)
-        controls.append(("window", str, places("The window of the section", 2, low, high)))
+        controls.append(("window", str, points("The window of the section", 2, low, high)))
         controls.append(("indicator", str, colouring(has_density=False)))
         if "integrals" in section:
-            controls.append(("place", str, places("Start of the motion", 1, low, high, _place(own))))
+            controls.append(("place", str, points("Start of the motion", 1, low, high, _point(own))))
         if _BRANCH in names:
             first, second = own.names
             section["branch"] = part(lambda s: SectionBranch(s, s.periodic_orbit, field_of))
@@ -251,17 +251,17 @@ def _checked_section(system: System, section: Mapping[str, Any]) -> VariableSect
     return found
 
 
-def _place(section: VariableSection) -> str:
-    """Return the place where the motion of the example first crosses a section, or any place with a motion."""
-    place = None
+def _point(section: VariableSection) -> str:
+    """Return the point where the motion of the example first crosses a section, or any point with a motion."""
+    point = None
     with suppress(ModelError):
-        place = first_place(section, section.system.example[0])
-    if place is None:
+        point = first_point(section, section.system.example[0])
+    if point is None:
         low, high = np.array(section.window).T
         tried = low + evenly(_MOST_TRIALS).T * (high - low)
         _, there = section.states_at(*tried.T)
-        place = tuple(tried[int(np.argmax(there))])
-    return places_text([place])
+        point = tuple(tried[int(np.argmax(there))])
+    return points_text([point])
 
 
 def _fields(system: System, integrals: Sequence[str] | None) -> dict[str, tuple[str, float]]:

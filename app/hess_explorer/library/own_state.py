@@ -9,7 +9,7 @@ from typing import ClassVar
 import numpy as np
 
 from hess_explorer.compute.cache import Task
-from hess_explorer.protocol.specs import Value, Values, places_text
+from hess_explorer.protocol.specs import Value, Values, points_text
 from hess_explorer.scenes.framework.part import Start, part
 from hess_explorer.scenes.framework.periodic_search import ClosedOrbit, NotPeriodic
 from hess_explorer.scenes.framework.scene import State
@@ -117,7 +117,7 @@ class OwnState(State):
         return box_window(corners, ((x0, y0), (x1, y1)))
 
     def start_at(self, x: float, y: float) -> Values:
-        """Return the initial values at a place of the section; empty if no motion crosses it there."""
+        """Return the initial values at a point of the section; empty if no motion crosses it there."""
         states, there = self.poincare.states_at(np.array([x]), np.array([y]))
         named = zip(self.system.variables, states[0].tolist(), strict=True)
         values: dict[str, Value] = {f"y_{name}": value for name, value in named}
@@ -126,7 +126,7 @@ class OwnState(State):
 
 @dataclass(frozen=True)
 class LevelState(OwnState):
-    """A motion from a place of a section; each scene adds the levels of integrals, `i_…`, and the `place`."""
+    """A motion from a point of a section; each scene adds the levels of integrals, `i_…`, and the `place`."""
 
     periodic: str = which()
     reach: float = length_of_manifolds()
@@ -136,7 +136,7 @@ class LevelState(OwnState):
 
     @cached_property
     def chosen_start(self) -> Start:
-        """The state (d,) at the place.  Raises `OutsideRegion`."""
+        """The state (d,) at the point.  Raises `OutsideRegion`."""
         return start_on(self.poincare, self.place)
 
     @property
@@ -166,8 +166,8 @@ class LevelState(OwnState):
         return {name: getattr(self, f"i_{name}") for name in self.integrals}
 
     def start_at(self, x: float, y: float) -> Values:
-        """Return the place as the start of the motion."""
-        return {"place": places_text([(x, y)])}
+        """Return the point as the start of the motion."""
+        return {"place": points_text([(x, y)])}
 
 
 def _pixels(system: System) -> tuple[float, ...]:

@@ -17,7 +17,7 @@ from hess_explorer.export.code import code
 from hess_explorer.export.columns import Table, columns_of
 from hess_explorer.export.formats import FileRequest, formats_of
 from hess_explorer.export.picture_data import CLIENT_KEPT, Address, PictureData, address, compute, picture_of
-from hess_explorer.protocol.specs import NumberSpec, Places, Spec, Value, places_text, query_in, refusal
+from hess_explorer.protocol.specs import NumberSpec, Points, Spec, Value, points_text, query_in, refusal
 from hess_explorer.scenes import scene_named, scenes
 from hess_explorer.scenes.framework.scene import Scene
 from hess_mechanics.errors import InvalidParameter
@@ -444,12 +444,12 @@ def _validate(spec: Spec, value: Any) -> Value:
                 f"{value!r} is not a number: {spec.name} ({spec.label}) must be a number {spec.range}."
             )
         found, note = spec.read(cast(float, value))
-    elif isinstance(spec, Places) and not isinstance(value, str):
+    elif isinstance(spec, Points) and not isinstance(value, str):
         try:
             pairs = [(float(x), float(y)) for x, y in value]
         except (TypeError, ValueError, OverflowError):
             raise InvalidParameter(f"{spec.name} ({spec.label}) must be a list of pairs [(x, y), …].") from None
-        found, note = spec.read(places_text(pairs))
+        found, note = spec.read(points_text(pairs))
     else:
         found, note = spec.read(as_level_name(value) if isinstance(value, Level) else str(value))
     if note:

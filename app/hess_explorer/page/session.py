@@ -19,7 +19,7 @@ from hess_explorer.page.lesson_description import describe_lesson
 from hess_explorer.page.requested import RequestedState
 from hess_explorer.protocol.expressions import NotANumber, evaluate
 from hess_explorer.protocol.messages import Answer, PictureBox, PicturePoint, Request, StateAnswer, StepChoice
-from hess_explorer.protocol.specs import Formula, NumberSpec, Places, Values, encode
+from hess_explorer.protocol.specs import Formula, NumberSpec, Points, Values, encode
 from hess_explorer.protocol.wire import Wire
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Report, Scene
@@ -165,7 +165,7 @@ class Session:
         if request.expressions:
             self._evaluate(request.expressions)
         if request.clear:
-            self._change({name: spec.default for name, spec in wanted.specs.items() if isinstance(spec, Places)})
+            self._change({name: spec.default for name, spec in wanted.specs.items() if isinstance(spec, Points)})
         if request.picked is not None:
             self._pick(request.picked)
         if request.hover is not None:

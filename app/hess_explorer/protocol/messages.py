@@ -115,7 +115,7 @@ def parse(message: Any) -> Request | None:
 
 def _pick(raw: Any) -> PicturePoint | PictureBox | None:
     match raw:
-        case [str(picture), *place] if all(map(math.isfinite, numbers := [number(one) for one in place])):
+        case [str(picture), *point] if all(map(math.isfinite, numbers := [number(one) for one in point])):
             match numbers:
                 case [x, y]:
                     return PicturePoint(picture, x, y)

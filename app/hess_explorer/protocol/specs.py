@@ -96,7 +96,7 @@ class Formula:
 
 
 @dataclass(frozen=True)
-class Places:
+class Points:
     """Points chosen with the mouse in a picture, as a text "x,y;x,y"; they have no control.
 
     Attributes
@@ -129,8 +129,8 @@ class Places:
         if not inside:
             low, high = (",".join(map(plain, corner)) for corner in (self.low, self.high))
             return self.default, (f"{self.label} must be points x,y;x,y from {low} to {high}: the default is shown.")
-        note = f"{self.label} may be at most {self.most}: the last ones are kept." if len(pairs) > self.most else None
-        return places_text(pairs[-self.most :]), note
+        note = f"{self.label} can hold at most {self.most}: the last ones are kept." if len(pairs) > self.most else None
+        return points_text(pairs[-self.most :]), note
 
 
 @dataclass(frozen=True)
@@ -158,12 +158,12 @@ class Names:
         return ",".join(known[: self.most]) or (self.default if note else ""), note
 
 
-def places_text(places: Sequence[tuple[float, ...]]) -> str:
+def points_text(points: Sequence[tuple[float, ...]]) -> str:
     """Return the points as a text "x,y;x,y"."""
-    return ";".join(",".join(f"{value:.10g}" for value in place) for place in places)
+    return ";".join(",".join(f"{value:.10g}" for value in point) for point in points)
 
 
-def places(text: Value) -> list[tuple[float, float]]:
+def points_of(text: Value) -> list[tuple[float, float]]:
     """Return the points of a validated text."""
     pairs = (pair.split(",") for pair in str(text).split(";") if pair)
     return [(float(x), float(y)) for x, y in pairs]
@@ -172,7 +172,7 @@ def places(text: Value) -> list[tuple[float, float]]:
 Controlled = NumberSpec | ChoiceSpec | Formula
 """Parameters with a control."""
 
-Spec = Controlled | Places | Names
+Spec = Controlled | Points | Names
 
 CLIENT: tuple[NumberSpec, ...] = (
     NumberSpec("t", "t", "Time", 0.0, (0.0, 1000.0), 0.0, (0.0, 1e6)),

@@ -146,7 +146,7 @@ class ChaplyginBall(State):
         found: tuple[StripOrbit, ...] = self.work.need(
             self.strip_orbits(plan.side(_ORBITS), plan.level), preview=self.strip_orbits(_FEW_ORBITS, DRAFT)
         )
-        return tuple((math.sqrt(self.h) * track, place) for track, place in found)
+        return tuple((math.sqrt(self.h) * track, index) for track, index in found)
 
     @cached_property
     def map_or_reason(self) -> tuple[model.BallScattering | None, str]:
@@ -269,7 +269,7 @@ SCENE = Scene(
     group="Ball",
     essential=("D", "h", "theta", "phi"),
     handle="phi",
-    answers=(Answer("Every motion leaves the dashed line and ends on the solid one, in a steady rotation."),),
+    answers=(Answer("Every motion leaves the dashed line and ends on the solid one, in a uniform rotation."),),
     lead=("curve",),
     title="Chaplygin ball",
     summary="A ball rolls inside the body: every orbit crosses a strip between two ellipses, from Nᵘ to Nˢ.",

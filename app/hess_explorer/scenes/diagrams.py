@@ -11,7 +11,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from hess_explorer.compute.cache import Task
-from hess_explorer.protocol.specs import Values, places_text
+from hess_explorer.protocol.specs import Values, points_text
 from hess_explorer.scenes.framework.charted import Charts, ChartSource, parameters_of
 from hess_explorer.scenes.framework.part import Start, part
 from hess_explorer.scenes.framework.periodic_search import NONE, ClosedOrbit
@@ -120,12 +120,12 @@ class DiagramState(DiagramControls):
         found = self.continuation.orbit_at(x, y)
         if found is None:
             return self.diagram.choose(x, y)
-        value, place, period = found
-        return {self.diagram.name: value, "chosen": places_text([place]), "branch": f"period {period}"}
+        value, point, period = found
+        return {self.diagram.name: value, "chosen": points_text([point]), "branch": f"period {period}"}
 
     def start_here(self, x: float, y: float) -> Values:
-        """Return the parameter values of an orbit that starts at a place of the section."""
-        return {"chosen": places_text([(x, min(max(y, 1e-6), math.pi - 1e-6))])}
+        """Return the parameter values of an orbit that starts at a point of the section."""
+        return {"chosen": points_text([(x, min(max(y, 1e-6), math.pi - 1e-6))])}
 
     # ---- words --------------------------------------------------------------------------------------------------
 
@@ -144,8 +144,8 @@ class DiagramState(DiagramControls):
         return Caption(f"The rotation reverses {many}.", f"First at t = {first} ± {error}.")
 
     def quantities(self) -> list[str]:
-        """Return the energy, the chosen place, the bifurcations of the branch and the check of the body."""
-        psi, delta = map(digits, self.diagram.place)
+        """Return the energy, the chosen point, the bifurcations of the branch and the check of the body."""
+        psi, delta = map(digits, self.diagram.point)
         return [
             f"E = {digits(self.poincare.E)}",
             f"chosen: ψ = {psi}, δ = {delta}",
@@ -210,7 +210,7 @@ def regime_in(section: str, **more: float) -> ChartSource:
     """Return the charted regime of the motion in a section of the catalogue; `more` are further arguments."""
 
     def arguments(s: DiagramState) -> Mapping[str, float]:
-        psi, delta = s.diagram.place
+        psi, delta = s.diagram.point
         return {**parameters_of(s.body), "h": s.h, "psi": psi, "delta": delta, **more}
 
     return ChartSource(f"regime {section}", arguments)
@@ -286,13 +286,13 @@ def _pictures(state: type[DiagramState], ball: bool) -> tuple[Picture[Any], ...]
                     lambda s: s.regime.sets[0],
                     lambda s: s.regime.sets[1],
                     lambda s: [],
-                    chosen=lambda s: [s.diagram.place],
+                    chosen=lambda s: [s.diagram.point],
                     window=lambda s: _WINDOW,
                     impossible=lambda s: s.poincare.impossible(_WINDOW),
                     labels=("attractor", "repeller"),
                 ),
                 points("few", lambda s: few(s.regime.sets[0]), color=theme.ORBIT, size=9),
-                *periodic.places(closed),
+                *periodic.orbit_points(closed),
                 points("few-repelling", lambda s: few(s.regime.sets[1]), color=theme.UNSTABLE, size=9),
             ),
         ),

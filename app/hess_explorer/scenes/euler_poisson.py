@@ -10,7 +10,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from hess_explorer.protocol.specs import Value, Values, places_text
+from hess_explorer.protocol.specs import Value, Values, points_text
 from hess_explorer.scenes.framework.answers import Answer
 from hess_explorer.scenes.framework.charted import Charts, of_motion
 from hess_explorer.scenes.framework.hess_case import HeavyHess
@@ -25,7 +25,7 @@ from hess_explorer.scenes.framework.sliders import (
     exponent_time,
     number,
     parameter,
-    places,
+    points,
     time_span,
 )
 from hess_explorer.scenes.framework.solid_body import Solid, heavy_solid, solid_body
@@ -83,7 +83,7 @@ _RIS: dict[str, Value] = {"I1": 1.0, "I2": 1.5, "I3": 2.0, "m": -math.sqrt(0.5),
 _THERE, _LOW = "2.8,0.3", "-1.54,-0.86"
 """The first of these starts is impossible at the lowest energies."""
 _LS = np.array([-2.9, -2.7, -2.5, -2.2, 2.2, 2.5, 2.7, 2.9])
-_ON_HESS = places_text([*zip(_LS, hess_curve(HeavyBody.hess((1.0, 1.5, 2.0), -math.sqrt(0.5)), _LS), strict=True)])
+_ON_HESS = points_text([*zip(_LS, hess_curve(HeavyBody.hess((1.0, 1.5, 2.0), -math.sqrt(0.5)), _LS), strict=True)])
 
 
 def _figure(number: int, f: float, what: str, energies: Mapping[str, float]) -> Iterator[Preset]:
@@ -183,8 +183,8 @@ class EulerPoisson(FilledState):
         doc="Where two momenta G have this energy at the same point of the section: the one with which orbits start.",
     )
     shade: str = shading()
-    starts: str = places("The places of the chosen orbits", 12, *_BOUNDS, "0,0.2")
-    window: str = places("The window of the section", 2, *_BOUNDS)
+    starts: str = points("The points of the chosen orbits", 12, *_BOUNDS, "0,0.2")
+    window: str = points("The window of the section", 2, *_BOUNDS)
 
     weights: ClassVar[tuple[float, ...]] = (0.0, 0.0, 0.0, *(0.5 * PIXELS,) * 3)
 
@@ -250,10 +250,10 @@ class EulerPoisson(FilledState):
 
         return HessSurface(torus, self.shade == INVARIANT, orbit, says)
 
-    rotation = part(lambda s: RotationAcross(s, s.section, lambda: s.clicks.selection.places[0], s.turns == _ABOUT))
+    rotation = part(lambda s: RotationAcross(s, s.section, lambda: s.clicks.selection.points[0], s.turns == _ABOUT))
 
     def start_at(self, x: float, y: float) -> Values:
-        """Return the parameter values of an orbit that starts at a place of the section."""
+        """Return the parameter values of an orbit that starts at a point of the section."""
         return self.clicks.move(x, y)
 
     # ---- the pictures -------------------------------------------------------------------------------------------
@@ -327,7 +327,7 @@ SCENE = Scene(
     charts=Charts(
         of_motion(SYSTEM, lambda s: start_on(s.poincare, s.starts), time=lambda s: s.long),
         over=_NAMES,
-        place=("starts", _NAMES),
+        point=("starts", _NAMES),
     ),
     group="Euler–Poisson",
     essential=("away", "h", "f"),

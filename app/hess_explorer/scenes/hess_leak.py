@@ -60,7 +60,7 @@ class HessLeak(State):
     h: float = parameter(known.H_HEAVY)
     f: float = parameter(known.F_HEAVY)
     phi0: float = parameter(
-        PHI0, doc="Phase of the start on the torus, at the lowest place of the centre of mass, in radians."
+        PHI0, doc="Phase of the start on the torus, at the lowest position of the centre of mass, in radians."
     )
     returns: float = number(
         "N",

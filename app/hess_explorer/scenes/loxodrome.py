@@ -179,7 +179,7 @@ class Loxodrome(State):
             yield self.pendulum.body.check.sentence
         if self.pendulum_motion.times[-1] < self.span * (1 - 1e-9):
             end = digits(float(self.pendulum_motion.times[-1]))
-            yield f"The motion is shown up to t = {end}: after that it is visibly at rest."
+            yield f"The motion is shown up to t = {end}: after that no movement is visible."
 
 
 SCENE = Scene(

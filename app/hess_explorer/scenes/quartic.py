@@ -185,7 +185,7 @@ class Quartic(SectionState):
         )
 
     def start_at(self, x: float, y: float) -> Values:
-        """Return the start and direction at a place of the section; empty if no motion crosses it there."""
+        """Return the start and direction at a point of the section; empty if no motion crosses it there."""
         try:
             return dict(zip(("Q1", "Q2", "beta"), model.start_on_section(self.body, x, y), strict=True))
         except ModelError:

@@ -45,7 +45,7 @@ _ITERATES = 40
 
 
 PRESETS = (
-    Preset("One plateau, and no ladder", over="h, f", line="f"),
+    Preset("One plateau, no devil's staircase", over="h, f", line="f"),
     Preset("Along h", over="h, f", line="h", f=0.6),
     Preset("Along a, to the boundary of the plateau", over="h, a", line="a", h=0.5, f=0.6),
     Preset(
@@ -153,12 +153,12 @@ class RotationNumber(State):
     def _about_line(self) -> Caption:
         rho = str(self.target).replace("-", "−")
         if self.periodic is not None:
-            place = digits(self.on_line.place(self.periodic.torus))
+            value = digits(self.on_line.place(self.periodic.torus))
             difference = f"|Θ{superscript(self.target.denominator)} − id|"
             defect = digits(self.periodic.defect, 1)
             return Caption(
                 "All orbits of this torus are periodic.",
-                f"ρ = {rho} at {self.line} = {place}: {difference} ≤ {defect}.",
+                f"ρ = {rho} at {self.line} = {value}: {difference} ≤ {defect}.",
             )
         return Caption("ρ locks at 0 only." if self.other_family is None else f"No torus with ρ = {rho} found here.")
 
@@ -200,9 +200,9 @@ def _periodic(rho: Fraction, line: ParameterLine) -> tuple[PeriodicTorus | None]
 
 def _line(s: RotationNumber, plan: Plan) -> Array:
     """Return ρ of the tori on the line and of the other family."""
-    places = plan.side(_ON_LINE)
-    values = mechanics.along(s.on_line, places, plan.level)
-    other_family = mechanics.perturbations_along(s.on_line, places, s.epsilon, plan.level, plan.part(mechanics.TURNS))
+    count = plan.side(_ON_LINE)
+    values = mechanics.along(s.on_line, count, plan.level)
+    other_family = mechanics.perturbations_along(s.on_line, count, s.epsilon, plan.level, plan.part(mechanics.TURNS))
     return np.stack([np.where(values.possible, values.rho, np.nan), other_family])
 
 
@@ -248,13 +248,13 @@ SCENE = Scene(
     answers=(
         Answer("On the separatrix nothing returns: there is no rotation number.", lambda s: s.map is None),
         Answer(
-            "Locked: two loops exist, and the rotation number stays a whole number.",
+            "Locked: two loops exist, and the rotation number stays an integer.",
             lambda s: s.map is not None and s.map.kind == "hyperbolic",
         ),
         Answer("Not locked: the body winds on, and its rotation number changes smoothly."),
     ),
     title="Rotation number",
-    summary="Is ρ of the Suslov–Hess torus a ladder, as the paper asks? It has one plateau; another family has many.",
+    summary="Is ρ of the Suslov–Hess torus a devil's staircase? It has one plateau; another family has many.",
     views=(
         rotation_map(lambda s: s.rho),
         Plot(

@@ -92,7 +92,7 @@ class SingularMeasures(State):
     b3: float = parameter(
         known.B3,
         1.0,
-        label="Field b₃ of the cloud beside",
+        label="Field b₃ of the second cloud",
         group="State",
         doc="With I₁₃ = I₂₃ = 0 nothing would move without a field; the first cloud has none.",
     )
@@ -121,7 +121,7 @@ class SingularMeasures(State):
         "Fourth picture",
         ("divergence", "volume"),
         "divergence",
-        doc="The divergence div v at the points, or the logarithm of small volumes about them.",
+        doc="The divergence div v at the points, or the logarithm of small volumes around them.",
     )
     points: str = choice("Points", ("1000", "10000"), "10000", doc="Number of points of both clouds together.")
     accuracy: str = accuracy_level()
@@ -232,7 +232,7 @@ SCENE = Scene(
     measures=(_CLOUD,),
     group="Free body",
     essential=("h", "I23", "D", "spread"),
-    answers=(Answer("The cloud leaves one line and gathers at another, though no energy is lost."),),
+    answers=(Answer("The cloud leaves one half of a line and gathers at the other, though no energy is lost."),),
     title="Singular measures",
     summary="10 000 phase points approach an invariant manifold on which an invariant density is infinite.",
     tracks={"orbit": SingularMeasures.track},

@@ -14,7 +14,7 @@ from hess_explorer.scenes.framework.answers import Answer
 from hess_explorer.scenes.framework.charted import Charts, ChartSource, of_motion, parameters_of
 from hess_explorer.scenes.framework.part import part
 from hess_explorer.scenes.framework.scene import Preset, Scene
-from hess_explorer.scenes.framework.sliders import TURN, choice, parameter, places, time_span
+from hess_explorer.scenes.framework.sliders import TURN, choice, parameter, points, time_span
 from hess_explorer.scenes.framework.solid_body import solid_body
 from hess_explorer.scenes.framework.swarm import turned_swarm
 from hess_explorer.scenes.parts.orbits.exponent import exponent_trial
@@ -116,8 +116,8 @@ class Suslov(FilledState):
     )
     drop: str = choice("Points shown", ("all", _LATE), "all", doc="The later half shows the attractor.")
     span: float = time_span(60.0, 400.0, what="the chosen orbit")
-    starts: str = places("The places of the chosen orbits", 12, *_BOUNDS, "1,1")
-    window: str = places("The window of the section", 2, *_BOUNDS)
+    starts: str = points("The points of the chosen orbits", 12, *_BOUNDS, "1,1")
+    window: str = points("The window of the section", 2, *_BOUNDS)
 
     def valid_state(self, notes: list[str]) -> Suslov:
         """Return a state with a valid window, at least one start, and an energy that reaches the plane."""
@@ -224,7 +224,7 @@ SCENE = Scene(
             ),
         ),
         over=_NAMES,
-        place=("starts", _NAMES),
+        point=("starts", _NAMES),
     ),
     group="Heavy body",
     essential=("h", "I13", "I23", "b3"),
@@ -234,7 +234,7 @@ SCENE = Scene(
             "On a principal axis volume is preserved: nothing attracts, in either direction of time.",
             lambda s: s.I13 == s.I23 == 0.0,
         ),
-        Answer("Each dot is one return: dots on a line are a regular motion, a cloud of dots is chaos."),
+        Answer("Each dot is one return: dots on a curve are a regular motion, a cloud of dots is chaos."),
     ),
     title="Suslov problem with gravity",
     summary="Regular orbits, seas, strange attractors: sections forward and backward in time.",

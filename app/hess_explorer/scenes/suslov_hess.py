@@ -56,7 +56,7 @@ from hess_mechanics.suslov_hess.mode_locking import CELLS, affordable_cells, loc
 from hess_mechanics.suslov_hess.torus import MAX_RETURNS, Track, annulus, pixels_per_unit, start_of_track, track
 
 _ON_BOUNDARY = 48
-"""Points of the boundary of the lock zone."""
+"""Points of the boundary of the Arnold tongue."""
 _PHASES = np.linspace(-math.pi, math.pi, 181)
 
 PRESETS = (
@@ -280,7 +280,7 @@ class SuslovHess(State):
             yield self.body.check.sentence
         shown = float(self.track.times[-1]) if self.peek("track") else math.inf
         if shown < self.span * (1 - 1e-9):
-            reason = "after that it is visibly at rest" if self.map is None else f"{MAX_RETURNS} returns"
+            reason = "after that no movement is visible" if self.map is None else f"{MAX_RETURNS} returns"
             yield f"The orbit is shown up to t = {digits(shown)}: {reason}."
         if self.f == 0.0 and self.map is not None and self.h < 1.0:
             yield "At f = 0, h < 1 the angle φ jumps where w = 0: the circle map is its limit f → 0."

@@ -25,7 +25,7 @@ FORGED = 4005, "This room belongs to another page."
 SEVERAL = 4006, "Rooms need a server of one process: start the explorer without --workers."
 FULL = 1013, "The room is full."
 NO_ROOM_LEFT = 1013, "There are too many rooms at the moment: try again later."
-NO_MESSAGE = 1007, "This is no message of a room."
+NO_MESSAGE = 1007, "This is not a message of a room."
 
 
 class Outbox:

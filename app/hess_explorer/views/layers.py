@@ -388,7 +388,7 @@ def ring(
     columns: tuple[str, str] = ("x", "y"),
     within: Within[S] = None,
 ) -> Layer[S]:
-    """Return a layer of rings at places; `data(state)` returns [(x, y), …]."""
+    """Return a layer of rings at points; `data(state)` returns [(x, y), …]."""
     layer: Layer[S] = points(
         name, color=color, size=size, hollow=True, edge_width=width, label=label, tag=tag, columns=columns
     )

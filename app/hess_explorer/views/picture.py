@@ -40,7 +40,7 @@ class Picture(ABC, Generic[S]):
     on_box : callable, optional
         `on_box(state, corners)` returns the parameter values that a box selection sets.
     on_hover : callable, optional
-        `on_hover(state, x, y)` returns the tooltip at a place; it raises `ModelError`.
+        `on_hover(state, x, y)` returns the tooltip at a point; it raises `ModelError`.
     signs : tuple of Sign
         Legend entries in addition to those of the layers.
     drawn_from : tuple of str

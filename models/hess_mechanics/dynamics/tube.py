@@ -448,13 +448,14 @@ class _Walk:
 
     def _length(self, series: list[list[ArbBall]]) -> float:
         """Return the step size at which the last terms are as small as a rounding; the proof does not depend on it."""
-        shortest = 1e6
+        # Logarithms: the terms of a distant pulse are smaller than any double.
+        shortest = math.log(1e6)
         for k in (self.terms - 1, self.terms - 2):
             for one, size in zip(series, self.scale, strict=True):
-                last = float(abs(one[k]).log()) if one[k] != 0 else -math.inf
-                if last > -math.inf:
-                    shortest = min(shortest, math.exp((-self.bits * math.log(2.0) - last + math.log(size)) / k))
-        return shortest
+                if one[k] != 0:
+                    last = float(abs(one[k]).log())
+                    shortest = min(shortest, (-self.bits * math.log(2.0) - last + math.log(size)) / k)
+        return math.exp(shortest)
 
     def _radius(self, along: list[ArbBall], length: float, sign: int) -> ArbBall | None:
         """Return an upper bound on |e| over a step; None if the step is too long."""

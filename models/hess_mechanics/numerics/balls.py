@@ -216,6 +216,10 @@ class Enclosure:
         """Width of the interval, divided by the magnitude of the number if that exceeds 1."""
         return float(self.width / max(Fraction(1), abs(self.low), abs(self.high)))
 
+    def __repr__(self) -> str:
+        # Python refuses to write integers of thousands of digits, which fractions near 0 have.
+        return "Enclosure({}, {})".format(*self.decimals())
+
     def __contains__(self, number: Fraction) -> bool:
         return self.low <= number <= self.high
 

@@ -118,6 +118,16 @@ def test_functions_in_a_field_have_tubes_too():
         assert_encloses(tube(*system.example_motion, [0.02], digits=20), [exact], 20)
 
 
+def test_before_a_narrow_pulse_an_integral_smaller_than_any_double_is_enclosed():
+    system = System("pulse", lambda y, p: (1.0 + 0.0 * y[0], f.exp(-p[0] * (y[0] - 1.0) ** 2)), "x z", {"c": 1e6})
+    found = tube(system.at((1e6,)), (0.0, 0.0), [0.5], digits=18)
+    ((_, before),) = found.states
+    # To leading order in 1/c, z = exp(−c/4)/c = 10^−108579.6.
+    assert before.low <= Fraction(1, 10**108580)
+    assert Fraction(1, 10**108579) <= before.high < Fraction(1, 10**300)
+    assert "E-" in repr(before)
+
+
 def test_what_has_no_tube_is_refused():
     system = systems()["hess"]
     for words, said in ((([0.1, -0.1],), "must be monotonic"), (([1.0], 0), "from 1 to 100")):

@@ -16,7 +16,7 @@ import numpy as np
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.compute.cells import Outcome
-from hess_explorer.protocol.specs import ChoiceSpec, NumberSpec, Places, Spec, Values
+from hess_explorer.protocol.specs import ChoiceSpec, NumberSpec, Points, Spec, Values
 from hess_explorer.scenes.framework.cells import COARSE, cells_by_rows
 from hess_explorer.scenes.framework.chart_cells import STORED, Cells, Side, chart_row
 from hess_explorer.scenes.framework.charted import Charts, Numbers
@@ -53,8 +53,8 @@ class _Chart(Part[Any]):
         return self.sides[self.host.chart_x], self.sides[self.host.chart_y]
 
     @property
-    def place(self) -> tuple[float, float]:
-        """The place of this state in the chart."""
+    def point(self) -> tuple[float, float]:
+        """The point of this state in the chart."""
         return self.axes[0].of(self.host), self.axes[1].of(self.host)
 
     def adjustments(self, before: Self) -> Values:
@@ -98,7 +98,7 @@ class _Chart(Part[Any]):
     @cached_property
     def own(self) -> Array | None:
         """Value, error and status (3, 1) of this state; None until known."""
-        return self.work.need(Task(chart_row, self.key, (self.place, self.place), 1, 0), preview=None)
+        return self.work.need(Task(chart_row, self.key, (self.point, self.point), 1, 0), preview=None)
 
     @cached_property
     def cells(self) -> CellGrid | None:
@@ -117,11 +117,11 @@ class _Chart(Part[Any]):
         return CellGrid(values, (x0, x1), (y0, y1), ends)
 
     def here(self) -> Positions:
-        """Return the place of the state if the window contains it."""
-        return inside([self.place], self.window)
+        """Return the point of the state if the window contains it."""
+        return inside([self.point], self.window)
 
     def choose(self, x: float, y: float) -> Values:
-        """Return the parameters at a place.  Raises `ModelError` if no number is possible there."""
+        """Return the parameters at a point.  Raises `ModelError` if no number is possible there."""
         across, up = self.axes
         state = up.put(across.put(self.host, x), y)
         self.key.source.values(state)
@@ -141,7 +141,7 @@ class _Chart(Part[Any]):
         return f"{number.symbol} = {said}{unit}{'' if outcome is Outcome.OK else f' ({outcome.words})'}."
 
     def about(self, x: float, y: float) -> str:
-        """Return a line about the cell at a place."""
+        """Return a line about the cell at a point."""
         if self._rows is None:
             return ""
         cells, _, window = self._rows
@@ -169,9 +169,9 @@ def _sides(charts: Charts, state: type[Any]) -> Mapping[str, Side]:
     for spec in specs_of(state):
         if isinstance(spec, NumberSpec):
             found.append(Side(spec.symbol, spec.name, spec.softbounds))
-        elif isinstance(spec, Places) and spec.name == charts.place[0]:
+        elif isinstance(spec, Points) and spec.name == charts.point[0]:
             ends = zip(spec.low, spec.high, strict=True)
-            found += [Side(charts.place[1][i], spec.name, both, i) for i, both in enumerate(ends)]
+            found += [Side(charts.point[1][i], spec.name, both, i) for i, both in enumerate(ends)]
     return {one.symbol: one for one in found}
 
 
@@ -186,7 +186,7 @@ def with_chart(state: type[Any], charts: Charts) -> type[Any]:
         ),
         ChoiceSpec("chart_x", "Across", (*sides,), x, along, "Chart"),
         ChoiceSpec("chart_y", "Up", (*sides,), y, along, "Chart"),
-        Places("chart_window", "The window of the chart", 2, (-_FAR, -_FAR), (_FAR, _FAR)),
+        Points("chart_window", "The window of the chart", 2, (-_FAR, -_FAR), (_FAR, _FAR)),
     )
 
     return make_dataclass(

@@ -10,7 +10,7 @@ import numpy as np
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.compute.cells import evaluate, failure
-from hess_explorer.protocol.specs import places, places_text
+from hess_explorer.protocol.specs import points_of, points_text
 from hess_explorer.scenes.framework.charted import ChartSource
 from hess_explorer.scenes.framework.windows import Window
 from hess_explorer.views.layers import Range
@@ -21,7 +21,7 @@ from hess_mechanics.numerics.results import Array, frozen
 
 @dataclass(frozen=True)
 class Side:
-    """A side of a chart: a parameter of the scene, or a coordinate of its last place.
+    """A side of a chart: a parameter of the scene, or a coordinate of its last point.
 
     Attributes
     ----------
@@ -32,7 +32,7 @@ class Side:
     ends : tuple of float
         Default range.
     axis : int or None
-        Index of the coordinate of a place; None for a number.
+        Index of the coordinate of a point; None for a number.
     """
 
     symbol: str
@@ -43,15 +43,15 @@ class Side:
     def of(self, state: Any) -> float:
         """Return the value in a state."""
         value = getattr(state, self.name)
-        return float(value) if self.axis is None else places(value)[-1][self.axis]
+        return float(value) if self.axis is None else points_of(value)[-1][self.axis]
 
     def put(self, state: Any, value: float) -> Any:
-        """Return the state with another value; only the last of several places is kept."""
+        """Return the state with another value; only the last of several points is kept."""
         if self.axis is None:
             return state.with_values({self.name: value})
-        place = [*places(getattr(state, self.name))[-1]]
-        place[self.axis] = value
-        return state.with_values({self.name: places_text([tuple(place)])})
+        point = [*points_of(getattr(state, self.name))[-1]]
+        point[self.axis] = value
+        return state.with_values({self.name: points_text([tuple(point)])})
 
 
 @dataclass(frozen=True)
@@ -66,7 +66,7 @@ class Cells:
     level: Level
 
     def arguments(self, x: float, y: float) -> Mapping[str, Any]:
-        """Return the arguments at a place.  Raises `ModelError`."""
+        """Return the arguments at a point.  Raises `ModelError`."""
         return self.source.values(self.y.put(self.x.put(self.state, x), y))
 
 

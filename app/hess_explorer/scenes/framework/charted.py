@@ -57,13 +57,13 @@ class Charts:
         The computations.
     over : tuple of str
         The initial sides: parameters by name, coordinates by symbol.
-    place : tuple
-        A parameter of places and the symbols of their coordinates, which are possible sides.
+    point : tuple
+        A parameter of points and the symbols of their coordinates, which are possible sides.
     """
 
     sources: tuple[ChartSource, ...]
     over: tuple[str, str]
-    place: tuple[str, tuple[str, str]] = ("", ("", ""))
+    point: tuple[str, tuple[str, str]] = ("", ("", ""))
 
     @property
     def numbers(self) -> Numbers:

@@ -15,7 +15,7 @@ import numpy as np
 from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.families import Begin
 from hess_explorer.scenes.framework.part import Part, Sectioned
-from hess_explorer.scenes.framework.periodic_search import ClosedOrbit, NotFound, Place
+from hess_explorer.scenes.framework.periodic_search import ClosedOrbit, NotFound, Point
 from hess_explorer.scenes.framework.windows import Window
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.maps.branch import bifurcations
@@ -29,7 +29,7 @@ from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array
 
 _TOGETHER = 60
-"""Places of a branch computed at once: few enough to arrive soon."""
+"""Points of a branch computed at once: few enough to arrive soon."""
 _PARTS = 16
 """Largest number of pieces of a branch in each direction."""
 _STEP = 0.02
@@ -43,7 +43,7 @@ _MOST_LISTED = 8
 
 
 _Nearest = tuple[float, mechanics.Branch, int, float, int]
-"""Distance in pixels of a point of a branch, the branch, its segment, the position there, its place on the orbit."""
+"""Distance in pixels of a point of a branch, the branch, its segment, the position there, its point on the orbit."""
 
 
 H_co = TypeVar("H_co", bound=Sectioned, covariant=True)
@@ -116,10 +116,10 @@ class Continuation(Part[H_co]):
 
     # ---- the mouse ----------------------------------------------------------------------------------------------
 
-    def _pixels(self, values: Array, places: Array, x: float, y: float) -> Array:
-        """Return the pixels (n, 2) from (x, y) to places (n, d) at values (n,) of the parameter."""
+    def _pixels(self, values: Array, points: Array, x: float, y: float) -> Array:
+        """Return the pixels (n, 2) from (x, y) to points (n, d) at values (n,) of the parameter."""
         (x0, y0), (x1, y1) = self.frame
-        up = apart((self.turn,), places[:, self.side, None], np.array([y]))[:, 0]
+        up = apart((self.turn,), points[:, self.side, None], np.array([y]))[:, 0]
         return np.column_stack([values - x, up]) * (PIXELS / (x1 - x0), PIXELS / (y1 - y0))
 
     def _nearest(self, x: float, y: float) -> _Nearest | None:
@@ -138,8 +138,8 @@ class Continuation(Part[H_co]):
         near = min(found, key=itemgetter(0), default=None)
         return near if near is not None and near[0] <= _NEAR else None
 
-    def orbit_at(self, x: float, y: float) -> tuple[float, Place, int] | None:
-        """Return parameter, place and period of the branch's orbit at (x, y); None away from the branch."""
+    def orbit_at(self, x: float, y: float) -> tuple[float, Point, int] | None:
+        """Return parameter, point and period of the branch's orbit at (x, y); None away from the branch."""
         near = self._nearest(x, y)
         if near is None or self.begin is None:
             return None
@@ -149,16 +149,16 @@ class Continuation(Part[H_co]):
         between = np.roll(a + share * apart(turns, b, a), -j, axis=0)
         value = float(first + share * (second - first))
         try:
-            place = find_periodic(self.begin.family.map_at(value), between, m).places[0]
+            point = find_periodic(self.begin.family.map_at(value), between, m).places[0]
         except ModelError:
             go_on()
-            value, place = float(first), a[j]
+            value, point = float(first), a[j]
         # The section has angles between −turn/2 and turn/2.
         return (
             value,
             tuple(
                 float(one) if math.isinf(turn) else math.remainder(float(one), turn)
-                for one, turn in zip(place, turns, strict=True)
+                for one, turn in zip(point, turns, strict=True)
             ),
             m,
         )

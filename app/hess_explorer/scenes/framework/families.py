@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.specs import Value
 from hess_explorer.scenes.framework.part import Sectioned
-from hess_explorer.scenes.framework.periodic_search import ClosedOrbit, NotFound, Place, find_orbit
+from hess_explorer.scenes.framework.periodic_search import ClosedOrbit, NotFound, Point, find_orbit
 from hess_mechanics.dynamics.return_map import PoincareSection, ReturnMap
 from hess_mechanics.numerics.accuracy import PRECISE
 
@@ -66,8 +66,8 @@ class Begin:
         The section over the parameter.
     value : float
         Value of the parameter.
-    place : tuple of float
-        Place in the section near the periodic orbit.
+    point : tuple of float
+        Point in the section near the periodic orbit.
     period : int or None
         Period of the orbit; None for any.
     ends : tuple of float
@@ -76,11 +76,11 @@ class Begin:
 
     family: Family
     value: float
-    place: Place
+    point: Point
     period: int | None
     ends: tuple[float, float]
 
     @property
     def search(self) -> Task[ClosedOrbit | NotFound]:
         """The task that searches for the orbit at the start.  Raises `ModelError`."""
-        return Task(find_orbit, self.family.map_at(self.value), self.place, self.period, False)
+        return Task(find_orbit, self.family.map_at(self.value), self.point, self.period, False)

@@ -13,11 +13,11 @@ from hess_mechanics.dynamics.return_map import ReturnMap
 from hess_mechanics.errors import ModelError
 from hess_mechanics.numerics.patience import go_on
 
-Place = tuple[float, ...]
-Search = tuple[ReturnMap, Place, int | None, bool]
+Point = tuple[float, ...]
+Search = tuple[ReturnMap, Point, int | None, bool]
 """The map, the starting point, the period if one is given, and whether to search near that point only."""
 BranchChoice = tuple[int, bool, int]
-"""A branch of a manifold: index of the place of the orbit, True if stable, side ±1."""
+"""A branch of a manifold: index of the point of the orbit, True if stable, side ±1."""
 
 NONE, ANY = "none", "any period"
 _MOST = 12
@@ -31,7 +31,7 @@ _SAGITTA, _CHORD = 0.25, 10.0
 _PARTS = (1.0, 0.5, 0.25)
 """Shares of the requested length, tried in order until the branch is right to half a pixel."""
 AT_ITS_LENGTH = "At its length."
-_UNKNOWN = "What follows is not known to half a pixel: a more exact level may show it."
+_UNKNOWN = "What follows is not known to half a pixel: a higher accuracy may show it."
 
 
 @dataclass(frozen=True)
@@ -43,7 +43,7 @@ class ClosedOrbit:
     orbit : PeriodicOrbit
         The orbit of the return map.
     state : tuple of float
-        State (d,) at its first place.
+        State (d,) at its first point.
     time : float
         Period in time.
     """
@@ -91,8 +91,8 @@ class NotPeriodic:
     growth: tuple[float, float] | None = None
 
 
-def find_orbit(map_: ReturnMap, aim: Place, period: int | None, near: bool) -> ClosedOrbit | NotFound:
-    """Search for a periodic orbit near a place; return the orbit, or the reason why none was found."""
+def find_orbit(map_: ReturnMap, aim: Point, period: int | None, near: bool) -> ClosedOrbit | NotFound:
+    """Search for a periodic orbit near a point; return the orbit, or the reason why none was found."""
     try:
         orbit = find_periodic(map_, aim, period, _MOST, near)
         first = orbit.places[0]
@@ -111,7 +111,7 @@ def branch_of(search: Search, branch: BranchChoice, length: float, pixel: float)
     """Return one branch of a manifold, up to the length at which its error reaches half a pixel."""
     found = Task(find_orbit, *search).get()
     assert isinstance(found, ClosedOrbit), "only a closed orbit has branches"
-    place, stable, side = branch
+    index, stable, side = branch
     for part in _PARTS:
         try:
             curve = manifold(
@@ -120,7 +120,7 @@ def branch_of(search: Search, branch: BranchChoice, length: float, pixel: float)
                 part * length,
                 stable=stable,
                 side=side,
-                place=place,
+                place=index,
                 sagitta=_SAGITTA * pixel,
                 longest=_CHORD * pixel,
                 most=MOST_POINTS,

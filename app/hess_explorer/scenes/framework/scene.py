@@ -379,7 +379,7 @@ class Scene(Generic[S]):
         return {spec.name: spec.default for spec in self.specs}
 
     def example(self, preset: Preset) -> dict[str, Value]:
-        """Return the values of a preset: all numbers and places, and the choices that any preset sets."""
+        """Return the values of a preset: all numbers and points, and the choices that any preset sets."""
         given = {name for one in self.presets for name in one.values}
         plain = {one.name: one.default for one in self.specs if not isinstance(one, ChoiceSpec) or one.name in given}
         return {**plain, **preset.values}

@@ -8,7 +8,7 @@ from dataclasses import field, fields, replace
 from inspect import get_annotations
 from typing import Any
 
-from hess_explorer.protocol.specs import ChoiceSpec, Formula, NumberSpec, Places, Spec, Value
+from hess_explorer.protocol.specs import ChoiceSpec, Formula, NumberSpec, Points, Spec, Value
 from hess_explorer.scenes.framework.work import AUTO
 from hess_mechanics.numerics.accuracy import LEVELS
 from hess_mechanics.parameters import Group, Parameter
@@ -20,7 +20,7 @@ ONE_TURN = (-math.pi, math.pi)
 """Bounds of an angle that a click sets: a picture shows one turn."""
 
 TURN = 3.14159
-"""Half a turn, with the digits of a place in a link."""
+"""Half a turn, with the digits of a point in a link."""
 _SPEC = "spec"
 HIDDEN, SHOWN = "not shown", "shown"
 
@@ -93,9 +93,9 @@ def formula(label: str, default: str, reads: Callable[[str], object], *, doc: st
     return declare(Formula("", label, default, doc, group, reads))
 
 
-def places(label: str, most: int, low: tuple[float, float], high: tuple[float, float], default: str = "") -> Any:
+def points(label: str, most: int, low: tuple[float, float], high: tuple[float, float], default: str = "") -> Any:
     """Declare at most `most` points set with the mouse, within a rectangle; they have no control."""
-    return declare(Places("", label, most, low, high, default))
+    return declare(Points("", label, most, low, high, default))
 
 
 def accuracy_level() -> Any:
@@ -108,8 +108,8 @@ def accuracy_level() -> Any:
         "double precision. One orbit costs about the same at every level: reference takes 0.67 to 3.1 × "
         "as long as draft, whose error is up to 0.22 pixels. Draft is cheaper where it computes less: "
         "of sections 25 % of the crossings (3.6 to 7.2 ×, error up to 1.3 pixels), of basins 33 % of "
-        "the cells along a side (7.7 ×, 0.41 % of the cells change). Auto: the cheapest that shows all "
-        "of it right to half a pixel.",
+        "the cells along a side (7.7 ×, 0.41 % of the cells change). Auto: the cheapest level that is "
+        "right to half a pixel.",
     )
 
 

@@ -8,14 +8,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, make_dataclass, replace
+from dataclasses import dataclass, fields, make_dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 import numpy as np
 
 from hess_explorer.compute.cache import Task
-from hess_explorer.protocol.specs import ChoiceSpec
+from hess_explorer.protocol.specs import ChoiceSpec, points_of
 from hess_explorer.scenes.framework.part import Part, part
 from hess_explorer.scenes.framework.sliders import declare
 from hess_explorer.scenes.framework.swarm_motions import ERROR, SwarmMotions, swarm_motions, turned
@@ -35,7 +35,8 @@ S = TypeVar("S")
 
 SWARM = "swarm"
 """Name of the track."""
-ONE, SPREAD, NEAR, FORWARD, BACKWARD = "1", "over the phase", "near this start", "forward", "backward"
+ONE, SPREAD, NEAR, LINE = "1", "over the phase", "near this start", "along a line"
+FORWARD, BACKWARD = "forward", "backward"
 _COUNTS = (ONE, "2", "8", "50", "200", "2000")
 _NEAR = 0.02
 """Share of the phase that a swarm near the chosen start takes."""
@@ -113,10 +114,23 @@ class _SwarmPart(Part[Any]):
 
     @cached_property
     def angles(self) -> Array:
-        """Angles (n,) of the starts; empty without a swarm."""
+        """Angles (n,) of the bodies: of their starts, or around the vertical; empty without a swarm."""
         n = int(self.host.swarm)
         share = _NEAR if self.host.swarm_from == NEAR else 1.0
         return share * 2.0 * math.pi * ((np.arange(n) + 0.5) / n - 0.5) if n > 1 else np.empty(0)
+
+    @property
+    def _clicked(self) -> list[tuple[float, float]]:
+        """The last two points that were clicked in a section, or fewer, between which the starts are to lie."""
+        return points_of(self.host.starts)[-2:] if self.host.swarm_from == LINE else []
+
+    @property
+    def starts(self) -> Array:
+        """Initial states (n, d), without points of a line at which no motion is possible."""
+        if len(self._clicked) < 2:
+            return self.swarm.starts(self.host, self.angles)
+        states, possible = self.host.poincare.states_at(*np.linspace(*self._clicked, self.angles.size).T)
+        return np.array(states)[possible]
 
     @property
     def _sign(self) -> float:
@@ -132,7 +146,9 @@ class _SwarmPart(Part[Any]):
         """The motions; None without a swarm."""
         if not self.angles.size:
             return None
-        starts = tuple(map(tuple, self.swarm.starts(self.host, self.angles).tolist()))
+        starts = tuple(map(tuple, self.starts.tolist()))
+        if not starts:
+            return None
         named = self.swarm.columns(self.host, np.zeros(1), np.array(starts)[:1, None])
         most = max(4, min(MOST_SAMPLES, _BYTES // (2 * len(starts) * (len(named) + 3))))
         return self.work.need(Task(swarm_motions, self._motion, starts, most, self.swarm.period(self.host)))
@@ -162,8 +178,9 @@ class _SwarmPart(Part[Any]):
         }
 
     def _centres(self, motions: SwarmMotions, columns: Columns) -> Columns:
-        """Return the places of the centres of mass, of a few constrained bodies; they start around the vertical."""
+        """Return the positions of the centres of mass, of a few constrained bodies; they start around the vertical."""
         mass = getattr(getattr(self.host, "solid", None), "mass", None)
+        angles = self.angles[: len(motions.states)]
         if mass is None or "omega1" not in columns or self.angles.size > _IN_SPACE:
             return {}
         times = motions.times
@@ -183,10 +200,10 @@ class _SwarmPart(Part[Any]):
         down, e, f = (one @ mass.along for one in (verticals, second, np.cross(verticals, second)))
         # A turn about γ is free.
         own = self.host.solid.attitude.in_space(mass.along)[0]
-        turn = self.angles + math.atan2(own[2], own[1]) - np.arctan2(f[:, 0], e[:, 0])
+        turn = angles + math.atan2(own[2], own[1]) - np.arctan2(f[:, 0], e[:, 0])
         across = np.exp(1j * turn)[:, None] * (e + 1j * f)
-        places = seen_in_space(np.stack([down, across.real, across.imag], axis=2))
-        return {f"m{name}": places[..., i] for i, name in enumerate("xyz")}
+        positions = seen_in_space(np.stack([down, across.real, across.imag], axis=2))
+        return {f"m{name}": positions[..., i] for i, name in enumerate("xyz")}
 
     @cached_property
     def spread(self) -> tuple[Array, Array] | None:
@@ -224,14 +241,16 @@ class _SwarmPart(Part[Any]):
         return 10.0**low, 10.0**high
 
     def notes(self) -> Iterator[str]:
-        """Yield a note if the beads are not drawn to the end."""
+        """Yield a note if the starts lie elsewhere than chosen, or the beads are not drawn to the end."""
+        if len(self._clicked) == 1:
+            yield "Click a second point in the section: then the bodies start on the line between both."
         if not self.has_result("motions") or self.motions is None:
             return
         ends = self.motions.until * abs(self.motions.times[1])
         if ends.max() < 0.99 * abs(self._motion.span):
             yield f"The {ends.size} bodies are shown up to t = {digits(float(ends.max()) * self._motion.unit)}."
         elif ends.min() < 0.99 * abs(self._motion.span):
-            yield "Beads fade when they are no longer known to half a pixel."
+            yield "Dots fade out before their error exceeds half a pixel."
 
     @property
     def reason(self) -> str:
@@ -250,7 +269,9 @@ class _SwarmPart(Part[Any]):
         rate = self.swarm.rate(self.host)
         median = digits(float(self.spread[1][1, -1]), 2)
         said = "" if rate is None else f" {rate[1]}."
-        return Caption(f"Neighbours at the end: {median} times as far apart (median).", f"Between: 8 of 10.{said}")
+        return Caption(
+            f"Neighbours at the end: {median} times as far apart (median).", f"Thin lines enclose 8 of 10.{said}"
+        )
 
 
 def _choice(name: str, label: str, options: tuple[str, ...], doc: str) -> ChoiceSpec:
@@ -259,10 +280,15 @@ def _choice(name: str, label: str, options: tuple[str, ...], doc: str) -> Choice
 
 def with_swarm(state: type[Any], swarm: Swarm[Any]) -> type[Any]:
     """Return a class of states with the additional choices of a swarm, which do not change other results."""
+    has_clicks = any(one.name == "starts" for one in fields(state))
+    from_where = (SPREAD, NEAR, LINE) if has_clicks else (SPREAD, NEAR)
+    about = "All around, or within 2 % of a turn of the chosen start."
+    if has_clicks:
+        about += " A line joins the last two points clicked in the section."
     specs = (
         _choice("swarm", "Bodies", _COUNTS, "How many bodies move at once, each from its own start."),
-        _choice("swarm_from", "Starts", (SPREAD, NEAR), "All around, or within 2 % of a turn of the chosen start."),
-        _choice("swarm_time", "Time of the swarm", (FORWARD, BACKWARD), "Backward, the beads go where they came from."),
+        _choice("swarm_from", "Starts", from_where, about),
+        _choice("swarm_time", "Time of the swarm", (FORWARD, BACKWARD), "Backward: where the motions came from."),
     )
     return make_dataclass(
         state.__name__,

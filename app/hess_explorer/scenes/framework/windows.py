@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from hess_explorer.protocol.specs import Value, Values, places, places_text
+from hess_explorer.protocol.specs import Value, Values, points_of, points_text
 from hess_mechanics.dynamics.cells import Window
 from hess_mechanics.dynamics.sampling import PIXELS
 
@@ -11,16 +11,16 @@ __all__ = ["Window", "box_window", "pixels_in", "tidy_window", "window_of"]
 
 def tidy_window(text: Value) -> str:
     """Return the text of a window with sorted corners; an empty string for an invalid window."""
-    corners = places(text)
+    corners = points_of(text)
     if len(corners) != 2 or corners[0][0] == corners[1][0] or corners[0][1] == corners[1][1]:
         return ""
     (x0, y0), (x1, y1) = corners
-    return places_text([(min(x0, x1), min(y0, y1)), (max(x0, x1), max(y0, y1))])
+    return points_text([(min(x0, x1), min(y0, y1)), (max(x0, x1), max(y0, y1))])
 
 
 def window_of(text: Value, full: Window) -> Window:
     """Return the window of a valid text; `full` if the text is empty."""
-    corners = places(text)
+    corners = points_of(text)
     return (corners[0], corners[1]) if len(corners) == 2 else full
 
 
@@ -39,4 +39,4 @@ def box_window(corners: tuple[float, float, float, float], bounds: Window, name:
     low, high = max(y0, min(corners[1], corners[3])), min(y1, max(corners[1], corners[3]))
     if not (low < high and left < right):
         return {}
-    return {name: "" if ((left, low), (right, high)) == bounds else places_text([(left, low), (right, high)])}
+    return {name: "" if ((left, low), (right, high)) == bounds else points_text([(left, low), (right, high)])}

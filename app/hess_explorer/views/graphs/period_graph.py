@@ -37,7 +37,7 @@ def layers(periods: Callable[[S], Array], here: Callable[[S], tuple[float, float
         return [np.minimum(found, (np.inf, 4.0 * axes.y[1]))] if has_periods(found) else []
 
     def chosen(state: S, axes: Axes) -> list[tuple[float, float]]:
-        place = here(state) if has_periods(periods(state)) else None
-        return [] if place is None else [(place[0], min(place[1], axes.y[1]))]
+        point = here(state) if has_periods(periods(state)) else None
+        return [] if point is None else [(point[0], min(point[1], axes.y[1]))]
 
     return curves("T", within=curve, color=theme.ORBIT), ring("chosen", within=chosen, size=18)

@@ -82,7 +82,7 @@ def layers(
     curve : callable
         `curve(state)` returns the upper branch of the bifurcation curve, (n, 2).
     here : callable
-        `here(state)` returns the place of the current torus.
+        `here(state)` returns the point of the current torus.
     axes : callable
         `axes(state)` returns the axes.
     """

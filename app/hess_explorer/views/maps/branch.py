@@ -24,7 +24,7 @@ _LOOKS = (
 
 
 def _strands(branch: Branch, side: int, sign: str) -> list[Array]:
-    """Return the parts (n, 2) of a branch with one sign of `sign_of`: the parameter and one coordinate of each place.
+    """Return the parts (n, 2) of a branch with one sign of `sign_of`: the parameter and one coordinate of each point.
 
     At a change of sign the parts reach to the bifurcation.
     """
@@ -32,7 +32,7 @@ def _strands(branch: Branch, side: int, sign: str) -> list[Array]:
     runs: list[list[tuple[float, float]]] = []
     for j in range(branch.period):
         run: list[tuple[float, float]] = []
-        for i, (value, places) in enumerate(zip(branch.values, branch.places, strict=True)):
+        for i, (value, orbit) in enumerate(zip(branch.values, branch.places, strict=True)):
             between = sorted(
                 (one for one in branch.bifurcations if one.after == i - 1),
                 key=lambda one: float(np.abs(one.places - branch.places[max(0, i - 1)]).max()),
@@ -43,7 +43,7 @@ def _strands(branch: Branch, side: int, sign: str) -> list[Array]:
                 run = [met] if signs[i] == sign else []
             # Without a bifurcation between them, a point of neither sign belongs to the previous part.
             if signs[i] == sign or (run and signs[i] == "neither"):
-                run.append((float(value), float(places[j, side])))
+                run.append((float(value), float(orbit[j, side])))
             else:
                 runs.append(run)
                 run = []
@@ -68,7 +68,7 @@ class Branched(Protocol):
 
 
 def layers(of: Callable[[S], Branched]) -> Layers[S]:
-    """Return the layers of branches over a parameter: one coordinate of all places, and the bifurcations."""
+    """Return the layers of branches over a parameter: one coordinate of all points, and the bifurcations."""
 
     def parts(sign: str) -> Callable[[S, Axes], list[Array]]:
         def drawn(state: S, axes: Axes) -> list[Array]:
@@ -88,14 +88,14 @@ def layers(of: Callable[[S], Branched]) -> Layers[S]:
             y = one.places[:, shown.side]
             there = visible_points(np.column_stack([y, np.full(len(y), one.value)]), shown.turn, up)
             inside = [(float(x), float(height)) for height, x in there if axes.x[0] <= x <= axes.x[1]]
-            # Only the highest place has a label, because labels at all places would overlap.
+            # Only the highest point has a label, because labels at all points would overlap.
             found += [
                 (x, y, _SHORT.get(one.kind, one.kind) if y == max(inside, key=lambda at: at[1])[1] else "")
                 for x, y in inside
             ]
         return found
 
-    def places(state: S, axes: Axes) -> Array | None:
+    def marks(state: S, axes: Axes) -> Array | None:
         found = [(x, y) for x, y, _ in marked(state, axes)]
         return np.array(found).T if found else None
 
@@ -106,7 +106,7 @@ def layers(of: Callable[[S], Branched]) -> Layers[S]:
         ),
         points(
             "bifurcations",
-            within=places,
+            within=marks,
             size=10,
             color=theme.LOCKED,
             edge=theme.INK,

@@ -52,7 +52,7 @@ class Tori:
         return np.minimum(self.values.trace, _DRAWN_TRACE)
 
     def ring(self, y: Array, axes: Axes) -> list[tuple[float, float]]:
-        """Return the place of the current torus on the graph of y, if the frame contains it."""
+        """Return the point of the current torus on the graph of y, if the frame contains it."""
         there = np.isfinite(y)
         if not there.any():
             return []

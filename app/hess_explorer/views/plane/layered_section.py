@@ -22,8 +22,8 @@ _ACROSS = 384
 _SHADES = 40
 """Shades of a basin, by the time of arrival."""
 _BASINS = (
-    "first basin, from late to soon",
-    *(f"{which} basin, from late to soon" for which in ("second", "third", "fourth", "any other")),
+    "first basin, late to early arrival",
+    *(f"{which} basin, late to early arrival" for which in ("second", "third", "fourth", "any other")),
     "no attractor reached",
 )
 _CLEAR = theme.FORBIDDEN + "00"

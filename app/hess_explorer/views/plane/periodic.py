@@ -38,10 +38,10 @@ def within(curve: Array, turn: float, axes: Axes) -> list[Array]:
     return parts
 
 
-def visible_points(places: Array, turn: float, axes: Axes) -> Array:
+def visible_points(points: Array, turn: float, axes: Axes) -> Array:
     """Return the visible points (n, 2) over an angle of period `turn` (∞ for other coordinates)."""
     low, high = axes.x
-    x, y = places.T
+    x, y = points.T
     x = x if math.isinf(turn) else low + np.mod(x - low, turn)
     there = (x >= low) & (x <= high)
     return np.column_stack([x[there], y[there]])
@@ -82,11 +82,11 @@ def layers(
             tag="unstable manifold",
         ),
         points("homoclinic", within=crossed, size=7, color=theme.LOCKED, edge=theme.INK, label="homoclinic point"),
-        *places(orbits),
+        *orbit_points(orbits),
     )
 
 
-def places(orbits: Callable[[S], Sequence[PeriodicOrbit]]) -> Layers[S]:
+def orbit_points(orbits: Callable[[S], Sequence[PeriodicOrbit]]) -> Layers[S]:
     """Return the layers of the points of periodic orbits, styled by stability."""
 
     def of_sign(sign: str) -> Callable[[S], Array | None]:

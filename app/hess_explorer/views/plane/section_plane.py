@@ -73,8 +73,8 @@ def _few(crossings: Array | None) -> Array | None:
     """Return the distinct crossings (2, n) of a closed orbit, which need large marks; None for other orbits."""
     if crossings is None or not len(crossings):
         return None
-    places = np.unique(np.round(crossings, 3), axis=0)
-    return places.T if len(places) <= _CLOSES else None
+    points = np.unique(np.round(crossings, 3), axis=0)
+    return points.T if len(points) <= _CLOSES else None
 
 
 def joined(parts: Iterable[Array]) -> Array:

@@ -216,12 +216,12 @@ def arcs(data: Callable[[S], Sequence[Array]]) -> Layer[S]:
     return curves("arcs", data, color=theme.ORBIT, width=1, alpha=0.5)
 
 
-def arrows_at(places: Sequence[tuple[Array, int]]) -> Array:
+def arrows_at(middles: Sequence[tuple[Array, int]]) -> Array:
     """Return x, y, angle for `arrows` at the i-th point of each curve (m, 2), or the nearest inner point."""
     found = []
-    for curve, place in places:
+    for curve, index in middles:
         if len(curve) > 2:
-            i = min(max(place, 1), len(curve) - 2)
+            i = min(max(index, 1), len(curve) - 2)
             found.append((curve[i], curve[i + 1] - curve[i - 1]))
     return _arrows(found)
 
@@ -239,5 +239,5 @@ def arrows_on(curves: Sequence[Array], half_width: float) -> Array:
 
 
 def _arrows(arrows: Sequence[tuple[Array, Array]]) -> Array:
-    """Return x, y, angle (3, n) of triangles at (place, step); angle 0 points upwards."""
-    return np.array([(*place, np.arctan2(*step[::-1]) - np.pi / 2) for place, step in arrows]).reshape(-1, 3).T
+    """Return x, y, angle (3, n) of triangles at (point, step); angle 0 points upwards."""
+    return np.array([(*point, np.arctan2(*step[::-1]) - np.pi / 2) for point, step in arrows]).reshape(-1, 3).T

@@ -15,7 +15,7 @@ from hess_explorer.scenes.framework.sliders import (
     choice,
     exponent_time,
     number,
-    places,
+    points,
     show_proved_error,
     time_span,
 )
@@ -106,20 +106,20 @@ class DiagramControls(State, ABC):
         doc="Crossings drawn at each value, after those left out.",
         group="Computation",
     )
-    window: str = places("The window of the diagram", 2, *BOUNDS)
+    window: str = points("The window of the diagram", 2, *BOUNDS)
     branch: str = choice(
         "Branch of a periodic orbit",
         (NONE, *PERIODS),
         NONE,
         group="State",
-        doc="Over the diagram: the periodic orbit that Newton's method finds near the chosen place, "
+        doc="Over the diagram: the periodic orbit that Newton's method finds near the chosen point,  "
         "continued in the parameter, through folds. A click on it shows that orbit.",
     )
     span: float = time_span(60.0, 400.0, what="the chosen orbit")
     long: float = exponent_time(4000.0, 5000.0, 2e4, "the mean divergence is")
     certain: str = show_proved_error()
     accuracy: str = accuracy_level()
-    chosen: str = places("The place of the chosen orbit", 1, *BOUNDS)
+    chosen: str = points("The point of the chosen orbit", 1, *BOUNDS)
 
     symbols: ClassVar[Mapping[str, str]]
 

@@ -12,7 +12,7 @@ import numpy as np
 from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.families import Family
 from hess_explorer.scenes.framework.part import Part
-from hess_explorer.scenes.framework.periodic_search import Place
+from hess_explorer.scenes.framework.periodic_search import Point
 from hess_explorer.scenes.framework.points import stages_of
 from hess_explorer.scenes.framework.work import drift_status
 from hess_explorer.scenes.parts.diagrams.controls import BACKWARD, FALLING, RISING
@@ -42,7 +42,7 @@ _NEAR = 3
 class DiagramDensity(Part[OrbitDiagram]):
     """Points of the orbits of a diagram, counted in the pixels of the window.
 
-    At each value the orbit starts at the place where the diagram has settled.  There are further columns between two
+    At each value the orbit starts at the point where the diagram has settled.  There are further columns between two
     values.  Each stage multiplies the length of the orbits.
 
     Attributes
@@ -55,7 +55,7 @@ class DiagramDensity(Part[OrbitDiagram]):
 
     @cached_property
     def _ends(self) -> dict[str, Array]:
-        """The last places (n, 2) of each complete way, by increasing value of the parameter."""
+        """The last points (n, 2) of each complete way, by increasing value of the parameter."""
         return {
             way: np.concatenate([one.ends for one in parts])[:: -1 if way == FALLING else 1]
             for way, parts in self.host.pieces.items()
@@ -149,13 +149,13 @@ class _Columns:
     values: tuple[float, ...]
     side: int
     reach: tuple[float, float]
-    starts: tuple[Place, ...]
+    starts: tuple[Point, ...]
     first: int
     forward: bool
     level: Accuracy
 
-    def visits(self, starts: Sequence[Place] | Array, transient: int, crossings: int) -> Visits:
-        """Return the visits of orbits that start at these places."""
+    def visits(self, starts: Sequence[Point] | Array, transient: int, crossings: int) -> Visits:
+        """Return the visits of orbits that start at these points."""
         some = self.family, self.values, self.side, self.reach, _ROWS
         return visits_over(*some, starts, transient, crossings, self.forward, self.level)
 

@@ -10,8 +10,7 @@ from itertools import product
 import numpy as np
 
 from hess_explorer.compute.cache import Task
-from hess_explorer.protocol.specs import Values, places_text
-from hess_explorer.protocol.specs import places as points_of
+from hess_explorer.protocol.specs import Values, points_of, points_text
 from hess_explorer.scenes.framework.continuation import Continuation
 from hess_explorer.scenes.framework.families import Begin, Family
 from hess_explorer.scenes.framework.part import Part, Start
@@ -50,7 +49,7 @@ class OrbitDiagram(Part[DiagramControls]):
     """The points to which the orbits of a section settle, over one of its parameters."""
 
     def corrections(self, notes: list[str]) -> Values:
-        """Return a valid window within the diagram, a place, and the edges in order."""
+        """Return a valid window within the diagram, a point, and the edges in order."""
         first, last = sorted((self.host.first, self.host.last))
         if first == last:
             first = min(first, FARTHEST[1] - 1.0)
@@ -70,8 +69,8 @@ class OrbitDiagram(Part[DiagramControls]):
         return self.host.poincare
 
     @cached_property
-    def place(self) -> tuple[float, float]:
-        """The start of the orbit: the chosen place, or another one if no motion is possible there.
+    def point(self) -> tuple[float, float]:
+        """The start of the orbit: the chosen point, or another one if no motion is possible there.
 
         Raises `OutsideRegion` if no motion crosses the section.
         """
@@ -87,7 +86,7 @@ class OrbitDiagram(Part[DiagramControls]):
     @property
     def start(self) -> Start:
         """The initial state of the current orbit."""
-        return tuple(map(float, self.poincare.states_at(*np.array(self.place)[:, None])[0][0]))
+        return tuple(map(float, self.poincare.states_at(*np.array(self.point)[:, None])[0][0]))
 
     @cached_property
     def _window(self) -> Window:
@@ -102,7 +101,7 @@ class OrbitDiagram(Part[DiagramControls]):
         if self.host.window:
             return low, high
         values = tuple(np.linspace(left, right, _GLANCES).tolist())
-        glance = Ramp(self.family, values, self.place, 200, 30, True, plan(Kind.SECTION, "draft").level)
+        glance = Ramp(self.family, values, self.point, 200, 30, True, plan(Kind.SECTION, "draft").level)
         return self.work.need(Task(visible_range, glance, self.side, (low, high)), preview=None)
 
     @cached_property
@@ -145,7 +144,7 @@ class OrbitDiagram(Part[DiagramControls]):
         level = self.work.plan(Kind.SECTION).level
         left, shown = (40, 20) if self.work.dragging else (int(self.host.transient), int(self.host.count))
         values = tuple(self.along_values.tolist())
-        rising = Ramp(self.family, values, self.place, left, shown, self.host.begins == FOLLOWED, level)
+        rising = Ramp(self.family, values, self.point, left, shown, self.host.begins == FOLLOWED, level)
         ramps = {
             RISING: rising,
             FALLING: replace(rising, values=values[::-1], before=rising),
@@ -202,25 +201,25 @@ class OrbitDiagram(Part[DiagramControls]):
         return self.cascade.values if isinstance(self.cascade, Cascade) else np.empty(0)
 
     def choose(self, x: float, y: float) -> Values:
-        """Return the parameter value and the place that a click at (x, y) selects, at the nearest value with points."""
+        """Return the parameter value and the point that a click at (x, y) selects, at the nearest value with points."""
         # The values of there and back are the same but for round-off.
         near = min(
             (
-                (round(abs(value - x), 12), abs(place[self.side] - y), value, tuple(place))
+                (round(abs(value - x), 12), abs(point[self.side] - y), value, tuple(point))
                 for some in self.pieces.values()
                 for one in some
-                for value, places in zip(one.values.tolist(), one.places, strict=True)
-                for place in places.tolist()
+                for value, points in zip(one.values.tolist(), one.places, strict=True)
+                for point in points.tolist()
             ),
             default=None,
         )
-        return {self.name: x} if near is None else {self.name: near[2], "chosen": places_text([near[3]])}
+        return {self.name: x} if near is None else {self.name: near[2], "chosen": points_text([near[3]])}
 
     def caption(self, points: str = "") -> Caption:
         """Return the caption: progress, period doublings or periods; `points` is a sentence on their number."""
         known, asked = sum(self.progress.values()), self.along_values.size * len(self._ramps)
         if known < asked:
-            return Caption(self.work.pending_caption(), f"{known} of {asked} values are known.")
+            return Caption(self.work.pending_caption(), f"{known} of {asked} values computed.")
         if all(one.conservative.all() for one in self.pieces[RISING]):
             return Caption("Volume is preserved: no attractors.", f"{points}One orbit for each value.")
         found = self.cascade
@@ -231,10 +230,10 @@ class OrbitDiagram(Part[DiagramControls]):
                 else ""
             )
             many = f"{self.flips.size} period doublings" if self.flips.size > 1 else "One period doubling"
-            place = digits(self.flips[0])
+            first = digits(self.flips[0])
             return Caption(
                 f"{many} located.",
-                f"{points}The first of period {found.periods[0]} at {self.host.along} = {place}{ratio}.",
+                f"{points}The first of period {found.periods[0]} at {self.host.along} = {first}{ratio}.",
             )
         periods = sorted({int(m) for one in self.pieces[RISING] for m in one.periods if m})
         if not periods:
@@ -249,7 +248,7 @@ class OrbitDiagram(Part[DiagramControls]):
     def notes(self) -> Iterator[str]:
         """Yield the reason why a doubling could not be located."""
         if self.has_result("cascade") and isinstance(self.cascade, str):
-            yield f"The doubling that is seen was not located: {self.cascade}"
+            yield f"A visible doubling was not located:  {self.cascade}"
 
 
 @dataclass(frozen=True, eq=False)
@@ -270,14 +269,14 @@ class DiagramBranch(Continuation[OrbitDiagram]):
     def begin(self) -> Begin | None:
         """The start of the branch; None if no orbit is requested and no period doubling is visible."""
         host = self.host
-        at, place, period = host.at, host.place, PERIODS.get(self.period)
+        at, point, period = host.at, host.point, PERIODS.get(self.period)
         if self.period == NONE:
             if host.doubling is None:
                 return None
-            at, places, _ = host.doubling
-            place, period = tuple(places[0].tolist()), len(places)
+            at, points, _ = host.doubling
+            point, period = tuple(points[0].tolist()), len(points)
         (low, _), (high, _) = host.frame
-        return Begin(host.family, at, place, period, (min(low, at), max(high, at)))
+        return Begin(host.family, at, point, period, (min(low, at), max(high, at)))
 
     @property
     def side(self) -> int:

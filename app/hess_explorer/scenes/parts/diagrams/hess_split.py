@@ -94,12 +94,12 @@ class HessSplit(Part[Host]):
         if self.split is None or self.slope is None:
             return Caption("No separatrices found here.")
         value, error = self.split.value, self.split.error
-        place = f"at l = {digits(self.split.l)}; as ε → 0: {digits(self.slope[0], 4)} ε."
+        where = f"at l = {digits(self.split.l)}; as ε → 0: {digits(self.slope[0], 4)} ε."
         if self.away and abs(value) <= error:
-            return Caption("No split is visible.", f"Less than {digits(error, 1)} {place}")
+            return Caption("No split is visible.", f"Less than {digits(error, 1)} {where}")
         if abs(value) <= error:
-            return Caption("The separatrices are not split.", f"Less than {digits(error, 1)} {place}")
-        return Caption("The separatrices are split.", f"By {digits(value)} ± {digits(error, 1)} {place}")
+            return Caption("The separatrices are not split.", f"Less than {digits(error, 1)} {where}")
+        return Caption("The separatrices are split.", f"By {digits(value)} ± {digits(error, 1)} {where}")
 
     @property
     def message(self) -> str:

@@ -9,7 +9,7 @@ import numpy as np
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.families import Family
-from hess_explorer.scenes.framework.periodic_search import Place
+from hess_explorer.scenes.framework.periodic_search import Point
 from hess_explorer.views.layers import Range
 from hess_mechanics.dynamics.orbit_diagram import Cascade, Diagram, cascade, diagram_over, first_doubling
 from hess_mechanics.dynamics.periodic import find_periodic
@@ -39,12 +39,12 @@ class Ramp:
         The section over the parameter.
     values : tuple of float
         Values of the parameter.
-    place : tuple of float
+    point : tuple of float
         Start of the orbit in the section, without `before`.
     transient, count : int
         Numbers of omitted and of drawn crossings at each value.
     follow : bool
-        True to start at the last place of the previous value; False to start at `place` again.
+        True to start at the last point of the previous value; False to start at `point` again.
     level : Level
         Level of accuracy.
     backward : bool
@@ -55,7 +55,7 @@ class Ramp:
 
     family: Family
     values: tuple[float, ...]
-    place: Place
+    point: Point
     transient: int
     count: int
     follow: bool
@@ -68,8 +68,8 @@ class Ramp:
         """The indices of the pieces."""
         return range(-(-len(self.values) // _TOGETHER))
 
-    def over(self, values: Sequence[float], start: Place) -> Diagram:
-        """Return the orbit diagram over some values, starting at a place."""
+    def over(self, values: Sequence[float], start: Point) -> Diagram:
+        """Return the orbit diagram over some values, starting at a point."""
         return diagram_over(
             lambda value: ReturnMap(self.family(value), self.level, self.backward),
             self.family.name,
@@ -78,7 +78,7 @@ class Ramp:
             self.transient,
             self.count,
             self.follow,
-            self.place,
+            self.point,
         )
 
 
@@ -87,10 +87,10 @@ def piece(ramp: Ramp, number: int) -> Diagram:
     return ramp.over(ramp.values[number * _TOGETHER : (number + 1) * _TOGETHER], _reached(ramp, number))
 
 
-def _reached(ramp: Ramp, number: int) -> Place:
-    """Return the last place of the orbit in the section before a piece."""
+def _reached(ramp: Ramp, number: int) -> Point:
+    """Return the last point of the orbit in the section before a piece."""
     if number == 0:
-        return ramp.place if ramp.before is None else _reached(ramp.before, len(ramp.before.pieces))
+        return ramp.point if ramp.before is None else _reached(ramp.before, len(ramp.before.pieces))
     before: Diagram = Task(piece, ramp, number - 1).get()
     ends = before.ends[np.isfinite(before.ends).all(axis=1)]
     return tuple(ends[-1].tolist()) if len(ends) else _reached(ramp, number - 1)
@@ -101,10 +101,10 @@ def doublings(ramp: Ramp) -> Cascade | str:
     seen = first_doubling([Task(piece, ramp, number).get() for number in ramp.pieces])
     if seen is None:
         return ""
-    value, places, end = seen
+    value, points, end = seen
     family = ramp.family
     try:
-        orbit = find_periodic(family.map_at(value), places, len(places))
+        orbit = find_periodic(family.map_at(value), points, len(points))
         return cascade(family.map_at, family.name, orbit, value, end, _DOUBLINGS)
     except WorkLimit:
         raise
@@ -115,7 +115,7 @@ def doublings(ramp: Ramp) -> Cascade | str:
 def visible_range(ramp: Ramp, side: int, whole: Range) -> Range:
     """Return the range of a coordinate that contains the attractor, and the repeller if it is near."""
     attractor, repeller = (
-        [some[:, side] for some in way.over(way.values, way.place).places]
+        [some[:, side] for some in way.over(way.values, way.point).places]
         for way in (ramp, replace(ramp, backward=True))
     )
     if not any(map(len, attractor)):

@@ -12,7 +12,7 @@ import numpy as np
 from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.specs import Values
 from hess_explorer.scenes.framework.part import Host, Part
-from hess_explorer.scenes.framework.sliders import places
+from hess_explorer.scenes.framework.sliders import points
 from hess_explorer.scenes.framework.windows import Window, box_window, window_of
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
@@ -41,7 +41,7 @@ from hess_mechanics.suslov_hess.rotation_number import Torus, TorusValues
 
 _COARSE, _FINE = (75, 50), (300, 200)
 _ROWS = 25  # of the fine map in one task
-_ON_CURVE = 48  # points of the boundary of the lock zone
+_ON_CURVE = 48  # points of the boundary of the Arnold tongue
 _ON_EDGE = 300
 FULL = {"h": (-1.0, 4.0), "f": (-3.0, 3.0), "a": (0.0, 2.0)}
 BOUNDS = {"h": (-1.0, 1e6), "f": (-1e4, 1e4), "a": (-100.0, 100.0)}
@@ -55,7 +55,7 @@ def _corners(plane: str, ranges: Mapping[str, Range]) -> Window:
 
 def window_over(plane: str) -> Any:
     """Declare the window of the map over a plane."""
-    return places(f"The window of the map over {plane}", 2, *_corners(plane, BOUNDS))
+    return points(f"The window of the map over {plane}", 2, *_corners(plane, BOUNDS))
 
 
 @dataclass(frozen=True, eq=False)
@@ -150,22 +150,22 @@ class RotationMap(Part[Host]):
         return [found, found * np.array([1.0, -1.0])] if self.sides[1] == "f" else [found]
 
     @property
-    def _place(self) -> tuple[float, float]:
+    def _point(self) -> tuple[float, float]:
         """The coordinates of the torus in the plane."""
         across, up = (vars(self.torus)[name] for name in self.sides)
         return across, up
 
     def _here(self) -> list[tuple[float, float]]:
-        """Return the place of the current torus if the window contains it."""
+        """Return the point of the current torus if the window contains it."""
         (x0, x1), (y0, y1) = self.window
-        return inside([self._place], ((x0, y0), (x1, y1)))
+        return inside([self._point], ((x0, y0), (x1, y1)))
 
     def _across(self) -> list[Array]:
         """Return the part of the line in the window, if it lies in the plane."""
         if self.line not in self.sides:
             return []
         fixed = 1 - self.sides.index(self.line)
-        at, (low, high) = self._place[fixed], self.window[fixed]
+        at, (low, high) = self._point[fixed], self.window[fixed]
         ends = np.array([[one, at] for one in self.window[1 - fixed]])
         return [ends if fixed else ends[:, ::-1]] if low <= at <= high else []
 
@@ -193,7 +193,7 @@ class RotationMap(Part[Host]):
         return [[rectangle(part, y)] for part in parts if part[0] < part[1]]
 
     def choose(self, x: float, y: float) -> Values:
-        """Return the parameters of the torus at a place of the map."""
+        """Return the parameters of the torus at a point of the map."""
         return dict(zip(self.sides, (x, y), strict=True))
 
     def box_window(self, corners: Corners) -> Values:

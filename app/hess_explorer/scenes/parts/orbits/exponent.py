@@ -123,7 +123,7 @@ class OrbitExponent(Part[_Host]):
         return found.value, f"λ = {with_error(found.value, found.spread)} along the chosen orbit"
 
     def notes(self) -> Iterator[str]:
-        """Yield the reason why the motion ends early, with time and place."""
+        """Yield the reason why the motion ends early, with time and point."""
         if self.has_result("_answer") and isinstance(self._answer, NotFound):
             yield self._answer.reason
 
@@ -158,7 +158,7 @@ def exponent_trial() -> Trial[Any]:
         ("exponent",),
         lambda s, plan: s.exponent.at(plan),
         lambda s, found, truth: abs(found.value - truth.value) / max(truth.spread, 1e-12),
-        unit="of what it changes by in the second half of its time",
+        unit="of its change in the second half of the time",
         tolerance=10.0,
         most=(("long", _LONG),),
     )

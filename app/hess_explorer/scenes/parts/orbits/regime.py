@@ -10,7 +10,7 @@ import numpy as np
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.part import Part, Sectioned
-from hess_explorer.scenes.framework.periodic_search import Place
+from hess_explorer.scenes.framework.periodic_search import Point
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.text import digits
 from hess_mechanics.dynamics.regime import Dynamics, comparison, regime
@@ -23,18 +23,18 @@ _NOTHING = np.empty((0, 2))
 _LONG = 500, 1500
 """Numbers of crossings left out of a set and of those in it."""
 _MANY = 24
-"""Largest number of places drawn as large marks: so few dots would be hard to see."""
+"""Largest number of points drawn as large marks: so few dots would be hard to see."""
 
 
 class _Host(Sectioned, Protocol):
     @property
-    def place(self) -> tuple[float, float]:
+    def point(self) -> tuple[float, float]:
         """The start of the motion.  Raises `ModelError`."""
 
 
 @dataclass(frozen=True, eq=False)
 class OrbitRegime(Part[_Host]):
-    """The kind of motion that starts at a place of a section, with its attractor and its repeller.
+    """The kind of motion that starts at a point of a section, with its attractor and its repeller.
 
     Attributes
     ----------
@@ -50,9 +50,9 @@ class OrbitRegime(Part[_Host]):
 
     @cached_property
     def sets(self) -> tuple[Array, Array]:
-        """Places (n, 2) of attractor and repeller; empty until known."""
+        """Points (n, 2) of attractor and repeller; empty until known."""
         few = (60, 120) if self.work.dragging else _LONG
-        task = Task(sets_of, self._map, self.host.place, *few)
+        task = Task(sets_of, self._map, self.host.point, *few)
         return self.work.need(task, preview=task if self.work.dragging else None) or (_NOTHING, _NOTHING)
 
     @cached_property
@@ -61,7 +61,7 @@ class OrbitRegime(Part[_Host]):
         if self.work.dragging:
             return None
         duration = self.work.plan(Kind.EXPONENT).share * self.long
-        task = Task(_dynamics, self._map, self.host.place, *_LONG, duration)
+        task = Task(_dynamics, self._map, self.host.point, *_LONG, duration)
         # It takes as long as the diagram, whose orbits and doublings come first.
         return self.work.newest([[task]], last=True)[0]
 
@@ -89,7 +89,7 @@ class OrbitRegime(Part[_Host]):
         return Caption(f"{kind}. Looks {found.verdict}.", f"{div}; repeller {away}.")
 
 
-def sets_of(map_: ReturnMap, start: Place, transient: int, crossings: int) -> tuple[Array, Array]:
+def sets_of(map_: ReturnMap, start: Point, transient: int, crossings: int) -> tuple[Array, Array]:
     """Return the attractor and the repeller (n, d) of the orbit from `start`; empty if it does not return.
 
     Raises `OutsideRegion` if no motion is possible there, and `WorkLimit`.
@@ -100,7 +100,7 @@ def sets_of(map_: ReturnMap, start: Place, transient: int, crossings: int) -> tu
     return attractor, repeller
 
 
-def _dynamics(map_: ReturnMap, start: Place, transient: int, crossings: int, duration: float) -> Dynamics:
+def _dynamics(map_: ReturnMap, start: Point, transient: int, crossings: int, duration: float) -> Dynamics:
     """Classify the orbit from `start`, without comparing its sets if it does not return."""
     motion = regime(map_, start, transient, min(crossings, 400), duration)
     try:
@@ -110,6 +110,6 @@ def _dynamics(map_: ReturnMap, start: Place, transient: int, crossings: int, dur
 
 
 def few(points: Array) -> Array | None:
-    """Return the distinct places (2, m) if there are few of them, to be drawn as large marks; otherwise None."""
+    """Return the distinct points (2, m) if there are few of them, to be drawn as large marks; otherwise None."""
     _, first = np.unique(np.round(points, 4), axis=0, return_index=True)
     return points[first].T if 0 < len(first) <= _MANY else None

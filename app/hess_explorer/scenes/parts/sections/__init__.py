@@ -20,7 +20,7 @@ from hess_explorer.scenes.parts.sections.pictures import filled_picture, section
 from hess_explorer.scenes.parts.sections.section import (
     Section,
     crossings_of_each,
-    first_place,
+    first_point,
     start_on,
 )
 from hess_explorer.scenes.parts.sections.workbench import PLAIN, FilledState, SectionState
@@ -43,7 +43,7 @@ __all__ = [
     "end_of_branch",
     "filled_picture",
     "filled_section",
-    "first_place",
+    "first_point",
     "length_of_manifolds",
     "orbit_picture",
     "orbits_spread",

@@ -167,9 +167,9 @@ class SectionBasins(Part[_Host]):
             return []
         pixel = 1.0 / max(pixels_in(self.section.frame))
         found = [
-            self.work.need(Task(branch_of, search, (place, True, side), self.host.reach, pixel), preview=None)
+            self.work.need(Task(branch_of, search, (index, True, side), self.host.reach, pixel), preview=None)
             for search in self._searches
-            for place in range(search[2] or 1)
+            for index in range(search[2] or 1)
             for side in (1, -1)
         ]
         return [one for one in found if isinstance(one, Manifold)]
@@ -182,7 +182,7 @@ class SectionBasins(Part[_Host]):
         if self._what is None:
             return None
         if self.attractors is None:
-            return Caption(self.work.pending_caption(), "Basins: attractors of 256 orbits first.")
+            return Caption(self.work.pending_caption(), "Searching for attractors with 256 orbits.")
         largest, count = self.attractors.largest, self.attractors.count
         if largest is None:
             return Caption("No motion returns to the section.")
@@ -196,7 +196,7 @@ class SectionBasins(Part[_Host]):
         m, n = numbers.shape[::-1]
         said = "" if self.is_complete else f" So far {m} × {n} cells."
         lost = 100.0 * float(np.mean(there == LOST))
-        late = f" {digits(lost, 2)} % arrive nowhere in {CROSSINGS} crossings." if lost else ""
+        late = f" {digits(lost, 2)} % reach no attractor in {CROSSINGS} crossings." if lost else ""
         if count == 1:
             words = "One attractor for all orbits." if not lost else "One attractor."
             return Caption(words, f"{div}.{late}{said}" if self.attractors.alone else f"{late}{said}".strip())
@@ -271,8 +271,8 @@ def _saddles(what: _BasinGrid) -> tuple[Search, ...]:
     x, y = centres(x0, x1, m), centres(y0, y1, n)
     map_, sets = ReturnMap(what.section, PRECISE), what.attractors().sets
 
-    def arrives(place: Array) -> int:
-        return int(arrivals(what.orbits, sets, place[:1], place[1:]).number[0])
+    def arrives(point: Array) -> int:
+        return int(arrivals(what.orbits, sets, point[:1], point[1:]).number[0])
 
     found: dict[tuple[float, ...], Search] = {}
     for row, column in pairs[np.linspace(0, len(pairs) - 1, min(_SEARCHES, len(pairs))).astype(int)].tolist():
@@ -282,8 +282,8 @@ def _saddles(what: _BasinGrid) -> tuple[Search, ...]:
             orbit = saddle_between(map_, left_end, right_end, arrives)
         except NotConverged:
             continue
-        places = [tuple(map(float, place)) for place in orbit.places]
-        first = min(places)
+        points = [tuple(map(float, point)) for point in orbit.places]
+        first = min(points)
         found.setdefault(tuple(np.round(first, 6).tolist()), (map_, first, orbit.period, True))
     return tuple(found.values())
 

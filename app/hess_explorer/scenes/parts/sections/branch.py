@@ -54,7 +54,7 @@ def end_of_branch(word: str) -> Any:
         bounds=_FARTHEST,
         label=f"Branch {word}",
         group="Computation",
-        doc="In “Branch of the periodic orbit”. With both ends alike: about the value that the parameter has.",
+        doc="Range of “Branch of the periodic orbit”. If both ends are equal, it surrounds the current value.",
     )
 
 
@@ -86,7 +86,7 @@ class _Section(Sectioned, Protocol):
     def with_values(self, values: Values) -> Self: ...
 
     def start_at(self, x: float, y: float) -> Values:
-        """Return the parameter values with which the orbit starts at a place of the section."""
+        """Return the parameter values with which the orbit starts at a point of the section."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -150,9 +150,9 @@ class SectionBranch(Continuation[_Section]):
 
     @property
     def here(self) -> Array | None:
-        """The places (2, m) of the periodic orbit in the picture; None without one."""
+        """The points (2, m) of the periodic orbit in the picture; None without one."""
         closed = self.orbit.closed_orbit
-        return None if closed is None else np.array([(self.at, place[self.side]) for place in closed.orbit.places]).T
+        return None if closed is None else np.array([(self.at, point[self.side]) for point in closed.orbit.places]).T
 
     @property
     def _whole(self) -> Range:
@@ -185,12 +185,12 @@ class SectionBranch(Continuation[_Section]):
         found = self.orbit_at(x, y)
         if found is None:
             return {}
-        value, place, period = found
+        value, point, period = found
         there = self.host.with_values({self.name: value})
         low, high = self.ends
         return {
             self.name: value,
-            **there.start_at(place[0], place[1]),
+            **there.start_at(point[0], point[1]),
             "periodic": f"period {period}",
             "low": low,
             "high": high,

@@ -10,7 +10,7 @@ from typing import Any, Protocol
 import numpy as np
 
 from hess_explorer.compute.cache import Task
-from hess_explorer.protocol.specs import Places, Values, places, places_text
+from hess_explorer.protocol.specs import Points, Values, points_of, points_text
 from hess_explorer.scenes.framework.orbit_batches import in_batches
 from hess_explorer.scenes.framework.part import Host, Part, Start
 from hess_explorer.scenes.framework.periodic_search import ClosedOrbit
@@ -23,7 +23,7 @@ from hess_mechanics.dynamics.return_map import PoincareSection
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.results import Array
 
-Place = tuple[float, float]
+Point = tuple[float, float]
 
 
 def orbits_spread(default: float, longest: float, most: float) -> Any:
@@ -70,7 +70,7 @@ class _Host(Host, Protocol):
 
     @property
     def starts(self) -> str:
-        """The places of the chosen orbits."""
+        """The points of the chosen orbits."""
 
     @property
     def closed_orbit(self) -> ClosedOrbit | None:
@@ -83,17 +83,17 @@ class _Chosen:
 
     Attributes
     ----------
-    places : sequence of tuple
-        Places in the section.
+    points : sequence of tuple
+        Points in the section.
     states : sequence of tuple
-        States (d,) at these places.
+        States (d,) at these points.
     impossible : tuple or None
-        Chosen place of the current orbit, if no motion is possible there.
+        Chosen point of the current orbit, if no motion is possible there.
     """
 
-    places: Sequence[Place]
+    points: Sequence[Point]
     states: Sequence[Start]
-    impossible: Place | None = None
+    impossible: Point | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,18 +103,18 @@ class Clicks(Part[_Host]):
     Attributes
     ----------
     excuse : str
-        Reason why some places have no orbit.
+        Reason why some points have no orbit.
     remedy : str
-        Choices with which all places have an orbit.
+        Choices with which all points have an orbit.
     """
 
     excuse: str
     remedy: str = "a larger h"
 
     @property
-    def _spec(self) -> Places:
-        """The parameter of the places."""
-        return next(one for one in specs_of(type(self.host)) if isinstance(one, Places) and one.name == "starts")
+    def _spec(self) -> Points:
+        """The parameter of the points."""
+        return next(one for one in specs_of(type(self.host)) if isinstance(one, Points) and one.name == "starts")
 
     def corrections(self, notes: list[str]) -> Values:
         """Return at least one start."""
@@ -126,7 +126,7 @@ class Clicks(Part[_Host]):
 
         Raises `InvalidParameter` if no motion is possible in the window.
         """
-        chosen = places(self.host.starts)
+        chosen = points_of(self.host.starts)
         states, possible = self.host.poincare.states_at(*np.array(chosen).T)
         if possible[-1]:
             there = np.flatnonzero(possible).tolist()
@@ -137,22 +137,22 @@ class Clicks(Part[_Host]):
             raise InvalidParameter(
                 f"In this window {self.excuse}: choose {self.remedy}, or More → Remove clicks and boxes."
             )
-        return _Chosen([_place(self.host.poincare.places_of(np.array(others))[0])], [others[0]], chosen[-1])
+        return _Chosen([_point(self.host.poincare.places_of(np.array(others))[0])], [others[0]], chosen[-1])
 
     @property
-    def rings(self) -> list[Place]:
-        """The places where the chosen orbits start."""
+    def rings(self) -> list[Point]:
+        """The points where the chosen orbits start."""
         closed = self.host.closed_orbit
         return (
-            [*self.selection.places]
+            [*self.selection.points]
             if closed is None
-            else [*self.selection.places[:-1], _place(closed.orbit.places[0])]
+            else [*self.selection.points[:-1], _point(closed.orbit.places[0])]
         )
 
     @property
     def colour(self) -> int:
         """Index of the colour of the current orbit in `theme.CHOSEN`."""
-        return (len(self.selection.places) - 1) % len(theme.CHOSEN)
+        return (len(self.selection.points) - 1) % len(theme.CHOSEN)
 
     @cached_property
     def impossible(self) -> Array:
@@ -161,23 +161,23 @@ class Clicks(Part[_Host]):
 
     def add(self, x: float, y: float) -> Values:
         """Return the starts with another orbit added at (x, y)."""
-        return {"starts": places_text([*self.selection.places, self._inside(x, y)])}
+        return {"starts": points_text([*self.selection.points, self._inside(x, y)])}
 
     def move(self, x: float, y: float) -> Values:
         """Return the starts with the current orbit moved to (x, y)."""
-        return {"starts": places_text([*places(self.host.starts)[:-1], self._inside(x, y)])}
+        return {"starts": points_text([*points_of(self.host.starts)[:-1], self._inside(x, y)])}
 
     def look_closer(self, corners: tuple[float, float, float, float]) -> Values:
         """Return the window that a box selects."""
         return box_window(corners, (self._spec.low, self._spec.high))
 
-    def _inside(self, x: float, y: float) -> Place:
+    def _inside(self, x: float, y: float) -> Point:
         (x0, y0), (x1, y1) = self._spec.low, self._spec.high
         return min(max(x, x0), x1), min(max(y, y0), y1)
 
-    def _at(self, place: Place) -> str:
+    def _at(self, point: Point) -> str:
         names = self.host.poincare.names
-        return ", ".join(f"{name} = {digits(value)}" for name, value in zip(names, place, strict=True))
+        return ", ".join(f"{name} = {digits(value)}" for name, value in zip(names, point, strict=True))
 
     def quantities(self) -> Iterator[str]:
         """Yield the start of the current orbit."""
@@ -188,7 +188,7 @@ class Clicks(Part[_Host]):
         if self.selection.impossible is not None:
             yield (
                 f"At {self._at(self.selection.impossible)} {self.excuse}: the chosen orbit starts at "
-                f"{self._at(self.selection.places[0])}."
+                f"{self._at(self.selection.points[0])}."
             )
 
 
@@ -222,5 +222,5 @@ def _spread(state: _Host, count: int) -> tuple[Start, ...]:
     return state.work.need(Task(type(state.poincare).spread, state.poincare, count, state.section.frame))
 
 
-def _place(point: Array) -> Place:
+def _point(point: Array) -> Point:
     return float(point[0]), float(point[1])

@@ -38,7 +38,7 @@ def colouring(has_density: bool = True) -> Any:
         (DENSITY, MEGNO, "nothing") if has_density else ("nothing", MEGNO),
         DENSITY if has_density else "nothing",
         doc=f"{dense}MEGNO shows after a short time whether the motion from each cell is regular or "
-        "chaotic, and whether volume about it shrinks.",
+        "chaotic, and whether volume around it shrinks.",
     )
 
 

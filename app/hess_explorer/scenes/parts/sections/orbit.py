@@ -85,7 +85,7 @@ class BodyOrbit(Part[_Host]):
         return Caption(ends, f"From t = 0 to t = {digits(float(self.path.times[-1]))}.")
 
     def notes(self) -> Iterator[str]:
-        """Yield the reason why the motion ends early, with time and place."""
+        """Yield the reason why the motion ends early, with time and point."""
         if self.has_result("path") and self.path.reason:
             yield self.path.reason
 

@@ -1,4 +1,4 @@
-"""The periodic orbit that Newton's method finds near the chosen place, and the manifolds of a saddle."""
+"""The periodic orbit that Newton's method finds near the chosen point, and the manifolds of a saddle."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ from hess_mechanics.numerics.accuracy import PRECISE, Status
 T = TypeVar("T")
 
 _WHOLE = 3
-"""Largest period for which the manifolds of all places are drawn: they are images of one another."""
+"""Largest period for which the manifolds of all points are drawn: they are images of one another."""
 
 
 def which() -> Any:
@@ -123,10 +123,10 @@ class SectionPeriodicOrbit(Part[Section]):
         orbit = self._saddle
         if orbit is None or self._search is None:
             return None
-        places = range(orbit.period if orbit.period <= _WHOLE else 1)
+        indices = range(orbit.period if orbit.period <= _WHOLE else 1)
         return (
             self._search,
-            [(place, stable, side) for place in places for stable in (True, False) for side in (1, -1)],
+            [(index, stable, side) for index in indices for stable in (True, False) for side in (1, -1)],
             1.0 / max(pixels_in(self.host.frame)),
         )
 
@@ -215,7 +215,7 @@ class SectionPeriodicOrbit(Part[Section]):
         )
 
     def quantities(self) -> Iterator[str]:
-        """Yield the period T, the error of the places, the symmetries and the drawn manifolds."""
+        """Yield the period T, the error of the points, the symmetries and the drawn manifolds."""
         if self.closed_orbit is None:
             return
         orbit = self.closed_orbit.orbit
@@ -249,13 +249,13 @@ class SectionPeriodicOrbit(Part[Section]):
         yield from (f"A branch of a manifold ends early. {reason}" for reason in sorted(reasons))
         if any(one.status is not Status.OK for one in self.manifolds):
             yield (
-                "The manifolds are less exact than their picture: choose a shorter length of manifolds, or a higher "
+                "The manifolds are not known to half a pixel: choose a shorter length of manifolds, or a higher "
                 "accuracy."
             )
         apart = sum(not one.certain for some in self._intersections or () for one in some)
         if apart:
             yield (
-                f"At {apart} more place{'s' * (apart > 1)} the manifolds meet within their error: whether they "
+                f"At {apart} more point{'s' * (apart > 1)} the manifolds meet within their error: whether they "
                 "cross there is not known."
             )
         orbit = self._saddle

@@ -54,7 +54,7 @@ class RotationAcross(Part[_Host]):
     section : Section
         The section.
     first : callable
-        `first()` returns the place of the first chosen start.
+        `first()` returns the point of the first chosen start.
     about_middle : bool
         True to count turns about the centre of the window, on a line from the centre to the right; False to count them
         by the angle l, on a vertical line through the first start.
@@ -158,7 +158,7 @@ class RotationAcross(Part[_Host]):
         if not self.profile.numbers.size:
             return Caption(self.message() + "." if self._complete else self.work.pending_caption())
         rho = self.profile.numbers
-        # A line across the whole section meets orbits of many kinds: ρ is no single function of the place.
+        # A line across the whole section meets orbits of many kinds: ρ is no single function of the point.
         turning = self.profile.extremum if self.about_middle else None
         still = self.profile.librations.size
         standing = f"; {still} do not rotate" if still else ""

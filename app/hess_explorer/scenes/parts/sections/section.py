@@ -10,10 +10,10 @@ from typing import Any, Protocol
 import numpy as np
 
 from hess_explorer.compute.cache import Task
-from hess_explorer.protocol.specs import Values, places
+from hess_explorer.protocol.specs import Values, points_of
 from hess_explorer.scenes.framework.orbit_batches import OrbitBatch, batch_of
 from hess_explorer.scenes.framework.part import Part, Sectioned, Start
-from hess_explorer.scenes.framework.periodic_search import Periodic, Place
+from hess_explorer.scenes.framework.periodic_search import Periodic, Point
 from hess_explorer.scenes.framework.sliders import number
 from hess_explorer.scenes.framework.windows import Window, pixels_in, tidy_window, window_of
 from hess_explorer.scenes.framework.work import accuracy_status, drift_status
@@ -50,11 +50,11 @@ def crossings_of_each() -> Any:
 
 
 def start_on(section: PoincareSection, text: str) -> Start:
-    """Return the state (d,) at the last place in a text.  Raises `OutsideRegion` without a place or a motion there."""
-    states, there = section.states_at(*np.array(places(text)[-1:]).reshape(-1, 2).T)
+    """Return the state (d,) at the last point in a text.  Raises `OutsideRegion` without a point or a motion there."""
+    states, there = section.states_at(*np.array(points_of(text)[-1:]).reshape(-1, 2).T)
     if not there.any():
         names = " and ".join(section.names)
-        raise OutsideRegion(f"No motion crosses the section at this {names}: choose another place, or a larger energy.")
+        raise OutsideRegion(f"No motion crosses the section at this {names}: choose another point, or a larger energy.")
     return tuple(map(float, states[0]))
 
 
@@ -189,11 +189,11 @@ class Section(Part[_Host]):
         return (self.host.chosen_start,) if self.chosen is None else self.chosen()
 
     @cached_property
-    def aim(self) -> Place | None:
-        """The place where the current orbit starts in the section or first crosses it; None without one."""
+    def aim(self) -> Point | None:
+        """The point where the current orbit starts in the section or first crosses it; None without one."""
         start = self.starts[-1]
         try:
-            return _first_place(self.poincare, start, lambda: self.work.need(self.batch((start,))))
+            return _first_point(self.poincare, start, lambda: self.work.need(self.batch((start,))))
         except WorkLimit:
             return None
 
@@ -336,16 +336,16 @@ def about_section(section: Section) -> Caption:
     )
 
 
-def _first_place(section: PoincareSection, state: Start, crossed: Callable[[], OrbitBatch]) -> Place | None:
-    """Return the place of a state in the section, or of its first crossing; None without one."""
+def _first_point(section: PoincareSection, state: Start, crossed: Callable[[], OrbitBatch]) -> Point | None:
+    """Return the point of a state in the section, or of its first crossing; None without one."""
     start = np.array([state])
-    place = section.places_of(start)
-    states, there = section.states_at(*place.T)
+    point = section.places_of(start)
+    states, there = section.states_at(*point.T)
     if not (there[0] and np.abs(states - start).max() < _ON * max(1.0, float(np.abs(start).max()))):
-        (place,) = crossed().orbits
-    return tuple(map(float, place[0])) if len(place) else None
+        (point,) = crossed().orbits
+    return tuple(map(float, point[0])) if len(point) else None
 
 
-def first_place(section: PoincareSection, state: Start) -> Place | None:
-    """Return the place where a motion starts in the section or first crosses it; None if it never does."""
-    return _first_place(section, state, lambda: crossings_from(section, (state,), 1, True, STANDARD))
+def first_point(section: PoincareSection, state: Start) -> Point | None:
+    """Return the point where a motion starts in the section or first crosses it; None if it never does."""
+    return _first_point(section, state, lambda: crossings_from(section, (state,), 1, True, STANDARD))

@@ -6,7 +6,7 @@ from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from functools import cached_property
 
-from hess_explorer.protocol.specs import Value, Values, places_text
+from hess_explorer.protocol.specs import Value, Values, points_text
 from hess_explorer.scenes.framework.cells import DENSITY
 from hess_explorer.scenes.framework.part import Start, part
 from hess_explorer.scenes.framework.periodic_search import NONE, ClosedOrbit
@@ -99,8 +99,8 @@ class SectionState(State, ABC):
         return self.orbit.motion()
 
     def start_at(self, x: float, y: float) -> Values:
-        """Return the parameters of an orbit that starts at a place of the section."""
-        return {"place": places_text([(x, y)])}
+        """Return the parameters of an orbit that starts at a point of the section."""
+        return {"place": points_text([(x, y)])}
 
     @property
     def special(self) -> Caption | None:
