@@ -63,7 +63,7 @@ def test_starts_have_the_integrals_of_the_motion_and_lie_evenly_about_it(name):
     motion, starts = state.motion(), part.motions.states[:, 0]
     integrals = motion.system.integrals([*starts.T], motion.parameters)
     for own, all_ in zip(
-        motion.system.integrals([*motion.state], motion.parameters).values(), integrals.values(), strict=True
+        motion.system.integrals([*motion.start], motion.parameters).values(), integrals.values(), strict=True
     ):
         assert np.asarray(all_) == approx(float(own), rel=1e-12, abs=1e-12)
     assert np.ptp(np.diff(part.angles)) < 1e-12
@@ -150,10 +150,10 @@ def test_without_a_swarm_nothing_is_computed_or_sent():
 
 def test_a_batch_is_as_long_as_its_size_allows():
     motion = swarm_of("suslov-hess")[0].motion()
-    short = swarm_motions(motion, (motion.state,) * 3, 20, None)
+    short = swarm_motions(motion, (motion.start,) * 3, 20, None)
     assert isinstance(motion, Motion)
     assert short.times.size <= 20
-    assert short.times[-1] < motion.span
+    assert short.times[-1] < motion.duration
     assert short.until == approx(short.times.size - 1)
 
 

@@ -56,7 +56,7 @@ from hess_mechanics.suslov_hess.mode_locking import CELLS, affordable_cells, loc
 from hess_mechanics.suslov_hess.torus import MAX_RETURNS, Track, annulus, pixels_per_unit, start_of_track, track
 
 _ON_BOUNDARY = 48
-"""Points of the boundary of the lock zone."""
+"""Points of the boundary of the Arnold tongue."""
 _PHASES = np.linspace(-math.pi, math.pi, 181)
 
 PRESETS = (

@@ -16,9 +16,9 @@ from hess_mechanics.dynamics.orbit import (
     as_max_step,
     as_max_steps,
     drift_of,
+    end_error,
     end_of,
     require_finite_states,
-    unfinished,
 )
 from hess_mechanics.dynamics.system import Body, Problem, System
 from hess_mechanics.errors import InvalidParameter, MotionEnds, WorkLimit
@@ -324,7 +324,7 @@ class _Search:
             )
             ended: WorkLimit | None = None
             if number < 0:
-                ended = unfinished(self.problem, number, times[-1], states[-1], self.max_steps)
+                ended = end_error(self.problem, number, times[-1], states[-1], self.max_steps)
                 number = room - 1
             elif np.abs(states[:number]).max(initial=0.0) >= ESCAPED:
                 # Round-off has taken the motion past a pole.

@@ -41,7 +41,7 @@ from hess_mechanics.suslov_hess.rotation_number import Torus, TorusValues
 
 _COARSE, _FINE = (75, 50), (300, 200)
 _ROWS = 25  # of the fine map in one task
-_ON_CURVE = 48  # points of the boundary of the lock zone
+_ON_CURVE = 48  # points of the boundary of the Arnold tongue
 _ON_EDGE = 300
 FULL = {"h": (-1.0, 4.0), "f": (-3.0, 3.0), "a": (0.0, 2.0)}
 BOUNDS = {"h": (-1.0, 1e6), "f": (-1e4, 1e4), "a": (-100.0, 100.0)}
