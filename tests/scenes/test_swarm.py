@@ -76,10 +76,10 @@ def test_a_turned_momentum_keeps_the_area_integral_and_a_turned_velocity_its_dir
     euler, suslov = (swarm_of(name)[0].motion() for name in ("euler-poisson", "suslov"))
     angles = np.array([-2.0, 0.0, 0.4])
     M, gamma = np.split(turned(euler, angles), 2, axis=1)
-    assert np.sum(M * gamma, axis=1) == approx(np.dot(euler.state[:3], euler.state[3:]))
-    assert [*M[1], *gamma[1]] == approx(euler.state)
+    assert np.sum(M * gamma, axis=1) == approx(np.dot(euler.start[:3], euler.start[3:]))
+    assert [*M[1], *gamma[1]] == approx(euler.start)
     w = turned(suslov, angles)[:, :2]
-    assert np.arctan2(w[:, 1], w[:, 0]) - np.arctan2(*suslov.state[1::-1]) == approx(angles)
+    assert np.arctan2(w[:, 1], w[:, 0]) - np.arctan2(*suslov.start[1::-1]) == approx(angles)
 
 
 def test_neighbours_approach_by_the_multiplier_of_the_cycle_forward_and_backward():
