@@ -554,7 +554,7 @@ def section_points(
     accuracy: Accuracy,
     crossings: int,
     threads: int = THREADS,
-    most_steps: int = MAX_STEPS,
+    max_steps: int = MAX_STEPS,
 ) -> SectionPoints:
     """Return the crossings of a surface by several orbits, each computed once, for pictures.
 
@@ -577,7 +577,7 @@ def section_points(
         Largest number of crossings per orbit, 1 to 100 000.
     threads : int, optional
         Number of threads.  By default one per core, at most eight.
-    most_steps : int, default 5 000 000
+    max_steps : int, default 5 000 000
         Largest number of steps per orbit.
 
     Returns
@@ -603,7 +603,7 @@ def section_points(
     """
     level = as_level(accuracy)
     begun = time.perf_counter()
-    search = _Search.of(body, states, plane, duration, level, crossings, None, most_steps)
+    search = _Search.of(body, states, plane, duration, level, crossings, None, max_steps)
     count = len(search.starts)
     parts = max(1, min(_PARTS, crossings // 10))
     one_part = replace(search, crossings=-(-crossings // parts))

@@ -245,7 +245,7 @@ def section_crossings(
     turns : float, default _TURNS
         Time limit per crossing in units of 1/ν times the slowness of the section.
     **limits : int
-        Arguments `threads` and `most_steps` of `section_points`.
+        Arguments `threads` and `max_steps` of `section_points`.
 
     Returns
     -------
