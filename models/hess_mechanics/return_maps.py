@@ -256,14 +256,14 @@ def section_orbits(
     )
 
 
-def periodic_orbit(map_: ReturnMap, at: Sequence[float], period: int | None = None) -> PeriodicOrbit:
+def periodic_orbit(map_: ReturnMap, start: Sequence[float], period: int | None = None) -> PeriodicOrbit:
     """Return the periodic orbit that Newton's method finds from a point of a section.
 
     Parameters
     ----------
     map_ : ReturnMap
         Return map of the section.
-    at : sequence of float, shape (d,)
+    start : sequence of float, shape (d,)
         Point of the section where the search starts.
     period : int, optional
         Period, as a number of returns, 1 to 64.  By default the periods up to 12 at which the orbit comes back closest
@@ -288,7 +288,7 @@ def periodic_orbit(map_: ReturnMap, at: Sequence[float], period: int | None = No
     >>> periodic_orbit(P, (-2.0,)).kind  # the stable limit cycle
     'stable node'
     """
-    orbit = find_periodic(map_, at, None if period is None else as_integer("period", period, 1, MAX_PERIOD))
+    orbit = find_periodic(map_, start, None if period is None else as_integer("period", period, 1, MAX_PERIOD))
     return replace(orbit, symmetric=tuple(map_.symmetries_of(orbit.places)))
 
 
@@ -349,7 +349,7 @@ def orbit_diagram(
     map_: ReturnMap,
     parameter: str,
     values: Sequence[float] | Array,
-    at: Sequence[float],
+    start: Sequence[float],
     *,
     transient: int = 200,
     crossings: int = 64,
@@ -367,14 +367,14 @@ def orbit_diagram(
         Name of the parameter, one of `map_.section.constants`.
     values : array_like, shape (n,)
         Values of the parameter, in the order in which they are visited; there and back they show hysteresis.
-    at : sequence of float, shape (d,)
+    start : sequence of float, shape (d,)
         Point of the section where the orbit starts.
     transient : int, default 200
         Crossings discarded at each value, 0 to 20 000.
     crossings : int, default 64
         Crossings shown at each value, 1 to 20 000.
     follow : bool, default True
-        Start each value from the last point of the one before.  Otherwise each value starts from `at`.
+        Start each value from the last point of the one before.  Otherwise each value starts from `start`.
 
     Returns
     -------
@@ -398,7 +398,7 @@ def orbit_diagram(
     [1, 2]
     """
     map_.constant(parameter)
-    place = as_place(map_.names, at)
+    place = as_place(map_.names, start)
     transient, crossings = as_integer("transient", transient, 0, 20_000), as_integer("crossings", crossings, 1, 20_000)
     if len(np.atleast_1d(values)) * crossings > _MOST_PLACES:
         raise WorkLimit(f"An orbit diagram has at most {_MOST_PLACES} points: choose fewer values or crossings.")

@@ -67,7 +67,7 @@ def test_the_mechanics_behind_a_state_are_objects_of_the_library():
     state = hess.state("suslov-hess", I22=1.5, I23=0.3, h=1.2, f=0.3)
     assert state.body == HessBody(1.5, 0.3, -1.0)
     assert state.section is None
-    assert state.motion.span == approx(40.0 * state.body.frequency_unit)
+    assert state.motion.duration == approx(40.0 * state.body.frequency_unit)
     kinds = {"suslov": SuslovBody, "chaplygin-ball": BallBody, "euler-poisson": HeavyBody}
     assert {name: type(hess.state(name).body) for name in kinds} == kinds
     section = hess.state("euler-poisson", f=1.0, h=40.0).section

@@ -54,7 +54,7 @@ def rows(title, by_hand, name, over, **fixed):
             sweep(name, over, store=store, **fixed, **options)
 
         ways = {
-            f"{title} of {cells} cells by hand": by_hand,
+            f"{title} of {cells} cells in a loop": by_hand,
             "– `sweep` in memory": lambda: sweep(name, over, **fixed),
             "– `sweep` in a store": stored,
             "– `sweep` in a store, by two workers": lambda: stored(workers=2),
@@ -67,7 +67,7 @@ def main():
     """Measure for some minutes."""
     lines = rows("ρ", tori_by_hand, "circle-map", TORI, a=0.5)
     lines += rows("λ", motions_by_hand, "lyapunov suslov", MOTIONS, accuracy="draft", duration=500.0)
-    report(["what", "time", "beside by hand"], lines, README)
+    report(["what", "time", "ratio to the loop"], lines, README)
 
 
 if __name__ == "__main__":

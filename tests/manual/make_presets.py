@@ -53,7 +53,7 @@ def from_the_oracle(view):
     if "turned" in known:
         motion = state.motion()
         times = golden.moments(float(view.data["data-orbit"]["t"][-1])) / motion.unit
-        given = ([[repr(float(one)) for one in numbers]] for numbers in (motion.state, motion.parameters, times))
+        given = ([[repr(float(one)) for one in numbers]] for numbers in (motion.start, motion.parameters, times))
         states = oracle.orbits_in_long_double(motion.system, *given)[0]
         found["turned"] = golden.cosines(states[:, -3:].astype(float))
     if "trace" in known:

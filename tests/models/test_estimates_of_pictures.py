@@ -15,7 +15,7 @@ from pytest import fixture, mark
 from hess_mechanics import f_max
 from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.chaplygin_ball.phase_cloud import cloud_of, shell
-from hess_mechanics.dynamics.basin_boundary import resolved, unsure
+from hess_mechanics.dynamics.basin_boundary import coarsest_cells, unsure
 from hess_mechanics.dynamics.return_map import section_crossings
 from hess_mechanics.dynamics.shadowing import away_from, errors_in_pixels, right_crossings, typical
 from hess_mechanics.dynamics.spectrum import lyapunov_exponent
@@ -148,8 +148,8 @@ def test_one_basin_alone_has_no_boundary():
     assert unsure(np.array([[0.0, 1.0]])) == 0.125
     # Undivided cells count as one.
     coarse, fine = basins_of_discs(np.random.default_rng(2), 36, 24)
-    assert np.array_equal(resolved(np.kron(coarse, np.ones((4, 4)))), coarse)
-    assert resolved(fine) is fine
+    assert np.array_equal(coarsest_cells(np.kron(coarse, np.ones((4, 4)))), coarse)
+    assert coarsest_cells(fine) is fine
 
 
 # ---- rotation numbers -------------------------------------------------------------------------------------------

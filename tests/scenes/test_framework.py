@@ -77,7 +77,7 @@ def test_no_name_of_a_scene_hides_one_of_the_scene_that_looks_into_it():
     values = {**looking.defaults(), "first": 1.5, "accuracy": "precise"}
     state = looking.of(values, visible=["a"], dragging=True)
     assert [*state.status()] == ["precise chosen"]
-    assert state.precision.motion.span == 1.5
+    assert state.precision.motion.duration == 1.5
     assert (state.base.chosen, state.base.quantities()) == ("mine", ["mine"])
     assert state.work is state.base.work
     assert (state.dragging, state.visible) == (True, frozenset({"a"}))

@@ -91,7 +91,7 @@ def test_a_band_holds_the_true_orbit_where_it_is_wider_than_a_pixel():
 def true_states(motion, times):
     """Integrate with 45 decimals from exactly these doubles."""
     return np.array(
-        oracle.orbits.orbit_in_decimals(SYSTEM, motion.state, motion.parameters, times.tolist(), 45), dtype=float
+        oracle.orbits.orbit_in_decimals(SYSTEM, motion.start, motion.parameters, times.tolist(), 45), dtype=float
     )
 
 

@@ -64,7 +64,7 @@ def test_starts_have_the_integrals_of_the_motion_and_lie_evenly_about_it(name):
     motion, starts = state.motion(), part.motions.states[:, 0]
     integrals = motion.system.integrals([*starts.T], motion.parameters)
     for own, all_ in zip(
-        motion.system.integrals([*motion.state], motion.parameters).values(), integrals.values(), strict=True
+        motion.system.integrals([*motion.start], motion.parameters).values(), integrals.values(), strict=True
     ):
         assert np.asarray(all_) == approx(float(own), rel=1e-12, abs=1e-12)
     assert np.ptp(np.diff(part.angles)) < 1e-12
@@ -95,10 +95,10 @@ def test_a_turned_momentum_keeps_the_area_integral_and_a_turned_velocity_its_dir
     euler, suslov = (swarm_of(name)[0].motion() for name in ("euler-poisson", "suslov"))
     angles = np.array([-2.0, 0.0, 0.4])
     M, gamma = np.split(turned(euler, angles), 2, axis=1)
-    assert np.sum(M * gamma, axis=1) == approx(np.dot(euler.state[:3], euler.state[3:]))
-    assert [*M[1], *gamma[1]] == approx(euler.state)
+    assert np.sum(M * gamma, axis=1) == approx(np.dot(euler.start[:3], euler.start[3:]))
+    assert [*M[1], *gamma[1]] == approx(euler.start)
     w = turned(suslov, angles)[:, :2]
-    assert np.arctan2(w[:, 1], w[:, 0]) - np.arctan2(*suslov.state[1::-1]) == approx(angles)
+    assert np.arctan2(w[:, 1], w[:, 0]) - np.arctan2(*suslov.start[1::-1]) == approx(angles)
 
 
 def test_neighbours_approach_by_the_multiplier_of_the_cycle_forward_and_backward():
@@ -191,10 +191,10 @@ def test_without_a_swarm_nothing_is_computed_or_sent():
 
 def test_a_batch_is_as_long_as_its_size_allows():
     motion = swarm_of("suslov-hess")[0].motion()
-    short = swarm_motions(motion, (motion.state,) * 3, 20, None)
+    short = swarm_motions(motion, (motion.start,) * 3, 20, None)
     assert isinstance(motion, Motion)
     assert short.times.size <= 20
-    assert short.times[-1] < motion.span
+    assert short.times[-1] < motion.duration
     assert short.until == approx(short.times.size - 1)
 
 

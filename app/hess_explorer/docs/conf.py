@@ -29,7 +29,7 @@ nb_execution_raise_on_error = True
 nb_execution_show_tb = True
 nb_execution_in_temp = True
 nb_execution_timeout = 300
-suppress_warnings = ["mystnb.unknown_mime_type"]  # what HoloViews would load in a notebook
+suppress_warnings = ["mystnb.unknown_mime_type"]  # the scripts that HoloViews loads in a notebook
 
 autodoc_member_order = "alphabetical"
 autodoc_typehints = "none"  # the signatures of numpydoc have them
@@ -107,7 +107,7 @@ def _fill(app: object, page: str, source: list[str]) -> None:
 
 
 def setup(app: Sphinx) -> None:
-    """Called by Sphinx."""
+    """Connect the handlers of this file to the events of Sphinx."""
     app.connect("source-read", _fill)
     app.connect("env-get-outdated", lambda *_: ["api/computations"])
     app.connect("autodoc-process-docstring", _escape_bars)

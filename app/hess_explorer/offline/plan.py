@@ -141,7 +141,7 @@ def family(
 
     Returns
     -------
-    Family
+    StateFamily
         The states.
 
     Raises

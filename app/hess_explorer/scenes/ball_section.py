@@ -163,7 +163,7 @@ class BallSectionState(SectionState):
     section = part(
         lambda s: Section(
             s,
-            most_steps=_MOST_STEPS,
+            max_steps=_MOST_STEPS,
             later=s.drop == _LATE,
         )
     )

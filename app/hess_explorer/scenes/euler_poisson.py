@@ -220,7 +220,7 @@ class EulerPoisson(FilledState):
         """The splitting of the separatrices."""
         return HessSplit(self, HessTorus(self.moments, self.m, self.h, self.f), self.away)
 
-    section = part(lambda s: filled_section(s, 16, compute=_crossings, most_steps=200_000))
+    section = part(lambda s: filled_section(s, 16, compute=_crossings, max_steps=200_000))
 
     @part
     def clicks(self) -> Clicks:
@@ -303,7 +303,7 @@ class EulerPoisson(FilledState):
 def _crossings(
     section: AndoyerSection, starts: tuple[Start, ...], crossings: int, forward: bool, level: Level, most: int
 ) -> OrbitBatch:
-    found = section_crossings(section, starts, crossings, level, threads=1, most_steps=most)
+    found = section_crossings(section, starts, crossings, level, threads=1, max_steps=most)
     signs = np.sign(relation(section.body, np.array(starts)))
     kept = (
         bool(np.all(sign * relation(section.body, states) >= 0.0))

@@ -150,7 +150,7 @@ class Quartic(SectionState):
     section = part(
         lambda s: Section(
             s,
-            most_steps=40_000,
+            max_steps=40_000,
             whole=s.section_window,
         )
     )

@@ -99,8 +99,8 @@ def sweep(
     Examples
     --------
     >>> from hess_explorer.sweep import sweep
-    >>> found = sweep("circle-map", over={"h": (1.2, 1.6, 3), "f": [0.1, 0.6]}, numbers=("trace",), a=0.5)
-    >>> found.trace.dims, found.status.values.tolist()
+    >>> chart = sweep("circle-map", over={"h": (1.2, 1.6, 3), "f": [0.1, 0.6]}, numbers=("trace",), a=0.5)
+    >>> chart.trace.dims, chart.status.values.tolist()
     (('h', 'f'), [[1, 1], [1, 1], [1, 1]])
     >>> def area(width, height=2.0):
     ...     return width * height

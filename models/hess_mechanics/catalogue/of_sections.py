@@ -62,8 +62,8 @@ def _reader_of(name: str) -> Callable[[Regime], float]:
     def number(motion: Regime) -> float:
         if motion.kind in _UNDECIDED:
             raise NoValue(
-                f"The motion is {motion.kind.words}: MEGNO is {motion.megno:.3g} after t = {motion.t:.4g}. Choose a "
-                "longer time, or skip more crossings."
+                f"The motion is {motion.kind.words}: MEGNO is {motion.megno:.3g} after t = {motion.duration:.4g}. "
+                "Choose a longer time, or skip more crossings."
             )
         return float(getattr(motion, name))
 

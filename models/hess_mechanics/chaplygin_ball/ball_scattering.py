@@ -267,7 +267,7 @@ def ball_scattering(
     h: float,
     distance: float,
     accuracy: Accuracy,
-    most_steps: float = MOST_STEPS,
+    max_steps: float = MOST_STEPS,
 ) -> BallScattering:
     """Return the circles that motions from one circle of N^u approach, over the phase at the start.
 
@@ -286,7 +286,7 @@ def ball_scattering(
         0.1.
     accuracy : str or Level
         Accuracy level or its name, see `level`.
-    most_steps : float, optional
+    max_steps : float, optional
         Limit on the steps, positive; they are estimated beforehand.
 
     Returns
@@ -299,7 +299,7 @@ def ball_scattering(
     InvalidParameter
         If an argument is out of range, the ball has a field, or I13 = I23 = 0.
     WorkLimit
-        If the motion needs more than `most_steps` steps.
+        If the motion needs more than `max_steps` steps.
 
     Notes
     -----
@@ -341,7 +341,7 @@ def ball_scattering(
     )
     nu = float(np.max(SYSTEM.frequency(states.T, np.array(body.parameters))))
     steps = _STEPS * (1e-9 / tight.tolerance) ** (1.0 / tight.order) * (nu + rates.max()) * span * phis.size
-    if not steps <= most_steps:
+    if not steps <= max_steps:
         raise WorkLimit(
             f"γ settles on its circle so slowly that θ⁺ takes about {steps:.0e} steps: choose larger I13 or "
             "I23, or a smaller 𝒟."
@@ -366,7 +366,7 @@ def ball_scattering(
 
 
 def all_phases(
-    body: BallBody, theta_minus: float, count: int, distance: float, accuracy: Accuracy, most_steps: float
+    body: BallBody, theta_minus: float, count: int, distance: float, accuracy: Accuracy, max_steps: float
 ) -> BallScattering:
     """Return the scattering at equidistant phases from −π to π; θ⁺ does not depend on the energy.
 
@@ -382,7 +382,7 @@ def all_phases(
         Distance of the start from N^u, as in `ball_scattering`.
     accuracy : str or Level
         Accuracy level.
-    most_steps : float
+    max_steps : float
         Limit on the steps, which are estimated beforehand.
 
     Returns
@@ -397,6 +397,4 @@ def all_phases(
     WorkLimit
         As `ball_scattering`.
     """
-    return ball_scattering(
-        body, theta_minus, np.linspace(-math.pi, math.pi, count), 1.0, distance, accuracy, most_steps
-    )
+    return ball_scattering(body, theta_minus, np.linspace(-math.pi, math.pi, count), 1.0, distance, accuracy, max_steps)

@@ -28,7 +28,7 @@ import numpy as np
 from hess_mechanics.chaplygin_ball.energy_surface import line_of_rest
 from hess_mechanics.chaplygin_ball.equations import BallBody, determinant, inverse_times, kinetic_energy
 from hess_mechanics.chaplygin_ball.phase_cloud_kernels import integrate
-from hess_mechanics.dynamics.ensemble import integrated
+from hess_mechanics.dynamics.ensemble import integrate_many
 from hess_mechanics.dynamics.orbit import checked_times, require_finite_states, require_steps
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import Accuracy, Level, Status
@@ -318,7 +318,7 @@ def frame_times(body: BallBody, states: Array, duration: float, field: float = 0
 
 def _run(states: Array, p: Array, times: Array, level: Level, max_steps: int) -> tuple[Array, int]:
     longest = level.longest_step(float(times[-1]))
-    out, each, _ = integrated(integrate, states, p, times, level, longest, max_steps, THREADS)
+    out, each, _ = integrate_many(integrate, states, p, times, level, longest, max_steps, THREADS)
     require_steps(
         int(each.min(initial=0)),
         f"Points of this cloud need more than {max_steps} steps each: choose a shorter time span, a smaller 𝒟 or fewer "

@@ -12,7 +12,7 @@ from hess_mechanics.dynamics.attraction import Arrivals, Orbits, RecurrentSets, 
 from hess_mechanics.dynamics.cells import Window, centres
 from hess_mechanics.numerics.results import Mask, frozen
 
-__all__ = ["arrivals_of_cells", "divided", "joined", "resolved", "unsure"]
+__all__ = ["arrivals_of_cells", "cells_to_compute", "coarsest_cells", "merge", "unsure"]
 
 
 def _on_boundary(cells: NDArray[Any]) -> Mask:
@@ -27,7 +27,7 @@ def _halved(cells: NDArray[Any]) -> NDArray[Any]:
     return cells.repeat(2, axis=0).repeat(2, axis=1)
 
 
-def divided(before: Arrivals | None, cells: tuple[int, int], everywhere: bool, most: int) -> Mask:
+def cells_to_compute(before: Arrivals | None, cells: tuple[int, int], everywhere: bool, most: int) -> Mask:
     """Return the mask of the cells to compute: half as large as before, along the boundaries.
 
     Parameters
@@ -84,7 +84,7 @@ def arrivals_of_cells(orbits: Orbits, sets: RecurrentSets, window: Window, mask:
     return arrivals(orbits, sets, centres(x0, x1, m)[columns], centres(y0, y1, n)[rows])
 
 
-def joined(before: Arrivals | None, mask: Mask, parts: Sequence[tuple[slice, Arrivals]]) -> Arrivals:
+def merge(before: Arrivals | None, mask: Mask, parts: Sequence[tuple[slice, Arrivals]]) -> Arrivals:
     """Return the arrivals from all cells: new ones where a mask is True, elsewhere those from before.
 
     Parameters
@@ -110,8 +110,8 @@ def joined(before: Arrivals | None, mask: Mask, parts: Sequence[tuple[slice, Arr
     return Arrivals(frozen(number), frozen(crossings))
 
 
-def resolved(cells: NDArray[Any]) -> NDArray[Any]:
-    """Return the coarsest cells that show the same boundaries; some are left undivided, see `divided`.
+def coarsest_cells(cells: NDArray[Any]) -> NDArray[Any]:
+    """Return the coarsest cells that show the same boundaries; some are left undivided, see `cells_to_compute`.
 
     Parameters
     ----------

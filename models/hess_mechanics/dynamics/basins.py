@@ -177,7 +177,7 @@ class SectionOrbits:
         if not len(starts):
             return []
         result = section_crossings(
-            self.section, starts, crossings, self.level, turns=_TURNS, threads=1, most_steps=_MOST_STEPS
+            self.section, starts, crossings, self.level, turns=_TURNS, threads=1, max_steps=_MOST_STEPS
         )
         return complete(result).states
 

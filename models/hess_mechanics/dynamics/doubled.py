@@ -13,7 +13,7 @@ from hess_mechanics.dynamics.system import Body, Problem
 from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array, Complex, frozen
 
-__all__ = ["Doubled", "doubled"]
+__all__ = ["DoubleDoubleOrbit", "double_double_orbit"]
 
 _MOST_STEPS = 100_000
 _AT_ONCE = 20
@@ -21,7 +21,7 @@ _AT_ONCE = 20
 
 
 @dataclass(frozen=True)
-class Doubled:
+class DoubleDoubleOrbit:
     """An orbit with 31 digits, of which an unstable motion loses some.
 
     Attributes
@@ -59,7 +59,9 @@ class Doubled:
         return np.abs((states - self.pairs.real) - self.pairs.imag)
 
 
-def doubled(body: Body, start: Sequence[float] | Array, times: Sequence[float] | Array) -> Doubled:
+def double_double_orbit(
+    body: Body, start: Sequence[float] | Array, times: Sequence[float] | Array
+) -> DoubleDoubleOrbit:
     """Return an orbit in double-double arithmetic, with 31 digits.
 
     The integrator is a Taylor series of order 36 in pairs of doubles (`numerics.doubled_kernels`), about 40 µs per
@@ -76,7 +78,7 @@ def doubled(body: Body, start: Sequence[float] | Array, times: Sequence[float] |
 
     Returns
     -------
-    Doubled
+    DoubleDoubleOrbit
         The orbit.
 
     Raises
@@ -89,10 +91,10 @@ def doubled(body: Body, start: Sequence[float] | Array, times: Sequence[float] |
     Examples
     --------
     >>> from hess_mechanics import level, solve, systems
-    >>> from hess_mechanics.dynamics.doubled import doubled
+    >>> from hess_mechanics.dynamics.doubled import double_double_orbit
     >>> suslov = systems()["suslov"]
     >>> orbit = solve(*suslov.example_motion, [0.0, 1.0, 2.0], level("precise"))
-    >>> bool(doubled(*suslov.example_motion, orbit.times).away(orbit.states).max() < orbit.error_estimate)
+    >>> bool(double_double_orbit(*suslov.example_motion, orbit.times).away(orbit.states).max() < orbit.error_estimate)
     True
     """
     t = checked_times(times)
@@ -110,4 +112,4 @@ def doubled(body: Body, start: Sequence[float] | Array, times: Sequence[float] |
         )
         require_finite_states(out[part].real)
         here, begun, left = out[part][-1].copy(), float(t[part][-1]), left - steps
-    return Doubled(frozen(t), frozen(out), frozen(problem.scale))
+    return DoubleDoubleOrbit(frozen(t), frozen(out), frozen(problem.scale))

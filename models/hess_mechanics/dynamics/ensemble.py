@@ -9,7 +9,7 @@ from typing import Protocol, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from hess_mechanics.dynamics.orbit import MAX_STEPS, as_max_step, as_max_steps, checked_times, drift_of, unfinished
+from hess_mechanics.dynamics.orbit import MAX_STEPS, as_max_step, as_max_steps, checked_times, drift_of, end_error
 from hess_mechanics.dynamics.system import Body, Problem
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import Accuracy, Level, Status
@@ -18,7 +18,7 @@ from hess_mechanics.numerics.measured import SAFETY, UNSURE, safety_of
 from hess_mechanics.numerics.parallel import THREADS, share
 from hess_mechanics.numerics.results import Array, Cost, Ensemble, frozen
 
-__all__ = ["MAX_NUMBERS", "complete", "ensemble", "integrated"]
+__all__ = ["MAX_NUMBERS", "complete", "ensemble", "integrate_many"]
 
 Indices = NDArray[np.int64]
 
@@ -29,7 +29,7 @@ _SHARE = 64
 """Orbits per task: enough to fill the vector lanes, few enough for the threads to finish together."""
 
 
-def integrated(
+def integrate_many(
     kernel: Callable[..., None],
     states: Array,
     parameters: Array,
@@ -152,7 +152,7 @@ def ensemble(
     def run(own: Problem, chosen: slice | Indices, at: Level) -> tuple[Array, Indices, Array]:
         system, states, p = own.system, own.states[chosen], own.parameters
         step = system.longest_step(at, scaled_times[-1], longest)
-        return integrated(system.ensemble, states, p, scaled_times, at, step, most_steps, threads)
+        return integrate_many(system.ensemble, states, p, scaled_times, at, step, most_steps, threads)
 
     out, steps, reached = run(problem, slice(None), level)
     done = steps >= 0
@@ -191,7 +191,7 @@ def ensemble(
     for i in np.flatnonzero(~done):
         row = int(np.count_nonzero(np.abs(scaled_times) <= abs(reached[i])))
         statuses[i], ends[i], last[i] = Status.INCOMPLETE, reached[i] / problem.nu, out[i, row]
-        reasons[i] = str(unfinished(problem, int(steps[i]), reached[i], last[i], most_steps))
+        reasons[i] = str(end_error(problem, int(steps[i]), reached[i], last[i], most_steps))
         out[i, row:] = np.nan
     out *= problem.scale
     drift = drift_of(body.system, np.array(states, float, ndmin=2), out, np.asarray(body.parameters, float))

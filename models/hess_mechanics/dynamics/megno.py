@@ -18,7 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hess_mechanics.dynamics.birkhoff import batch_error, volume_sign, window_rates
-from hess_mechanics.dynamics.orbit import checked_span, require_finite_rates
+from hess_mechanics.dynamics.orbit import checked_duration, require_finite_rates
 from hess_mechanics.dynamics.spectrum import no_chaos
 from hess_mechanics.dynamics.system import Body, Problem
 from hess_mechanics.dynamics.variation import LONGEST, one_direction, tangent
@@ -30,7 +30,7 @@ from hess_mechanics.numerics.parallel import THREADS, share
 from hess_mechanics.numerics.results import Array, Cost, Mask, frozen
 from hess_mechanics.parameters import plain
 
-__all__ = ["CHAOTIC", "REGULAR", "Megno", "longest_span", "megno"]
+__all__ = ["CHAOTIC", "REGULAR", "Megno", "longest_duration", "megno"]
 
 CHAOTIC = 3.0
 """Ȳ above this is chaotic: regular motions come to 2 from either side within 0.5."""
@@ -51,8 +51,8 @@ class Megno(Result):
 
     Attributes
     ----------
-    t : float
-        Time span, positive.
+    duration : float
+        Time of each motion, positive, in units T.
     values : ndarray, shape (n,)
         Ȳ of each motion.
     divergence, divergence_error : ndarray, shape (n,)
@@ -63,16 +63,16 @@ class Megno(Result):
         For each motion why it is not chaotic, whatever Ȳ is: it rests, escapes or closes, or its phase space has two
         dimensions besides its integrals; empty where there is no such reason.
     ends : ndarray, shape (n,)
-        Time up to which each motion was followed; the numbers of one that ends before t are NaN.
+        Time up to which each motion was followed; the numbers of one that ends before `duration` are NaN.
     reasons : tuple of str
-        Why each motion was not followed up to t, with the place of its end; empty for one that was.
+        Why each motion ends before `duration`, with the place of its end; empty for one that does not.
     level : str
         Name of the accuracy level.
     cost : Cost
         Steps and time.
     """
 
-    t: float
+    duration: float
     values: Array
     divergence: Array
     divergence_error: Array
@@ -112,11 +112,11 @@ class Megno(Result):
                 "reason": (("motion",), np.array(self.reasons)),
             },
             {"end": "T", "MEGNO": "1", "divergence": "1/T", "divergence error": "1/T"},
-            {"t": self.t, "level": self.level, "steps": self.cost.steps},
+            {"t": self.duration, "level": self.level, "steps": self.cost.steps},
         )
 
 
-def longest_span(body: Body, start: Sequence[float] | Array) -> float:
+def longest_duration(body: Body, start: Sequence[float] | Array) -> float:
     """Return the longest time span of MEGNO for motions next to a state.
 
     A third is left as a reserve, because ν differs between neighbouring states.
@@ -190,7 +190,7 @@ def megno(
     (1,)
     """
     level = as_level(accuracy)
-    checked_span(duration, "an indicator")
+    checked_duration(duration, "an indicator")
     begun = time.perf_counter()
     problem = Problem.of(body, states)
     if abs(duration) * problem.nu > _LONGEST:

@@ -39,14 +39,14 @@ class MegnoMap(Result):
     x, y : ndarray, shape (m,) and (n,)
         Centres of the cells.
     values : ndarray, shape (n, m)
-        Ȳ after the time t; NaN where no motion crosses the section, or it ends before.
+        Ȳ after the time `duration`; NaN where no motion crosses the section, or it ends before.
     kind : ndarray of int, shape (n, m)
-        0 regular, 1 chaotic, plus 2 where phase volume shrinks by more than its error; 4 where the motion ends before
-        the time t or a neighbour does; −1 where no motion crosses the section.
+        0 regular, 1 chaotic, plus 2 where phase volume shrinks by more than its error; 4 where the motion
+        or a neighbour ends earlier; −1 where no motion crosses the section.
     ends : ndarray, shape (n, m)
         Time up to which each motion was followed; NaN where that is not known.
-    t : float
-        Time span, positive, in units T.
+    duration : float
+        Time of each motion, positive, in units T.
     level : str
         Name of the accuracy level.
     """
@@ -57,7 +57,7 @@ class MegnoMap(Result):
     values: Array
     kind: Array
     ends: Array
-    t: float
+    duration: float
     level: str
 
     def labels(self) -> Labels:
@@ -69,7 +69,7 @@ class MegnoMap(Result):
             Both arrays over the cells.
         """
         arrays = {"MEGNO": self.values, "kind": self.kind, "end": self.ends}
-        facts = {"t": self.t, "level": self.level}
+        facts = {"t": self.duration, "level": self.level}
         return labels_of_cells(self.names, self.x, self.y, arrays, facts, MEGNO="1", end="T")
 
 

@@ -24,18 +24,18 @@ __all__ = [
     "MAX_STEPS",
     "as_max_step",
     "as_max_steps",
-    "checked_span",
+    "checked_duration",
     "checked_times",
     "drift_of",
     "drifts_along",
+    "end_error",
     "end_of",
-    "followed",
+    "precise_run",
     "require_finite_neighbours",
     "require_finite_rates",
     "require_finite_states",
     "require_steps",
     "solve",
-    "unfinished",
 ]
 
 MAX_STEPS = 2_000_000
@@ -83,7 +83,7 @@ def checked_times(times: float | Sequence[float] | Array) -> Array:
     return t
 
 
-def checked_span(duration: float, what: str) -> float:
+def checked_duration(duration: float, what: str) -> float:
     """Return a validated duration.
 
     Parameters
@@ -156,11 +156,11 @@ def end_of(problem: Problem, state: Array, end: float) -> WorkLimit | None:
     WorkLimit or None
         The error; None if the motion reaches that time.
     """
-    steps, reached, out = followed(problem, state, np.array([end]))
-    return unfinished(problem, steps, reached, out[0], MAX_STEPS) if steps < 0 else None
+    steps, reached, out = precise_run(problem, state, np.array([end]))
+    return end_error(problem, steps, reached, out[0], MAX_STEPS) if steps < 0 else None
 
 
-def followed(problem: Problem, state: Array, times: Array) -> tuple[int, float, Array]:
+def precise_run(problem: Problem, state: Array, times: Array) -> tuple[int, float, Array]:
     """Return one run of a motion at the level `precise`, in scaled units.
 
     Parameters
@@ -187,7 +187,7 @@ def followed(problem: Problem, state: Array, times: Array) -> tuple[int, float, 
     return *system.orbit(state, p, times, order, tolerance, longest, MAX_STEPS, out), out
 
 
-def unfinished(problem: Problem, code: int, t: float, state: Array, max_steps: int) -> WorkLimit:
+def end_error(problem: Problem, code: int, t: float, state: Array, max_steps: int) -> WorkLimit:
     """Return the error of a motion that could not be followed to its end.
 
     Parameters
@@ -491,7 +491,7 @@ def solve(
         )
         if steps < 0:
             reached = np.count_nonzero(np.abs(scaled_times) <= abs(end))
-            raise unfinished(problem, steps, end, out[reached], most_steps)
+            raise end_error(problem, steps, end, out[reached], most_steps)
         require_finite_states(out)
         if not at.aside:
             problems[1] = nearby.rounded(out)

@@ -29,7 +29,7 @@ __all__ = [
     "SAME",
     "Cascade",
     "Diagram",
-    "Followed",
+    "OrbitMap",
     "cascade",
     "diagram_over",
     "first_doubling",
@@ -63,7 +63,7 @@ _UNSETTLED = 2
 Whole = NDArray[np.int64]
 
 
-class Followed(Map, Protocol):
+class OrbitMap(Map, Protocol):
     """A map that can return a whole orbit at once."""
 
     @property
@@ -186,7 +186,7 @@ def period_of(
 
 
 def diagram_over(
-    family: Callable[[float], Followed],
+    family: Callable[[float], OrbitMap],
     parameter: str,
     values: Sequence[float] | Array,
     start: Sequence[float] | Array,
@@ -280,7 +280,7 @@ def diagram_over(
     )
 
 
-def _after_transient(map_: Followed, origin: Array, transient: int, crossings: int) -> Array:
+def _after_transient(map_: OrbitMap, origin: Array, transient: int, crossings: int) -> Array:
     """Return `crossings` points of an orbit after its transient; fewer if the motion stays away."""
     orbit = np.asarray(origin, float)[None]
     while len(orbit) <= transient and not _has_approached(map_, orbit):
@@ -291,7 +291,7 @@ def _after_transient(map_: Followed, origin: Array, transient: int, crossings: i
     return map_.orbit(orbit[-1], crossings)
 
 
-def _has_approached(map_: Followed, orbit: Array) -> bool:
+def _has_approached(map_: OrbitMap, orbit: Array) -> bool:
     """Return True if the points (n, d) have come a thousand times closer to a periodic orbit than they were."""
     for m in range(1, min(_WATCHED, len(orbit) - 1) // 3 + 1):
         steps = np.abs(apart(map_.turns, orbit[m:], orbit[:-m])).max(axis=1)

@@ -16,9 +16,9 @@ from hess_mechanics.dynamics.orbit import (
     as_max_step,
     as_max_steps,
     drift_of,
+    end_error,
     end_of,
     require_finite_states,
-    unfinished,
 )
 from hess_mechanics.dynamics.system import Body, Problem, System
 from hess_mechanics.errors import InvalidParameter, MotionEnds, WorkLimit
@@ -324,7 +324,7 @@ class _Search:
             )
             ended: WorkLimit | None = None
             if number < 0:
-                ended = unfinished(self.problem, number, times[-1], states[-1], self.max_steps)
+                ended = end_error(self.problem, number, times[-1], states[-1], self.max_steps)
                 number = room - 1
             elif np.abs(states[:number]).max(initial=0.0) >= ESCAPED:
                 # Round-off has taken the motion past a pole.
@@ -554,7 +554,7 @@ def section_points(
     accuracy: Accuracy,
     crossings: int,
     threads: int = THREADS,
-    most_steps: int = MAX_STEPS,
+    max_steps: int = MAX_STEPS,
 ) -> SectionPoints:
     """Return the crossings of a surface by several orbits, each computed once, for pictures.
 
@@ -577,7 +577,7 @@ def section_points(
         Largest number of crossings per orbit, 1 to 100 000.
     threads : int, optional
         Number of threads.  By default one per core, at most eight.
-    most_steps : int, default 5 000 000
+    max_steps : int, default 5 000 000
         Largest number of steps per orbit.
 
     Returns
@@ -603,7 +603,7 @@ def section_points(
     """
     level = as_level(accuracy)
     begun = time.perf_counter()
-    search = _Search.of(body, states, plane, duration, level, crossings, None, most_steps)
+    search = _Search.of(body, states, plane, duration, level, crossings, None, max_steps)
     count = len(search.starts)
     parts = max(1, min(_PARTS, crossings // 10))
     one_part = replace(search, crossings=-(-crossings // parts))

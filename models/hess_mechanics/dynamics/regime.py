@@ -24,7 +24,7 @@ import numpy as np
 
 from hess_mechanics.dynamics.birkhoff import bounded_series, ensemble_mean, irregularity, volume_sign
 from hess_mechanics.dynamics.ensemble import complete
-from hess_mechanics.dynamics.megno import CHAOTIC, REGULAR, Megno, longest_span, megno
+from hess_mechanics.dynamics.megno import CHAOTIC, REGULAR, Megno, longest_duration, megno
 from hess_mechanics.dynamics.orbit_diagram import SAME, period_of
 from hess_mechanics.dynamics.periodic import apart, find_periodic, place_units
 from hess_mechanics.dynamics.plane_section import section
@@ -129,12 +129,12 @@ class Regime(Result):
         Kind of the motion.
     places : Array, shape (n, d)
         Its crossings after the transient.
-    t : float
+    duration : float
         Time of MEGNO, positive, in units T; for a motion that did not return, the time limit.
     period : int
         Number of returns after which it repeats; 0 if no period was found.
     megno : float
-        Ȳ after the time t, the median over the ensemble; near 2 for regular motions, > 3 for chaotic ones.
+        Ȳ after that time, the median over the ensemble; near 2 for regular motions, > 3 for chaotic ones.
     k : float
         K of the 0–1 test, the largest of every crossing, every second, fourth and so on; NaN if there are too few.
     divergence, divergence_error : float
@@ -147,7 +147,7 @@ class Regime(Result):
     map_: ReturnMap
     kind: MotionKind
     places: Array
-    t: float
+    duration: float
     period: int = 0
     megno: float = 0.0
     k: float = math.nan
@@ -182,7 +182,7 @@ class Regime(Result):
                 "period": self.period,
                 "MEGNO": self.megno,
                 "K": self.k,
-                "t": self.t,
+                "t": self.duration,
                 "divergence": self.divergence,
                 "divergence error": self.divergence_error,
                 "measure": self.measure,
@@ -297,7 +297,7 @@ def regime(
         if evidence.kind not in (MotionKind.UNDECIDED, MotionKind.SETTLING):
             break
         count = min(_LONGER * len(places), _MOST_CROSSINGS)
-        longest = longest_span(map_.section, map_.state_at(places[-1]))
+        longest = longest_duration(map_.section, map_.state_at(places[-1]))
         longer = max(span, min(_LONGER * span, longest))
         if (count, longer) == (len(places), span):
             break

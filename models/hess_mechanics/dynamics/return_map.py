@@ -22,7 +22,7 @@ from typing import Protocol
 import numpy as np
 
 from hess_mechanics.dynamics.cells import Window, evenly
-from hess_mechanics.dynamics.orbit import MAX_STEPS, end_of, require_finite_states, require_steps, unfinished
+from hess_mechanics.dynamics.orbit import MAX_STEPS, end_error, end_of, require_finite_states, require_steps
 from hess_mechanics.dynamics.periodic import apart
 from hess_mechanics.dynamics.plane_section import SectionPoints, Surface, section_points
 from hess_mechanics.dynamics.symmetry import Mirror, sign_symmetries
@@ -245,7 +245,7 @@ def section_crossings(
     turns : float, default _TURNS
         Time limit per crossing in units of 1/ν times the slowness of the section.
     **limits : int
-        Arguments `threads` and `most_steps` of `section_points`.
+        Arguments `threads` and `max_steps` of `section_points`.
 
     Returns
     -------
@@ -495,7 +495,7 @@ class ReturnMap:
             require_steps(
                 number,
                 f"{target} returns need more than {MAX_STEPS} steps here: choose another place, or a cheaper level.",
-                partial(unfinished, problem, number, times[-1], states[-1], MAX_STEPS),
+                partial(end_error, problem, number, times[-1], states[-1], MAX_STEPS),
             )
             first = int(number > 0 and abs(times[0]) < _AT_ONCE)
             states = states[first : min(number, first + target)] * problem.scale
@@ -698,7 +698,7 @@ class ReturnMap:
                 if not (number and target == count and abs(all_times[0]) < _AT_ONCE):
                     break
                 target += 1
-            end = partial(unfinished, problem, number, all_times[-1], all_states[-1], MAX_STEPS)
+            end = partial(end_error, problem, number, all_times[-1], all_states[-1], MAX_STEPS)
             require_steps(number, _TOO_LONG, end)
             if number < target:
                 limit = longest * count * self.section.slowness / problem.nu

@@ -11,7 +11,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from hess_mechanics.dynamics.orbit import LARGEST, end_of, followed, solve
+from hess_mechanics.dynamics.orbit import LARGEST, end_of, precise_run, solve
 from hess_mechanics.dynamics.system import Body, Problem
 from hess_mechanics.errors import MotionEnds
 from hess_mechanics.numerics.accuracy import Accuracy, Status
@@ -68,7 +68,7 @@ def sample_times(body: Body, state: Array, duration: float, weights: Array, sagi
     count = int(min(_MOST_COARSE, max(64.0, abs(duration) * problem.nu / _COARSE))) + 1
     while True:
         even = np.linspace(0.0, duration, count)
-        steps, _, states = followed(problem, problem.states[0], even * problem.nu)
+        steps, _, states = precise_run(problem, problem.states[0], even * problem.nu)
         if steps < 0 or not np.all(np.isfinite(states)):
             return np.linspace(0.0, duration, min(most, count))
         # Short steps mean that the motion is faster than its angular velocity suggests: sample it more densely.
@@ -148,6 +148,6 @@ def _drawn_until(body: Body, start: Sequence[float], end: float) -> float:
     """Return the time until which a motion that ends is drawn: before its variables are too large for a picture."""
     problem = Problem.of(body, [start])
     times = np.linspace(0.0, end, _MOST_COARSE)[:-1]
-    _, _, states = followed(problem, problem.states[0], times * problem.nu)
+    _, _, states = precise_run(problem, problem.states[0], times * problem.nu)
     large = np.abs(states).max(axis=1) > LARGEST
     return float(times[int(np.argmax(large)) if large.any() else -1])

@@ -132,7 +132,7 @@ def visits_over(
     reach: tuple[float, float],
     rows: int,
     starts: Sequence[Sequence[float]] | Array,
-    skipped: int,
+    transient: int,
     crossings: int,
     forward: bool,
     accuracy: Accuracy,
@@ -155,8 +155,8 @@ def visits_over(
         Number of cells over this range.
     starts : array_like, shape (n, k)
         Point where each orbit starts, NaN for none.
-    skipped : int
-        Number of crossings left out first.
+    transient : int
+        Number of crossings discarded first.
     crossings : int
         Number of crossings counted.
     forward : bool
@@ -185,7 +185,9 @@ def visits_over(
             state, there = section.states_at(*np.array(start)[:, None])
             if not there[0]:
                 continue
-            orbits = complete(section_crossings(section, state, skipped + crossings, accuracy, not forward, threads=1))
+            orbits = complete(
+                section_crossings(section, state, transient + crossings, accuracy, not forward, threads=1)
+            )
         except WorkLimit:
             raise
         except ModelError:
@@ -194,7 +196,7 @@ def visits_over(
         states = orbits.states[0]
         places = section.places_of(states[section.is_on(states)])
         ends[j] = places[-1] if len(places) else np.nan
-        y = places[skipped:, side]
+        y = places[transient:, side]
         within = y[(y >= low) & (y < high)]
         np.add.at(counts[:, j], ((within - low) * (rows / (high - low))).astype(int), 1)
         points += len(within)

@@ -20,7 +20,7 @@ from functools import cached_property, partial
 import numpy as np
 
 from hess_mechanics.dynamics.birkhoff import ERRORS, STRETCHES, batch_error
-from hess_mechanics.dynamics.orbit import MAX_SAMPLES, MAX_STEPS, checked_span, end_of, require_finite_rates
+from hess_mechanics.dynamics.orbit import MAX_SAMPLES, MAX_STEPS, checked_duration, end_of, require_finite_rates
 from hess_mechanics.dynamics.system import Body, Problem
 from hess_mechanics.dynamics.variation import LONGEST, frame_ahead, one_direction, tangent
 from hess_mechanics.errors import WorkLimit
@@ -92,7 +92,7 @@ class Exponent(Result):
 
     @property
     def is_regular(self) -> bool:
-        """True if the rate is below 2 ln(n)/t, as for a regular motion, whose neighbours part linearly."""
+        """True if the rate is below 2 ln(n)/t for n samples, as for a regular motion: neighbours part linearly."""
         return self.value < 2.0 * math.log(max(math.e, self.times.size)) / float(self.times[-1])
 
 
@@ -335,7 +335,7 @@ def lyapunov_exponent(body: Body, start: Sequence[float], duration: float, accur
     50.0
     """
     level = plan(Kind.EXPONENT, accuracy).level
-    span = checked_span(duration, "a Lyapunov exponent")
+    span = checked_duration(duration, "a Lyapunov exponent")
     problem = Problem.of(body, [start])
     samples = abs(span) / _INTERVAL * problem.nu
     if not samples <= MAX_SAMPLES:
@@ -397,7 +397,7 @@ def lyapunov_spectrum(
     (5,)
     """
     level = as_level(accuracy)
-    checked_span(duration, "Lyapunov exponents")
+    checked_duration(duration, "Lyapunov exponents")
     begun = time.perf_counter()
     problem, system = Problem.of(body, [start]), body.system
     y, d, end = problem.states[0], len(system.variables), duration * problem.nu

@@ -56,7 +56,7 @@ class Mirror:
 def sign_symmetries(system: System, parameters: Sequence[float]) -> tuple[Mirror, ...]:
     """Return all sign changes that map the motions of a system to motions, forward or backward in time.
 
-    They are tested on a few states in general position, which is conclusive for a field of such low degree.
+    Each is tested at a few states in general position, to round-off.
 
     Parameters
     ----------

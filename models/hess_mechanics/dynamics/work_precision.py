@@ -11,7 +11,7 @@ from typing import TypeVar
 
 import numpy as np
 
-from hess_mechanics.dynamics.doubled import Doubled, doubled
+from hess_mechanics.dynamics.doubled import DoubleDoubleOrbit, double_double_orbit
 from hess_mechanics.dynamics.orbit import drifts_along, solve
 from hess_mechanics.dynamics.system import Problem, systems
 from hess_mechanics.numerics.accuracy import LEVELS, REFERENCE
@@ -23,7 +23,7 @@ __all__ = [
     "ErrorGrowth",
     "WorkPoint",
     "growth",
-    "longest_span",
+    "longest_duration",
     "measure_levels",
     "measure_others",
     "others_take_long",
@@ -91,7 +91,9 @@ class WorkPoint:
 
 
 @lru_cache(maxsize=8)
-def truth(name: str, start: tuple[float, ...], parameters: tuple[float, ...], duration: float, samples: int) -> Doubled:
+def truth(
+    name: str, start: tuple[float, ...], parameters: tuple[float, ...], duration: float, samples: int
+) -> DoubleDoubleOrbit:
     """Return a motion with 31 digits at evenly spaced times; the last few motions are cached.
 
     Parameters
@@ -109,7 +111,7 @@ def truth(name: str, start: tuple[float, ...], parameters: tuple[float, ...], du
 
     Returns
     -------
-    Doubled
+    DoubleDoubleOrbit
         The motion.
 
     Raises
@@ -119,7 +121,7 @@ def truth(name: str, start: tuple[float, ...], parameters: tuple[float, ...], du
     WorkLimit
         If the motion needs too many steps.
     """
-    return doubled(systems()[name].at(parameters), start, np.linspace(0.0, duration, samples))
+    return double_double_orbit(systems()[name].at(parameters), start, np.linspace(0.0, duration, samples))
 
 
 def growth(
@@ -228,7 +230,7 @@ def measure_levels(
     return tuple(points)
 
 
-def longest_span(name: str, start: Sequence[float], parameters: Sequence[float]) -> float:
+def longest_duration(name: str, start: Sequence[float], parameters: Sequence[float]) -> float:
     """Return the longest time span that all levels integrate in about a second.
 
     Parameters

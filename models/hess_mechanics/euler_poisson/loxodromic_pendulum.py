@@ -22,7 +22,7 @@ from functools import cached_property
 
 import numpy as np
 
-from hess_mechanics.dynamics.orbit import checked_span, solve
+from hess_mechanics.dynamics.orbit import checked_duration, solve
 from hess_mechanics.dynamics.sampling import PIXELS, SAGITTA, sample_times
 from hess_mechanics.errors import InvalidParameter, OutsideRegion
 from hess_mechanics.euler_poisson.equations import HeavyBody
@@ -275,7 +275,7 @@ def loxodromic_motion(pendulum: LoxodromicPendulum, duration: float, accuracy: A
     pendulum : LoxodromicPendulum
         The pendulum.
     duration : float
-        Time span in the units of the body.
+        Time, in the units of the body.
     accuracy : str or Level
         Accuracy level or its name, see `level`.
 
@@ -287,7 +287,7 @@ def loxodromic_motion(pendulum: LoxodromicPendulum, duration: float, accuracy: A
     Raises
     ------
     InvalidParameter
-        If the span is not finite or is 0.
+        If the duration is not finite or is 0.
     WorkLimit
         If the motion needs too many samples or steps.
 
@@ -303,7 +303,7 @@ def loxodromic_motion(pendulum: LoxodromicPendulum, duration: float, accuracy: A
     >>> float(motion.times[-1]), round(float(motion.l[-1]), 5)
     (4.0, 0.50954)
     """
-    span = checked_span(duration, "a loxodromic motion")
+    span = checked_duration(duration, "a loxodromic motion")
     system = WITH_ATTITUDE.at((pendulum.a, 1.0))
     weights = np.array([0.0] * 2 + [0.5 * PIXELS] * 6)
     times = sample_times(system, pendulum.start, pendulum.length(span), weights, SAGITTA, _MOST)

@@ -44,7 +44,7 @@ class EdgeProof(Printed):
     f : Fraction
         Area integral, nonzero.
     n : Fraction
-        The constant value of n3, 0 < n ≤ 1.
+        The constant value of n3, 0 < n < 1.
     statement : str
         `TWO_EQUILIBRIA` or `PERIODIC_ORBIT`.
     fixed_points : tuple of Enclosure

@@ -37,7 +37,7 @@ class HessBody:
     I23 : float
         Product of inertia, any finite number, in units I; |I23| < I22 for a rigid body.
     b3 : float
-        Third component of the centre of mass times the weight, **b** = mg **r**; any finite number, in units I/T².
+        Third component of **b** = −mg **r**, with **r** the centre of mass; any finite number, in units I/T².
 
     Raises
     ------

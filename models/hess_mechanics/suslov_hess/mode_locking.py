@@ -1,7 +1,7 @@
-"""Mode locking of the circle map: the rotation number over (h, f), and the boundary |t| = 2 of the lock zone.
+"""Mode locking of the circle map: the rotation number over (h, f), and the boundary |t| = 2 of the Arnold tongue.
 
-The lock zone is the Arnold tongue of the rotation number 0.  A Möbius map locks at integers only, and here at 0 only
-(section 2 of proofs.md).  The lock zone ends on the bifurcation curve (`Geq3`) at h* = (1−2a²)/(2a√(1+a²)) and at the
+The Arnold tongue is that of the rotation number 0.  A Möbius map locks at integers only, and here at 0 only
+(section 2 of proofs.md).  The tongue ends on the bifurcation curve (`Geq3`) at h* = (1−2a²)/(2a√(1+a²)) and at the
 point (1, 0).
 """
 
@@ -60,7 +60,7 @@ def _rising_roots(function: Callable[[Array], Array], low: Array, high: Array) -
 
 
 def lock_boundary(a: float, accuracy: Accuracy, points: int = 48) -> Array:
-    """Return the boundary |t| = 2 of the lock zone (the Arnold tongue of ρ = 0), for f ≥ 0.
+    """Return the boundary |t| = 2 of the Arnold tongue of ρ = 0, for f ≥ 0.
 
     Parameters
     ----------

@@ -110,7 +110,7 @@ def scattered(body=CAPTION, theta=1.0, distance=1e-4, **options):
 test_what_cannot_be_or_takes_too_long_is_refused_in_a_sentence = refused(
     (lambda: scattered(theta=-0.1), "0 ≤ θ⁻ ≤ π"),
     (lambda: scattered(distance=0.5), "from 1e-10 to 0.1"),
-    (lambda: scattered(most_steps=1000), "smaller 𝒟", WorkLimit),
+    (lambda: scattered(max_steps=1000), "smaller 𝒟", WorkLimit),
     (
         lambda: scattered(BallBody(1.0, 1.5, 1e-3, 0.0, 300.0), distance=1e-10),
         r"about \de\+\d\d steps: choose larger I13",

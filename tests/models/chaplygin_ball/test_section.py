@@ -62,7 +62,7 @@ def test_a_state_of_the_section_has_its_energy_and_its_coordinates(body):
 test_what_is_no_point_of_the_section_is_refused = refused(
     (lambda: WHOLE.state_at(0.0, pi), "No motion crosses the section", OutsideRegion),
     (lambda: BallSection(PLAIN, -0.5).forbidden, r"choose E above -0\.5", OutsideRegion),
-    (lambda: section_crossings(WHOLE, WHOLE.spread(9), 40, "draft", most_steps=60), "more than 60 steps", WorkLimit),
+    (lambda: section_crossings(WHOLE, WHOLE.spread(9), 40, "draft", max_steps=60), "more than 60 steps", WorkLimit),
 )
 
 

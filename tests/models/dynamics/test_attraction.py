@@ -10,7 +10,7 @@ import pytest
 from pytest import approx
 
 from hess_mechanics.dynamics.attraction import CROSSINGS, LOST, NOWHERE, arrivals, recurrent_sets
-from hess_mechanics.dynamics.basin_boundary import arrivals_of_cells, divided, joined
+from hess_mechanics.dynamics.basin_boundary import arrivals_of_cells, cells_to_compute, merge
 from hess_mechanics.dynamics.edge import saddle_between
 from hess_mechanics.errors import NotConverged
 from support.maps import Formula
@@ -93,10 +93,10 @@ def test_an_orbit_that_arrives_nowhere_is_lost_and_a_place_without_motion_is_now
 def test_cells_are_divided_along_the_boundaries_and_nowhere_else(sets):
     cells, computed = None, 0
     for side in (16, 32, 64, 128):
-        mask = divided(cells, (side, side), False, 10_000)
+        mask = cells_to_compute(cells, (side, side), False, 10_000)
         parts = [slice(i, None, 3) for i in range(3)]
         found = [arrivals_of_cells(Mapped(), sets, WINDOW, mask, part) for part in parts]
-        cells = joined(cells, mask, list(zip(parts, found, strict=True)))
+        cells = merge(cells, mask, list(zip(parts, found, strict=True)))
         computed += mask.sum()
     x, y = np.meshgrid(-pi + (np.arange(128) + 0.5) * pi / 64, -1.0 + (np.arange(128) + 0.5) / 64)
     wrong = cells.number != numbers_of(sets)[well(x, y)]
@@ -106,8 +106,8 @@ def test_cells_are_divided_along_the_boundaries_and_nowhere_else(sets):
     assert np.abs(x[wrong]).min(initial=pi) > pi - 2.0 * pi / 16
     assert computed < 0.4 * cells.number.size
     # A boundary in more cells than allowed stays as it is.
-    assert not divided(cells, (256, 256), False, 100).any()
-    assert divided(cells, (256, 256), True, 100).all()
+    assert not cells_to_compute(cells, (256, 256), False, 100).any()
+    assert cells_to_compute(cells, (256, 256), True, 100).all()
 
 
 def test_the_saddle_between_two_wells_is_the_one_on_their_boundary(sets):

@@ -11,7 +11,7 @@ import pytest
 
 import oracle
 from hess_mechanics import solve, systems
-from hess_mechanics.dynamics.doubled import doubled
+from hess_mechanics.dynamics.doubled import double_double_orbit
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.pairs_kernels import DOUBLED_FUNCTIONS
 from support.thorough import sample
@@ -35,7 +35,7 @@ def test_an_orbit_has_all_but_two_of_the_digits_of_a_pair_and_shows_the_error_of
     state, parameters = SYSTEMS[name].example
     motion, times = SYSTEMS[name].example_motion, [direction * t for t in TIMES]
     exact = oracle.orbit_in_decimals(SYSTEMS[name], state, parameters, times, digits=45)
-    found = doubled(*motion, times)
+    found = double_double_orbit(*motion, times)
     assert away(found, exact) < 1e-29
     orbit = solve(*motion, times, "reference")
     errors = found.away(orbit.states)
@@ -54,13 +54,13 @@ def test_an_orbit_has_all_but_two_of_the_digits_of_a_pair_and_shows_the_error_of
 )
 def test_no_unit_of_time_costs_digits(state, parameters, times):
     exact = oracle.orbit_in_decimals(SYSTEMS["suslov"], state, parameters, times, digits=45)
-    assert away(doubled(SYSTEMS["suslov"].at(parameters), state, times), exact) < 1e-29
+    assert away(double_double_orbit(SYSTEMS["suslov"].at(parameters), state, times), exact) < 1e-29
 
 
 def test_many_times_are_those_of_one_orbit():
     """Times are worked on in parts, which begin where the one before has ended."""
     system, times = SYSTEMS["suslov"], np.linspace(0.0, 10.0, 101)
-    many, few = (doubled(*system.example_motion, some) for some in (times, times[[0, 33, 100]]))
+    many, few = (double_double_orbit(*system.example_motion, some) for some in (times, times[[0, 33, 100]]))
     assert np.abs((many.pairs[[0, 33, 100]] - few.pairs).imag).max() < 1e-29
     assert np.array_equal(many.states[[0, 33, 100]], few.states)
 
@@ -69,9 +69,9 @@ def test_what_cannot_be_followed_is_refused(monkeypatch):
     monkeypatch.setattr(sys.modules["hess_mechanics.dynamics.doubled"], "_MOST_STEPS", 1000)
     system = SYSTEMS["suslov"]
     with pytest.raises(WorkLimit, match="choose a shorter time span"):
-        doubled(*system.example_motion, [1e6])
+        double_double_orbit(*system.example_motion, [1e6])
     with pytest.raises(InvalidParameter):
-        doubled(system.at(), (np.nan,) * 5, [1.0])
+        double_double_orbit(system.at(), (np.nan,) * 5, [1.0])
 
 
 @pytest.mark.parametrize("name", sample(DOUBLED_FUNCTIONS, 3))

@@ -87,7 +87,9 @@ def test_what_is_not_seen_to_return_does_not_within_the_time_waited():
     assert found.kind is MotionKind.NO_RETURN
     # The start lies on the plane, so a crossing at t = 0 is the start itself.
     start = P.state_at(found.places[-1] if len(found.places) else np.array([1.0, 1.0]))
-    times, _ = scipy_crossings(partial(field, REVERSAL), start, lambda y: y[2], found.t, 1, rtol=1e-10, atol=1e-11)
+    times, _ = scipy_crossings(
+        partial(field, REVERSAL), start, lambda y: y[2], found.duration, 1, rtol=1e-10, atol=1e-11
+    )
     assert not np.any(times > 1e-3)
 
 
@@ -192,7 +194,7 @@ def test_an_orbit_that_nearly_closes_is_not_periodic():
 
 
 def test_a_slow_passage_is_no_fixed_point(monkeypatch):
-    """Just outside the lock zone the map moves by less than 1e-4 where the two cycles have met, and returns later."""
+    """Just outside the Arnold tongue the map moves by less than 1e-4 where the cycles have met, and returns later."""
     monkeypatch.setattr(TorusSection, "measure", "")
     a = brentq(lambda a: circle_map(a, 1.5, 0.6, "reference").trace - (2.0 - 1e-8), 0.05, 0.5, xtol=1e-15)
     P = torus(a, 1.5, 0.6)

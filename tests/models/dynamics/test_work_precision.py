@@ -33,12 +33,12 @@ def motion_of(**values):
 
 
 def truth(motion, times):
-    return scipy_states(motion.system, motion.state, motion.parameters, times, 1e-13, 1e-15)
+    return scipy_states(motion.system, motion.start, motion.parameters, times, 1e-13, 1e-15)
 
 
 def unit_of(motion):
     """In this unit of frequency no |ω| exceeds 1: √(w² + 4|n|), the energy being as large as it may."""
-    w1, w2, *n = motion.state
+    w1, w2, *n = motion.start
     return np.sqrt(w1**2 + w2**2 + 4.0 * np.linalg.norm(n))
 
 
@@ -60,7 +60,7 @@ def test_errors_and_pixels_are_those_against_another_method(change):
         return result.body.from_reduced(result.body.from_units_of_b(states))
 
     for name in ("draft", "standard"):
-        states = solve(motion, motion.state, found.times, name).states
+        states = solve(motion, motion.start, found.times, name).states
         errors = np.max(np.abs(states - exact) / scale_of(motion), axis=1)
         assert found.errors[name] == approx(errors, abs=0.5 * errors.max())
         assert errors.max() / 2.0 < found.errors[name].max() < LEVELS[name].promise
@@ -75,15 +75,15 @@ def test_errors_and_pixels_are_those_against_another_method(change):
 
 def test_the_methods_of_scipy_are_six_points_with_their_errors():
     motion = motion_of(span=10.0)
-    times = np.linspace(0.0, motion.span, SAMPLES)
+    times = np.linspace(0.0, motion.duration, SAMPLES)
     points = measure_others(*motion.arguments, SAMPLES)
     wanted = product(("DOP853", "LSODA"), ("1e-04", "1e-07", "1e-10"))
     for point, (method, tolerance) in zip(points, wanted, strict=True):
         assert (point.method, point.setting) == (method, tolerance)
         run = solve_ivp(
             lambda _, y: motion.system.field(y, motion.parameters),
-            (0.0, motion.span),
-            motion.state,
+            (0.0, motion.duration),
+            motion.start,
             method,
             times,
             rtol=float(tolerance),
@@ -149,7 +149,7 @@ def test_a_span_that_would_take_seconds_is_cut_with_a_note():
     free = scenes()["free-suslov"].defaults()
     long = scenes()["free-suslov-accuracy"].compute({**free, "w1": 1e3, "span": 1e5}, {"growth"}, False)
     motion = long.precision.limited_motion
-    assert motion.span * Problem.of(motion, motion.state).nu == approx(5000.0)
-    assert long.precision.growth.times[-1] == approx(motion.span)
+    assert motion.duration * Problem.of(motion, motion.start).nu == approx(5000.0)
+    assert long.precision.growth.times[-1] == approx(motion.duration)
     (note,) = long.notes()
     assert note.startswith("Measured up to t = ")

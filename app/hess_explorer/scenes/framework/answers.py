@@ -1,4 +1,4 @@
-"""The sentence above the pictures: what one sees in a state, for a second-year student."""
+"""The sentence above the pictures, which says what a state shows, for a second-year student."""
 
 from __future__ import annotations
 
@@ -15,8 +15,10 @@ class Answer(Generic[S]):
 
     Parameters
     ----------
-    sentence : at most 90 characters, which fit on a line.
-    when(state) : whether it holds, by a closed form or a result that the pictures need anyway; always by default.
+    sentence : str
+        At most 90 characters, which fit on a line.
+    when : callable
+        `when(state)` returns whether it holds, by a closed form or a result that the pictures need; by default always.
     """
 
     sentence: str

@@ -52,11 +52,11 @@ class Motion:
     ----------
     system : System
         The system.
-    state : tuple of float
+    start : tuple of float
         Initial state (d,).
     parameters : tuple of float
-        Parameters of the system.
-    span : float
+        Values of the system's parameters.
+    duration : float
         Duration in the units of the computation.
     weights : tuple of float
         Pixels of the scene's pictures per unit of each variable, (d,).
@@ -65,16 +65,16 @@ class Motion:
     """
 
     system: System
-    state: tuple[float, ...]
+    start: tuple[float, ...]
     parameters: tuple[float, ...]
-    span: float
+    duration: float
     weights: tuple[float, ...]
     unit: float = 1.0
 
     @property
     def arguments(self) -> tuple[str, tuple[float, ...], tuple[float, ...], float]:
-        """The arguments of `work_precision`: name of the system, state, parameters and span."""
-        return self.system.name, self.state, self.parameters, self.span
+        """The arguments of `work_precision`: name of the system, start, parameters and duration."""
+        return self.system.name, self.start, self.parameters, self.duration
 
 
 @dataclass(frozen=True)

@@ -1,6 +1,6 @@
 """A swarm: motions from many starts at once, which the pictures show as beads beside the moving point.
 
-A scene says where the starts lie and which columns of "orbit" its pictures follow (`Swarm`).  The choices of the swarm,
+A scene defines the starts and the columns of "orbit" that its pictures follow (`Swarm`).  The choices of the swarm,
 which are parameters of the state, its track and the graph of its spread follow from them.
 """
 
@@ -139,7 +139,7 @@ class _SwarmPart(Part[Any]):
     @property
     def _motion(self) -> Motion:
         motion: Motion = self.host.motion()
-        return replace(motion, span=self._sign * motion.span)
+        return replace(motion, duration=self._sign * motion.duration)
 
     @cached_property
     def motions(self) -> SwarmMotions | None:
@@ -216,7 +216,7 @@ class _SwarmPart(Part[Any]):
         both = np.arange(found.times.size) <= np.minimum(found.until[1:], found.until[:-1])[:, None]
         known = both & (apart > np.minimum(_ABOVE * (found.errors[1:] + found.errors[:-1]), ERROR)[:, None])
         ratio = np.where(both & (apart[:, :1] > 0.0), apart / np.maximum(apart[:, :1], 1e-300), np.nan)
-        # The graph ends before the tenth of them is lost, so that the others are no selection.
+        # The graph ends before the tenth of them is lost, so that the others are not a biased sample.
         count = int(np.argmin([*(known.mean(axis=0) > 0.9), False]))
         if count < 2:
             return None
@@ -247,9 +247,9 @@ class _SwarmPart(Part[Any]):
         if not self.has_result("motions") or self.motions is None:
             return
         ends = self.motions.until * abs(self.motions.times[1])
-        if ends.max() < 0.99 * abs(self._motion.span):
+        if ends.max() < 0.99 * abs(self._motion.duration):
             yield f"The {ends.size} bodies are shown up to t = {digits(float(ends.max()) * self._motion.unit)}."
-        elif ends.min() < 0.99 * abs(self._motion.span):
+        elif ends.min() < 0.99 * abs(self._motion.duration):
             yield "Dots fade out before their error exceeds half a pixel."
 
     @property

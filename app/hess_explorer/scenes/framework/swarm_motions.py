@@ -42,7 +42,7 @@ def turned(motion: Motion, angles: Array) -> Array:
     array (n, d)
         The states.
     """
-    state = np.array(motion.state)
+    state = np.array(motion.start)
     cos, sin = np.cos(angles)[:, None], np.sin(angles)[:, None]
     k = 2 if state.size == 5 else 3
     p, gamma = state[:k], state[-3:]
@@ -83,7 +83,7 @@ class SwarmMotions:
     until : array (n,)
         Index of the sample up to which each motion is right to half a pixel, a real number.
     errors : array (n,)
-        Largest error of each motion at its samples, in pixels; of one that is lost early it is larger than up to then.
+        Largest error of each motion over all its samples, in pixels, including those after `until`.
     """
 
     times: Array
@@ -133,10 +133,10 @@ def swarm_motions(
 
     few = starts[:: max(1, len(starts) // _FEW)]
     speed = max(float(np.max(np.abs(motion.system.field(one, motion.parameters)) * weights)) for one in few)
-    spacing = abs(motion.span) / max(_FIRST, speed * abs(motion.span) / _STRIDE)
+    spacing = abs(motion.duration) / max(_FIRST, speed * abs(motion.duration) / _STRIDE)
     for _ in range(_TRIALS):
-        m = max(4, min(most, 1 + round(abs(motion.span) / spacing)))
-        states = sampled(few, math.copysign((m - 1) * spacing, motion.span), m).states
+        m = max(4, min(most, 1 + round(abs(motion.duration) / spacing)))
+        states = sampled(few, math.copysign((m - 1) * spacing, motion.duration), m).states
         worst = float(np.nanmax(_interpolation_errors(states, weights), initial=0.0))
         if worst <= 0.5 * ERROR:
             break
@@ -144,8 +144,8 @@ def swarm_motions(
         spacing *= 0.9 * (0.5 * ERROR / worst) ** 0.25
     if period is not None:
         spacing = period / math.ceil(period / spacing)
-    m = max(4, min(most, 1 + math.ceil(abs(motion.span) / spacing)))
-    span = math.copysign((m - 1) * spacing, motion.span)
+    m = max(4, min(most, 1 + math.ceil(abs(motion.duration) / spacing)))
+    span = math.copysign((m - 1) * spacing, motion.duration)
     found = sampled(starts, span, m)
     errors = np.repeat(found.errors[:, None] * weights.max(), 2 * m - 2, axis=1)
     loose = np.flatnonzero(~(errors[:, 0] <= 0.1 * ERROR))

@@ -16,7 +16,7 @@ from hess_mechanics.dynamics.orbit import solve
 from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.dynamics.shadowing import HALF_A_PIXEL, away_from, errors_in_pixels, torn_away
 from hess_mechanics.dynamics.trade import Alike, LevelCost, enough, measure
-from hess_mechanics.dynamics.work_precision import longest_span
+from hess_mechanics.dynamics.work_precision import longest_duration
 from hess_mechanics.dynamics.work_precision import truth as exactly
 from hess_mechanics.errors import ModelError
 from hess_mechanics.numerics.accuracy import STANDARD, Kind, Plan
@@ -122,14 +122,14 @@ def _of(trial: Trial[S], state: S) -> tuple[Kind, Callable[[Plan], Any], Callabl
 
 
 def _measured_span(motion: Motion) -> float:
-    return min(motion.span, longest_span(*motion.arguments[:3]))
+    return min(motion.duration, longest_duration(*motion.arguments[:3]))
 
 
 def _orbit(state: State, plan: Plan) -> Array:
     motion = state.motion()
     assert motion is not None, "only scenes with a motion have this trial"
     times = np.linspace(0.0, _measured_span(motion), _SAMPLES)
-    return solve(motion, motion.state, times, plan.level).states
+    return solve(motion, motion.start, times, plan.level).states
 
 
 def _orbit_error(state: State, states: Array, truth: object) -> float:

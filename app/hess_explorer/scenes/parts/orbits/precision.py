@@ -38,7 +38,9 @@ class Precision:
     @cached_property
     def limited_motion(self) -> Motion:
         """The measured motion, with a limited duration."""
-        return replace(self.motion, span=min(self.motion.span, mechanics.longest_span(*self.motion.arguments[:3])))
+        return replace(
+            self.motion, duration=min(self.motion.duration, mechanics.longest_duration(*self.motion.arguments[:3]))
+        )
 
     @cached_property
     def work_points(self) -> tuple[mechanics.WorkPoint, ...]:
@@ -153,7 +155,7 @@ class Precision:
         motion, system = self.limited_motion, self.limited_motion.system
         yield f"System: {system.title}"
         yield f"Equations: {system.source} ({', '.join(system.labels)} in the LaTeX source)"
-        named = ((system.parameters, motion.parameters, ""), (system.variables, motion.state, "(0)"))
+        named = ((system.parameters, motion.parameters, ""), (system.variables, motion.start, "(0)"))
         for names, values, when in named:
             yield from (f"{name}{when} = {digits(value)}" for name, value in zip(names, values, strict=True))
 
@@ -165,8 +167,8 @@ class Precision:
     def notes(self) -> Iterator[str]:
         """Yield the limits of the measurement with reasons."""
         motion = self.limited_motion
-        if motion.span < self.motion.span:
-            yield f"Measured up to t = {digits(motion.span * motion.unit)}: a longer span takes seconds."
+        if motion.duration < self.motion.duration:
+            yield f"Measured up to t = {digits(motion.duration * motion.unit)}: a longer span takes seconds."
         if "work_points" in vars(self) and mechanics.others_take_long(*motion.arguments):
             yield "SciPy's methods are slow over this time span and were omitted: choose a shorter one."
 

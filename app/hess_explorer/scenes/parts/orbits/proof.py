@@ -106,7 +106,7 @@ def proved_error(orbit_task: Task[Orbit | Track], motion: Motion, units: tuple[f
         else (found, found.states[:, :2], found.states[:, -3:])
     )
     try:
-        true = tube(motion, motion.state, orbit.times, _DIGITS, _MOST_WORK)
+        true = tube(motion, motion.start, orbit.times, _DIGITS, _MOST_WORK)
     except ModelError as error:
         return ProvedError(f"not proved: {error}")
     proved = ProvedOrbit(orbit, true)

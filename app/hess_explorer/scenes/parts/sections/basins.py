@@ -18,7 +18,7 @@ from hess_explorer.scenes.parts.sections.section import Section
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.text import digits
 from hess_mechanics.dynamics.attraction import CROSSINGS, LOST, NOWHERE, Arrivals, arrivals
-from hess_mechanics.dynamics.basin_boundary import arrivals_of_cells, divided, joined, resolved, unsure
+from hess_mechanics.dynamics.basin_boundary import arrivals_of_cells, cells_to_compute, coarsest_cells, merge, unsure
 from hess_mechanics.dynamics.basins import Attractors, SectionOrbits, attractors
 from hess_mechanics.dynamics.cells import centres, evenly
 from hess_mechanics.dynamics.edge import saddle_between
@@ -79,7 +79,7 @@ class _BasinGrid:
     def new_cells(self, stage: int, before: Arrivals | None) -> Mask:
         """Return the mask (n, m) of the cells to compute in a stage."""
         m, n = (side >> (_STAGES - 1 - stage) for side in self.pixels)
-        return divided(before, (m, n), stage < _EVERYWHERE, _MOST)
+        return cells_to_compute(before, (m, n), stage < _EVERYWHERE, _MOST)
 
     def arrivals(self, there: Attractors, mask: Mask, i: int) -> Arrivals:
         """Return the arrivals of one part of the cells in a mask (n, m)."""
@@ -209,7 +209,7 @@ class SectionBasins(Part[_Host]):
     def status(self) -> Iterator[str]:
         """Yield the effect of the cell size on the basins, once all cells are known, and the error of the manifolds."""
         if self.has_result("arrivals") and self.arrivals is not None and self.is_complete:
-            cells = resolved(self.arrivals.number)
+            cells = coarsest_cells(self.arrivals.number)
             n, m = cells.shape
             change = digits(100.0 * unsure(cells), 2)
             yield f"basins {m} × {n}, twice as many cells would change {change} % of it"
@@ -235,7 +235,7 @@ def _cells(what: _BasinGrid, stage: int) -> Arrivals:
     """Return the arrivals of all cells (n, m) of a stage."""
     before = _before(what, stage)
     pieces = [(slice(i, None, _PARTS), Task(_piece, what, stage, i).get().arrivals) for i in range(_PARTS)]
-    return joined(before, what.new_cells(stage, before), pieces)
+    return merge(before, what.new_cells(stage, before), pieces)
 
 
 def _at_once(what: _BasinGrid) -> Arrivals:
@@ -243,7 +243,7 @@ def _at_once(what: _BasinGrid) -> Arrivals:
     there, cells = attractors(what.section, what.long, what.level), None
     for stage in range(_STAGES):
         mask = what.new_cells(stage, cells)
-        cells = joined(cells, mask, [(slice(i, None, _PARTS), what.arrivals(there, mask, i)) for i in range(_PARTS)])
+        cells = merge(cells, mask, [(slice(i, None, _PARTS), what.arrivals(there, mask, i)) for i in range(_PARTS)])
     assert cells is not None
     return cells
 

@@ -64,10 +64,10 @@ def crossings_from(
     crossings: int,
     forward: bool,
     level: Level,
-    most_steps: int = _MOST_STEPS,
+    max_steps: int = _MOST_STEPS,
 ) -> OrbitBatch:
     """Return `crossings` crossings of each orbit from some states; the kind of an orbit is its direction of time."""
-    found = section_crossings(section, starts, crossings, level, not forward, most_steps=most_steps)
+    found = section_crossings(section, starts, crossings, level, not forward, max_steps=max_steps)
     return batch_of(section, found, forward)
 
 
@@ -141,10 +141,10 @@ class Section(Part[_Host]):
         `chosen()` returns the initial states (d,) of the chosen orbits, by default the given one; the last one is the
         current orbit.
     compute : callable
-        `compute(section, starts, crossings, forward, level, most_steps)` returns the `OrbitBatch` of these starts.
+        `compute(section, starts, crossings, forward, level, max_steps)` returns the `OrbitBatch` of these starts.
     seeds : callable
         `seeds(section)` returns the starts of the other orbits, in batches.
-    most_steps : int
+    max_steps : int
         Largest number of Taylor steps of each orbit.
     ways : tuple of bool
         Directions of time of the other orbits; True is forward.
@@ -161,7 +161,7 @@ class Section(Part[_Host]):
     chosen: Callable[[], Sequence[Start]] | None = None
     compute: Callable[..., OrbitBatch] = crossings_from
     seeds: Seeds = _all_over
-    most_steps: int = _MOST_STEPS
+    max_steps: int = _MOST_STEPS
     ways: tuple[bool, ...] = (True,)
     later: bool = False
     whole: Callable[[], Window] | None = None
@@ -204,7 +204,7 @@ class Section(Part[_Host]):
     ) -> Task[OrbitBatch]:
         """Return the task of the orbits from some states, by default with the settings of the picture."""
         plan = self.work.plan(Kind.SECTION)
-        how = crossings or self._count, forward, level or plan.level, self.most_steps
+        how = crossings or self._count, forward, level or plan.level, self.max_steps
         return Task(self.compute, self.poincare, starts, *how)
 
     def _other_tasks(self, crossings: int = 0, level: Level | None = None) -> list[Task[OrbitBatch]]:
@@ -232,7 +232,7 @@ class Section(Part[_Host]):
                 few = [self.work.need(task) for task in self._other_tasks(min(self._count, _FEW))]
                 known = replace(known, few=few)
         except WorkLimit:
-            much = f"{self._count} crossings take an orbit more than {self.most_steps} steps here"
+            much = f"{self._count} crossings take an orbit more than {self.max_steps} steps here"
             return KnownOrbits([], [], reason=f"The section is omitted: {much}: choose fewer crossings.")
         return known
 
