@@ -129,8 +129,9 @@ class _SwarmPart(Part[Any]):
         """Initial states (n, d), without points of a line at which no motion is possible."""
         if len(self._clicked) < 2:
             return self.swarm.starts(self.host, self.angles)
-        states, possible = self.host.poincare.states_at(*np.linspace(*self._clicked, self.angles.size).T)
-        return np.array(states)[possible]
+        first, last = self._clicked
+        states, possible = self.host.poincare.states_at(*np.linspace(first, last, self.angles.size).T)
+        return np.asarray(states[possible])
 
     @property
     def _sign(self) -> float:
