@@ -223,7 +223,7 @@ def test_other_images_are_refused_with_their_reason(tmp_path):
     assert read_file(with_image(folder, "![A wheel](good.png) " * most)).images
     with pytest.raises(LessonError, match="at most 2 MB"):
         read_file(with_image(folder, "![A wheel](good.png) " * (most + 1)))
-    with pytest.raises(LessonError, match="no images"):
+    with pytest.raises(LessonError, match="images are not allowed"):
         read(WHOLE.replace("It stays.", "![A wheel](good.png)"), "mine")
 
 
