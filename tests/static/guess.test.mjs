@@ -11,9 +11,9 @@ const plot = (x, y) => ({ model: {
 
 test("the nearest point of several curves may lie between two samples, or at an end", () => {
   const lines = [[[0, 0], [4, 0]], [[0, 3], [4, 3], [4, 9]]]
-  assert.deepEqual(nearest(lines, [1, 1]), { distance: 1, place: [1, 0] })
-  assert.deepEqual(nearest(lines, [-3, 7]), { distance: 5, place: [0, 3] })
-  assert.deepEqual(nearest([[[2, 2]], [[9, 9]]], [2, 4]), { distance: 2, place: [2, 2] })
+  assert.deepEqual(nearest(lines, [1, 1]), { distance: 1, at: [1, 0] })
+  assert.deepEqual(nearest(lines, [-3, 7]), { distance: 5, at: [0, 3] })
+  assert.deepEqual(nearest([[[2, 2]], [[9, 9]]], [2, 4]), { distance: 2, at: [2, 2] })
 })
 
 test("distances are means along each axis, on a logarithmic one means of ratios", () => {
