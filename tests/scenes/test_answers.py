@@ -37,7 +37,7 @@ SHOWN = {
         "Periodic": "Nearly every",
         "Fixed point": "Nothing",
         "Asymptotic": "In this direction",
-        "Next to it": "Nearly every",
+        "Near the asymptotic orbit": "Nearly every",
     },
     "rotation-number": {"One plateau": "Not locked", "Euler": "Locked"},
     "ball-section": {"Every orbit": "Here a symmetry", "Mixed": "Each dot"},

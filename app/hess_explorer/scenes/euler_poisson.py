@@ -115,7 +115,7 @@ PRESETS = (
     *_figure(14, 1.0, "no Hess motion yet", {"a": 0.0}),
     *_figure(14, 1.0, "no limit cycles", {"b": 0.2, "c": 0.5}),
     *_figure(14, 1.0, "two limit cycles, two layers part", {"d": 0.8, "e": 1.0, "f": 1.3, "g": 2.0, "h": 4.0}),
-    Preset("On the Hess curve, f = 0, h below: fixed points, some in pairs", **_RIS, h=0.2, f=0.0, starts=_ON_HESS),
+    Preset("On the Hess curve, f = 0, h < μ|r|: fixed points, some in pairs", **_RIS, h=0.2, f=0.0, starts=_ON_HESS),
     Preset("h → ∞: Euler's case, h = 5000", h=5000.0, span=1.0, long=20.0, starts="0,0.5"),
     Preset(
         "The second sheet of figure 14 a: a smaller G",

@@ -72,7 +72,7 @@ PRESETS = (
         "Γ(t), I₁₃ ≠ 0: two phases, two circles (figure 3)", **_OBLIQUE, Gamma=-0.4687, phi=math.pi, phi2=math.pi / 2
     ),
     Preset(
-        "Its second orbit as printed, γ₁ = −0.49: off that circle (figure 3)",
+        "Second orbit as printed, γ₁(0) = −0.49: another circle (figure 3)",
         **_OBLIQUE,
         Gamma=-0.5306,
         phi=1.6337,

@@ -118,7 +118,7 @@ class SingularMeasures(State):
         doc="The same points with I₁₃ = I₂₃ = 0 and the field b₃, in another colour.",
     )
     along: str = choice(
-        "Fourth picture",
+        "Picture over time",
         ("divergence", "volume"),
         "divergence",
         doc="The divergence div v at the points, or the logarithm of small volumes around them.",
@@ -190,7 +190,8 @@ class SingularMeasures(State):
         s, mean = self.clouds.density.passed_by_most
         height = digits(self.clouds.density.height, 3)
         return Caption(
-            numbers=f"Mean density times |s| at |s| = {digits(s, 2)}: {digits(mean, 3)}; dotted: {height}/|s|."
+            "Mean over time against the invariant density.",
+            f"At |s| = {digits(s, 2)}: {digits(mean, 3)}/|s|; invariant density: {height}/|s|.",
         )
 
     def _about_history(self) -> Caption:
