@@ -64,7 +64,7 @@ class ChaplyginBall(State):
     I11: float = parameter(known.I11, 1.0)
     I22: float = parameter(known.I22)
     I13: float = parameter(known.I13, 0.7, doc="Product of inertia; with I₂₃ it sets the line I₁₃ω₁ + I₂₃ω₂ = 0.")
-    I23: float = parameter(known.I23, 1.2, doc="Product of inertia; not 0 together with I₁₃.")
+    I23: float = parameter(known.I23, 1.2, doc="Product of inertia; I₁₃ and I₂₃ must not both be 0.")
     D: float = parameter(known.D)
     h: float = parameter(known.H_FREE_BALL)
     theta: float = parameter(known.THETA)

@@ -107,7 +107,7 @@ class FreeSuslov(State):
         doc="A second orbit with the same ω leaves the same circle Γ⁻, turned along it by φ′ − φ.",
     )
     span: float = time_span(30.0, 100.0, most=1e5)
-    across: str = choice("γ₁ against", ("time", "phase"), "time", doc="Horizontal axis of the third picture: t or φ.")
+    across: str = choice("γ₁ against", ("time", "phase"), "time", doc="Horizontal axis of the picture of γ₁: t or φ.")
     accuracy: str = accuracy_level()
 
     def limits(self) -> Mapping[str, Slider]:

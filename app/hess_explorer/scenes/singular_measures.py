@@ -65,7 +65,7 @@ class SingularMeasures(State):
     I13: float = parameter(
         known.I13, 0.5, doc="Product of inertia; with I₂₃ it sets the manifold s = I₁₃ω₁ + I₂₃ω₂ = 0."
     )
-    I23: float = parameter(known.I23, 0.7, doc="Product of inertia; not 0 together with I₁₃.")
+    I23: float = parameter(known.I23, 0.7, doc="Product of inertia; I₁₃ and I₂₃ must not both be 0.")
     D: float = parameter(
         known.D, 0.0, doc="0: free Suslov problem; otherwise the Chaplygin ball, whose inner ball has this 𝒟."
     )

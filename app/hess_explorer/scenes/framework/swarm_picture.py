@@ -28,9 +28,7 @@ def spread_picture() -> Plot[Any]:
         message=lambda s: s.swarm_part.reason,
         button="Show the spread of the swarm",
         layers=(
-            line(
-                "least", curve(0), color=theme.MUTED, width=1, label="10th and 90th percentiles"
-            ),
+            line("least", curve(0), color=theme.MUTED, width=1, label="10th and 90th percentiles"),
             line("most", curve(2), color=theme.MUTED, width=1),
             line(
                 "expected",
