@@ -40,7 +40,7 @@ SHOWN = {
         "Near the asymptotic orbit": "Nearly every",
     },
     "rotation-number": {"One plateau": "Not locked", "Euler": "Locked"},
-    "ball-section": {"Every orbit": "Here a symmetry", "Mixed": "Each dot"},
+    "ball-section": {"Returning orbits": "Here a symmetry", "Mixed": "Each dot"},
     "euler-poisson": {"Two layers": "In the Hess case", "The barrier": "Each dot"},
     "loxodrome": {"High": "The body turns", "Low": "Gravity swings", "Separatrix": "The body climbs"},
 }
