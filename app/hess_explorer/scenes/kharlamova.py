@@ -118,7 +118,7 @@ class Kharlamova(State):
         0.01,
         bounds=ONE_TURN,
         label="Start: direction α",
-        doc="p = |p| (cos α, sin α), the first direction; a click in the graph of T chooses it.",
+        doc="Direction of p = |p| (cos α, sin α) at the start; click the graph of T to choose it.",
     )
     span: float = time_span(20.0, 100.0)
     potential: str = choice(
