@@ -17,7 +17,7 @@ def test_the_drift_of_the_energy_is_less_than_a_tenth_of_the_error():
 
 @pytest.mark.chaotic
 def test_in_chaos_the_error_grows_to_the_size_of_the_picture_and_in_a_regular_motion_it_does_not():
-    step = STEPS["Chaos eats digits"]
+    step = STEPS["Chaos magnifies errors"]
     assert growth(step.at.values).pixels["standard"].max() < 1.0
     found = moved_growth(step.prediction.then.values, "errors")["standard"]
     assert deviations(found, -1.0) > 5.0 > -5.0 > deviations(found, 1.5)
@@ -36,7 +36,7 @@ def test_the_mean_divergence_of_the_chaotic_body_agrees_at_twice_the_time():
 
 
 def test_the_less_extreme_start_looks_steady_up_to_the_first_time_and_not_up_to_the_last():
-    step = STEPS["Corrected by twice the time"]
+    step = STEPS["Double the time"]
     state = scenes()["free-suslov"].of(step.at.values)
     times = np.linspace(0.0, step.animation.end, 401)
     Gamma = free_motion(state.body, state.omega, state.gamma, times, "precise").Gamma

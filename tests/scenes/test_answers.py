@@ -37,10 +37,10 @@ SHOWN = {
         "Periodic": "Nearly every",
         "Fixed point": "Nothing",
         "Asymptotic": "In this direction",
-        "Next to it": "Nearly every",
+        "Near the asymptotic orbit": "Nearly every",
     },
     "rotation-number": {"One plateau": "Not locked", "Euler": "Locked"},
-    "ball-section": {"Every orbit": "Here a symmetry", "Mixed": "Each dot"},
+    "ball-section": {"Returning orbits": "Here a symmetry", "Mixed": "Each dot"},
     "euler-poisson": {"Two layers": "In the Hess case", "The barrier": "Each dot"},
     "loxodrome": {"High": "The body turns", "Low": "Gravity swings", "Separatrix": "The body climbs"},
 }

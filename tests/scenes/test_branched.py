@@ -13,7 +13,7 @@ from support.thorough import sample
 from support.view import View, values_of
 
 SCENES = scenes()
-EXAMPLES = {"quartic": "A pitchfork", "ball-section": "The orbit that doubles", "euler-poisson": "Where the two Hess"}
+EXAMPLES = {"quartic": "A pitchfork", "ball-section": "Period doubling", "euler-poisson": "Where the two Hess"}
 every = pytest.mark.parametrize("name", EXAMPLES)
 
 

@@ -115,4 +115,4 @@ def test_where_there_are_no_separatrices_the_picture_says_why():
     assert "splits" not in " ".join(view.report.notes)
     # A split that is smaller than its error is not denied.
     view = View(EP, {"orbits": 0.0, "count": 20.0, "away": 1e-12}, seen=["split"])
-    assert view.text["split"].split("\n")[1].startswith("No split is visible. Less than ")
+    assert view.text["split"].split("\n")[1].startswith("No separatrix splitting is visible. Less than ")

@@ -17,7 +17,7 @@ def test_an_example_of_b3_0_is_what_its_name_says(preset):
     view = View(ARC, preset.values)
     found, states, body = view.result.arc, view.result.orbit.states, view.result.body
     kind = preset.name.split()[0].rstrip(":").lower()
-    assert found.kind == {"next": "periodic"}.get(kind, kind)
+    assert found.kind == {"near": "periodic"}.get(kind, kind)
     in_plane = np.column_stack([sqrt(body.I11) * states[:, 3], -sqrt(body.I22) * states[:, 2]])
     assert view.columns("data-orbit", "q1", "q2") == approx(in_plane, abs=2e-6)
     if found.kind == "periodic":

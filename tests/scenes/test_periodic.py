@@ -60,7 +60,7 @@ def test_a_manifold_ends_where_the_map_jumps_and_no_line_is_drawn_across():
 
 
 def test_where_every_orbit_of_the_ball_closes_the_chosen_one_is_parabolic():
-    given = {**values_of(scenes()["ball-section"], "Every orbit"), **LIGHT["ball-section"]}
+    given = {**values_of(scenes()["ball-section"], "Returning orbits"), **LIGHT["ball-section"]}
     view = shown("ball-section", "period 1", *given.items())
     assert view.text["section"].split("\n")[1].startswith("Period 1, parabolic. Multipliers μ = 1, 1, error ")
     assert drawn(view) == {"neither"}

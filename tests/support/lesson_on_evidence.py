@@ -41,7 +41,7 @@ def bought_by_a_digit(_step):
     units = math.log(10.0) / np.array([lyapunov_spectrum(state.body, start, 8000.0).values[0] for start in starts])
 
     def lost(time):
-        found = moved_growth(STEPS["Chaos eats digits"].prediction.then.values | {"span": time}, "pixels")
+        found = moved_growth(STEPS["Chaos magnifies errors"].prediction.then.values | {"span": time}, "pixels")
         return all(deviations(one, 0.0) > 5.0 for one in found.values())
 
     return (units, 2.0), DIGITS, lost
@@ -62,7 +62,7 @@ def left(step):
 
 def hardly_moves(time):
     """Return whether the motion that is revealed differs by less than a pixel from a uniform rotation up to a time."""
-    values = STEPS["Nothing happens, forever?"].prediction.then.values
+    values = STEPS["A rotation that seems to be stable"].prediction.then.values
     return values["w2"] * math.exp(time) < 1e-3 * values["w1"]
 
 

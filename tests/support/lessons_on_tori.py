@@ -107,7 +107,7 @@ ROWS = {
             abs(1.0 / here(s).rotation_number),
         ),
         "in this family only at 0": lambda s: (circle_map(0.5, 1.5, 0.6, PRECISE).rotation_number,),
-        "With $a$ = 3 the contraction is fierce: one swing leaves 1.5·10⁻⁸": lambda s: (
+        "With $a$ = 3 the contraction is strong: one swing leaves 1.5·10⁻⁸": lambda s: (
             a_of(s),
             here(s).fixed_points[0].multiplier,
         ),
@@ -116,7 +116,7 @@ ROWS = {
     "scattering-by-a-nonholonomic-top": {
         "between 1.013 and 2.129": outgoing,
         "$\\chi$ = 148.0°": lambda s: (turned(s),),
-        "everything over, $\\chi=180°$": lambda s: (turned(s, k=1.0),),
+        "to its opposite, $\\chi=180°$": lambda s: (turned(s, k=1.0),),
         "With $I_{23}$ = 0.4 the angle is already 175.5°": lambda s: (
             0.5 * s.at.values["I23"],
             turned(s, I23=0.5 * s.at.values["I23"]),

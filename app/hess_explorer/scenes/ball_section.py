@@ -60,12 +60,12 @@ _LATE = "the later half"
 PRESETS = (
     Preset("Mixed: curves and a sea, I₁₃ = I₂₃ = 0", **PLAIN),
     Preset("Regular: I₁₁ = I₂₂, b ∥ e₃", I11=1.0, I22=1.0, D=3.0, b1=0.0, b3=1.0, h=1.5),
-    Preset("Every orbit closes: b₃ = 0", I11=1.0, I22=2.0, D=1.0, b1=1.0, b2=0.5, b3=0.0, h=2.618, psi=0.5),
+    Preset("Returning orbits close: b₃ = 0", I11=1.0, I22=2.0, D=1.0, b1=1.0, b2=0.5, b3=0.0, h=2.618, psi=0.5),
     Preset("A sea nearly everywhere", I11=1.0, I22=4.0, D=2.0, b1=0.3, b3=1.0, h=0.8),
     Preset("Strange attractor, I₁₃ ≠ 0", **_DOUBLES, h=2.72, psi=2.5, count=600.0, drop=_LATE),
-    Preset("A wider one, I₁₃I₂₃ ≠ 0", **_WIDER, h=1.0, psi=0.4, count=600.0, drop=_LATE),
+    Preset("A wider strange attractor, I₁₃I₂₃ ≠ 0", **_WIDER, h=1.0, psi=0.4, count=600.0, drop=_LATE),
     Preset(
-        "The orbit that doubles, over I₁₃",
+        "Period doubling along a branch, over I₁₃",
         **_DOUBLES,
         h=2.72,
         psi=-2.7834,

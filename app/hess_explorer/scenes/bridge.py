@@ -62,7 +62,7 @@ PRESETS = (
     Preset("Two limit cycles, given in Suslov–Hess", given=SUSLOV, h=1.5, f=0.6),
     Preset("No cycles, given in Suslov–Hess", given=SUSLOV, h=0.2, f=0.5),
     Preset("f = 0: loxodromic pendulum", given=HEAVY, h=20.0, f=0.0),
-    Preset("f = 0: it swings", given=HEAVY, h=5.0, f=0.0),
+    Preset("f = 0: oscillation below the separatrix", given=HEAVY, h=5.0, f=0.0),
     Preset("Body of figure 14, f = 1", given=HEAVY, **hess_case.RIS, h=2.0, f=1.0),
 )
 
@@ -106,7 +106,7 @@ class BothSides(State):
         0.01,
         bounds=(1e-6, 1.0),
         label="Free moment, x",
-        doc="Suslov–Hess leaves a moment of Euler–Poisson free: x = 1 is a flat body, where |a| < 1.",
+        doc="Third moment of Euler–Poisson, which Suslov–Hess does not determine; x = 1 is a flat body if |a| < 1.",
     )
     span: float = time_span(50.0, 200.0, most=1e5, what="the motion of both sides")
     accuracy: str = accuracy_level()

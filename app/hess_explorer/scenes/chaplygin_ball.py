@@ -47,8 +47,10 @@ _ANGLES = np.linspace(0.0, 2.0 * math.pi, 181)
 PRESETS = (
     Preset("Projections of trajectories, 𝒟 = 10, h = 10, not a rigid body (figure 10)"),
     Preset("𝒟 = 0: the free Suslov problem (not a rigid body)", D=0.0, span=15.0),
-    Preset("𝒟 = 0.5, close to it (not a rigid body)", D=0.5, span=15.0),
-    Preset("𝒟 = 2, I₁₃ = 0, k = 1: no longer flat", I11=1.64, I22=1.0, I13=0.0, I23=0.8, D=2.0, theta=1.0, span=30.0),
+    Preset("𝒟 = 0.5: close to the free Suslov problem (not a rigid body)", D=0.5, span=15.0),
+    Preset(
+        "𝒟 = 2, I₁₃ = 0, k = 1: no complete reversal", I11=1.64, I22=1.0, I13=0.0, I23=0.8, D=2.0, theta=1.0, span=30.0
+    ),
     Preset(
         "𝒟 = 0, I₁₃ = 0, k = 1: complete reversal", I11=1.64, I22=1.0, I13=0.0, I23=0.8, D=0.0, theta=1.0, span=15.0
     ),
@@ -62,7 +64,7 @@ class ChaplyginBall(State):
     I11: float = parameter(known.I11, 1.0)
     I22: float = parameter(known.I22)
     I13: float = parameter(known.I13, 0.7, doc="Product of inertia; with I₂₃ it sets the line I₁₃ω₁ + I₂₃ω₂ = 0.")
-    I23: float = parameter(known.I23, 1.2, doc="Product of inertia; not 0 together with I₁₃.")
+    I23: float = parameter(known.I23, 1.2, doc="Product of inertia; I₁₃ and I₂₃ must not both be 0.")
     D: float = parameter(known.D)
     h: float = parameter(known.H_FREE_BALL)
     theta: float = parameter(known.THETA)

@@ -108,14 +108,14 @@ PRESETS = (
         orbits=40.0,
         count=600.0,
     ),
-    Preset("The barrier breaks: 0.02 away from Hess", away=0.02, count=600.0),
-    *_figure(13, 0.0, "a curve in a regular leaf", {"a": -0.4, "b": 0.0, "c": 0.5}),
+    Preset("The barrier breaks: ε = 0.02", away=0.02, count=600.0),
+    *_figure(13, 0.0, "the Hess curve among regular ones", {"a": -0.4, "b": 0.0, "c": 0.5}),
     *_figure(13, 0.0, "the separatrix", {"d": math.sqrt(0.5)}),
-    *_figure(13, 0.0, "two layers part", {"e": 1.0, "f": 2.0}),
-    *_figure(14, 1.0, "no Hess motion yet", {"a": 0.0}),
+    *_figure(13, 0.0, "two layers", {"e": 1.0, "f": 2.0}),
+    *_figure(14, 1.0, "no motion on the Hess manifold", {"a": 0.0}),
     *_figure(14, 1.0, "no limit cycles", {"b": 0.2, "c": 0.5}),
-    *_figure(14, 1.0, "two limit cycles, two layers part", {"d": 0.8, "e": 1.0, "f": 1.3, "g": 2.0, "h": 4.0}),
-    Preset("On the Hess curve, f = 0, h below: fixed points, some in pairs", **_RIS, h=0.2, f=0.0, starts=_ON_HESS),
+    *_figure(14, 1.0, "two limit cycles, two layers", {"d": 0.8, "e": 1.0, "f": 1.3, "g": 2.0, "h": 4.0}),
+    Preset("On the Hess curve, f = 0, h < μ|r|: fixed points, some in pairs", **_RIS, h=0.2, f=0.0, starts=_ON_HESS),
     Preset("h → ∞: Euler's case, h = 5000", h=5000.0, span=1.0, long=20.0, starts="0,0.5"),
     Preset(
         "The second sheet of figure 14 a: a smaller G",
@@ -154,7 +154,7 @@ class EulerPoisson(FilledState):
         (-0.5, 0.5),
         0.005,
         bounds=(-math.pi, math.pi),
-        label="Distance from Hess, ε",
+        label="Angle off the Hess condition, ε",
         doc="The angle, in radians, by which the centre of mass r is turned away from the direction "
         "that the Hess condition asks for. At 0 the barrier r·M = 0 cannot be crossed.",
     )
@@ -180,7 +180,7 @@ class EulerPoisson(FilledState):
         "Sheet",
         (_LARGEST, _SECOND),
         _LARGEST,
-        doc="Where two momenta G have this energy at the same point of the section: the one with which orbits start.",
+        doc="The momentum G with which orbits start, where several have this energy at one point of the section.",
     )
     shade: str = shading()
     starts: str = points("The points of the chosen orbits", 12, *_BOUNDS, "0,0.2")

@@ -72,7 +72,7 @@ PRESETS = (
         "Γ(t), I₁₃ ≠ 0: two phases, two circles (figure 3)", **_OBLIQUE, Gamma=-0.4687, phi=math.pi, phi2=math.pi / 2
     ),
     Preset(
-        "Its second orbit as printed, γ₁ = −0.49: off that circle (figure 3)",
+        "Second orbit as printed, γ₁(0) = −0.49: another circle (figure 3)",
         **_OBLIQUE,
         Gamma=-0.5306,
         phi=1.6337,
@@ -107,7 +107,7 @@ class FreeSuslov(State):
         doc="A second orbit with the same ω leaves the same circle Γ⁻, turned along it by φ′ − φ.",
     )
     span: float = time_span(30.0, 100.0, most=1e5)
-    across: str = choice("γ₁ against", ("time", "phase"), "time", doc="Horizontal axis of the third picture: t or φ.")
+    across: str = choice("γ₁ against", ("time", "phase"), "time", doc="Horizontal axis of the picture of γ₁: t or φ.")
     accuracy: str = accuracy_level()
 
     def limits(self) -> Mapping[str, Slider]:

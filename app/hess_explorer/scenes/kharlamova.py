@@ -65,7 +65,15 @@ PRESETS = (
         alpha=math.atan2(1.0, 0.5),
         span=15.0,
     ),
-    Preset("Next to it: a long period", **_ROUND, q1=0.5, q2=-0.5, p=math.sqrt(1.25), alpha=1.1072, span=40.0),
+    Preset(
+        "Near the asymptotic orbit: a long period",
+        **_ROUND,
+        q1=0.5,
+        q2=-0.5,
+        p=math.sqrt(1.25),
+        alpha=1.1072,
+        span=40.0,
+    ),
 )
 
 
@@ -110,14 +118,14 @@ class Kharlamova(State):
         0.01,
         bounds=ONE_TURN,
         label="Start: direction α",
-        doc="p = |p| (cos α, sin α), the first direction; a click in the graph of T chooses it.",
+        doc="Direction of p = |p| (cos α, sin α) at the start; click the graph of T to choose it.",
     )
     span: float = time_span(20.0, 100.0)
     potential: str = choice(
         "Another potential",
         tuple(POTENTIALS),
         "Hénon–Heiles",
-        doc="Potential of the last picture, shown by its button; it has no b₁, b₂. Quadratic: integrable.",
+        doc="Potential U(γ₁, γ₂) of the last picture, in place of (b, γ). Quadratic: integrable.",
     )
     accuracy: str = accuracy_level()
 
@@ -316,7 +324,7 @@ class Kharlamova(State):
 
 
 _MIRROR: Layer[Kharlamova] = points(
-    "mirror", color=theme.MAP, edge=theme.INK, edge_width=1.5, size=11, label="its mirror image, t → −t"
+    "mirror", color=theme.MAP, edge=theme.INK, edge_width=1.5, size=11, label="mirror image, t → −t"
 )
 
 SCENE = Scene(

@@ -39,8 +39,8 @@ _SAMPLES = 2000
 PRESETS = (
     Preset("High energy: the whole loxodrome (body of figure 13)"),
     Preset("Almost round: many turns", I1=1.0, I2=1.03, I3=1.06, energy=2.0, l=0.1, span=150.0),
-    Preset("Low energy: a segment of it", energy=0.3, l=1.1),
-    Preset("Separatrix: once along it, to the top", energy=1.0, l=0.6),
+    Preset("Low energy: a segment of the loxodrome", energy=0.3, l=1.1),
+    Preset("Separatrix: to the top in infinite time", energy=1.0, l=0.6),
     Preset("Small swings", energy=-0.9, l=1.2),
     Preset("The body of figure 11, f = 0", I1=1.0, I2=0.625, I3=0.375, m=9.975, energy=5.0, l=2.9, span=5.0),
 )

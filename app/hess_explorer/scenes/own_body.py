@@ -114,7 +114,14 @@ class OwnBodyState(State):
     d2: float = _component("d₂", "Drive d₂", 0.0, "The gyrostatic momentum is k + d p(t).")
     d3: float = _component("d₃", "Drive d₃", 0.0, "The gyrostatic momentum is k + d p(t).", "Body")
     frequency: float = number(
-        "Ω", 1.0, (0.0, 5.0), 0.01, bounds=(0.0, 100.0), label="Frequency Ω", doc="Of the drive.", group="Computation"
+        "Ω",
+        1.0,
+        (0.0, 5.0),
+        0.01,
+        bounds=(0.0, 100.0),
+        label="Frequency Ω",
+        doc="Angular frequency of the drive.",
+        group="Computation",
     )
     w1: float = _velocity("ω₁(0)", 0.5)
     w2: float = _velocity("ω₂(0)", 1.0)
@@ -126,7 +133,7 @@ class OwnBodyState(State):
         0.01,
         bounds=ONE_TURN,
         label="Azimuth of γ",
-        doc="Of the vertical, in the plane 1, 2.",
+        doc="Azimuth of the vertical, in the plane of axes 1 and 2.",
         group="Computation",
         means="own body",
     )

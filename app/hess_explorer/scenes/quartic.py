@@ -58,7 +58,7 @@ PRESETS = (
     Preset("Integrable, in a ring: h > |b₃|", ratio=1.0, h=1.5, Q1=1.8, Q2=0.0),
     Preset("Regular: nearly round", ratio=1.05, h=0.6),
     Preset("A sea nearly everywhere", ratio=3.0, h=1.2, Q1=0.9, Q2=1.2),
-    Preset("In a ring: bouncing at its far end", ratio=1.5, h=3.0, Q1=0.3, Q2=3.0, beta=1.571, span=60.0),
+    Preset("In a ring: bouncing at one end", ratio=1.5, h=3.0, Q1=0.3, Q2=3.0, beta=1.571, span=60.0),
     Preset("A pitchfork, over h", Q1=0.0, Q2=0.266, beta=0.0, periodic="period 1", over="h", low=0.6, high=0.95),
 )
 

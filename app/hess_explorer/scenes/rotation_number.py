@@ -79,7 +79,7 @@ class RotationNumber(State):
         (0.0, 0.3),
         0.005,
         bounds=(0.0, 0.33),
-        label="Away from Möbius, ε",
+        label="Perturbation ε, not Möbius",
         doc="The other family: Θ(φ + ε sin 3φ). It is not a Möbius map: its ρ locks at many rational numbers.",
     )
     accuracy: str = accuracy_level()

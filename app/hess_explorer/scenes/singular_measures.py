@@ -65,7 +65,7 @@ class SingularMeasures(State):
     I13: float = parameter(
         known.I13, 0.5, doc="Product of inertia; with I₂₃ it sets the manifold s = I₁₃ω₁ + I₂₃ω₂ = 0."
     )
-    I23: float = parameter(known.I23, 0.7, doc="Product of inertia; not 0 together with I₁₃.")
+    I23: float = parameter(known.I23, 0.7, doc="Product of inertia; I₁₃ and I₂₃ must not both be 0.")
     D: float = parameter(
         known.D, 0.0, doc="0: free Suslov problem; otherwise the Chaplygin ball, whose inner ball has this 𝒟."
     )
@@ -118,7 +118,7 @@ class SingularMeasures(State):
         doc="The same points with I₁₃ = I₂₃ = 0 and the field b₃, in another colour.",
     )
     along: str = choice(
-        "Fourth picture",
+        "Picture over time",
         ("divergence", "volume"),
         "divergence",
         doc="The divergence div v at the points, or the logarithm of small volumes around them.",
@@ -190,7 +190,8 @@ class SingularMeasures(State):
         s, mean = self.clouds.density.passed_by_most
         height = digits(self.clouds.density.height, 3)
         return Caption(
-            numbers=f"Mean density times |s| at |s| = {digits(s, 2)}: {digits(mean, 3)}; dotted: {height}/|s|."
+            "Mean over time against the invariant density.",
+            f"At |s| = {digits(s, 2)}: {digits(mean, 3)}/|s|; invariant density: {height}/|s|.",
         )
 
     def _about_history(self) -> Caption:

@@ -331,7 +331,7 @@ SCENE = Scene(
             lambda s: s.kind == "hyperbolic",
         ),
         Answer("The two loops have just met: here they appear or vanish.", lambda s: s.kind == "parabolic"),
-        Answer("No loop attracts: every start winds on forever, and none forgets where it began."),
+        Answer("No loop attracts: every orbit winds around the torus forever."),
     ),
     lead=("bifurcation", "omega", "sphere", "circle"),
     title="The Suslov–Hess case",

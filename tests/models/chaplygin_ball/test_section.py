@@ -127,7 +127,7 @@ def test_mixed_some_orbits_lie_on_curves_and_others_fill_a_sea():
 
 
 @mark.chaotic
-@mark.parametrize("name", sample(["Strange attractor", "A wider one"], 1))
+@mark.parametrize("name", sample(["Strange attractor", "A wider strange"], 1))
 def test_on_an_attractor_neighbours_part_and_volume_shrinks(name):
     section = BallSection(*example(name))
     body, starts = section.body, section_crossings(section, section.spread(32), 200, "standard").states

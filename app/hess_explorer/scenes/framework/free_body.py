@@ -20,7 +20,9 @@ I13 = replace(
     softbounds=(-1.0, 1.0),
     doc="Product of inertia; with I₂₃ it sets the line of equilibria I₁₃ω₁ + I₂₃ω₂ = 0.",
 )
-I23 = replace(parameters.I23, default=0.5, softbounds=(-1.0, 1.0), doc="Product of inertia; not 0 together with I₁₃.")
+I23 = replace(
+    parameters.I23, default=0.5, softbounds=(-1.0, 1.0), doc="Product of inertia; I₁₃ and I₂₃ must not both be 0."
+)
 
 
 def free_body(k: float, I22: float, I13: float, I23: float) -> SuslovBody:

@@ -105,11 +105,10 @@ def accuracy_level() -> Any:
         (*LEVELS, AUTO),
         "standard",
         doc="Promised error of an orbit: draft 1e-3, standard 1e-6, precise 1e-9; reference: the floor of "
-        "double precision. One orbit costs about the same at every level: reference takes 0.67 to 3.1 × "
-        "as long as draft, whose error is up to 0.22 pixels. Draft is cheaper where it computes less: "
-        "of sections 25 % of the crossings (3.6 to 7.2 ×, error up to 1.3 pixels), of basins 33 % of "
-        "the cells along a side (7.7 ×, 0.41 % of the cells change). Auto: the cheapest level that is "
-        "right to half a pixel.",
+        "double precision. An orbit at reference takes 0.67 to 3.1 × as long as at draft, whose error is "
+        "up to 0.22 pixels. Draft computes 25 % of the crossings of a section (3.6 to 7.2 ×, error up to "
+        "1.3 pixels) and 33 % of the cells of basins along a side (7.7 ×, 0.41 % of the cells change). "
+        "Auto: the cheapest level that is right to half a pixel.",
     )
 
 

@@ -266,7 +266,7 @@ class _SwarmPart(Part[Any]):
     def caption(self) -> Caption:
         """The caption of the graph."""
         if self.spread is None:
-            return Caption("No graph.", self.reason)
+            return Caption("The spread is not measured.", self.reason)
         rate = self.swarm.rate(self.host)
         median = digits(float(self.spread[1][1, -1]), 2)
         said = "" if rate is None else f" {rate[1]}."

@@ -28,9 +28,7 @@ def spread_picture() -> Plot[Any]:
         message=lambda s: s.swarm_part.reason,
         button="Show the spread of the swarm",
         layers=(
-            line(
-                "least", curve(0), color=theme.MUTED, width=1, label="a tenth of the neighbours is closer, or farther"
-            ),
+            line("least", curve(0), color=theme.MUTED, width=1, label="10th and 90th percentiles"),
             line("most", curve(2), color=theme.MUTED, width=1),
             line(
                 "expected",
@@ -40,6 +38,6 @@ def spread_picture() -> Plot[Any]:
                 label="growth at the rate in the caption",
                 tag="rate",
             ),
-            line("median", curve(1), color=theme.ORBIT, label="neighbours, median", tag="median"),
+            line("median", curve(1), color=theme.ORBIT, label="median", tag="median"),
         ),
     )

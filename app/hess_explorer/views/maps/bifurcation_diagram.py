@@ -118,7 +118,7 @@ REACH: Layer[Any] = points(
     edge=theme.PAPER,
     edge_width=1.5,
     size=14.0,
-    label="largest |f| possible at the moving n₃",
+    label="largest |f| at the current n₃",
 )
 """The moving point of the diagram; (h, f) is the ring, which does not move in time."""
 

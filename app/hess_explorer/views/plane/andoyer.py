@@ -71,7 +71,7 @@ def between(
         `across(state)` returns the ends of the line of the rotation number in the window.
     """
     return (
-        dots("elsewhere", lambda s: elsewhere(s).T, color=theme.SHEET, size=12, label="on another sheet: another G"),
+        dots("elsewhere", lambda s: elsewhere(s).T, color=theme.SHEET, size=12, label="on another sheet (different G)"),
         line("curve", curve, color=theme.STABLE, label="Hess manifold, r·M = 0", tag="r·M = 0"),
         dots("path", track="orbit", columns=("l", "x"), size=3, color=theme.MAP, alpha=0.4),
         line(

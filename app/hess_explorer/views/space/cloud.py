@@ -204,7 +204,7 @@ def density_layers(density: Callable[[S], Density]) -> Layers[S]:
     def of(share: Callable[[Density], Array]) -> Callable[[S, Axes], tuple[Array, Array]]:
         return lambda s, axes: _inside(np.exp(density(s).log_s), share(density(s)), axes)
 
-    now: Layer[S] = points("now", color=theme.POINT, edge=theme.INK, size=7, label="at the moving time")
+    now: Layer[S] = points("now", color=theme.POINT, edge=theme.INK, size=7, label="at the current time")
     return (
         line("limit", within=limit, color=theme.MUTED, width=3, dash="dotted", label="c/|s|", tag="c/|s|"),
         line(

@@ -58,10 +58,10 @@ class DiagramControls(State, ABC):
     h: float
     along: str
     first: float = number(
-        "from", -0.15, (-3.0, 6.0), 0.01, bounds=FARTHEST, label="Diagram from", doc="Value at the left edge."
+        "from", -0.15, (-3.0, 6.0), 0.01, bounds=FARTHEST, label="Diagram from", doc="Parameter at the left edge."
     )
     last: float = number(
-        "to", 0.3, (-3.0, 6.0), 0.01, bounds=FARTHEST, label="Diagram to", doc="Value at the right edge."
+        "to", 0.3, (-3.0, 6.0), 0.01, bounds=FARTHEST, label="Diagram to", doc="Parameter at the right edge."
     )
     shown: str = choice("Coordinate of the section", COORDINATES, "ψ", doc="Quantity on the vertical axis.")
     ways: str = choice(

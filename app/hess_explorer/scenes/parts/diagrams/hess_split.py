@@ -96,7 +96,7 @@ class HessSplit(Part[Host]):
         value, error = self.split.value, self.split.error
         where = f"at l = {digits(self.split.l)}; as ε → 0: {digits(self.slope[0], 4)} ε."
         if self.away and abs(value) <= error:
-            return Caption("No split is visible.", f"Less than {digits(error, 1)} {where}")
+            return Caption("No separatrix splitting is visible.", f"Less than {digits(error, 1)} {where}")
         if abs(value) <= error:
             return Caption("The separatrices are not split.", f"Less than {digits(error, 1)} {where}")
         return Caption("The separatrices are split.", f"By {digits(value)} ± {digits(error, 1)} {where}")
@@ -135,10 +135,10 @@ def _line(splits: HessSplit, axes: Axes) -> list[Array]:
 
 split_picture = Plot[HessSplit](
     name="split",
-    title="Split of the separatrices",
+    title="Separatrix splitting",
     caption=HessSplit.caption,
-    button="Show the split of the separatrices",
-    axes=("ε", "split in L/G"),
+    button="Show the separatrix splitting",
+    axes=("ε", "separatrix splitting in L/G"),
     first=Axes((-_WIDE, _WIDE), (-1.0, 1.0)),
     message=lambda s: s.message,
     on_click=lambda s, x, y: {"away": x},
