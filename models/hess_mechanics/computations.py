@@ -189,7 +189,7 @@ def rotation_along_line(
     return rotation_along(
         (first, last),
         [one for one, _ in started],
-        [section.places_of(one) for one in orbits.states],
+        [section.points_of(one) for one in orbits.states],
         about_first,
         count,
         chosen.promise,

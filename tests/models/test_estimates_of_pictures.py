@@ -47,7 +47,7 @@ PIXELS, PERIODS = (300.0 / pi, 600.0 / pi), (2.0 * pi, inf)
 
 def places(body, starts, level):
     where = SuslovSection(body, 0.0, 3)
-    return [*map(where.places_of, section_crossings(where, starts, 60, level, threads=1).states)]
+    return [*map(where.points_of, section_crossings(where, starts, 60, level, threads=1).states)]
 
 
 @fixture(scope="module")

@@ -24,7 +24,7 @@ SCENE = scenes()["orbit-diagram"]
 def image(body, E, place, count=1):
     """Return the next points (count, 2) of the return map by SciPy."""
     section = SuslovSection(body, E, 3)
-    return section.places_of(crossings(lambda _, y: field(body, y), section.state_at(*place), count))
+    return section.points_of(crossings(lambda _, y: field(body, y), section.state_at(*place), count))
 
 
 def test_all_examples_are_rigid_bodies_from_one_edge_of_their_diagram_to_the_other():
@@ -136,5 +136,5 @@ def test_the_way_back_begins_where_the_way_there_ended():
     there, back = (state.diagram.pieces[way] for way in ("rising", "falling"))
     assert (there[-1].values[-1], back[0].values[0]) == (2.4, 2.4)
     body, E = replace(state, I22=2.4).body, state.poincare.E
-    last, first = there[-1].places[-1][-1], back[0].places[0][0]
+    last, first = there[-1].points[-1][-1], back[0].points[0][0]
     assert image(body, E, last)[0] == approx(first, abs=1e-4)

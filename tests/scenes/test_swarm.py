@@ -75,12 +75,12 @@ def test_starts_have_the_integrals_of_the_motion_and_lie_evenly_about_it(name):
 
 def test_on_a_line_they_lie_between_the_last_two_clicked_points_where_a_motion_is_possible():
     state, part = swarm_of("suslov", swarm="8", swarm_from="along a line", starts="1,1;0.2,0.9;1.6,2.3")
-    psi, delta = state.poincare.places_of(part.motions.states[:, 0]).T
+    psi, delta = state.poincare.points_of(part.motions.states[:, 0]).T
     assert psi == approx(np.linspace(0.2, 1.6, 8))
     assert delta == approx(np.linspace(0.9, 2.3, 8))
     # Left of ψ = −π/4 no motion is possible.
     state, part = swarm_of("suslov", swarm="50", swarm_from="along a line", starts="-2.5,1;1,1")
-    psi = state.poincare.places_of(part.motions.states[:, 0])[:, 0]
+    psi = state.poincare.points_of(part.motions.states[:, 0])[:, 0]
     assert psi == approx(np.linspace(-2.5, 1.0, 50)[-len(psi) :])
     assert psi.min() == approx(-np.pi / 4, abs=3.5 / 49)
     assert part.track()["count"] == len(psi)

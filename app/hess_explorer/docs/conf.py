@@ -77,7 +77,7 @@ def _computations() -> Iterator[str]:
         # Its numbers and its example are those of the Suslov problem.
         one = next((one for one in of if one.system.startswith("suslov")), of[0])
         system = motions().get(one.system)
-        own = [p for p in one.parameters if system is None or p not in (*system.parameters, *system.place)]
+        own = [p for p in one.parameters if system is None or p not in (*system.parameters, *system.point)]
         words = f"{one.key} {command_of(one).example}".strip()
         yield f"({name})=\n## {one.title}\n\n{inspect.cleandoc(one.doc)}\n"
         python = f"{{py:func}}`{one.function.__name__} <hess_mechanics.{one.function.__name__}>`"
@@ -95,7 +95,7 @@ def _computations() -> Iterator[str]:
     yield "## Systems\n"
     for system in motions().values():
         yield f"(system-{system.name})=\n### {system.name}\n\n{system.title}. Source: {system.source or 'none'}.\n"
-        yield from _parameters((*system.parameters, *system.place))
+        yield from _parameters((*system.parameters, *system.point))
     yield "(levels)=\n## What a level promises\n"
     yield from _table(*levels_table())
 

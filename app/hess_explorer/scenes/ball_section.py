@@ -194,7 +194,7 @@ class BallSectionState(SectionState):
         """Return consecutive values (ψ, next ψ) of the chosen orbit (n, 2)."""
         closed = self.closed_orbit
         if closed is not None:
-            psi = closed.orbit.places[:, 0]
+            psi = closed.orbit.points[:, 0]
             return np.column_stack([psi, np.roll(psi, -1)])
         psi = self.section.own[:, 0]
         return None if self.section.known_orbits.reason else np.column_stack([psi[:-1], psi[1:]])

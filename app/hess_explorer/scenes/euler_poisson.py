@@ -261,7 +261,7 @@ class EulerPoisson(FilledState):
     def track(self) -> Columns:
         """Return the columns of the orbit."""
         orbit = self.orbit.path
-        l, x = self.poincare.places_of(orbit.states).T
+        l, x = self.poincare.points_of(orbit.states).T
         return {"t": column(orbit.times), "l": column(l), "x": column(x), **gamma_columns(orbit.states[:, 3:])}
 
     @cached_property
@@ -309,7 +309,7 @@ def _crossings(
         bool(np.all(sign * relation(section.body, states) >= 0.0))
         for states, sign in zip(found.states, signs, strict=True)
     )
-    other = [section.places_of(states)[~section.is_on(states)] for states in found.states]
+    other = [section.points_of(states)[~section.is_on(states)] for states in found.states]
     return replace(
         batch_of(section, found),
         firsts=tuple(bool(sign > 0.0) for sign in signs),
@@ -337,7 +337,7 @@ SCENE = Scene(
     ),
     title="Euler–Poisson: sections",
     summary="A heavy body near the Hess case: two stochastic layers with a barrier between them, a meandering torus.",
-    swarm=turned_swarm(lambda s, states: dict(zip("lx", s.poincare.places_of(states).T, strict=True)), angles=("l",)),
+    swarm=turned_swarm(lambda s, states: dict(zip("lx", s.poincare.points_of(states).T, strict=True)), angles=("l",)),
     tracks={"orbit": EulerPoisson.track},
     angles=("l",),
     views=(

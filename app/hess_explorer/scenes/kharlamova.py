@@ -228,7 +228,7 @@ class Kharlamova(State):
         low, high = self.arc.ends
         more = 0.5 * self.arc.length
         return (
-            [] if self.arc.kind == "fixed" else [self.body.place(self.arc.u(np.linspace(low - more, high + more, 181)))]
+            [] if self.arc.kind == "fixed" else [self.body.q_of(self.arc.u(np.linspace(low - more, high + more, 181)))]
         )
 
     def force(self) -> Direction | None:

@@ -121,7 +121,7 @@ class RotationNumber(State):
         """ρ and trace of tori on the line."""
         count = _ON_LINE // 4 if self.dragging else self.plan(Kind.LINE).side(_ON_LINE)
         values = self.work.need(Task(mechanics.along, self.on_line, count, self.plan(Kind.LINE).level))
-        return rotation_line.Tori(self.on_line.places(count), values, self.on_line.place(self.torus))
+        return rotation_line.Tori(self.on_line.values(count), values, self.on_line.value_of(self.torus))
 
     @cached_property
     def other_family(self) -> Array | None:
@@ -153,7 +153,7 @@ class RotationNumber(State):
     def _about_line(self) -> Caption:
         rho = str(self.target).replace("-", "−")
         if self.periodic is not None:
-            value = digits(self.on_line.place(self.periodic.torus))
+            value = digits(self.on_line.value_of(self.periodic.torus))
             difference = f"|Θ{superscript(self.target.denominator)} − id|"
             defect = digits(self.periodic.defect, 1)
             return Caption(

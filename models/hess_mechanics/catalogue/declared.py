@@ -423,14 +423,14 @@ def declare(of: Motions, one: Computation, on_section: bool = False) -> Computat
     Computation
         The computation of this system.
     """
-    own = (*of.parameters, *of.place)
+    own = (*of.parameters, *of.point)
     names = {each.name for each in own}
 
     def call(accuracy: Level, **values: Any) -> Any:
         more = {name: value for name, value in values.items() if name not in names}
         start: tuple[Any, ...]
         if on_section and of.section is not None:
-            start = ReturnMap(of.section(values), accuracy), tuple(values[each.name] for each in of.place)
+            start = ReturnMap(of.section(values), accuracy), tuple(values[each.name] for each in of.point)
         else:
             start, more["accuracy"] = of.start(values), accuracy
         return (one.call or one.function)(*start, **more)

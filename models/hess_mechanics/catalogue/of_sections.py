@@ -28,7 +28,7 @@ from hess_mechanics.return_maps import (
 
 __all__ = ["computations"]
 
-Place = tuple[float, ...]
+Point = tuple[float, ...]
 
 _UNDECIDED = (MotionKind.UNDECIDED, MotionKind.SETTLING)
 _TRANSIENT = whole("transient", "N₀", 300, 0, 20_000, "Crossings skipped.")
@@ -39,19 +39,19 @@ _REGIME_PARAMETERS = _TRANSIENT, _CROSSINGS, usual(known.SPAN, 200.0, "Time of M
 # ---- functions of a point of a section ------------------------------------------------------------------------------
 
 
-def _periodic(map_: ReturnMap, place: Place, period: int) -> PeriodicOrbit:
-    return periodic_orbit(map_, place, period or None)
+def _periodic(map_: ReturnMap, point: Point, period: int) -> PeriodicOrbit:
+    return periodic_orbit(map_, point, period or None)
 
 
 def _from_orbit(function: Callable[..., Any]) -> Callable[..., Any]:
     """Return a function of a map and a point, from one of a map and a periodic orbit."""
-    return lambda map_, place, period, **more: function(map_, _periodic(map_, place, period), **more)
+    return lambda map_, point, period, **more: function(map_, _periodic(map_, point, period), **more)
 
 
 def _along(function: Callable[..., Any]) -> Callable[..., Any]:
     """Return a function over evenly spaced values of a parameter, from one over any values."""
-    return lambda map_, place, parameter, low, to, values, **more: function(
-        map_, parameter, np.linspace(low, to, values), place, **more
+    return lambda map_, point, parameter, low, to, values, **more: function(
+        map_, parameter, np.linspace(low, to, values), point, **more
     )
 
 
@@ -135,7 +135,7 @@ def computations(example: PoincareSection, period: int) -> Iterator[Computation]
             "period": Number("N", "number of returns", "period"),
         },
         Kind.ORBIT,
-        "places",
+        "points",
         _periodic,
     )
     yield Computation(
@@ -148,7 +148,7 @@ def computations(example: PoincareSection, period: int) -> Iterator[Computation]
             "end": Number("λ", "value of the parameter at the end", lambda r: r.values[-1]),
         },
         Kind.ORBIT,
-        lambda r, exact: largest_difference(r.places[-1], exact.places[-1]),
+        lambda r, exact: largest_difference(r.points[-1], exact.points[-1]),
         _from_orbit(continued_orbit),
         choices=over,
         example={"points": 5.0},
@@ -177,14 +177,14 @@ def computations(example: PoincareSection, period: int) -> Iterator[Computation]
             values,
             transient,
             whole("crossings", "N", 64, 1, 20_000, "Crossings shown at each value."),
-            whole("follow", "f", 1, 0, 1, "1: each value starts where the one before ends; 0: at the place."),
+            whole("follow", "f", 1, 0, 1, "1: each value starts where the one before ends; 0: at the chosen point."),
             whole("backward", "−t", 0, 0, 1, "1: backward in time, to repellers."),
         ),
         {"period": Number("N", "period at the last value, 0 if none is seen", lambda r: r.periods[-1])},
         Kind.SECTION,
         "periods",
-        lambda map_, place, backward, **more: _along(orbit_diagram)(
-            map_.inverse() if backward else map_, place, **more
+        lambda map_, point, backward, **more: _along(orbit_diagram)(
+            map_.inverse() if backward else map_, point, **more
         ),
         choices=over,
         example={"values": 3.0, "transient": 30.0, "crossings": 8.0},
@@ -206,7 +206,7 @@ def computations(example: PoincareSection, period: int) -> Iterator[Computation]
         _REGIME_PARAMETERS,
         {
             "distance": Number("d", "distance of attractor and repeller", "distance", error_reader="distance_error"),
-            "shared": Number("s", "fraction of the places that both share", "overlap"),
+            "shared": Number("s", "fraction of the points that both share", "overlap"),
         },
         Kind.INDICATOR,
         example={"transient": 60.0, "crossings": 64.0, "duration": 50.0},
@@ -219,14 +219,14 @@ def computations(example: PoincareSection, period: int) -> Iterator[Computation]
         "Poincaré section",
         section_orbits,
         (
-            whole("orbits", "n", 0, 0, 1000, "Orbits spread evenly over the section; 0: the one from the place."),
+            whole("orbits", "n", 0, 0, 1000, "Orbits spread evenly over the section; 0: the one from the point."),
             whole("crossings", "N", 200, 1, 10_000, "Crossings of each orbit."),
         ),
         {"points": Number("n", "number of points", lambda r: sum(map(len, r.orbits)))},
         Kind.SECTION,
         _points_away,
-        lambda map_, place, orbits, crossings: section_orbits(
-            map_, starts=() if orbits else (place,), orbits=orbits or 1, crossings=crossings
+        lambda map_, point, orbits, crossings: section_orbits(
+            map_, starts=() if orbits else (point,), orbits=orbits or 1, crossings=crossings
         ),
         example={"crossings": 20.0},
     )
@@ -262,7 +262,7 @@ def computations(example: PoincareSection, period: int) -> Iterator[Computation]
         {"attractors": Number("N", "number of attractors", "attractors")},
         Kind.BASINS,
         lambda r, exact: float(np.mean(r.attractor != exact.attractor)),
-        lambda map_, place, across, up, x0, x1, y0, y1, duration: basins(
+        lambda map_, point, across, up, x0, x1, y0, y1, duration: basins(
             map_, (across, up), ((x0, y0), (x1, y1)), duration
         ),
         unit="fraction of the cells",

@@ -133,7 +133,7 @@ class Arrivals:
 def _cells(section: PoincareSection, states: Array) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """Return row and column of the cells of states (n, d)."""
     low, high = np.array(section.window).T
-    at = np.floor((section.places_of(states) - low) / (high - low) * _CELLS).astype(int)
+    at = np.floor((section.points_of(states) - low) / (high - low) * _CELLS).astype(int)
     column, row = (np.clip(one, 0, count - 1) for one, count in zip(at.T, _CELLS, strict=True))
     return row, column
 

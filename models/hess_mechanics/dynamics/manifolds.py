@@ -19,7 +19,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from hess_mechanics.dynamics.periodic import Map, PeriodicOrbit, apart, place_units
+from hess_mechanics.dynamics.periodic import Map, PeriodicOrbit, apart, coordinate_units
 from hess_mechanics.errors import InvalidParameter, ModelError, NotConverged
 from hess_mechanics.numerics.accuracy import Status
 from hess_mechanics.numerics.labelled import Labels, Result, components
@@ -116,7 +116,7 @@ class Manifold(Result):
                 **components(self.names, self.points, "length"),
                 "τ": (("length",), self.parameters),
             },
-            place_units(self.names),
+            coordinate_units(self.names),
             {
                 "manifold": "stable" if self.stable else "unstable",
                 "side": self.side,
@@ -156,12 +156,12 @@ class _Curve:
         return float(np.linalg.norm(apart(self.map_.turns, there, self._near(1.0))))
 
 
-def _begun(map_: Map, orbit: PeriodicOrbit, side: int, place: int) -> _Curve:
+def _begun(map_: Map, orbit: PeriodicOrbit, side: int, index: int) -> _Curve:
     """Return the curve with the longest first piece that is right to the promise of the map.
 
     Raises `InvalidParameter` if the orbit is not a saddle.
     """
-    saddle = orbit.places[place % orbit.period]
+    saddle = orbit.points[index % orbit.period]
     M, at = np.eye(2), saddle
     for _ in range(orbit.period):
         at, D = map_.with_derivative(at)
@@ -209,7 +209,7 @@ def manifold(
     *,
     stable: bool = False,
     side: int = 1,
-    place: int = 0,
+    index: int = 0,
     sagitta: float = 1e-3,
     longest: float = 0.1,
     most: int = 4000,
@@ -229,7 +229,7 @@ def manifold(
         Return the stable manifold instead of the unstable one.
     side : {1, -1}, default 1
         Leave the saddle along its direction (1) or against it (−1).
-    place : int, default 0
+    index : int, default 0
         Index of the point of the saddle orbit from which the branch starts.
     sagitta : float, default 1e-3
         Largest distance between the curve and the returned polyline, positive, in units of the coordinates.
@@ -269,7 +269,7 @@ def manifold(
     if len(getattr(map_, "turns", ())) != 2:
         raise InvalidParameter("A manifold needs the return map of a section with two coordinates: give another map.")
     forwards = map_.inverse() if stable else map_
-    curve = _begun(forwards, saddle, side, place)
+    curve = _begun(forwards, saddle, side, index)
     points, parameters, ended = _followed(curve, length, sagitta, longest, most, returns)
     lengths = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
     return Manifold(
@@ -385,7 +385,7 @@ class Intersection:
 
     Attributes
     ----------
-    place : ndarray, shape (2,)
+    point : ndarray, shape (2,)
         The point.
     parameters : (float, float)
         Parameter τ on each manifold.
@@ -398,7 +398,7 @@ class Intersection:
         errors; False where they run together.
     """
 
-    place: Array
+    point: Array
     parameters: tuple[float, float]
     angle: float
     error: float
@@ -427,7 +427,7 @@ def crossings_of(one: Manifold, other: Manifold, most: int = 100) -> list[Inters
     for i, j in _meeting(one, other):
         crossing = _refined(one, other, (i, j))
         if crossing is not None and all(
-            np.abs(apart(one.turns, crossing.place, known.place)).max() > 1e-9 + crossing.error + known.error
+            np.abs(apart(one.turns, crossing.point, known.point)).max() > 1e-9 + crossing.error + known.error
             for known in crossings
         ):
             crossings.append(crossing)
@@ -468,8 +468,8 @@ def _refined(one: Manifold, other: Manifold, pair: tuple[int, int]) -> Intersect
             tau = np.asarray(tau + np.clip(step, -room, room), float)
             if np.abs(slopes * step).max() < 1e-13:
                 break
-        place = one.at(tau[0])
-        left = apart(one.turns, place, other.at(tau[1]))
+        point = one.at(tau[0])
+        left = apart(one.turns, point, other.at(tau[1]))
     except (ModelError, np.linalg.LinAlgError):
         return None
     if any(not end[0] - np.ptp(end) <= value <= end[1] + np.ptp(end) for value, end in zip(tau, ends, strict=True)):
@@ -478,7 +478,7 @@ def _refined(one: Manifold, other: Manifold, pair: tuple[int, int]) -> Intersect
     angle = math.atan2(abs(float(_cross(u, v))), abs(float(u @ v)))
     off = (one.error_estimate + other.error_estimate + float(np.abs(left).max())) / max(math.sin(angle), 1e-6)
     return Intersection(
-        frozen(place),
+        frozen(point),
         (float(tau[0]), float(tau[1])),
         angle,
         off,

@@ -11,11 +11,11 @@ import numpy as np
 
 from hess_mechanics.dynamics.cells import Window, centres
 from hess_mechanics.dynamics.megno import megno
-from hess_mechanics.dynamics.periodic import place_units
+from hess_mechanics.dynamics.periodic import coordinate_units
 from hess_mechanics.dynamics.return_map import PoincareSection, ReturnMap
 from hess_mechanics.errors import InvalidParameter, OutsideRegion
 from hess_mechanics.numerics.accuracy import Accuracy
-from hess_mechanics.numerics.arguments import as_cells, as_number, as_place
+from hess_mechanics.numerics.arguments import as_cells, as_number, as_point
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.parallel import share
 from hess_mechanics.numerics.results import Array, frozen
@@ -107,7 +107,7 @@ def labels_of_cells(
     return Labels(
         {up: ((up,), y), across: ((across,), x)},
         {name: ((up, across), of) for name, of in arrays.items()},
-        {**place_units(names), **units},
+        {**coordinate_units(names), **units},
         facts,
     )
 
@@ -256,7 +256,7 @@ def corners(section: PoincareSection, window: Window | None) -> Window:
     require_plane(section)
     names, sides = section.names, section.window
     given = tuple(zip(*sides, strict=True)) if window is None else window
-    (x0, y0), (x1, y1) = (as_place(names, corner) for corner in given)
+    (x0, y0), (x1, y1) = (as_point(names, corner) for corner in given)
     # A window may start at any angle.
     inside = all(
         math.isfinite(turn) or (low <= a and b <= high)

@@ -121,7 +121,7 @@ def require_steps(steps: int, too_long: str, where: Callable[[], WorkLimit | Non
     too_long : str
         Message for a kernel that ran out of steps.
     where : callable, optional
-        Function that returns the error of a motion that stopped, with its place; None if only a neighbour did.
+        Function that returns the error of a motion that stopped, with its state; None if only a neighbour did.
 
     Raises
     ------

@@ -18,7 +18,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hess_mechanics.dynamics.continuation import Bifurcation, branch_from
-from hess_mechanics.dynamics.periodic import MAX_PERIOD, Map, PeriodicOrbit, apart, find_periodic, place_units, shoot
+from hess_mechanics.dynamics.periodic import (
+    MAX_PERIOD,
+    Map,
+    PeriodicOrbit,
+    apart,
+    coordinate_units,
+    find_periodic,
+    shoot,
+)
 from hess_mechanics.errors import InvalidParameter, ModelError, NotConverged, OutsideRegion, WorkLimit
 from hess_mechanics.numerics.labelled import Labels, Result, components
 from hess_mechanics.numerics.patience import go_on
@@ -70,12 +78,12 @@ class OrbitMap(Map, Protocol):
     def preserves_volume(self) -> bool:
         """True if the map preserves a volume and has no attractors."""
 
-    def orbit(self, place: Array, count: int) -> Array:
+    def orbit(self, point: Array, count: int) -> Array:
         """Return the next points of an orbit.
 
         Parameters
         ----------
-        place : ndarray, shape (d,)
+        point : ndarray, shape (d,)
             Point where the orbit starts.
         count : int
             Number of points.
@@ -99,7 +107,7 @@ class Diagram(Result):
         Names of the coordinates.
     values : ndarray, shape (n,)
         Values of the parameter, in the order in which they were visited.
-    places : tuple of ndarray, shape (m, d)
+    points : tuple of ndarray, shape (m, d)
         Points at each value; empty if the motion does not return.
     periods : ndarray of int, shape (n,)
         Period at each value; 0 if none up to 64 is found.
@@ -114,7 +122,7 @@ class Diagram(Result):
     parameter: str
     names: tuple[str, ...]
     values: Array
-    places: tuple[Array, ...]
+    points: tuple[Array, ...]
     periods: Whole
     ends: Array
     conservative: Mask
@@ -128,19 +136,19 @@ class Diagram(Result):
         Labels
             The coordinates over the points.
         """
-        value = np.repeat(self.values, [len(one) for one in self.places])
-        points = np.concatenate([np.empty((0, len(self.names))), *self.places])
+        value = np.repeat(self.values, [len(one) for one in self.points])
+        points = np.concatenate([np.empty((0, len(self.names))), *self.points])
         along = ("point",)
         return Labels(
             {self.parameter: (along, value)},
             components(self.names, points, *along),
-            place_units(self.names),
+            coordinate_units(self.names),
             {"level": self.level},
         )
 
 
 def period_of(
-    turns: Sequence[float], places: Array, promise: float = 0.0, most: int = MAX_PERIOD, same: float = SAME
+    turns: Sequence[float], points: Array, promise: float = 0.0, most: int = MAX_PERIOD, same: float = SAME
 ) -> tuple[int, bool]:
     """Return the least period that the points of an orbit show, and whether the orbit has settled.
 
@@ -151,7 +159,7 @@ def period_of(
     ----------
     turns : sequence of float
         Period of each coordinate, ∞ if it is not an angle.
-    places : ndarray, shape (n, d)
+    points : ndarray, shape (n, d)
         Points of the orbit.
     promise : float, default 0.0
         Error of the points.
@@ -167,12 +175,12 @@ def period_of(
     settled : bool
         True if the orbit has settled.
     """
-    most = min(most, len(places) // 3)
+    most = min(most, len(points) // 3)
     if most < 1:
         return 0, False
     ways = np.empty((most, 2))
     for m in range(1, most + 1):
-        halves = places[: len(places) // 2 + m // 2], places[len(places) // 2 - m // 2 :]
+        halves = points[: len(points) // 2 + m // 2], points[len(points) // 2 - m // 2 :]
         ways[m - 1] = [np.abs(apart(turns, one[m:], one[:-m])).max() for one in halves]
         if ways[m - 1].max() <= max(same, _PROMISES * promise):
             # A multiplier near −1 makes an orbit look twice as long while it is still settling.
@@ -236,8 +244,8 @@ def diagram_over(
         raise WorkLimit(f"At most {MAX_CROSSINGS} crossings per value are allowed: choose fewer.")
     first = np.array(start, float)
     restart = first if again is None else np.array(again, float)
-    place = first
-    places: list[Array] = []
+    point = first
+    shown: list[Array] = []
     periods, conservative = np.zeros(along.size, np.int64), np.zeros(along.size, bool)
     ends = np.full((along.size, first.size), np.nan)
     names: tuple[str, ...] = ()
@@ -249,7 +257,7 @@ def diagram_over(
             map_ = family(value)
             names, level = map_.names, map_.level
             conservative[i] = map_.preserves_volume
-            for origin in (place, restart) if follow else (restart,):
+            for origin in (point, restart) if follow else (restart,):
                 try:
                     orbit = _after_transient(map_, origin, transient, crossings)
                 except OutsideRegion:
@@ -262,17 +270,17 @@ def diagram_over(
         except ModelError:
             # At this value there is no such body, or no motion: the diagram has a gap.
             pass
-        places.append(frozen(points.copy()))
+        shown.append(frozen(points.copy()))
         if len(points):
             periods[i], _ = period_of(map_.turns, points, map_.promise)
-            ends[i] = place = points[-1]
+            ends[i] = point = points[-1]
         else:
-            place = restart
+            point = restart
     return Diagram(
         parameter,
         names,
         frozen(along),
-        tuple(places),
+        tuple(shown),
         frozen(periods),
         frozen(ends),
         frozen(conservative),
@@ -318,7 +326,7 @@ def first_doubling(parts: Sequence[Diagram]) -> tuple[float, Array, float] | Non
         doubles between neighbours.
     """
     known = [
-        one for part in parts for one in zip(part.values.tolist(), part.periods.tolist(), part.places, strict=True)
+        one for part in parts for one in zip(part.values.tolist(), part.periods.tolist(), part.points, strict=True)
     ]
     for way in (known, known[::-1]):
         periods = [m for _, m, _ in way]
@@ -349,7 +357,7 @@ class Cascade(Result):
         Estimated errors of the values.
     periods : ndarray of int, shape (k,)
         Period before each doubling.
-    places : tuple of ndarray, shape (m, d)
+    points : tuple of ndarray, shape (m, d)
         Points of the orbit at each doubling.
     end_reason : str
         Reason why there are no more doublings.
@@ -362,7 +370,7 @@ class Cascade(Result):
     values: Array
     errors: Array
     periods: Whole
-    places: tuple[Array, ...]
+    points: tuple[Array, ...]
     end_reason: str
     level: str
 
@@ -486,8 +494,8 @@ def cascade(
         orbit.names,
         frozen(np.array([one.value for one in flips])),
         frozen(np.array([one.error for one in flips])),
-        frozen(np.array([len(one.places) for one in flips], np.int64)),
-        tuple(one.places for one in flips),
+        frozen(np.array([len(one.points) for one in flips], np.int64)),
+        tuple(one.points for one in flips),
         ended,
         orbit.level,
     )
@@ -495,7 +503,7 @@ def cascade(
 
 def _doubled(family: Callable[[float], Map], flip: Bifurcation, step: float) -> tuple[float, PeriodicOrbit] | None:
     """Return the orbit of twice the period beyond a flip, and the parameter; a stable orbit if there is one."""
-    twice = np.concatenate([flip.places, flip.places])
+    twice = np.concatenate([flip.points, flip.points])
     away = np.linalg.svd(shoot(family(flip.value), twice).jacobian)[2][-1].reshape(twice.shape)
     away /= np.abs(away).max()
     other: tuple[float, PeriodicOrbit] | None = None
@@ -508,7 +516,7 @@ def _doubled(family: Callable[[float], Map], flip: Bifurcation, step: float) -> 
                 orbit = find_periodic(map_, twice + amplitude * away)
             except ModelError:
                 continue
-            if orbit.period == len(twice) and np.abs(apart(map_.turns, orbit.places, twice)).max() < _NEAR * amplitude:
+            if orbit.period == len(twice) and np.abs(apart(map_.turns, orbit.points, twice)).max() < _NEAR * amplitude:
                 if orbit.kind.startswith("stable"):
                     return value, orbit
                 other = other or (value, orbit)

@@ -47,8 +47,8 @@ def nearest(turns: Sequence[float], a: Array, b: Array) -> Array:
 
     box = np.array([turn if math.isfinite(turn) else 0.0 for turn in turns])
 
-    def wrapped(places: Array) -> Array:
-        result = np.mod(places, turns, where=np.isfinite(turns), out=np.array(places, float))
+    def wrapped(points: Array) -> Array:
+        result = np.mod(points, turns, where=np.isfinite(turns), out=np.array(points, float))
         return np.where(result >= turns, 0.0, result)
 
     return np.asarray(cKDTree(wrapped(b), boxsize=box).query(wrapped(a))[0])

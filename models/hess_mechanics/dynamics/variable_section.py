@@ -129,7 +129,7 @@ class VariableSection(PoincareSection):
             return replace(self, body=self.system.at(self.parameters, **{name: value}))
         return replace(self, integrals=tuple((own, value if own == name else x) for own, x in self.integrals))
 
-    def places_of(self, states: Array) -> Array:
+    def points_of(self, states: Array) -> Array:
         """Return the points of the section at which given states lie.
 
         Parameters
@@ -142,19 +142,19 @@ class VariableSection(PoincareSection):
         ndarray, shape (n, k)
             Coordinates, angles within half a turn of the middle of their range.
         """
-        places = states[:, [self._index(name) for name in self.names]]
+        points = states[:, [self._index(name) for name in self.names]]
         turns, middle = np.array(self.turns), np.mean(self.ranges, axis=1)
-        return np.asarray(places - np.where(np.isinf(turns), 0.0, _TURN) * np.round((places - middle) / turns))
+        return np.asarray(points - np.where(np.isinf(turns), 0.0, _TURN) * np.round((points - middle) / turns))
 
     def _index(self, name: str) -> int:
         return self.system.variables.index(name)
 
-    def states_at(self, *places: Array) -> tuple[Array, Mask]:
+    def states_at(self, *points: Array) -> tuple[Array, Mask]:
         """Return the states at points of the section.
 
         Parameters
         ----------
-        *places : ndarray
+        *points : ndarray
             Coordinates of the points, each of shape (n,).
 
         Returns
@@ -164,10 +164,10 @@ class VariableSection(PoincareSection):
         possible : ndarray of bool, shape (n,)
             True for points that motions cross.
         """
-        y = np.zeros((len(self.system.variables), np.size(places[0])))
+        y = np.zeros((len(self.system.variables), np.size(points[0])))
         y[self._index(self.variable)] = self.value
-        for name, place in zip(self.names, places, strict=True):
-            y[self._index(name)] = place
+        for name, point in zip(self.names, points, strict=True):
+            y[self._index(name)] = point
         unknown, here = [self._index(name) for name in self.solved], self._index(self.variable)
         example = np.array(self.system.example[0])
         size = max(1.0, float(np.abs(example).max()))

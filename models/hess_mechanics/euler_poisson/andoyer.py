@@ -362,7 +362,7 @@ class AndoyerSection(PoincareSection):
         growth = 2.0 * np.sum(y[:3] * rates[:3], axis=0) * y[5] + safe * safe * rates[5] - self.f * rates[2]
         return y.T, (G > 0.0) & (growth > 0.0)
 
-    def places_of(self, states: Array) -> Array:
+    def points_of(self, states: Array) -> Array:
         """Return the points of the section at which given states lie, on any sheet.
 
         Parameters

@@ -33,7 +33,7 @@ from hess_mechanics.dynamics.orbit import checked_times, drift_of, require_finit
 from hess_mechanics.dynamics.sampling import MOST_SAMPLES, SAGITTA
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import Accuracy, Level, Status
-from hess_mechanics.numerics.arguments import as_level, as_place, unit_vector
+from hess_mechanics.numerics.arguments import as_level, as_point, unit_vector
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.measured import measured, nearby
 from hess_mechanics.numerics.results import Array, Complex, Cost, facts_of, frozen, unit_of
@@ -416,7 +416,7 @@ def passage(body: SuslovBody, omega: Sequence[float]) -> Passage:
         If γ rotates too often during the passage, see `shape`.
     """
     of = shape(body)
-    w1, w2 = as_place(("ω1", "ω2"), omega)
+    w1, w2 = as_point(("ω1", "ω2"), omega)
     r = math.hypot(math.sqrt(body.I11) * w1, math.sqrt(body.I22) * w2)
     if r == 0.0:
         raise InvalidParameter("ω = 0: the body is at rest for ever, h = 0. Choose a nonzero ω1 or ω2.")

@@ -497,7 +497,7 @@ class QuarticSection(PoincareSection):
         momentum[1 - along] = -np.sqrt(np.maximum(0.0, left))
         return np.stack([*self.body.omega(place), *momentum, g3], axis=1), left > 0.0
 
-    def places_of(self, states: Array) -> Array:
+    def points_of(self, states: Array) -> Array:
         """Return the points of the section at which given states lie.
 
         Parameters

@@ -195,7 +195,7 @@ class AngleSection(PoincareSection):
         gamma[self._in_plane, :] = np.cos(psi), np.sin(psi)
         return gamma
 
-    def places_of(self, states: Array) -> Array:
+    def points_of(self, states: Array) -> Array:
         """Return the points of the section at which given states lie.
 
         Parameters

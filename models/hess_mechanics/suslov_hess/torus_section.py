@@ -143,7 +143,7 @@ class TorusSection(PoincareSection):
         gamma = along * s + across * c, along * c - across * s, np.full(s.size, n3)
         return np.column_stack([rho * s, rho * c, *gamma]), np.isfinite(s)
 
-    def places_of(self, states: Array) -> Array:
+    def points_of(self, states: Array) -> Array:
         """Return the points of the section at which given states lie.
 
         Parameters

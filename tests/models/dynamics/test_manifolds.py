@@ -67,11 +67,11 @@ def test_homoclinic_points_of_henon_are_homoclinic():
         assert one.angle > 1e-3
         assert one.certain
         # It comes from the saddle and goes there.
-        place = one.place
-        closest = min(float(np.abs((place := m.image(place)) - saddle.places[0]).max()) for _ in range(12))
+        place = one.point
+        closest = min(float(np.abs((place := m.image(place)) - saddle.points[0]).max()) for _ in range(12))
         assert closest < 1e-3
-        back = one.place
-        assert min(float(np.abs((back := m.inverse().image(back)) - saddle.places[0]).max()) for _ in range(14)) < 1e-3
+        back = one.point
+        assert min(float(np.abs((back := m.inverse().image(back)) - saddle.points[0]).max()) for _ in range(14)) < 1e-3
 
 
 @mark.parametrize(("ripple", "there"), [(0.0, False), (0.1, True)])
@@ -82,10 +82,10 @@ def test_curves_that_run_together_do_not_cross_for_certain(ripple, there):
     found = [one for one in crossings_of(unstable, stable) if one.certain]
     assert bool(found) is there
     # (x, y) → (y, x) takes one curve to the other: of a homoclinic point that is its own image the places are equal.
-    own = [one for one in found if abs(one.place[0] - one.place[1]) < 0.02]
+    own = [one for one in found if abs(one.point[0] - one.point[1]) < 0.02]
     assert len(own) == there
     for one in own:
-        assert abs(one.place[0] - one.place[1]) <= 2.0 * one.error < 1e-8
+        assert abs(one.point[0] - one.point[1]) <= 2.0 * one.error < 1e-8
 
 
 def test_separatrices_split_in_proportion_to_a_perturbation(mu=1.5):

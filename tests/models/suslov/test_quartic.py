@@ -90,7 +90,7 @@ def test_points_of_the_section_are_what_they_say(body):
         assert q[:, body.across] == approx(np.zeros(len(q)), abs=1e-5)
         # It grows: its rate is −p.
         assert np.all(p[:, body.across] < 0.0)
-        for y, (x, along) in zip(states[:4], section.places_of(states), strict=False):
+        for y, (x, along) in zip(states[:4], section.points_of(states), strict=False):
             assert state_at(body, (start := start_on_section(body, x, along))[:2], start[2]) == approx(y, abs=2e-4)
             count += 1
     assert count > 10

@@ -103,7 +103,7 @@ class Continuation(Part[H_co]):
                     whole = whole and one is not None
                     break
                 found.append(one)
-                advance = max(float(np.ptp(one.values)) / (high - low), float(np.ptp(one.places, axis=0).max()))
+                advance = max(float(np.ptp(one.values)) / (high - low), float(np.ptp(one.points, axis=0).max()))
                 # Pieces hardly advance near a tangency with the section.
                 if one.heading is None or advance < _LEAST_ADVANCE:
                     break
@@ -128,7 +128,7 @@ class Continuation(Part[H_co]):
             if len(branch.values) < 2:
                 continue
             for j in range(branch.period):
-                at = self._pixels(branch.values, branch.places[:, j], x, y)
+                at = self._pixels(branch.values, branch.points[:, j], x, y)
                 along = np.diff(at, axis=0)
                 length2 = np.maximum(np.sum(along**2, axis=1), 1e-300)
                 share = np.clip(-np.sum(at[:-1] * along, axis=1) / length2, 0.0, 1.0)
@@ -145,11 +145,11 @@ class Continuation(Part[H_co]):
             return None
         _, branch, i, share, j = near
         turns = self.host.poincare.turns
-        (a, b), (first, second), m = branch.places[i : i + 2], branch.values[i : i + 2], branch.period
+        (a, b), (first, second), m = branch.points[i : i + 2], branch.values[i : i + 2], branch.period
         between = np.roll(a + share * apart(turns, b, a), -j, axis=0)
         value = float(first + share * (second - first))
         try:
-            point = find_periodic(self.begin.family.map_at(value), between, m).places[0]
+            point = find_periodic(self.begin.family.map_at(value), between, m).points[0]
         except ModelError:
             go_on()
             value, point = float(first), a[j]
@@ -166,7 +166,7 @@ class Continuation(Part[H_co]):
     def about(self, x: float, y: float) -> str:
         """Return a tooltip on the bifurcation or the orbit of the branch at (x, y)."""
         for one in bifurcations(self.branches):
-            if np.hypot(*self._pixels(np.full(len(one.places), one.value), one.places, x, y).T).min() <= _NEAR:
+            if np.hypot(*self._pixels(np.full(len(one.points), one.value), one.points, x, y).T).min() <= _NEAR:
                 return self._bifurcation_text(one)
         near = self._nearest(x, y)
         if near is None:
@@ -183,7 +183,7 @@ class Continuation(Part[H_co]):
 
     def _bifurcation_text(self, one: Bifurcation) -> str:
         value = f"{digits(one.value, 8)} ± {digits(one.error, 1)}"
-        return f"{one.kind} of period {len(one.places)} at {self.branches[0].parameter} = {value}"
+        return f"{one.kind} of period {len(one.points)} at {self.branches[0].parameter} = {value}"
 
     @property
     def caption(self) -> Caption:

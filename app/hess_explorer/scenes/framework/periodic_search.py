@@ -95,9 +95,9 @@ def find_orbit(map_: ReturnMap, aim: Point, period: int | None, near: bool) -> C
     """Search for a periodic orbit near a point; return the orbit, or the reason why none was found."""
     try:
         orbit = find_periodic(map_, aim, period, _MOST, near)
-        first = orbit.places[0]
+        first = orbit.points[0]
         return ClosedOrbit(
-            replace(orbit, symmetric=tuple(map_.symmetries_of(orbit.places))),
+            replace(orbit, symmetric=tuple(map_.symmetries_of(orbit.points))),
             tuple(map(float, map_.state_at(first))),
             map_.time_of(first, orbit.period),
         )
@@ -120,7 +120,7 @@ def branch_of(search: Search, branch: BranchChoice, length: float, pixel: float)
                 part * length,
                 stable=stable,
                 side=side,
-                place=index,
+                index=index,
                 sagitta=_SAGITTA * pixel,
                 longest=_CHORD * pixel,
                 most=MOST_POINTS,

@@ -60,7 +60,7 @@ def layers(
         ]
 
     def crossed(state: S, axes: Axes) -> Array | None:
-        found = [one.place for one in homoclinic(state)]
+        found = [one.point for one in homoclinic(state)]
         return visible_points(np.array(found), manifolds(state)[0].turns[0], axes).T if found else None
 
     return (
@@ -91,7 +91,7 @@ def orbit_points(orbits: Callable[[S], Sequence[PeriodicOrbit]]) -> Layers[S]:
 
     def of_sign(sign: str) -> Callable[[S], Array | None]:
         def of(state: S) -> Array | None:
-            found = [one.places for one in orbits(state) if sign_of(one.kind) == sign]
+            found = [one.points for one in orbits(state) if sign_of(one.kind) == sign]
             return np.concatenate(found).T if found else None
 
         return of

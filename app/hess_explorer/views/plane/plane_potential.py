@@ -64,17 +64,17 @@ def picture(
 
     def edge(state: S) -> Array:
         angle = np.linspace(0.0, 2.0 * np.pi, 241)
-        return body(state).place(np.stack([np.cos(angle), np.sin(angle)], axis=-1))
+        return body(state).q_of(np.stack([np.cos(angle), np.sin(angle)], axis=-1))
 
     def levels(state: S) -> list[Array]:
         top = _largest(body(state))
-        return [body(state).place(part) for share in _LEVELS for part in level_curve(body(state), share * top)]
+        return [body(state).q_of(part) for share in _LEVELS for part in level_curve(body(state), share * top)]
 
     def too_high(state: S) -> list[Array]:
-        return [body(state).place(part) for part in forbidden(body(state), motion(state).energy)]
+        return [body(state).q_of(part) for part in forbidden(body(state), motion(state).energy)]
 
     def orbit(state: S) -> tuple[Array, Array]:
-        q = body(state).place(motion(state).orbit.states[:, 2:4])
+        q = body(state).q_of(motion(state).orbit.states[:, 2:4])
         return q[:, 0], q[:, 1]
 
     def start(state: S) -> list[tuple[float, float]]:

@@ -80,7 +80,7 @@ class OrbitDiagram(Part[DiagramControls]):
         others = self.poincare.spread(1)
         if not others:
             raise OutsideRegion("No motion of this energy crosses γ₃ = 0: choose a larger h.")
-        x, y = self.poincare.places_of(np.array(others))[0]
+        x, y = self.poincare.points_of(np.array(others))[0]
         return float(x), float(y)
 
     @property
@@ -174,7 +174,7 @@ class OrbitDiagram(Part[DiagramControls]):
         parts = [
             np.column_stack([np.full(len(some), value), some[:, self.side]])
             for one in self.pieces.get(way, ())
-            for value, some in zip(one.values, one.places, strict=True)
+            for value, some in zip(one.values, one.points, strict=True)
             if len(some)
         ]
         return joined(parts).T
@@ -208,7 +208,7 @@ class OrbitDiagram(Part[DiagramControls]):
                 (round(abs(value - x), 12), abs(point[self.side] - y), value, tuple(point))
                 for some in self.pieces.values()
                 for one in some
-                for value, points in zip(one.values.tolist(), one.places, strict=True)
+                for value, points in zip(one.values.tolist(), one.points, strict=True)
                 for point in points.tolist()
             ),
             default=None,

@@ -115,7 +115,7 @@ def doublings(ramp: Ramp) -> Cascade | str:
 def visible_range(ramp: Ramp, side: int, whole: Range) -> Range:
     """Return the range of a coordinate that contains the attractor, and the repeller if it is near."""
     attractor, repeller = (
-        [some[:, side] for some in way.over(way.values, way.point).places]
+        [some[:, side] for some in way.over(way.values, way.point).points]
         for way in (ramp, replace(ramp, backward=True))
     )
     if not any(map(len, attractor)):

@@ -106,7 +106,7 @@ def _dynamics(map_: ReturnMap, start: Point, transient: int, crossings: int, dur
     try:
         return comparison(map_, motion, start, transient, crossings)
     except NoReturn:
-        return Dynamics(motion, motion.places[:0], motion.places[:0], ())
+        return Dynamics(motion, motion.points[:0], motion.points[:0], ())
 
 
 def few(points: Array) -> Array | None:

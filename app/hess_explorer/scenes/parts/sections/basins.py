@@ -282,7 +282,7 @@ def _saddles(what: _BasinGrid) -> tuple[Search, ...]:
             orbit = saddle_between(map_, left_end, right_end, arrives)
         except NotConverged:
             continue
-        points = [tuple(map(float, point)) for point in orbit.places]
+        points = [tuple(map(float, point)) for point in orbit.points]
         first = min(points)
         found.setdefault(tuple(np.round(first, 6).tolist()), (map_, first, orbit.period, True))
     return tuple(found.values())

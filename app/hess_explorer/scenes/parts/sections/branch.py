@@ -152,7 +152,7 @@ class SectionBranch(Continuation[_Section]):
     def here(self) -> Array | None:
         """The points (2, m) of the periodic orbit in the picture; None without one."""
         closed = self.orbit.closed_orbit
-        return None if closed is None else np.array([(self.at, point[self.side]) for point in closed.orbit.places]).T
+        return None if closed is None else np.array([(self.at, point[self.side]) for point in closed.orbit.points]).T
 
     @property
     def _whole(self) -> Range:
@@ -166,7 +166,7 @@ class SectionBranch(Continuation[_Section]):
             return self._whole
         if not self.branches:
             return None
-        found = np.concatenate([one.places[:, :, self.side].ravel() for one in self.branches])
+        found = np.concatenate([one.points[:, :, self.side].ravel() for one in self.branches])
         low, high = self._whole
         if found.max() - found.min() >= self.turn:
             return low, high

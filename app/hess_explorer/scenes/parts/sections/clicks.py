@@ -137,7 +137,7 @@ class Clicks(Part[_Host]):
             raise InvalidParameter(
                 f"In this window {self.excuse}: choose {self.remedy}, or More → Remove clicks and boxes."
             )
-        return _Chosen([_point(self.host.poincare.places_of(np.array(others))[0])], [others[0]], chosen[-1])
+        return _Chosen([_point(self.host.poincare.points_of(np.array(others))[0])], [others[0]], chosen[-1])
 
     @property
     def rings(self) -> list[Point]:
@@ -146,7 +146,7 @@ class Clicks(Part[_Host]):
         return (
             [*self.selection.points]
             if closed is None
-            else [*self.selection.points[:-1], _point(closed.orbit.places[0])]
+            else [*self.selection.points[:-1], _point(closed.orbit.points[0])]
         )
 
     @property

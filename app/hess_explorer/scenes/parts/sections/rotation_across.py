@@ -229,7 +229,7 @@ def rotation_picture() -> Picture[Any]:
             curves("rho", lambda s: _branches(s.rotation.profile), color=theme.ORBIT),
             # An orbit between two gaps is a curve of one point, which only a mark shows.
             points(
-                "orbits", lambda s: (s.rotation.profile.places, s.rotation.profile.numbers), size=4, color=theme.ORBIT
+                "orbits", lambda s: (s.rotation.profile.points, s.rotation.profile.numbers), size=4, color=theme.ORBIT
             ),
         ),
     )

@@ -339,7 +339,7 @@ def about_section(section: Section) -> Caption:
 def _first_point(section: PoincareSection, state: Start, crossed: Callable[[], OrbitBatch]) -> Point | None:
     """Return the point of a state in the section, or of its first crossing; None without one."""
     start = np.array([state])
-    point = section.places_of(start)
+    point = section.points_of(start)
     states, there = section.states_at(*point.T)
     if not (there[0] and np.abs(states - start).max() < _ON * max(1.0, float(np.abs(start).max()))):
         (point,) = crossed().orbits
