@@ -21,7 +21,7 @@ from hess_mechanics.dynamics.cells import Window, centres
 from hess_mechanics.dynamics.continuation import Branch, branch_from
 from hess_mechanics.dynamics.megno_map import corners, labels_of_cells, require_plane
 from hess_mechanics.dynamics.orbit_diagram import Cascade, Diagram, cascade, diagram_over
-from hess_mechanics.dynamics.periodic import MAX_PERIOD, PeriodicOrbit, coordinate_units, find_periodic
+from hess_mechanics.dynamics.periodic import MAX_PERIOD, PeriodicOrbit, find_periodic, units_of
 from hess_mechanics.dynamics.plane_section import labels_of_orbits
 from hess_mechanics.dynamics.return_map import PoincareSection, ReturnMap, section_crossings
 from hess_mechanics.dynamics.system import ParametrizedSystem
@@ -32,7 +32,7 @@ from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.numerics.accuracy import Accuracy, Kind, plan
 from hess_mechanics.numerics.arguments import as_cells, as_integer, as_level, as_number, as_pairs, as_point
 from hess_mechanics.numerics.labelled import Labels, Result
-from hess_mechanics.numerics.parallel import share
+from hess_mechanics.numerics.parallel import run_in_threads
 from hess_mechanics.numerics.results import Array, angle_facts, frozen
 from hess_mechanics.suslov.equations import SuslovBody
 from hess_mechanics.suslov.quartic import QuarticBody, QuarticSection
@@ -84,7 +84,7 @@ class PlanePoints(Result):
         Labels
             Both coordinates over the points.
         """
-        return labels_of_orbits(self.names, self.orbits, "point", coordinate_units(self.names), self.facts)
+        return labels_of_orbits(self.names, self.orbits, "point", units_of(self.names), self.facts)
 
 
 def return_map(
@@ -401,10 +401,12 @@ def orbit_diagram(
     point = as_point(map_.names, start)
     transient, crossings = as_integer("transient", transient, 0, 20_000), as_integer("crossings", crossings, 1, 20_000)
     if len(np.atleast_1d(values)) * crossings > _MOST_POINTS:
-        raise WorkLimit(f"An orbit diagram has at most {_MOST_POINTS} points: choose fewer values or crossings.")
+        raise WorkLimit(
+            f"These are more than {_MOST_POINTS} points of an orbit diagram: choose fewer values or crossings."
+        )
     diagram = diagram_over(partial(map_.at_constant, parameter), parameter, values, point, transient, crossings, follow)
     if not any(map(len, diagram.points)):
-        # Say why.
+        # No value has a motion: raise the error of the first one.
         map_.at_constant(parameter, float(diagram.values[0])).state_at(np.array(point))
     return diagram
 
@@ -554,7 +556,7 @@ def basins(
         ends = arrivals(SectionOrbits(section, level), there.sets, x, np.full(m, y[i]))
         number[i], crossings[i] = ends.number, ends.crossings
 
-    share(row, n)
+    run_in_threads(row, n)
     crossings[number < 0.0] = np.nan
     across, up = section.names
     return Basins(

@@ -12,7 +12,7 @@ from hess_explorer.export.picture_data import picture_data
 from hess_explorer.protocol.wire import Wire
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Motion
-from hess_explorer.scenes.framework.swarm_motions import swarm_motions, turned
+from hess_explorer.scenes.framework.swarm_motions import swarm_motions, turned_starts
 from support.view import values_of
 from support.wire import read
 
@@ -94,10 +94,10 @@ def test_on_a_line_they_lie_between_the_last_two_clicked_points_where_a_motion_i
 def test_a_turned_momentum_keeps_the_area_integral_and_a_turned_velocity_its_direction():
     euler, suslov = (swarm_of(name)[0].motion() for name in ("euler-poisson", "suslov"))
     angles = np.array([-2.0, 0.0, 0.4])
-    M, gamma = np.split(turned(euler, angles), 2, axis=1)
+    M, gamma = np.split(turned_starts(euler, angles), 2, axis=1)
     assert np.sum(M * gamma, axis=1) == approx(np.dot(euler.start[:3], euler.start[3:]))
     assert [*M[1], *gamma[1]] == approx(euler.start)
-    w = turned(suslov, angles)[:, :2]
+    w = turned_starts(suslov, angles)[:, :2]
     assert np.arctan2(w[:, 1], w[:, 0]) - np.arctan2(*suslov.start[1::-1]) == approx(angles)
 
 

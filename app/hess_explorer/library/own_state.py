@@ -107,11 +107,11 @@ class OwnState(State):
     megno = part(lambda s: Indicator(s.section, s.indicator == MEGNO))
 
     @property
-    def special(self) -> Caption | None:
+    def section_caption(self) -> Caption | None:
         """The caption of a section with MEGNO; None without it."""
         return self.megno.caption
 
-    def look_closer(self, corners: Corners) -> Values:
+    def box_window(self, corners: Corners) -> Values:
         """Return the window that a box in the section selects."""
         (x0, x1), (y0, y1) = self.poincare.window
         return box_window(corners, ((x0, y0), (x1, y1)))
@@ -157,7 +157,7 @@ class LevelState(OwnState):
     periodic_orbit = part(lambda s: SectionPeriodicOrbit(s.section, s.periodic, s.reach))
 
     @property
-    def special(self) -> Caption | None:
+    def section_caption(self) -> Caption | None:
         """The caption of a section with a periodic orbit or MEGNO; None without them."""
         return self.periodic_orbit.caption or self.megno.caption
 

@@ -12,7 +12,7 @@ import numpy as np
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.answers import Answer
-from hess_explorer.scenes.framework.charted import Charts, of_torus
+from hess_explorer.scenes.framework.charted import Charts, torus_charts
 from hess_explorer.scenes.framework.hess_case import map_or_none, possible_f
 from hess_explorer.scenes.framework.part import part
 from hess_explorer.scenes.framework.scene import Preset, Scene, State
@@ -120,7 +120,7 @@ class RotationNumber(State):
     def tori(self) -> rotation_line.Tori:
         """ρ and trace of tori on the line."""
         count = _ON_LINE // 4 if self.dragging else self.plan(Kind.LINE).side(_ON_LINE)
-        values = self.work.need(Task(mechanics.along, self.on_line, count, self.plan(Kind.LINE).level))
+        values = self.work.need(Task(mechanics.values_along, self.on_line, count, self.plan(Kind.LINE).level))
         return rotation_line.Tori(self.on_line.values(count), values, self.on_line.value_of(self.torus))
 
     @cached_property
@@ -201,7 +201,7 @@ def _periodic(rho: Fraction, line: ParameterLine) -> tuple[PeriodicTorus | None]
 def _line(s: RotationNumber, plan: Plan) -> Array:
     """Return ρ of the tori on the line and of the other family."""
     count = plan.side(_ON_LINE)
-    values = mechanics.along(s.on_line, count, plan.level)
+    values = mechanics.values_along(s.on_line, count, plan.level)
     other_family = mechanics.perturbations_along(s.on_line, count, s.epsilon, plan.level, plan.part(mechanics.TURNS))
     return np.stack([np.where(values.possible, values.rho, np.nan), other_family])
 
@@ -216,7 +216,7 @@ _MEASURES: tuple[Trial[RotationNumber], ...] = (
     Trial(
         Kind.GRID,
         ("map",),
-        lambda s, plan: s.rho.rows(plan).now(),
+        lambda s, plan: s.rho.rows(plan).compute(),
         lambda s, found, truth: colour_error(found.rho[found.possible], truth.rho[found.possible]),
         COLOUR_UNIT,
         "cells",
@@ -231,7 +231,7 @@ _MEASURES: tuple[Trial[RotationNumber], ...] = (
     Trial(
         Kind.CURVE,
         ("map",),
-        lambda s, plan: s.rho.lock(plan).now(),
+        lambda s, plan: s.rho.tongue_boundary(plan).compute(),
         lambda s, found, truth: boundary_error(found, truth, Axes(*s.rho.window)),
     ),
 )
@@ -242,7 +242,7 @@ SCENE = Scene(
     place=8,
     presets=PRESETS,
     measures=_MEASURES,
-    charts=Charts(of_torus(lambda s: (s.a, s.h, s.f)), over=("h", "f")),
+    charts=Charts(torus_charts(lambda s: (s.a, s.h, s.f)), over=("h", "f")),
     group="Heavy body",
     essential=("a", "h", "f"),
     answers=(

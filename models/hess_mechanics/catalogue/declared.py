@@ -328,7 +328,7 @@ class Computation:
         for choice in self.choices:
             word = str(arguments.get(choice.name, choice.default))
             if word not in choice.names:
-                raise InvalidParameter(f"{choice.name} is one of {', '.join(choice.names)}, not {word[:40]!r}.")
+                raise InvalidParameter(f"{choice.name} = {word[:40]!r}: choose one of {', '.join(choice.names)}.")
             values[choice.name] = word
         return values
 

@@ -10,7 +10,7 @@ import numpy as np
 from hess_mechanics import parameters as known
 from hess_mechanics.catalogue.declared import Choice, Computation, NoValue, Number, largest_difference, real
 from hess_mechanics.dynamics.manifolds import manifold
-from hess_mechanics.dynamics.motions import usual, whole
+from hess_mechanics.dynamics.motions import integer, with_default
 from hess_mechanics.dynamics.orbit_diagram import Cascade
 from hess_mechanics.dynamics.periodic import MAX_PERIOD, PeriodicOrbit
 from hess_mechanics.dynamics.regime import MotionKind, Regime, dynamics_of, regime
@@ -31,9 +31,9 @@ __all__ = ["computations"]
 Point = tuple[float, ...]
 
 _UNDECIDED = (MotionKind.UNDECIDED, MotionKind.SETTLING)
-_TRANSIENT = whole("transient", "N₀", 300, 0, 20_000, "Crossings skipped.")
-_CROSSINGS = whole("crossings", "N", 200, 8, 20_000, "Crossings analysed.")
-_REGIME_PARAMETERS = _TRANSIENT, _CROSSINGS, usual(known.SPAN, 200.0, "Time of MEGNO and of the mean divergence.")
+_TRANSIENT = integer("transient", "N₀", 300, 0, 20_000, "Crossings skipped.")
+_CROSSINGS = integer("crossings", "N", 200, 8, 20_000, "Crossings analysed.")
+_REGIME_PARAMETERS = _TRANSIENT, _CROSSINGS, with_default(known.SPAN, 200.0, "Time of MEGNO and the mean divergence.")
 
 
 # ---- functions of a point of a section ------------------------------------------------------------------------------
@@ -72,7 +72,7 @@ def _reader_of(name: str) -> Callable[[Regime], float]:
 
 def _first(cascade: Cascade) -> float:
     if not len(cascade.values):
-        raise NoValue("No period doubles on this range: choose a longer one.")
+        raise NoValue("There is no period doubling in this range: choose a larger range.")
     return float(cascade.values[0])
 
 
@@ -116,9 +116,9 @@ def computations(example: PoincareSection, period: int) -> Iterator[Computation]
     value = constants[name]
     to = real("to", "to", value + 0.1 * max(1.0, abs(value)), -1e6, 1e6, "Last value of the parameter.")
     ends = real("low", "from", value, -1e6, 1e6, "First value of the parameter."), to
-    values = whole("values", "n", 50, 2, 20_000, "Number of values of the parameter.")
-    transient = usual(_TRANSIENT, 200.0)
-    returns = whole("period", "N", period, 0, MAX_PERIOD, "Number of returns; 0: detected, up to 12.")
+    values = integer("values", "n", 50, 2, 20_000, "Number of values of the parameter.")
+    transient = with_default(_TRANSIENT, 200.0)
+    returns = integer("period", "N", period, 0, MAX_PERIOD, "Number of returns; 0: detected, up to 12.")
     yield Computation(
         "periodic-orbit",
         "Periodic orbit",
@@ -142,7 +142,7 @@ def computations(example: PoincareSection, period: int) -> Iterator[Computation]
         "branch",
         "Branch of periodic orbits over a parameter",
         continued_orbit,
-        (returns, to, whole("points", "n", 200, 2, 2000, "Largest number of points of the branch.")),
+        (returns, to, integer("points", "n", 200, 2, 2000, "Largest number of points of the branch.")),
         {
             "bifurcations": Number("n", "number of bifurcations", lambda r: len(r.bifurcations)),
             "end": Number("λ", "value of the parameter at the end", lambda r: r.values[-1]),
@@ -157,7 +157,7 @@ def computations(example: PoincareSection, period: int) -> Iterator[Computation]
         "period-doublings",
         "Period doublings over a parameter",
         period_doublings,
-        (returns, to, whole("most", "n", 3, 1, 6, "Largest number of doublings.")),
+        (returns, to, integer("most", "n", 3, 1, 6, "Largest number of doublings.")),
         {
             "count": Number("n", "number of doublings", lambda r: len(r.values)),
             "first": Number("λ₁", "value of the parameter at the first doubling", _first),
@@ -176,9 +176,9 @@ def computations(example: PoincareSection, period: int) -> Iterator[Computation]
             *ends,
             values,
             transient,
-            whole("crossings", "N", 64, 1, 20_000, "Crossings shown at each value."),
-            whole("follow", "f", 1, 0, 1, "1: each value starts where the one before ends; 0: at the chosen point."),
-            whole("backward", "−t", 0, 0, 1, "1: backward in time, to repellers."),
+            integer("crossings", "N", 64, 1, 20_000, "Crossings shown at each value."),
+            integer("follow", "f", 1, 0, 1, "1: each value starts where the one before ends; 0: at the chosen point."),
+            integer("backward", "−t", 0, 0, 1, "1: backward in time, to repellers."),
         ),
         {"period": Number("N", "period at the last value, 0 if none is seen", lambda r: r.periods[-1])},
         Kind.SECTION,
@@ -219,8 +219,8 @@ def computations(example: PoincareSection, period: int) -> Iterator[Computation]
         "Poincaré section",
         section_orbits,
         (
-            whole("orbits", "n", 0, 0, 1000, "Orbits spread evenly over the section; 0: the one from the point."),
-            whole("crossings", "N", 200, 1, 10_000, "Crossings of each orbit."),
+            integer("orbits", "n", 0, 0, 1000, "Orbits spread evenly over the section; 0: the one from the point."),
+            integer("crossings", "N", 200, 1, 10_000, "Crossings of each orbit."),
         ),
         {"points": Number("n", "number of points", lambda r: sum(map(len, r.orbits)))},
         Kind.SECTION,
@@ -237,8 +237,8 @@ def computations(example: PoincareSection, period: int) -> Iterator[Computation]
         (
             returns,
             real("length", "s", 1.0, 1e-3, 1e3, "Length at which the branch ends."),
-            whole("stable", "W", 0, 0, 1, "1: the stable manifold, 0: the unstable one."),
-            whole("side", "±", 1, -1, 1, "1: along the direction of the saddle, −1: against it."),
+            integer("stable", "W", 0, 0, 1, "1: the stable manifold, 0: the unstable one."),
+            integer("side", "±", 1, -1, 1, "1: along the direction of the saddle, −1: against it."),
         ),
         {"length": Number("s", "length of the branch", "length", error_reader="error_estimate")},
         Kind.ORBIT,
@@ -251,13 +251,13 @@ def computations(example: PoincareSection, period: int) -> Iterator[Computation]
         "Basins of attraction",
         basins,
         (
-            whole("across", "m", 40, 1, 1000, "Number of cells across."),
-            whole("up", "n", 30, 1, 1000, "Number of cells up."),
+            integer("across", "m", 40, 1, 1000, "Number of cells across."),
+            integer("up", "n", 30, 1, 1000, "Number of cells up."),
             *(
                 real(name, name, value, -1e6, 1e6, "Side of the window.")
                 for name, value in (("x0", x0), ("x1", x1), ("y0", y0), ("y1", y1))
             ),
-            usual(known.SPAN, 1000.0, "Time over which the divergence is averaged."),
+            with_default(known.SPAN, 1000.0, "Time over which the divergence is averaged."),
         ),
         {"attractors": Number("N", "number of attractors", "attractors")},
         Kind.BASINS,

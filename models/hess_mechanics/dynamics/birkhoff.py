@@ -8,7 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from hess_mechanics.dynamics.periodic import apart
+from hess_mechanics.dynamics.periodic import difference
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.results import Array
 
@@ -107,7 +107,7 @@ def irregularity(turns: Sequence[float], points: Array, precision: float) -> flo
     weight = _weights(half)
     off = np.abs(weight @ (both[:half] - both[half : 2 * half]))
     most = max(1, len(points) // _LEAST_REPEATS)
-    gaps = [float(np.abs(apart(turns, points[m:], points[:-m])).max()) for m in range(1, most + 1)]
+    gaps = [float(np.abs(difference(turns, points[m:], points[:-m])).max()) for m in range(1, most + 1)]
     closest = 1 + int(np.argmin(gaps))
     worst = math.inf if closest * min(gaps) < _TOO_CLOSE * max(gaps) else 0.0
     for m in (1, closest):

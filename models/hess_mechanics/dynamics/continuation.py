@@ -24,16 +24,16 @@ from hess_mechanics.dynamics.periodic import (
     Map,
     PeriodicOrbit,
     Shot,
-    apart,
-    coordinate_units,
+    difference,
     kind_of,
     multipliers_of,
     shoot,
+    units_of,
 )
 from hess_mechanics.errors import InvalidParameter, ModelError, NotConverged
 from hess_mechanics.numerics.labelled import Labels, Result, components
 from hess_mechanics.numerics.measured import SAFETY
-from hess_mechanics.numerics.patience import go_on
+from hess_mechanics.numerics.patience import check_limit
 from hess_mechanics.numerics.results import Array, Complex, frozen
 
 __all__ = ["Bifurcation", "Branch", "MapFamily", "branch_from", "extension"]
@@ -165,7 +165,7 @@ class Branch(Result):
                 "kind": (along, np.array(self.kinds)),
                 "error": (along, self.errors),
             },
-            {"time": "T", **coordinate_units(self.names)},
+            {"time": "T", **units_of(self.names)},
             {
                 "period": self.period,
                 "level": self.level,
@@ -235,7 +235,7 @@ class _Track:
         # Only Newton's steps and the tangent use this derivative; its error does not move the orbit.
         h = 1e-5 * self.width
         sides = [self.at(value + sign * h).image(points) for sign in (1.0, -1.0)]
-        by_value = apart(map_.turns, *sides) / (2.0 * h)
+        by_value = difference(map_.turns, *sides) / (2.0 * h)
         # The equations are divided by √m, like the points.
         return _Point(z, shot, by_value.ravel() * self.width / self.root, iterations)
 
@@ -247,7 +247,7 @@ class _Track:
         """Return the point of the branch in the plane through `guess` across a direction.  Raises `NotConverged`."""
         z, before = guess, math.inf
         for iteration in range(1, 13):
-            go_on()
+            check_limit()
             try:
                 point = self.point(z, iteration)
                 step = self._step(point, across, float(across @ (z - guess)))
@@ -424,7 +424,7 @@ def _followed(
         room = _to_edge(last.z[-1], t[-1], low, high)
         ahead = min(step, room)
         try:
-            # The last point lies at the end of the range itself.
+            # Place the last point exactly at the end of the range.
             following, tangent = track.beside(last.z + ahead * t, along if room <= step else t, t)
         except NotConverged as error:
             step = 0.5 * min(step, ahead)
@@ -516,7 +516,8 @@ def _located(track: _Track, kind: str, last: _Point, t: Array, ahead: float, aft
             else:
                 low, f_low = s, f
                 f_high, side = (0.5 * f_high if side < 0 else f_high), -1
-        # The zero of a better map lies where its sign function, here off by Δf, vanishes along the branch.
+        # Error of the located point: the test function of a more accurate map differs there by Δf, so its zero is
+        # shifted along the branch by Δf divided by the slope of f.
         across = point.tangent(t)
         better = track.point(point.z + track._step(track.point(point.z, better=True), t, 0.0), better=True)
         along = abs((_signs(better, better.tangent(t))[kind] - f) * (high - low) / (f_high - f_low))

@@ -19,7 +19,7 @@ from hess_mechanics.parameters import Parameter
 if TYPE_CHECKING:
     from hess_mechanics.dynamics.return_map import PoincareSection
 
-__all__ = ["Motions", "anywhere", "body_parameters", "on_section", "section_of", "usual", "whole"]
+__all__ = ["Motions", "body_parameters", "integer", "section_motions", "section_of", "state_motions", "with_default"]
 
 Start = tuple[float, ...]
 Values = Mapping[str, float]
@@ -51,7 +51,7 @@ _FREE = (-1e6, 1e6)
 """Bounds of a number of a user's system."""
 
 
-def usual(of: Parameter, default: float, doc: str = "") -> Parameter:
+def with_default(of: Parameter, default: float, doc: str = "") -> Parameter:
     """Return a parameter with another default.
 
     Parameters
@@ -71,7 +71,7 @@ def usual(of: Parameter, default: float, doc: str = "") -> Parameter:
     return replace(of, default=default, doc=doc or of.doc)
 
 
-def whole(name: str, symbol: str, default: float, low: float, high: float, doc: str) -> Parameter:
+def integer(name: str, symbol: str, default: float, low: float, high: float, doc: str) -> Parameter:
     """Return an integer parameter of a computation.
 
     Parameters
@@ -137,7 +137,7 @@ def _parameter(system: System, name: str, default: float) -> Parameter:
     own = _KNOWN if system.labels else {}
     parameter = (_REDUCED if system.name == "hess" else {}).get(name) or own.get(name)
     if parameter is not None:
-        return usual(parameter, default)
+        return with_default(parameter, default)
     reach = max(1.0, 2.0 * abs(default))
     return Parameter(name, name, name, default, (-reach, reach), reach / 100.0, _FREE)
 
@@ -163,7 +163,7 @@ def body_parameters(system: System, *values: float) -> tuple[Parameter, ...]:
     )
 
 
-def anywhere(system: System) -> Motions:
+def state_motions(system: System) -> Motions:
     """Return the motions of a system that start at any state, by default at that of its example.
 
     Parameters
@@ -189,7 +189,7 @@ def anywhere(system: System) -> Motions:
     return Motions(system.name, system.title, system, body_parameters(system), point, start, source=labels)
 
 
-def on_section(
+def section_motions(
     name: str,
     title: str,
     parameters: tuple[Parameter, ...],
@@ -268,6 +268,6 @@ def section_of(system: System) -> Motions | None:
     at = dict(zip(system.variables, system.example[0], strict=True))
     argument = dict(zip(system.variables, system.arguments, strict=True))
     point = tuple(_parameter(system, argument[name], at[name]) for name in example.names)
-    return on_section(
+    return section_motions(
         f"{system.name}-section", f"{system.title}, a point of a section", (*body, *energies), point, section, system
     )

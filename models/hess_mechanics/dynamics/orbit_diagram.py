@@ -18,18 +18,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hess_mechanics.dynamics.continuation import Bifurcation, branch_from
-from hess_mechanics.dynamics.periodic import (
-    MAX_PERIOD,
-    Map,
-    PeriodicOrbit,
-    apart,
-    coordinate_units,
-    find_periodic,
-    shoot,
-)
+from hess_mechanics.dynamics.periodic import MAX_PERIOD, Map, PeriodicOrbit, difference, find_periodic, shoot, units_of
 from hess_mechanics.errors import InvalidParameter, ModelError, NotConverged, OutsideRegion, WorkLimit
 from hess_mechanics.numerics.labelled import Labels, Result, components
-from hess_mechanics.numerics.patience import go_on
+from hess_mechanics.numerics.patience import check_limit
 from hess_mechanics.numerics.results import Array, Mask, frozen
 
 __all__ = [
@@ -142,7 +134,7 @@ class Diagram(Result):
         return Labels(
             {self.parameter: (along, value)},
             components(self.names, points, *along),
-            coordinate_units(self.names),
+            units_of(self.names),
             {"level": self.level},
         )
 
@@ -181,14 +173,14 @@ def period_of(
     ways = np.empty((most, 2))
     for m in range(1, most + 1):
         halves = points[: len(points) // 2 + m // 2], points[len(points) // 2 - m // 2 :]
-        ways[m - 1] = [np.abs(apart(turns, one[m:], one[:-m])).max() for one in halves]
+        ways[m - 1] = [np.abs(difference(turns, one[m:], one[:-m])).max() for one in halves]
         if ways[m - 1].max() <= max(same, _PROMISES * promise):
             # A multiplier near −1 makes an orbit look twice as long while it is still settling.
             shorter = [k - 1 for k in range(1, m) if m % k == 0]
             is_settled = bool(np.all(ways[shorter, 1] >= _SETTLING * ways[shorter, 0]))
             return (m, True) if is_settled else (0, False)
     first, second = ways.T
-    # If all candidates close better over time, or the best one does, the orbit tends to a periodic one.
+    # The orbit settles if the distance to its own shift decreases, in the median over all periods and for the best one.
     ratios = second / first
     return 0, min(float(np.median(ratios)), float(ratios[second.argmin()])) >= _SETTLING
 
@@ -239,9 +231,13 @@ def diagram_over(
     """
     along = np.array(values, float, ndmin=1)
     if not (along.ndim == 1 and np.all(np.isfinite(along)) and 1 <= along.size <= MAX_VALUES):
-        raise InvalidParameter(f"An orbit diagram needs 1 to {MAX_VALUES} finite values of its parameter.")
+        raise InvalidParameter(
+            f"{along.size} values of the parameter, or some not finite: give 1 to {MAX_VALUES} finite values."
+        )
     if not (crossings >= 1 and transient >= 0 and transient + crossings <= MAX_CROSSINGS):
-        raise WorkLimit(f"At most {MAX_CROSSINGS} crossings per value are allowed: choose fewer.")
+        raise WorkLimit(
+            f"{transient} + {crossings} crossings per value: choose at least 1 and at most {MAX_CROSSINGS}."
+        )
     first = np.array(start, float)
     restart = first if again is None else np.array(again, float)
     point = first
@@ -251,7 +247,7 @@ def diagram_over(
     names: tuple[str, ...] = ()
     level = ""
     for i, value in enumerate(along.tolist()):
-        go_on()
+        check_limit()
         points = np.empty((0, first.size))
         try:
             map_ = family(value)
@@ -302,7 +298,7 @@ def _after_transient(map_: OrbitMap, origin: Array, transient: int, crossings: i
 def _has_approached(map_: OrbitMap, orbit: Array) -> bool:
     """Return True if the points (n, d) have come a thousand times closer to a periodic orbit than they were."""
     for m in range(1, min(_WATCHED, len(orbit) - 1) // 3 + 1):
-        steps = np.abs(apart(map_.turns, orbit[m:], orbit[:-m])).max(axis=1)
+        steps = np.abs(difference(map_.turns, orbit[m:], orbit[:-m])).max(axis=1)
         first, last = float(steps[:m].max()), float(steps[-m:].max())
         if last <= min(_CLOSE * map_.promise, _CLOSER * first):
             return True
@@ -463,7 +459,7 @@ def cascade(
     at, far = start, end
     ended = f"After {doublings} doublings."
     while len(flips) < doublings:
-        go_on()
+        check_limit()
         try:
             branch = branch_from(family, orbit, parameter, at, far, _POINTS, until="flip")
         except NotConverged as error:
@@ -511,12 +507,15 @@ def _doubled(family: Callable[[float], Map], flip: Bifurcation, step: float) -> 
         value = flip.value + share * step
         map_ = family(value)
         for amplitude in _AMPLITUDES:
-            go_on()
+            check_limit()
             try:
                 orbit = find_periodic(map_, twice + amplitude * away)
             except ModelError:
                 continue
-            if orbit.period == len(twice) and np.abs(apart(map_.turns, orbit.points, twice)).max() < _NEAR * amplitude:
+            if (
+                orbit.period == len(twice)
+                and np.abs(difference(map_.turns, orbit.points, twice)).max() < _NEAR * amplitude
+            ):
                 if orbit.kind.startswith("stable"):
                     return value, orbit
                 other = other or (value, orbit)

@@ -18,7 +18,7 @@ from hess_mechanics.errors import InvalidParameter, ModelError, NotConverged
 from hess_mechanics.numerics.accuracy import Status
 from hess_mechanics.numerics.labelled import Labels, Result, components
 from hess_mechanics.numerics.measured import SAFETY
-from hess_mechanics.numerics.patience import go_on
+from hess_mechanics.numerics.patience import check_limit
 from hess_mechanics.numerics.results import Array, Complex, frozen
 
 __all__ = [
@@ -26,13 +26,13 @@ __all__ = [
     "Map",
     "PeriodicOrbit",
     "Shot",
-    "apart",
-    "coordinate_units",
+    "difference",
     "find_periodic",
     "images_of",
     "kind_of",
     "multipliers_of",
     "shoot",
+    "units_of",
 ]
 
 MAX_PERIOD = 64
@@ -153,7 +153,7 @@ class Map(Protocol):
         """
 
 
-def coordinate_units(names: Sequence[str]) -> dict[str, str]:
+def units_of(names: Sequence[str]) -> dict[str, str]:
     """Return the units of the coordinates of a section; canonical coordinates have none.
 
     Parameters
@@ -170,7 +170,7 @@ def coordinate_units(names: Sequence[str]) -> dict[str, str]:
     return {name: units[name] for name in names if name in units}
 
 
-def apart(turns: Sequence[float], a: Array, b: Array) -> Array:
+def difference(turns: Sequence[float], a: Array, b: Array) -> Array:
     """Return the difference a − b, with differences of angles reduced to half a turn.
 
     Parameters
@@ -185,11 +185,11 @@ def apart(turns: Sequence[float], a: Array, b: Array) -> Array:
     ndarray, shape (..., d)
         The differences.
     """
-    difference: Array = np.asarray(a, float) - np.asarray(b, float)
+    result: Array = np.asarray(a, float) - np.asarray(b, float)
     for i, turn in enumerate(turns):
         if math.isfinite(turn):
-            difference[..., i] -= turn * np.round(difference[..., i] / turn)
-    return difference
+            result[..., i] -= turn * np.round(result[..., i] / turn)
+    return result
 
 
 @dataclass(frozen=True)
@@ -265,7 +265,7 @@ def shoot(map_: Map, points: Array) -> Shot:
         If the map has no image at a point.
     """
     images, derivatives = map_.with_derivative(points)
-    return Shot(points, apart(map_.turns, images, np.roll(points, -1, axis=0)), derivatives)
+    return Shot(points, difference(map_.turns, images, np.roll(points, -1, axis=0)), derivatives)
 
 
 def multipliers_of(derivatives: Array) -> tuple[Complex, float, float]:
@@ -420,7 +420,7 @@ class PeriodicOrbit(Result):
         return Labels(
             {"return": (("return",), np.arange(self.period))},
             components(self.names, self.points, "return"),
-            coordinate_units(self.names),
+            units_of(self.names),
             {
                 "period": self.period,
                 "time": self.time,
@@ -452,7 +452,7 @@ def _converged(map_: Map, points: Array) -> tuple[Shot, int]:
     # If every point is periodic, J consists of the errors of the map.
     family = max(_FAMILY, map_.promise)
     for iteration in range(1, _ITERATIONS + 1):
-        go_on()
+        check_limit()
         step = shot.step(family)
         length = float(np.abs(step).max())
         # Close to the solution, steps shrink quadratically until the map's own round-off dominates.
@@ -514,7 +514,9 @@ def find_periodic(
     """
     points = np.array(start, float, ndmin=2)
     if points.ndim != 2 or points.shape[1] != len(map_.turns) or not np.all(np.isfinite(points)):
-        raise InvalidParameter(f"A point has {len(map_.turns)} finite coordinates here: {', '.join(map_.names)}.")
+        raise InvalidParameter(
+            f"{start!s:.80} is not a point here: give {len(map_.turns)} finite numbers, {', '.join(map_.names)}."
+        )
     if len(points) > 1:
         return _measured(map_, *_converged(map_, points))
     others: set[int] = set()
@@ -558,7 +560,7 @@ def _guesses(map_: Map, point: Array, period: int | None, most: int, near: bool)
 
 
 def _closeness(map_: Map, a: Array, b: Array) -> Array:
-    return np.asarray(np.abs(apart(map_.turns, a, b)).max(axis=1))
+    return np.asarray(np.abs(difference(map_.turns, a, b)).max(axis=1))
 
 
 def images_of(map_: Map, point: Array, count: int) -> Array:
@@ -586,7 +588,7 @@ def images_of(map_: Map, point: Array, count: int) -> Array:
     orbit = [point]
     try:
         for _ in range(count):
-            go_on()
+            check_limit()
             orbit.append(map_.image(orbit[-1]))
             if not np.all(np.isfinite(orbit[-1])) or np.abs(orbit[-1]).max() > _FAR:
                 return np.array(orbit[:-1])
@@ -603,7 +605,7 @@ def _least_period(map_: Map, points: Array, error: float) -> int:
     return next(
         k
         for k in range(1, m + 1)
-        if m % k == 0 and np.abs(apart(map_.turns, points, np.roll(points, -k, axis=0))).max() <= near
+        if m % k == 0 and np.abs(difference(map_.turns, points, np.roll(points, -k, axis=0))).max() <= near
     )
 
 

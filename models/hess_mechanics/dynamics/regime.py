@@ -26,7 +26,7 @@ from hess_mechanics.dynamics.birkhoff import bounded_series, ensemble_mean, irre
 from hess_mechanics.dynamics.ensemble import complete
 from hess_mechanics.dynamics.megno import CHAOTIC, REGULAR, Megno, longest_duration, megno
 from hess_mechanics.dynamics.orbit_diagram import SAME, period_of
-from hess_mechanics.dynamics.periodic import apart, coordinate_units, find_periodic
+from hess_mechanics.dynamics.periodic import difference, find_periodic, units_of
 from hess_mechanics.dynamics.plane_section import section
 from hess_mechanics.dynamics.point_sets import SetDistance, nearest, set_distance
 from hess_mechanics.dynamics.return_map import ReturnMap
@@ -38,7 +38,7 @@ from hess_mechanics.errors import ModelError, NoReturn, OutsideRegion, WorkLimit
 from hess_mechanics.numerics.accuracy import Status
 from hess_mechanics.numerics.arguments import as_integer, as_point
 from hess_mechanics.numerics.labelled import Labels, Result, components
-from hess_mechanics.numerics.patience import go_on
+from hess_mechanics.numerics.patience import check_limit
 from hess_mechanics.numerics.results import Array, frozen
 
 __all__ = ["Dynamics", "MotionKind", "Regime", "comparison", "dynamics_of", "regime"]
@@ -176,7 +176,7 @@ class Regime(Result):
         return Labels(
             {},
             components(self.map_.names, self.points, "crossing"),
-            coordinate_units(self.map_.names),
+            units_of(self.map_.names),
             {
                 "kind": self.kind.words,
                 "period": self.period,
@@ -290,7 +290,7 @@ def regime(
     if len(points) < transient + crossings:
         return _not_seen(map_, points, start)
     points = points[transient:]
-    # A time of 0, or none, is refused by the indicator itself.
+    # MEGNO raises the error for a time that is not positive.
     span = max(duration, _RETURNS * map_.time_of(points[-1])) if duration > 0.0 else duration
     evidence = _evidence(map_, points, span)
     for _ in range(_ROUNDS - 1):
@@ -301,7 +301,7 @@ def regime(
         longer = max(span, min(_LONGER * span, longest))
         if (count, longer) == (len(points), span):
             break
-        go_on()
+        check_limit()
         following = map_.orbit(points[-1], count)
         if len(following) < count:
             return _not_seen(map_, following, points[-1])
@@ -326,7 +326,7 @@ def _not_seen(map_: ReturnMap, points: Array, start: Sequence[float] | Array) ->
 
 def _evidence(map_: ReturnMap, points: Array, duration: float) -> _Evidence:
     period, settled = _period(map_, points)
-    # A periodic orbit is one whatever its neighbours do; of others an ensemble tells.
+    # A periodic orbit needs no ensemble; the kind of other motions follows from the mean over their neighbours.
     starts = points[-1:] if period else _ensemble(map_, points)
     early, late = (_indicated(map_, starts, time) for time in (duration / 2.0, duration))
     windows = late.windows
@@ -374,8 +374,8 @@ def _closes(map_: ReturnMap, points: Array, m: int) -> bool:
     if orbit.period != m or orbit.status is Status.PROMISE_NOT_MET:
         return False
     periods = len(points) // m
-    away = np.abs(apart(map_.turns, points[-periods * m :].reshape(periods, m, -1), orbit.points)).max(axis=(1, 2))
-    gap = float(np.abs(apart(map_.turns, points[m:], points[:-m])).max())
+    away = np.abs(difference(map_.turns, points[-periods * m :].reshape(periods, m, -1), orbit.points)).max(axis=(1, 2))
+    gap = float(np.abs(difference(map_.turns, points[m:], points[:-m])).max())
     if away[-1] <= precision or (gap <= precision and away[-1] <= SAME):
         return True
     # An attracting orbit is the limit if the distance falls as its multiplier says.
@@ -467,24 +467,24 @@ class Dynamics(Result):
     comparisons: tuple[SetDistance, ...]
 
     @property
-    def settled(self) -> tuple[SetDistance, ...]:
+    def settled_comparisons(self) -> tuple[SetDistance, ...]:
         """Comparisons of the orbits that have settled; all comparisons if there is no such orbit."""
         return tuple(one for one in self.comparisons if one.settled) or self.comparisons
 
     @property
     def distance(self) -> float:
         """Distance between the sets, the mean over the settled orbits."""
-        return float(np.mean([one.distance for one in self.settled]))
+        return float(np.mean([one.distance for one in self.settled_comparisons]))
 
     @property
     def distance_error(self) -> float:
         """The largest error, grain or difference from the mean."""
-        return max(max(one.error, one.grain, abs(one.distance - self.distance)) for one in self.settled)
+        return max(max(one.error, one.grain, abs(one.distance - self.distance)) for one in self.settled_comparisons)
 
     @property
     def overlap(self) -> float:
         """Fraction of the points of one set that lie at the other, the mean over the settled orbits."""
-        return float(np.mean([one.overlap for one in self.settled]))
+        return float(np.mean([one.overlap for one in self.settled_comparisons]))
 
     @property
     def verdict(self) -> str:
@@ -492,9 +492,9 @@ class Dynamics(Result):
         if self.motion.map_.preserves_volume or self.motion.measure:
             return "conservative"
         if sum(one.settled for one in self.comparisons) >= _ENOUGH and self.motion.volume < 0:
-            if all(one.apart for one in self.settled):
+            if all(one.is_separated for one in self.settled_comparisons):
                 return "dissipative"
-            if all(one.overlap >= _TOUCHING for one in self.settled):
+            if all(one.overlap >= _TOUCHING for one in self.settled_comparisons):
                 return "mixed"
         return "not told apart"
 
@@ -512,7 +512,7 @@ class Dynamics(Result):
         return Labels(
             {"set": (along, which)},
             components(names, points, *along),
-            coordinate_units(names),
+            units_of(names),
             {
                 "verdict": self.verdict,
                 "distance": self.distance,
@@ -609,7 +609,7 @@ def comparison(
     origin = np.array(start, float)
     pairs: list[tuple[Array, Array]] = []
     for i in range(_MEMBERS):
-        go_on()
+        check_limit()
         pair: list[Array] = []
         for one in (map_, map_.inverse()):
             orbit = one.orbit(origin + _SHIFT * i, transient + crossings)

@@ -21,9 +21,9 @@ from typing import Protocol
 
 import numpy as np
 
-from hess_mechanics.dynamics.cells import Window, evenly
+from hess_mechanics.dynamics.cells import Window, even_points
 from hess_mechanics.dynamics.orbit import MAX_STEPS, end_error, end_of, require_finite_states, require_steps
-from hess_mechanics.dynamics.periodic import apart
+from hess_mechanics.dynamics.periodic import difference
 from hess_mechanics.dynamics.plane_section import SectionPoints, Surface, section_points
 from hess_mechanics.dynamics.symmetry import Mirror, sign_symmetries
 from hess_mechanics.dynamics.system import Problem, System
@@ -31,7 +31,7 @@ from hess_mechanics.dynamics.variation import onto_surface
 from hess_mechanics.errors import InvalidParameter, NoReturn, OutsideRegion, WorkLimit
 from hess_mechanics.numerics.accuracy import Accuracy, Level
 from hess_mechanics.numerics.arguments import as_integer, as_number
-from hess_mechanics.numerics.patience import go_on
+from hess_mechanics.numerics.patience import check_limit
 from hess_mechanics.numerics.results import Array, Mask
 from hess_mechanics.parameters import plain
 
@@ -180,7 +180,7 @@ class PoincareSection(Protocol):
         """
         low, high = np.array(self.window).T[..., None] if window is None else np.array(window)[..., None]
         for tried in _TRIED:
-            shares = evenly(tried * count, 0.5)[: len(self.names)]
+            shares = even_points(tried * count, 0.5)[: len(self.names)]
             states, there = self.states_at(*(low + (high - low) * shares))
             if np.count_nonzero(there) >= count:
                 break
@@ -373,7 +373,7 @@ class ReturnMap:
         """
         if not isinstance(name, str) or name not in self.section.constants:
             raise InvalidParameter(
-                f"There is no {name} here to change: choose one of {', '.join(self.section.constants) or 'none'}."
+                f"{name} is not a constant here: choose one of {', '.join(self.section.constants) or 'none'}."
             )
         return self.section.constants[name]
 
@@ -489,7 +489,7 @@ class ReturnMap:
         problem, search = self._search(np.atleast_2d(self.state_at(point)))
         start = problem.states[0]
         while left > 0:
-            go_on()
+            check_limit()
             target = min(left, _PIECE)
             number, times, states = search(start, target + 1, self._limit(problem, _WAIT))
             require_steps(
@@ -504,7 +504,7 @@ class ReturnMap:
             if not on.size:
                 break
             points = np.asarray(section.points_of(states[on]))
-            # Beyond the edge a point is wrong by too much: the next piece starts before it, or it is computed again.
+            # A point beyond the edge is inaccurate: restart before it; if it is the first, use a smaller tolerance.
             inside = section.states_at(*points.T)[1]
             on = on[: len(on) if inside.all() else max(1, int(np.argmin(inside)))]
             again = not inside[0] and not self.is_floor
@@ -613,7 +613,7 @@ class ReturnMap:
             points = np.empty(0)
         if points.ndim > 2 or points.shape[-1] != len(self.names):
             raise InvalidParameter(
-                f"A point of the section consists of {len(self.names)} numbers here: {', '.join(self.names)}."
+                f"{point!s:.80} is not a point here: give {len(self.names)} numbers, {', '.join(self.names)}."
             )
         return points
 
@@ -659,7 +659,7 @@ class ReturnMap:
         """
         section, accuracy = self.section, self.accuracy
         problem = Problem.of(section, starts)
-        problem = problem.nearby() if accuracy.aside else problem
+        problem = problem.perturb() if accuracy.aside else problem
         surface = section.surface
         cross, normal, offset = surface.crossing_kernel(section.system, problem)
         direction = section.slowness * (-1.0 if self.backward else 1.0)
@@ -690,7 +690,7 @@ class ReturnMap:
         longest = self._limit(problem, longest)
         times, states = np.empty(len(starts)), np.empty_like(problem.states)
         for i, start in enumerate(problem.states):
-            go_on()
+            check_limit()
             target = count
             while True:
                 number, all_times, all_states = search(start, target, longest * count)
@@ -741,7 +741,7 @@ class ReturnMap:
         sizes = np.maximum(np.linalg.norm(away, axis=2, keepdims=True), 1e-300)
         shifted = states[:, None] + _SHIFTS[:, None, None, None] * unit * away / sizes
         near = self.section.points_of(shifted.reshape(-1, states.shape[1])).reshape(_SHIFTS.size, *away.shape[:2], -1)
-        moved = apart(self.turns, near, points[:, None])
+        moved = difference(self.turns, near, points[:, None])
         return np.asarray((np.tensordot(_WEIGHTS, moved, 1) / unit * sizes).swapaxes(1, 2))
 
     @cached_property
@@ -794,7 +794,7 @@ class ReturnMap:
         turns = [
             2.0 * math.pi if name in self.section.system.angles else math.inf for name in self.section.system.variables
         ]
-        if there[0] and float(np.abs(apart(turns, states[0], state)).max()) < 1e-9 * size:
+        if there[0] and float(np.abs(difference(turns, states[0], state)).max()) < 1e-9 * size:
             return image
         if mirror.reverses:
             return None
@@ -824,7 +824,7 @@ class ReturnMap:
             images = [self.mirror_image(mirror, point) for point in points]
             if all(
                 image is not None
-                and np.abs(apart(self.turns, points, image)).max(axis=1).min() < max(near, 1e3 * self.promise)
+                and np.abs(difference(self.turns, points, image)).max(axis=1).min() < max(near, 1e3 * self.promise)
                 for image in images
             ):
                 names.append(mirror.name)

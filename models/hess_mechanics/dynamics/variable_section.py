@@ -269,9 +269,11 @@ def variable_section(
     if len(system.variables) < 2:
         raise InvalidParameter(f"{system.title}: a system of one variable has no section; `solve` gives its motion.")
     if sense not in (1, -1):
-        raise InvalidParameter("The sense of the crossings of a return map is 1 (increasing) or −1 (decreasing).")
+        raise InvalidParameter(f"sense = {sense!s:.20}: choose 1 (increasing) or −1 (decreasing).")
     if surface is not None and (isinstance(surface, str) or len(surface) != 2):
-        raise InvalidParameter(f"The surface is a variable and a value, such as ({system.variables[0]!r}, 0.0).")
+        raise InvalidParameter(
+            f"surface = {surface!r:.80}: give a variable and a value, such as ({system.variables[0]!r}, 0.0)."
+        )
     variable, value = surface or (system.variables[0], 0.0)
     known = system.integrals(*system.example)
     for name, names, what in (
@@ -297,7 +299,9 @@ def variable_section(
         )
     ranges = None if window is None else as_pairs("window", window)
     if ranges is not None and (len(ranges) != len(chosen) or any(low >= high for low, high in ranges)):
-        raise InvalidParameter(f"The window has a lower and a higher number for each of {', '.join(chosen)}.")
+        raise InvalidParameter(
+            f"window = {ranges!s:.80}: give a lower and a higher number for each of {', '.join(chosen)}."
+        )
     reach = max(1.0, 1.5 * max(map(abs, system.example[0])))
     return VariableSection(
         body,

@@ -15,7 +15,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from hess_mechanics.dynamics.manifolds import Manifold, manifold, split
-from hess_mechanics.dynamics.periodic import apart, find_periodic
+from hess_mechanics.dynamics.periodic import difference, find_periodic
 from hess_mechanics.dynamics.return_map import ReturnMap, section_crossings
 from hess_mechanics.errors import NotConverged, OutsideRegion
 from hess_mechanics.euler_poisson.andoyer import AndoyerSection, hess_curve
@@ -218,7 +218,7 @@ def _towards(map_: ReturnMap, points: Array, l: float, stable: bool) -> Manifold
     if (
         not orbit.kind.startswith("saddle")
         or orbit.period != len(points)
-        or np.abs(apart(map_.turns, orbit.points, points)).max() > _ELSEWHERE
+        or np.abs(difference(map_.turns, orbit.points, points)).max() > _ELSEWHERE
     ):
         raise NotConverged(
             "The limit cycles of the Hess manifold are not found as saddles of the section: choose a "

@@ -18,7 +18,7 @@ from hess_mechanics.euler_poisson.andoyer import AndoyerSection
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["RESOLUTION", "RotationProfile", "on_line", "rotation_along"]
+__all__ = ["RESOLUTION", "RotationProfile", "rotation_along", "states_on_line"]
 
 RESOLUTION = 1e-4
 """Largest difference of the rotation numbers of both halves of an orbit on a closed curve."""
@@ -107,7 +107,7 @@ class RotationProfile(Result):
         return float(np.median(np.abs(apart - np.round(apart))))
 
 
-def on_line(section: AndoyerSection, ends: LineEnds, count: int) -> tuple[tuple[float, tuple[float, ...]], ...]:
+def states_on_line(section: AndoyerSection, ends: LineEnds, count: int) -> tuple[tuple[float, tuple[float, ...]], ...]:
     """Return the states of a section at equidistant points of a line.
 
     Parameters

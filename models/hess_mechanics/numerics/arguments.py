@@ -25,7 +25,7 @@ __all__ = [
     "as_pairs",
     "as_parts",
     "as_point",
-    "typed",
+    "check_arguments",
     "unit_vector",
 ]
 
@@ -282,7 +282,7 @@ def as_point(names: tuple[str, ...], point: Any) -> tuple[float, ...]:
 # ---- annotations ----------------------------------------------------------------------------------------------------
 
 
-def typed(function: Callable[P, T]) -> Callable[P, T]:
+def check_arguments(function: Callable[P, T]) -> Callable[P, T]:
     """Return a function that checks its arguments against their annotations first.
 
     Numbers become floats or integers, sequences of numbers become arrays, and a single number counts as one of these.
@@ -442,7 +442,9 @@ def unit_vector(gamma: Sequence[float]) -> tuple[tuple[float, float, float], str
     gamma = as_point(("γ1", "γ2", "γ3"), gamma)
     length = math.hypot(*gamma)
     if not (math.isfinite(length) and length > 0):
-        raise InvalidParameter("γ must be a finite nonzero vector: it is the direction of the vertical.")
+        raise InvalidParameter(
+            f"γ has the length {length:g}: give a finite nonzero vector, the direction of the vertical."
+        )
     g1, g2, g3 = (g / length for g in gamma)
     note = None if abs(length - 1) <= 1e-15 else f"γ had length {length:.12g}; it was normalised to 1."
     return (g1, g2, g3), note

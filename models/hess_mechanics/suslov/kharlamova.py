@@ -42,7 +42,7 @@ __all__ = [
     "fixed_point_kinds",
     "forbidden",
     "mirror_image",
-    "periods_all_round",
+    "periods_by_direction",
     "rescaled_time",
     "sampled_orbit",
     "state_at",
@@ -309,7 +309,7 @@ def _period(c: Array, low: Array, high: Array, side: Array) -> Array:
     with np.errstate(all="ignore"):
         root = 0.5 * s * np.sqrt(-polyval(low, slope, False) * polyval(high, slope, False))
         x, y = np.sqrt(0.5 * (polyval(m, P, False) + P[4] * s**4 + root)), np.sqrt(root)
-        # After 16 means both are the same, whatever the zeros of P.
+        # 16 steps of the arithmetic–geometric mean converge for all zeros of P.
         for _ in range(16):
             x, y = 0.5 * (x + y), np.sqrt(x * y)
         T = np.where((side == 0.0) & (root > 0.0), 2.0 * math.pi * s / x, math.inf)
@@ -379,7 +379,7 @@ def arc(body: PlaneBody, state: Sequence[float]) -> Arc:
     return Arc(kind, *frame, (low, high), touch, (before, after) if before < after else None, float(period), None)
 
 
-def periods_all_round(body: PlaneBody, q: Sequence[float], speed: float) -> Array:
+def periods_by_direction(body: PlaneBody, q: Sequence[float], speed: float) -> Array:
     """Return the periods of the orbits from a point of the plane in all directions.
 
     Parameters

@@ -104,13 +104,13 @@ def test_separatrices_split_in_proportion_to_a_perturbation(mu=1.5):
 
 
 def test_what_has_no_manifolds_is_refused():
-    with raises(InvalidParameter, match="Only a saddle"):
+    with raises(InvalidParameter, match="choose a saddle"):
         manifold(henon(0.1), find_periodic(henon(0.1), (0.6, 0.2), 1), 1.0)
     with raises(InvalidParameter, match="the return map of a section with two coordinates"):
         manifold(arnold(0.1), find_periodic(arnold(0.1), (0.3,), 1), 1.0)
     m = bent_saddle()
     saddle = find_periodic(m, (0.1, 0.2), 1)
-    with raises(InvalidParameter, match="The side must be 1"):
+    with raises(InvalidParameter, match="side = 2: choose 1"):
         manifold(m, saddle, 1.0, side=2)
     assert manifold(m, saddle, 1e9, most=40).end_reason == "After 40 points."
     cut = manifold(m, saddle, 12.0, returns=400)

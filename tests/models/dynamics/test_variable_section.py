@@ -199,7 +199,7 @@ def test_an_orbit_diagram_from_outside_of_the_section_is_refused(returns):
 def test_what_is_no_point_of_a_section_is_refused(returns):
     for use in (returns.state_at, returns.image, returns.with_derivative, returns.time_of, returns.wait):
         for place in (0.1, (0.1, 0.2, 0.3), "x", None, (10**400, 0.1)):
-            with raises(InvalidParameter, match="consists of 2 numbers here: y, py"):
+            with raises(InvalidParameter, match="give 2 numbers, y, py"):
                 use(place)
     for angles, words in (("q", "the angle q must be a variable"), ("v", "v is not an angle: a full turn changes")):
         with raises(InvalidParameter, match=words):

@@ -13,8 +13,8 @@ from typing import TypeVar
 import numpy as np
 
 from hess_explorer.compute.cache import Task
-from hess_explorer.scenes.framework.families import Begin
-from hess_explorer.scenes.framework.part import Part, Sectioned
+from hess_explorer.scenes.framework.families import BranchStart
+from hess_explorer.scenes.framework.part import HasSection, Part
 from hess_explorer.scenes.framework.periodic_search import ClosedOrbit, NotFound, Point
 from hess_explorer.scenes.framework.windows import Window
 from hess_explorer.views.caption import Caption
@@ -22,10 +22,10 @@ from hess_explorer.views.maps.branch import bifurcations
 from hess_explorer.views.text import conjugates, digits
 from hess_mechanics.dynamics import continuation as mechanics
 from hess_mechanics.dynamics.continuation import Bifurcation, branch_from, extension
-from hess_mechanics.dynamics.periodic import apart, find_periodic
+from hess_mechanics.dynamics.periodic import difference, find_periodic
 from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.errors import ModelError
-from hess_mechanics.numerics.patience import go_on
+from hess_mechanics.numerics.patience import check_limit
 from hess_mechanics.numerics.results import Array
 
 _TOGETHER = 60
@@ -46,7 +46,7 @@ _Nearest = tuple[float, mechanics.Branch, int, float, int]
 """Distance in pixels of a point of a branch, the branch, its segment, the position there, its point on the orbit."""
 
 
-H_co = TypeVar("H_co", bound=Sectioned, covariant=True)
+H_co = TypeVar("H_co", bound=HasSection, covariant=True)
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,7 +55,7 @@ class Continuation(Part[H_co]):
 
     @property
     @abstractmethod
-    def begin(self) -> Begin | None:
+    def begin(self) -> BranchStart | None:
         """The start of the branch; None if no branch is requested."""
 
     @property
@@ -104,7 +104,7 @@ class Continuation(Part[H_co]):
                     break
                 found.append(one)
                 advance = max(float(np.ptp(one.values)) / (high - low), float(np.ptp(one.points, axis=0).max()))
-                # Pieces hardly advance near a tangency with the section.
+                # Stop near a tangency with the section, where further pieces would hardly advance.
                 if one.heading is None or advance < _LEAST_ADVANCE:
                     break
         return found, failed, whole
@@ -119,7 +119,7 @@ class Continuation(Part[H_co]):
     def _pixels(self, values: Array, points: Array, x: float, y: float) -> Array:
         """Return the pixels (n, 2) from (x, y) to points (n, d) at values (n,) of the parameter."""
         (x0, y0), (x1, y1) = self.frame
-        up = apart((self.turn,), points[:, self.side, None], np.array([y]))[:, 0]
+        up = difference((self.turn,), points[:, self.side, None], np.array([y]))[:, 0]
         return np.column_stack([values - x, up]) * (PIXELS / (x1 - x0), PIXELS / (y1 - y0))
 
     def _nearest(self, x: float, y: float) -> _Nearest | None:
@@ -146,12 +146,12 @@ class Continuation(Part[H_co]):
         _, branch, i, share, j = near
         turns = self.host.poincare.turns
         (a, b), (first, second), m = branch.points[i : i + 2], branch.values[i : i + 2], branch.period
-        between = np.roll(a + share * apart(turns, b, a), -j, axis=0)
+        between = np.roll(a + share * difference(turns, b, a), -j, axis=0)
         value = float(first + share * (second - first))
         try:
             point = find_periodic(self.begin.family.map_at(value), between, m).points[0]
         except ModelError:
-            go_on()
+            check_limit()
             value, point = float(first), a[j]
         # The section has angles between −turn/2 and turn/2.
         return (
@@ -163,7 +163,7 @@ class Continuation(Part[H_co]):
             m,
         )
 
-    def about(self, x: float, y: float) -> str:
+    def tooltip(self, x: float, y: float) -> str:
         """Return a tooltip on the bifurcation or the orbit of the branch at (x, y)."""
         for one in bifurcations(self.branches):
             if np.hypot(*self._pixels(np.full(len(one.points), one.value), one.points, x, y).T).min() <= _NEAR:
@@ -234,7 +234,7 @@ class Continuation(Part[H_co]):
         yield from (f"The branch ends. {why}" for why in ended)
 
 
-def _part(begin: Begin, upwards: bool, k: int) -> mechanics.Branch | NotFound:
+def _part(begin: BranchStart, upwards: bool, k: int) -> mechanics.Branch | NotFound:
     """Return piece k of the branch, towards larger (`upwards`) or smaller values of the parameter."""
     found = begin.search.get()
     if isinstance(found, NotFound):
@@ -248,5 +248,5 @@ def _part(begin: Begin, upwards: bool, k: int) -> mechanics.Branch | NotFound:
         assert not isinstance(before, NotFound), "pieces are continued one after the other"
         return extension(family.map_at, before, end, edge, points, _STEP)
     except ModelError as error:
-        go_on()
+        check_limit()
         return NotFound(str(error))

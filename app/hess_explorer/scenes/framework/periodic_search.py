@@ -11,7 +11,7 @@ from hess_mechanics.dynamics.manifolds import Intersection, Manifold, crossings_
 from hess_mechanics.dynamics.periodic import PeriodicOrbit, find_periodic
 from hess_mechanics.dynamics.return_map import ReturnMap
 from hess_mechanics.errors import ModelError
-from hess_mechanics.numerics.patience import go_on
+from hess_mechanics.numerics.patience import check_limit
 
 Point = tuple[float, ...]
 Search = tuple[ReturnMap, Point, int | None, bool]
@@ -73,17 +73,19 @@ class Periodic(Protocol):
 
     @property
     def growth(self) -> tuple[float, float] | None:
-        """ln|μ₁|/T and ln|μ₁μ₂|/T of the orbit; None without one."""
+        """Growth rate ln|μ₁|/T and mean divergence ln|μ₁μ₂|/T of the orbit; None without an orbit."""
 
 
 @dataclass(frozen=True)
 class NotPeriodic:
-    """Stands for a periodic orbit in scenes without a search.
+    """Placeholder for `Periodic` in scenes that do not search for periodic orbits.
 
     Attributes
     ----------
-    looking : bool
-        True while the exponent has to wait for something else.
+    is_searching : bool
+        True while the exponent has to wait, for example for a compilation.
+    closed_orbit, growth : None
+        There is no periodic orbit.
     """
 
     is_searching: bool = False
@@ -103,7 +105,7 @@ def find_orbit(map_: ReturnMap, aim: Point, period: int | None, near: bool) -> C
         )
     except ModelError as error:
         # A cancelled request or one over its budget must not cache a result.
-        go_on()
+        check_limit()
         return NotFound(str(error))
 
 
@@ -127,7 +129,7 @@ def branch_of(search: Search, branch: BranchChoice, length: float, pixel: float)
                 returns=_RETURNS,
             )
         except ModelError as error:
-            go_on()
+            check_limit()
             return NotFound(str(error))
         if curve.error_estimate < 0.5 * pixel:
             return curve if part == _PARTS[0] else replace(curve, end_reason=_UNKNOWN)

@@ -9,7 +9,7 @@ import numpy as np
 
 from hess_explorer.views import theme
 from hess_explorer.views.layers import Axes, Layers, curves, names, points
-from hess_explorer.views.plane.periodic import sign_of, visible_points, within
+from hess_explorer.views.plane.periodic import sign_of, visible_parts, visible_points
 from hess_mechanics.dynamics.continuation import Bifurcation, Branch
 from hess_mechanics.numerics.results import Array
 
@@ -51,7 +51,7 @@ def _strands(branch: Branch, side: int, sign: str) -> list[Array]:
     return [np.array(run) for run in runs if len(run) > 1]
 
 
-class Branched(Protocol):
+class HasBranches(Protocol):
     """Branches over a parameter."""
 
     @property
@@ -64,10 +64,10 @@ class Branched(Protocol):
 
     @property
     def turn(self) -> float:
-        """Its period, ∞ for none."""
+        """Period of this coordinate, ∞ if it is not an angle."""
 
 
-def layers(of: Callable[[S], Branched]) -> Layers[S]:
+def layers(of: Callable[[S], HasBranches]) -> Layers[S]:
     """Return the layers of branches over a parameter: one coordinate of all points, and the bifurcations."""
 
     def parts(sign: str) -> Callable[[S, Axes], list[Array]]:
@@ -77,7 +77,7 @@ def layers(of: Callable[[S], Branched]) -> Layers[S]:
                 part[:, ::-1]
                 for one in shown.branches
                 for strand in _strands(one, shown.side, sign)
-                for part in within(strand[:, ::-1], shown.turn, up)
+                for part in visible_parts(strand[:, ::-1], shown.turn, up)
             ]
 
         return drawn

@@ -17,7 +17,7 @@ from hess_mechanics.numerics.results import Array
 S = TypeVar("S")
 
 
-def within(curve: Array, turn: float, axes: Axes) -> list[Array]:
+def visible_parts(curve: Array, turn: float, axes: Axes) -> list[Array]:
     """Return the visible parts of a curve (n, 2) over an angle of period `turn` (∞ for other coordinates).
 
     A part extends one point beyond the frame, which clips it.
@@ -56,7 +56,10 @@ def layers(
 
     def parts(stable: bool) -> Callable[[S, Axes], list[Array]]:
         return lambda s, axes: [
-            part for one in manifolds(s) if one.stable is stable for part in within(one.points, one.turns[0], axes)
+            part
+            for one in manifolds(s)
+            if one.stable is stable
+            for part in visible_parts(one.points, one.turns[0], axes)
         ]
 
     def crossed(state: S, axes: Axes) -> Array | None:

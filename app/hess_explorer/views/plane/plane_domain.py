@@ -9,7 +9,7 @@ import numpy as np
 
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.graphs.graph import about_0, over_time
+from hess_explorer.views.graphs.graph import about_0, time_graph
 from hess_explorer.views.layers import Axes, Columns, Layers, Regions, column, curves, line, region, ring
 from hess_explorer.views.plane.velocity_plane import about_origin, square
 from hess_explorer.views.plot import Plot
@@ -55,7 +55,7 @@ def picture(
     )
 
 
-def ground(
+def background_layers(
     edge: Callable[[S], Array], forbidden: Callable[[S], Sequence[Array]], levels: Callable[[S], Sequence[Array]]
 ) -> Layers[S]:
     """Return the layers below the orbit: grey outside the edge and inside forbidden curves, and equipotentials."""
@@ -113,5 +113,5 @@ def momentum_picture(
         x=lambda s: (0.0, float(momentum(s)[0][-1])),
         dot=("t", "momentum"),
         y=lambda s: about_0(momentum(s)[1], least(s)),
-        layers=(over_time("G", momentum, color=theme.ORBIT),),
+        layers=(time_graph("G", momentum, color=theme.ORBIT),),
     )

@@ -10,7 +10,7 @@ import numpy as np
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import curves, line, ring
-from hess_explorer.views.plane.plane_domain import ground
+from hess_explorer.views.plane.plane_domain import background_layers
 from hess_explorer.views.plane.velocity_plane import about_origin
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits
@@ -28,7 +28,7 @@ _LEVELS = (0.1, 0.25, 0.5, 0.75, 0.95)
 """Levels of the equipotentials, in units of the largest U on the edge."""
 
 
-def about(body: PotentialBody, motion: PlaneMotion) -> Caption:
+def caption(body: PotentialBody, motion: PlaneMotion) -> Caption:
     """Return the caption of a motion: whether it is periodic, and whether a further integral exists."""
     if motion.fixed:
         return Caption("A fixed point: nothing changes.")
@@ -84,13 +84,13 @@ def picture(
     return Plot(
         name="potential",
         title=lambda s: f"Potential: {name(s)}",
-        caption=lambda s: about(body(s), motion(s)),
+        caption=lambda s: caption(body(s), motion(s)),
         axes=("q₁", "q₂"),
         x=about_origin(half_width),
         y=about_origin(half_width),
         button="Show another potential",
         layers=(
-            *ground(edge, too_high, levels),
+            *background_layers(edge, too_high, levels),
             curves("border", lambda s: [edge(s)], color=theme.MUTED, width=1),
             line("orbit", orbit, color=theme.ORBIT, width=1.3),
             ring("start", start),

@@ -115,15 +115,15 @@ def orbit_alone(
     )
 
 
-def nice_above(value: float) -> float:
+def round_up(value: float) -> float:
     """Round up to 1, 1.5, 2, 3, 4, 5, 6 or 8 times a power of ten."""
     power = 10.0 ** np.floor(np.log10(value))
     return float(power * next(step for step in (1, 1.5, 2, 3, 4, 5, 6, 8, 10) if step * power >= value * (1 - 1e-12)))
 
 
-def room_for(speed: float) -> float:
+def half_width_for(speed: float) -> float:
     """Return the half width of a plane with room for |ω| = `speed`."""
-    return nice_above(1.05 * max(1e-9, speed))
+    return round_up(1.05 * max(1e-9, speed))
 
 
 def centred(half_width: float) -> Range:
@@ -141,18 +141,18 @@ def square(half_width: float) -> Array:
     return rectangle(centred(half_width), centred(half_width))
 
 
-def outside(curve: Array, half_width: float) -> list[Array]:
+def exterior(curve: Array, half_width: float) -> list[Array]:
     """Return the exterior of a closed curve (m, 2) as a part of a region."""
     return [square(half_width), curve]
 
 
 def ring_outside(inner: Array, outer: Array, half_width: float) -> Regions:
     """Return the complement of the ring between two closed curves (m, 2) as a region larger than any axes."""
-    return [outside(outer, 4.0 * half_width), [inner]]
+    return [exterior(outer, 4.0 * half_width), [inner]]
 
 
-def beside(inner: Array, outer: Array, half_width: float) -> Array:
-    """Return places (2, 2) of labels: inside a point (2,) of the inner curve and outside a point of the outer one."""
+def label_points(inner: Array, outer: Array, half_width: float) -> Array:
+    """Return points (2, 2) for two labels: inside a point (2,) of the inner curve, outside one of the outer curve."""
     gap = 0.09 * half_width
     lengths = np.linalg.norm([inner, outer], axis=1)
     return np.array([inner * (1.0 - min(1.0, gap / lengths[0])), outer * (1.0 + gap / lengths[1])])

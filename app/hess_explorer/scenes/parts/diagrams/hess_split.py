@@ -20,7 +20,7 @@ from hess_explorer.views.text import digits, with_error
 from hess_mechanics.errors import ModelError
 from hess_mechanics.euler_poisson.hess_split import HessTorus, Split, slope_of, split_at
 from hess_mechanics.numerics.accuracy import PRECISE
-from hess_mechanics.numerics.patience import go_on
+from hess_mechanics.numerics.patience import check_limit
 from hess_mechanics.numerics.results import Array
 
 _QUARTERS = np.arange(-4, 5) / 4.0
@@ -121,7 +121,7 @@ def _split(torus: HessTorus, away: float) -> Split | NotFound:
     try:
         return split_at(torus, away, PRECISE)
     except ModelError as error:
-        go_on()
+        check_limit()
         return NotFound(str(error))
 
 

@@ -117,7 +117,7 @@ class Clicks(Part[_Host]):
         return next(one for one in specs_of(type(self.host)) if isinstance(one, Points) and one.name == "starts")
 
     def corrections(self, notes: list[str]) -> Values:
-        """Return at least one start."""
+        """Return the starts, at least one, as a change of the parameter."""
         return {"starts": self.host.starts or self._spec.default}
 
     @cached_property
@@ -167,7 +167,7 @@ class Clicks(Part[_Host]):
         """Return the starts with the current orbit moved to (x, y)."""
         return {"starts": points_text([*points_of(self.host.starts)[:-1], self._inside(x, y)])}
 
-    def look_closer(self, corners: tuple[float, float, float, float]) -> Values:
+    def box_window(self, corners: tuple[float, float, float, float]) -> Values:
         """Return the window that a box selects."""
         return box_window(corners, (self._spec.low, self._spec.high))
 

@@ -63,14 +63,14 @@ class SectionState(State, ABC):
         return start_on(self.poincare, self.place)
 
     section = part(Section)
-    density = part(lambda s: SectionDensity(s.section, s.dense))
+    density = part(lambda s: SectionDensity(s.section, s.shows_density))
     megno = part(lambda s: Indicator(s.section, s.indicator == MEGNO and s.section.alone))
     periodic_orbit = part(lambda s: SectionPeriodicOrbit(s.section, s.periodic, s.reach))
     orbit = part(BodyOrbit)
     proof = part(lambda s: OrbitProof(s.orbit, s.certain))
 
     @property
-    def dense(self) -> bool:
+    def shows_density(self) -> bool:
         """True if the density is shown."""
         return self.indicator == DENSITY and self.section.alone
 
@@ -103,7 +103,7 @@ class SectionState(State, ABC):
         return {"place": points_text([(x, y)])}
 
     @property
-    def special(self) -> Caption | None:
+    def section_caption(self) -> Caption | None:
         """The caption of a section with a periodic orbit or MEGNO; None without them."""
         return self.periodic_orbit.caption or self.megno.caption
 
