@@ -22,10 +22,10 @@ from hess_explorer.scenes.parts.sections import (
     Indicator,
     Section,
     SectionPeriodicOrbit,
+    choice_of_orbit,
     crossings_of_each,
     length_of_manifolds,
     start_on,
-    which,
 )
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.picture import Corners
@@ -128,7 +128,7 @@ class OwnState(State):
 class LevelState(OwnState):
     """A motion from a point of a section; each scene adds the levels of integrals, `i_…`, and the `place`."""
 
-    periodic: str = which()
+    periodic: str = choice_of_orbit()
     reach: float = length_of_manifolds()
 
     integrals: ClassVar[tuple[str, ...]] = ()

@@ -34,7 +34,7 @@ from hess_explorer.scenes.parts.orbits.regime import OrbitRegime, distinct_point
 from hess_explorer.scenes.parts.sections import BodyOrbit
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.graphs.graph import about_0, time_graph
+from hess_explorer.views.graphs.graph import axis_about_0, time_graph
 from hess_explorer.views.layers import Axes, curves, dots, levels, names, points
 from hess_explorer.views.maps import branch
 from hess_explorer.views.picture import Picture
@@ -304,7 +304,7 @@ def _pictures(state: type[DiagramState], ball: bool) -> tuple[Picture[Any], ...]
             dot=("t", "turning"),
             first=Axes((0.0, 60.0), (-2.0, 2.0)),
             x=lambda s: (0.0, s.span),
-            y=lambda s: about_0(s.vertical_rate, 1e-6),
+            y=lambda s: axis_about_0(s.vertical_rate, 1e-6),
             layers=(
                 levels("levels", lambda s: [0.0]),
                 time_graph(

@@ -322,8 +322,8 @@ SCENE = Scene(
                 *plane.energy_levels(FreeSuslov.ellipses, lambda s: s.half_width, "energy levels; level of F₂"),
                 plane.arcs(lambda s: s.arcs),
                 *plane.halves(
-                    lambda s, axes: plane.to_the_edge(s.points.stable, s.half_width, axes),
-                    lambda s, axes: plane.to_the_edge(s.points.unstable, s.half_width, axes),
+                    lambda s, axes: plane.half_line(s.points.stable, s.half_width, axes),
+                    lambda s, axes: plane.half_line(s.points.unstable, s.half_width, axes),
                     ("stable half, circle joined", "unstable half, circle left"),
                 ),
                 line(
@@ -355,7 +355,7 @@ SCENE = Scene(
             axes=(" ", "γ₁"),
             dot=("across", "g1"),
             title=lambda s: f"γ₁ against {'phase φ about ξ' if s.across == 'phase' else 'time'}",
-            x=lambda s: plane.centred(math.pi) if s.across == "phase" else (0.0, s.span),
+            x=lambda s: plane.symmetric_range(math.pi) if s.across == "phase" else (0.0, s.span),
             y=_ROOM_BELOW,
             layers=(
                 curves("second", lambda s: s.gamma1(s.second), color=theme.MAP, dash="dotdash", tag="second orbit"),

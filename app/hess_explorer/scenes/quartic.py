@@ -34,7 +34,7 @@ from hess_explorer.scenes.parts.sections import (
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import Axes
 from hess_explorer.views.plane import plane_domain, section_plane
-from hess_explorer.views.plane.velocity_plane import centred, round_up
+from hess_explorer.views.plane.velocity_plane import round_up, symmetric_range
 from hess_explorer.views.space.poisson_sphere import Sphere, centre_of_mass, parallels
 from hess_explorer.views.text import digits, variation_text, vector
 from hess_mechanics.dynamics.cells import occupied_cells
@@ -47,7 +47,7 @@ from hess_mechanics.suslov.equations import SYSTEM
 _CELLS = 32
 _NAMES = ("q", "p")
 _ALONG = {"h": "h", "I₁₁/I₂₂": "ratio", "b₃": "b3"}
-_P_AXIS = centred(1.05)
+_P_AXIS = symmetric_range(1.05)
 _HEIGHTS = (-0.75, -0.5, -0.25, 0.0, 0.25, 0.5, 0.75)
 """Values of γ3 on the equipotentials."""
 
@@ -160,7 +160,7 @@ class Quartic(SectionState):
 
     def section_window(self) -> Window:
         """Return the window of the section, with room for all q and p."""
-        (q0, q1), (p0, p1) = centred(round_up(1.05 * self.body.major_semi_axis)), _P_AXIS
+        (q0, q1), (p0, p1) = symmetric_range(round_up(1.05 * self.body.major_semi_axis)), _P_AXIS
         return (q0, p0), (q1, p1)
 
     @cached_property

@@ -53,6 +53,6 @@ def batch_of(section: PoincareSection, points: SectionPoints, first: bool = True
     return OrbitBatch(orbits, (first,) * len(orbits), points.drift, points.cost.steps, points.reasons)
 
 
-def in_batches(items: Sequence[T]) -> Iterator[tuple[T, ...]]:
+def batches(items: Sequence[T]) -> Iterator[tuple[T, ...]]:
     """Yield the items in batches that are computed together."""
     return (tuple(items[i : i + _TOGETHER]) for i in range(0, len(items), _TOGETHER))

@@ -9,7 +9,7 @@ import numpy as np
 
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.graphs.graph import about_0, pieces, thin, time_graph
+from hess_explorer.views.graphs.graph import axis_about_0, pieces, thin, time_graph
 from hess_explorer.views.layers import Axes, Layers, compose, curves, levels
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits
@@ -79,7 +79,7 @@ def picture(motion_of: Transform[S], reason: Callable[[S], str], span: Callable[
         axes=("t", "τ"),
         first=Axes((0.0, 60.0), (-3.0, 3.0)),
         x=lambda s: (0.0, span(s)),
-        y=compose(motion_of, lambda motion: about_0(motion.tau, _LEAST)),
+        y=compose(motion_of, lambda motion: axis_about_0(motion.tau, _LEAST)),
         layers=layers,
         button="Show the conformal time",
     )

@@ -9,9 +9,9 @@ import numpy as np
 
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.graphs.graph import about_0, time_graph
+from hess_explorer.views.graphs.graph import axis_about_0, time_graph
 from hess_explorer.views.layers import Axes, Columns, Layers, Regions, column, curves, line, region, ring
-from hess_explorer.views.plane.velocity_plane import about_origin, square
+from hess_explorer.views.plane.velocity_plane import axis_about_origin, square
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.space.poisson_sphere import gamma_columns
 from hess_explorer.views.text import digits, variation_text
@@ -45,8 +45,8 @@ def picture(
         title=title,
         caption=caption,
         axes=("q₁", "q₂"),
-        x=about_origin(half_width),
-        y=about_origin(half_width),
+        x=axis_about_origin(half_width),
+        y=axis_about_origin(half_width),
         dot=("q1", "q2"),
         dots=dots,
         layers=layers,
@@ -112,6 +112,6 @@ def momentum_picture(
         button="Show q₁p₂ − q₂p₁ against time",
         x=lambda s: (0.0, float(momentum(s)[0][-1])),
         dot=("t", "momentum"),
-        y=lambda s: about_0(momentum(s)[1], least(s)),
+        y=lambda s: axis_about_0(momentum(s)[1], least(s)),
         layers=(time_graph("G", momentum, color=theme.ORBIT),),
     )

@@ -11,7 +11,7 @@ from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import curves, line, ring
 from hess_explorer.views.plane.plane_domain import background_layers
-from hess_explorer.views.plane.velocity_plane import about_origin
+from hess_explorer.views.plane.velocity_plane import axis_about_origin
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits
 from hess_mechanics.numerics.results import Array
@@ -86,8 +86,8 @@ def picture(
         title=lambda s: f"Potential: {name(s)}",
         caption=lambda s: caption(body(s), motion(s)),
         axes=("q₁", "q₂"),
-        x=about_origin(half_width),
-        y=about_origin(half_width),
+        x=axis_about_origin(half_width),
+        y=axis_about_origin(half_width),
         button="Show another potential",
         layers=(
             *background_layers(edge, too_high, levels),

@@ -71,8 +71,8 @@ def picture(
         title=title,
         caption=caption,
         axes=("ω₁", "ω₂"),
-        x=about_origin(half_width),
-        y=about_origin(half_width),
+        x=axis_about_origin(half_width),
+        y=axis_about_origin(half_width),
         dot=("omega1", "omega2"),
         on_click=on_click,
         starts=on_click is not None,
@@ -126,19 +126,19 @@ def half_width_for(speed: float) -> float:
     return round_up(1.05 * max(1e-9, speed))
 
 
-def centred(half_width: float) -> Range:
+def symmetric_range(half_width: float) -> Range:
     """Return the range ±half_width."""
     return -half_width, half_width
 
 
-def about_origin(half_width: Callable[[S], float]) -> Callable[[S], Range]:
+def axis_about_origin(half_width: Callable[[S], float]) -> Callable[[S], Range]:
     """Return the range of an axis about 0 as a function of the state."""
-    return lambda state: centred(half_width(state))
+    return lambda state: symmetric_range(half_width(state))
 
 
 def square(half_width: float) -> Array:
     """Return a square (4, 2) about 0."""
-    return rectangle(centred(half_width), centred(half_width))
+    return rectangle(symmetric_range(half_width), symmetric_range(half_width))
 
 
 def exterior(curve: Array, half_width: float) -> list[Array]:
@@ -187,7 +187,7 @@ def halves(
     )
 
 
-def to_the_edge(point: Array, half_width: float, axes: Axes) -> Array:
+def half_line(point: Array, half_width: float, axes: Axes) -> Array:
     """Return the half line (2, 2) from 0 through a point (2,) to beyond the frame."""
     far = max(half_width, axes.x[1]) / max(float(np.max(np.abs(point))), 1e-300)
     return np.array([np.zeros(2), far * np.asarray(point)])

@@ -14,7 +14,7 @@ from hess_explorer.views.caption import Caption
 from hess_explorer.views.graphs.graph import time_graph
 from hess_explorer.views.layers import Axes, Layer, Layers, Sign, Sources, column, levels, line, points
 from hess_explorer.views.picture import Picture
-from hess_explorer.views.plane.velocity_plane import centred, round_up
+from hess_explorer.views.plane.velocity_plane import round_up, symmetric_range
 from hess_explorer.views.text import digits, range_text
 from hess_mechanics.chaplygin_ball.energy_surface import Strip, line_of_rest
 from hess_mechanics.chaplygin_ball.phase_cloud_density import BIN, SMALLEST, Clouds, Density
@@ -111,7 +111,7 @@ class CloudPlane(Picture[S]):
     @property
     def first_axes(self) -> Axes:
         """The axes before the first state."""
-        return Axes(centred(1.0), centred(1.0))
+        return Axes(symmetric_range(1.0), symmetric_range(1.0))
 
     @property
     def legend(self) -> tuple[Sign, ...]:
@@ -128,7 +128,7 @@ class CloudPlane(Picture[S]):
 
     def ranges(self, state: S, held: Axes | None) -> Axes:
         """Return the axes that fit a state."""
-        axis = centred(self.half_width(state))
+        axis = symmetric_range(self.half_width(state))
         return Axes(axis, axis)
 
     def data(self, state: S) -> Sources:

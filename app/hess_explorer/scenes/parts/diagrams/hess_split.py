@@ -13,7 +13,7 @@ from hess_explorer.scenes.framework.part import Host, Part
 from hess_explorer.scenes.framework.periodic_search import NotFound
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.graphs.graph import about_0
+from hess_explorer.views.graphs.graph import axis_about_0
 from hess_explorer.views.layers import Axes, compose, curves, levels, points, ring
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits, with_error
@@ -143,7 +143,7 @@ split_picture = Plot[HessSplit](
     message=lambda s: s.message,
     on_click=lambda s, x, y: {"away": x},
     x=lambda s: (-1.1 * s.reach, 1.1 * s.reach),
-    y=compose(_values, lambda found: about_0(found[1], 1e-12)),
+    y=compose(_values, lambda found: axis_about_0(found[1], 1e-12)),
     layers=(
         levels("levels", lambda s: [0.0] if s.splits else []),
         curves("slope", within=_line, color=theme.MUTED, dash="dashed", label="linear, with the slope at ε = 0"),

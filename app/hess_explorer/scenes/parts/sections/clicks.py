@@ -11,7 +11,7 @@ import numpy as np
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.specs import Points, Values, points_of, points_text
-from hess_explorer.scenes.framework.orbit_batches import in_batches
+from hess_explorer.scenes.framework.orbit_batches import batches
 from hess_explorer.scenes.framework.part import Host, Part, Start
 from hess_explorer.scenes.framework.periodic_search import ClosedOrbit
 from hess_explorer.scenes.framework.sliders import number, specs_of
@@ -207,7 +207,7 @@ def filled_section(state: Any, held: int, **more: Any) -> Section:
 
     def seeds(section: Section) -> list[tuple[Start, ...]]:
         count = int(state.orbits)
-        return [*in_batches(_spread(state, min(count, held) if section.work.dragging else count))]
+        return [*batches(_spread(state, min(count, held) if section.work.dragging else count))]
 
     return Section(
         state,

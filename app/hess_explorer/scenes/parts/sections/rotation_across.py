@@ -10,7 +10,7 @@ from typing import Any, Protocol
 import numpy as np
 
 from hess_explorer.compute.cache import Task
-from hess_explorer.scenes.framework.orbit_batches import OrbitBatch, in_batches
+from hess_explorer.scenes.framework.orbit_batches import OrbitBatch, batches
 from hess_explorer.scenes.framework.part import Host, Part
 from hess_explorer.scenes.framework.trial import Trial
 from hess_explorer.scenes.framework.windows import Window
@@ -93,7 +93,7 @@ class RotationAcross(Part[_Host]):
                     plan.level,
                 ),
             )
-            for some in in_batches(starts)
+            for some in batches(starts)
         ]
 
     def _count(self, plan: Plan) -> int:
@@ -139,7 +139,7 @@ class RotationAcross(Part[_Host]):
         return "No closed curve on the line rotates" if self.profile.librations.size else "No closed curve on the line"
 
     @property
-    def along(self) -> Range:
+    def line_range(self) -> Range:
         """The range of the coordinate along the line."""
         return self.ends[0][self.axis], self.ends[1][self.axis]
 
@@ -207,7 +207,7 @@ def rotation_picture() -> Picture[Any]:
         axes=lambda s: s.rotation.names,
         first=Axes((-1.0, 1.0), (-0.5, 0.5)),
         message=lambda s: s.rotation.message(),
-        x=lambda s: s.rotation.along,
+        x=lambda s: s.rotation.line_range,
         y=lambda s: _axis_of(s.rotation.profile),
         layers=(
             region(

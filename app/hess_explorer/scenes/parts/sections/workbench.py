@@ -19,7 +19,11 @@ from hess_explorer.scenes.parts.sections.clicks import orbits_spread, points_of_
 from hess_explorer.scenes.parts.sections.density import SectionDensity
 from hess_explorer.scenes.parts.sections.indicator import MEGNO, Indicator, colouring
 from hess_explorer.scenes.parts.sections.orbit import BodyOrbit
-from hess_explorer.scenes.parts.sections.periodic_orbit import SectionPeriodicOrbit, length_of_manifolds, which
+from hess_explorer.scenes.parts.sections.periodic_orbit import (
+    SectionPeriodicOrbit,
+    choice_of_orbit,
+    length_of_manifolds,
+)
 from hess_explorer.scenes.parts.sections.section import Section, crossings_of_each, start_on
 from hess_explorer.views.caption import Caption
 from hess_mechanics.dynamics.return_map import PoincareSection
@@ -37,7 +41,7 @@ class SectionState(State, ABC):
     variable.  The orbit starts at the parameter `place`, or at another state `chosen_start`.
     """
 
-    periodic: str = which()
+    periodic: str = choice_of_orbit()
     indicator: str = colouring()
     count: float = crossings_of_each()
     reach: float = length_of_manifolds()
