@@ -45,9 +45,9 @@ def __getattr__(name: str) -> Any:
             raise
         value = _computations()[name]
     if isinstance(value, FunctionType):
-        from hess_mechanics.numerics.arguments import typed
+        from hess_mechanics.numerics.arguments import check_arguments
 
-        value = typed(value)
+        value = check_arguments(value)
         value.__module__ = __name__
     globals()[name] = value
     return value

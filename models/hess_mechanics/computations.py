@@ -13,7 +13,7 @@ from hess_mechanics.dynamics.return_map import section_crossings
 from hess_mechanics.errors import OutsideRegion
 from hess_mechanics.euler_poisson.andoyer import AndoyerSection
 from hess_mechanics.euler_poisson.equations import HeavyBody
-from hess_mechanics.euler_poisson.rotation import LineEnds, RotationProfile, on_line, rotation_along
+from hess_mechanics.euler_poisson.rotation import LineEnds, RotationProfile, rotation_along, states_on_line
 from hess_mechanics.numerics.accuracy import Accuracy, Kind, plan
 from hess_mechanics.numerics.arguments import as_integer, as_level, as_pairs
 from hess_mechanics.numerics.results import Array
@@ -180,7 +180,7 @@ def rotation_along_line(
     """
     section = AndoyerSection(body, h, f)
     first, last = as_pairs("ends", ends)
-    started = on_line(section, (first, last), as_integer("count", count, 1, _MOST_ORBITS))
+    started = states_on_line(section, (first, last), as_integer("count", count, 1, _MOST_ORBITS))
     if not started:
         raise OutsideRegion("No motion crosses the section on this line: choose another line, or a larger h.")
     chosen = plan(Kind.ROTATION, accuracy)
@@ -189,7 +189,7 @@ def rotation_along_line(
     return rotation_along(
         (first, last),
         [one for one, _ in started],
-        [section.places_of(one) for one in orbits.states],
+        [section.points_of(one) for one in orbits.states],
         about_first,
         count,
         chosen.promise,

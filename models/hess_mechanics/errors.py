@@ -10,7 +10,7 @@ class ModelError(ValueError):
 
 
 class InvalidParameter(ModelError):
-    """A value that is not finite or lies outside the domain of the equations."""
+    """An invalid argument: not finite, outside the domain of the equations, or not one of the choices."""
 
 
 class WrongScaling(ModelError):

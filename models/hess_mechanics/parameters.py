@@ -122,7 +122,7 @@ class Parameter:
             raise InvalidParameter(f"{self.name} = {plain(value)} {kind} {self.range}: choose a value in this range.")
         return value
 
-    def changed(self, **changes: Any) -> Mapping[str, Any]:
+    def fields(self, **changes: Any) -> Mapping[str, Any]:
         """Return all fields by name, with some of them changed.
 
         Parameters

@@ -21,7 +21,7 @@ from hess_mechanics.dynamics.cells import Window, centres
 from hess_mechanics.dynamics.continuation import Branch, branch_from
 from hess_mechanics.dynamics.megno_map import corners, labels_of_cells, require_plane
 from hess_mechanics.dynamics.orbit_diagram import Cascade, Diagram, cascade, diagram_over
-from hess_mechanics.dynamics.periodic import MAX_PERIOD, PeriodicOrbit, find_periodic, place_units
+from hess_mechanics.dynamics.periodic import MAX_PERIOD, PeriodicOrbit, find_periodic, units_of
 from hess_mechanics.dynamics.plane_section import labels_of_orbits
 from hess_mechanics.dynamics.return_map import PoincareSection, ReturnMap, section_crossings
 from hess_mechanics.dynamics.system import ParametrizedSystem
@@ -30,9 +30,9 @@ from hess_mechanics.errors import InvalidParameter, OutsideRegion, WorkLimit
 from hess_mechanics.euler_poisson.andoyer import AndoyerSection
 from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.numerics.accuracy import Accuracy, Kind, plan
-from hess_mechanics.numerics.arguments import as_cells, as_integer, as_level, as_number, as_pairs, as_place
+from hess_mechanics.numerics.arguments import as_cells, as_integer, as_level, as_number, as_pairs, as_point
 from hess_mechanics.numerics.labelled import Labels, Result
-from hess_mechanics.numerics.parallel import share
+from hess_mechanics.numerics.parallel import run_in_threads
 from hess_mechanics.numerics.results import Array, angle_facts, frozen
 from hess_mechanics.suslov.equations import SuslovBody
 from hess_mechanics.suslov.quartic import QuarticBody, QuarticSection
@@ -53,7 +53,7 @@ __all__ = [
 ]
 
 SectionedBody = SuslovBody | QuarticBody | BallBody | HeavyBody | HessBody | ParametrizedSystem
-_MOST_PLACES = 1_000_000
+_MOST_POINTS = 1_000_000
 _MOST_ORBITS, _MOST_CROSSINGS = 1000, 10_000
 
 
@@ -84,7 +84,7 @@ class PlanePoints(Result):
         Labels
             Both coordinates over the points.
         """
-        return labels_of_orbits(self.names, self.orbits, "point", place_units(self.names), self.facts)
+        return labels_of_orbits(self.names, self.orbits, "point", units_of(self.names), self.facts)
 
 
 def return_map(
@@ -243,7 +243,7 @@ def section_orbits(
     x, y = section.names
     return PlanePoints(
         (x, y),
-        tuple(section.places_of(one) for one in points.states),
+        tuple(section.points_of(one) for one in points.states),
         {
             "level": map_.level,
             **points.facts,
@@ -289,7 +289,7 @@ def periodic_orbit(map_: ReturnMap, start: Sequence[float], period: int | None =
     'stable node'
     """
     orbit = find_periodic(map_, start, None if period is None else as_integer("period", period, 1, MAX_PERIOD))
-    return replace(orbit, symmetric=tuple(map_.symmetries_of(orbit.places)))
+    return replace(orbit, symmetric=tuple(map_.symmetries_of(orbit.points)))
 
 
 def continued_orbit(map_: ReturnMap, orbit: PeriodicOrbit, parameter: str, to: float, points: int = 200) -> Branch:
@@ -340,8 +340,8 @@ def continued_orbit(map_: ReturnMap, orbit: PeriodicOrbit, parameter: str, to: f
         to,
         as_integer("points", points, 2, 2000),
     )
-    along = zip(branch.values.tolist(), branch.places, strict=True)
-    times = [abs(map_.at_constant(parameter, value).time_of(places)) for value, places in along]
+    along = zip(branch.values.tolist(), branch.points, strict=True)
+    times = [abs(map_.at_constant(parameter, value).time_of(at)) for value, at in along]
     return replace(branch, times=frozen(np.array(times)))
 
 
@@ -398,14 +398,16 @@ def orbit_diagram(
     [1, 2]
     """
     map_.constant(parameter)
-    place = as_place(map_.names, start)
+    point = as_point(map_.names, start)
     transient, crossings = as_integer("transient", transient, 0, 20_000), as_integer("crossings", crossings, 1, 20_000)
-    if len(np.atleast_1d(values)) * crossings > _MOST_PLACES:
-        raise WorkLimit(f"An orbit diagram has at most {_MOST_PLACES} points: choose fewer values or crossings.")
-    diagram = diagram_over(partial(map_.at_constant, parameter), parameter, values, place, transient, crossings, follow)
-    if not any(map(len, diagram.places)):
-        # Say why.
-        map_.at_constant(parameter, float(diagram.values[0])).state_at(np.array(place))
+    if len(np.atleast_1d(values)) * crossings > _MOST_POINTS:
+        raise WorkLimit(
+            f"These are more than {_MOST_POINTS} points of an orbit diagram: choose fewer values or crossings."
+        )
+    diagram = diagram_over(partial(map_.at_constant, parameter), parameter, values, point, transient, crossings, follow)
+    if not any(map(len, diagram.points)):
+        # No value has a motion: raise the error of the first one.
+        map_.at_constant(parameter, float(diagram.values[0])).state_at(np.array(point))
     return diagram
 
 
@@ -554,7 +556,7 @@ def basins(
         ends = arrivals(SectionOrbits(section, level), there.sets, x, np.full(m, y[i]))
         number[i], crossings[i] = ends.number, ends.crossings
 
-    share(row, n)
+    run_in_threads(row, n)
     crossings[number < 0.0] = np.nan
     across, up = section.names
     return Basins(

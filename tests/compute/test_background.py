@@ -17,7 +17,7 @@ from hess_explorer.scenes.framework.scene import Scene
 from hess_explorer.scenes.framework.work import Work
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.parallel import THREADS
-from hess_mechanics.numerics.patience import go_on
+from hess_mechanics.numerics.patience import check_limit
 from support.asynchronous import wait_until
 from support.board import SCENES, Browser, contents
 from support.wire import read_frame
@@ -156,7 +156,7 @@ def endless():
         begun.set()
         try:
             while n:
-                go_on()
+                check_limit()
                 time.sleep(0.001)
         finally:
             ended.set()

@@ -15,7 +15,7 @@ from hess_explorer.compute.cache import ResultCache
 from hess_explorer.compute.pool import MOST, Pool, RequestQueue
 from hess_mechanics.dynamics.trade import measure
 from hess_mechanics.numerics.accuracy import Kind
-from hess_mechanics.numerics.parallel import share
+from hess_mechanics.numerics.parallel import run_in_threads
 
 PATIENCE = 60.0
 
@@ -178,10 +178,10 @@ def test_what_other_threads_work_for_an_answer_counts_and_ends_between_two_parts
         done.append(i)
 
     with time_budget(threading.Event(), seconds=0.05), pytest.raises(OverBudget):
-        share(part, 40, threads=2)
+        run_in_threads(part, 40, threads=2)
     # Those of two threads that had begun, and no others.
     assert 2 <= len(done) <= 6
-    share(part, 2, threads=2)
+    run_in_threads(part, 2, threads=2)
 
 
 def test_a_long_computation_ends_between_its_parts_when_nobody_waits():

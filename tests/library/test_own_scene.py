@@ -115,11 +115,11 @@ def test_it_has_a_slider_for_each_parameter_and_initial_value_and_the_presets_as
     [
         ({"pictures": ["x q"]}, "has no 'q': choose among x, y, px, py"),
         ({"pictures": ["x"]}, "'x' is not a picture. Write the names of two"),
-        ({"pictures": ["x y", "x y"]}, "each picture may occur once"),
+        ({"pictures": ["x y", "x y"]}, "a picture occurs twice"),
         ({"pictures": ["section at x = a"]}, "not a valid expression"),
         ({"pictures": ["section on F"]}, "has no 'F': choose among E"),
         ({"pictures": ["branch"]}, "a branch needs a section"),
-        ({"sliders": {"lam": (1, 1)}}, "two different ends"),
+        ({"sliders": {"lam": (1, 1)}}, "needs increasing ends"),
         ({"pictures": "x y"}, "pictures = 'x y' is not a sequence"),
         ({"presets": ["A"]}, "is not a mapping"),
     ],
@@ -134,7 +134,7 @@ def simple(name, variable):
 
 
 test_a_system_of_which_there_is_no_scene_is_refused = refused(
-    (lambda: hess.scene(simple("one", "x"), ["section"]), "needs a system of three or more variables"),
+    (lambda: hess.scene(simple("one", "x"), ["section"]), "no section with two coordinates"),
     (lambda: hess.state(HENON), r"There is no scene .*: choose one of suslov-hess"),
     (lambda: hess.scene(simple("s", "x-y")), "'x-y' cannot be used in a link"),
     (lambda: add(hess.scene(simple("suslov", "x")), "mine.py"), "same name"),

@@ -31,7 +31,7 @@ def test_a_link_and_its_parameters_are_the_same_state():
     again = hess.state("suslov", b1=-0.5, starts=[(0.5, 1.0), (1, np.float64(1.0))], t=2.5)
     assert again.link == state.link == hess.from_link(state.link).link
     assert (state.scene, state.notes) == ("suslov", ())
-    assert state.but(b1=0.25, t=0.0).parameters == {**again.parameters, "b1": 0.25}
+    assert state.replace(b1=0.25, t=0.0).parameters == {**again.parameters, "b1": 0.25}
     noted = hess.from_link("h=-7&scene=suslov-hess", lenient=True)
     assert noted.parameters["h"] == approx(-1.0)
     assert noted.notes[0].startswith("h must lie between -1 and")

@@ -12,7 +12,7 @@ if __name__ == "__main__":
 
 from hess_explorer.protocol.specs import ChoiceSpec
 from hess_explorer.scenes import scenes
-from hess_explorer.scenes.framework.trial import bare
+from hess_explorer.scenes.framework.trial import bare_state
 from hess_explorer.views.text import digits
 from hess_mechanics.dynamics.trade import measure
 from hess_mechanics.numerics.accuracy import DRAFT, LEVELS, MEANINGS, PLANS, REFERENCE, Kind
@@ -33,7 +33,7 @@ def example(scene, trial):
     shown = [{**scene.defaults(), **values} for values in ({}, *map(scene.example, scene.presets))]
     choices = [spec for spec in scene.specs if isinstance(spec, ChoiceSpec) and spec.name != "accuracy"]
     changed = ({**values, spec.name: one} for values in shown for spec in choices for one in spec.options)
-    states = (bare(scene.of(values)) for values in (*shown, *changed))
+    states = (bare_state(scene.of(values)) for values in (*shown, *changed))
     return next(state for state in states if trial.applies(state))
 
 

@@ -15,9 +15,9 @@ from pytest import fixture, mark
 from hess_mechanics import f_max
 from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.chaplygin_ball.phase_cloud import cloud_of, shell
-from hess_mechanics.dynamics.basin_boundary import coarsest_cells, unsure
+from hess_mechanics.dynamics.basin_boundary import ambiguity, coarsest_cells
 from hess_mechanics.dynamics.return_map import section_crossings
-from hess_mechanics.dynamics.shadowing import away_from, errors_in_pixels, right_crossings, typical
+from hess_mechanics.dynamics.shadowing import away_from, errors_in_pixels, lower_median, right_crossings
 from hess_mechanics.dynamics.spectrum import lyapunov_exponent
 from hess_mechanics.dynamics.system import Problem
 from hess_mechanics.numerics.accuracy import PLANS, REFERENCE, Kind
@@ -47,7 +47,7 @@ PIXELS, PERIODS = (300.0 / pi, 600.0 / pi), (2.0 * pi, inf)
 
 def places(body, starts, level):
     where = SuslovSection(body, 0.0, 3)
-    return [*map(where.places_of, section_crossings(where, starts, 60, level, threads=1).states)]
+    return [*map(where.points_of, section_crossings(where, starts, 60, level, threads=1).states)]
 
 
 @fixture(scope="module")
@@ -90,9 +90,9 @@ def test_the_count_ends_with_the_first_point_that_is_wrong():
     exact = np.zeros((5, 2))
     wrong = np.array([[0.0, 0.0], [0.4, 0.0], [0.3, 0.5], [0.0, 0.0], [0.0, 0.0]])
     assert right_crossings([wrong, exact, exact[:3]], [exact] * 3, (1.0, 1.0)) == (2, 5, 3)
-    assert typical((9, 2, 5)) == 5
-    assert typical((9, 2)) == 2
-    assert typical(()) is None
+    assert lower_median((9, 2, 5)) == 5
+    assert lower_median((9, 2)) == 2
+    assert lower_median(()) is None
 
 
 # ---- exponents --------------------------------------------------------------------------------------------------
@@ -138,14 +138,14 @@ def test_the_boundary_tells_how_many_cells_a_finer_run_changes(name):
     for _ in range(100):
         coarse, fine = basins_of_discs(random, *PLANS[Kind.BASINS][name].grid((36, 24)))
         changed.append(np.mean(np.kron(coarse, np.ones((2, 2))) != fine))
-        estimates.append(unsure(coarse))
+        estimates.append(ambiguity(coarse))
     assert within_a_factor_of_ten(changed, estimates)
     assert 0.5 < np.median(np.array(changed) / np.array(estimates)) < 2.0
 
 
 def test_one_basin_alone_has_no_boundary():
-    assert unsure(np.zeros((24, 36))) == 0.0
-    assert unsure(np.array([[0.0, 1.0]])) == 0.125
+    assert ambiguity(np.zeros((24, 36))) == 0.0
+    assert ambiguity(np.array([[0.0, 1.0]])) == 0.125
     # Undivided cells count as one.
     coarse, fine = basins_of_discs(np.random.default_rng(2), 36, 24)
     assert np.array_equal(coarsest_cells(np.kron(coarse, np.ones((4, 4)))), coarse)

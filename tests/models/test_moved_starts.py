@@ -30,7 +30,7 @@ ENTRIES = {
     "lyapunov_spectrum": lambda: lyapunov_spectrum(BODY, START, 20.0).values,
     "megno_map": lambda: megno_map(MAP, cells=(2, 2), duration=20.0).values,
     "mean_divergence": lambda: mean_divergence(SuslovBody(*BODY.parameters), START, 20.0).mean,
-    "regime": lambda: regime(MAP, POINT, 10, 20, 20.0).places,
+    "regime": lambda: regime(MAP, POINT, 10, 20, 20.0).points,
 }
 
 

@@ -18,7 +18,7 @@ from pytest import mark, raises
 import hess_mechanics as hm
 from hess_mechanics.errors import InvalidParameter, ModelError
 from hess_mechanics.numerics.accuracy import DRAFT, Kind, Level, plan
-from hess_mechanics.numerics.labelled import Printed, Result
+from hess_mechanics.numerics.labelled import Result, ShortRepr
 
 WRONG = (0, -1, 5e-324, 1e300, 10**400, math.nan, math.inf, "x", "", None, True, 1j, [], [[1.0]], {}, object())
 CHEAP = {"accuracy": "draft", "level": "draft", "most_work": 1e5}
@@ -102,7 +102,7 @@ def test_a_result_prints_on_ten_lines(name):
     call = example(name)
     result = getattr(hm, name)(*call.args, **call.kwargs)
     # Arrays, dictionaries and numbers print as they always do.
-    if isinstance(result, (Result, Printed)):
+    if isinstance(result, (Result, ShortRepr)):
         lines = str(result).splitlines()
         assert 1 <= len(lines) <= 10
         assert max(map(len, lines)) <= 120

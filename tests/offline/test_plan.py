@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from hess_explorer.offline.pages import page_family
-from hess_explorer.offline.plan import MOST_STATES, across, family, read_slider, slider_of
+from hess_explorer.offline.plan import MOST_STATES, family, read_slider, slider_of, values_across
 from hess_explorer.scenes import scenes
 from hess_mechanics.errors import InvalidParameter
 
@@ -19,7 +19,7 @@ def test_a_slider_has_readable_values_and_that_of_the_state():
     assert list(values) == sorted(values)
     assert all(len(f"{value:g}") <= 5 for value in values)
     # Steps that are small beside the values keep their digits.
-    assert len({*across(1.0, 1.0001, 11, 1.0)}) == 11
+    assert len({*values_across(1.0, 1.0001, 11, 1.0)}) == 11
 
 
 @pytest.mark.parametrize(

@@ -159,7 +159,7 @@ def measured(motion, returns, place):
     states = crossings(section, start, 4000)
     before, after = (next(iter(section.system.integrals(y, section.parameters).values())) for y in (start, states[-1]))
     assert abs(after - before) < 1e-10
-    places = section.places_of(states)
+    places = section.points_of(states)
     near = closings(section, places[2000:], 600)
     again = np.flatnonzero(near < SAME)
     series = np.cos(places[:, 0]) if np.isfinite(section.turns[0]) else places[:, 0]

@@ -81,7 +81,7 @@ PLACES = """([names, essential, inside]) => {
 }"""
 
 
-def places_of(page, scene):
+def points_of(page, scene):
     shown = scenes()[scene]
     return page.evaluate(PLACES, [list(shown.open_pictures), list(shown.essential), INSIDE])
 
@@ -193,7 +193,7 @@ def assert_looks(page, scene, size, theme, artefacts):
     assert (brightness(shot) > 200) if theme == "light" else (brightness(shot) < 60)
     # A phone shows one picture, upright a second, small one.
     count = {"phone": 2, "sideways": 1}.get(size, len(scenes()[scene].open_pictures))
-    assert_in_sight(places_of(page, scene), *SIZES[size], count)
+    assert_in_sight(points_of(page, scene), *SIZES[size], count)
     assert_apart_and_whole(page, size)
     for corner, colours in page.evaluate(TEXTS):
         behind = shot.convert("RGB").getpixel(tuple(map(int, corner)))
@@ -214,15 +214,15 @@ def test_a_scene_has_its_columns_and_colours_and_nothing_is_covered_cut_off_or_h
 ):
     tab = look_at(scene, "wide", theme)
     assert_looks(tab.page, scene, "wide", theme, artefacts)
-    assert_covered(places_of(tab.page, scene), "wide", "wide")
+    assert_covered(points_of(tab.page, scene), "wide", "wide")
     tab.page.keyboard.press("t")
     wait_frames(tab, 4)
-    assert_covered(places_of(tab.page, scene), "wide", "reading")
+    assert_covered(points_of(tab.page, scene), "wide", "reading")
     assert tab.page.locator(".words").is_visible()
     tab.page.keyboard.press("t")
     tab.resize(*SIZES["laptop"])
-    assert_in_sight(places_of(tab.page, scene), *SIZES["laptop"], len(scenes()[scene].open_pictures))
-    assert_covered(places_of(tab.page, scene), "laptop", "laptop")
+    assert_in_sight(points_of(tab.page, scene), *SIZES["laptop"], len(scenes()[scene].open_pictures))
+    assert_covered(points_of(tab.page, scene), "laptop", "laptop")
     tab.tell("present")
     for size in ((1600, 950), (1920, 1080), SIZES["laptop"]):
         tab.resize(*size)
@@ -257,10 +257,10 @@ def test_a_phone_has_all_of_it_and_one_hand_suffices(look_at, artefacts, scene, 
     if size == "phone":
         assert_accessible(page)
     # The picture and the slider stay where they are while the text is scrolled, and no formula makes that wider.
-    before, reader = places_of(page, scene), page.locator(".reader")
+    before, reader = points_of(page, scene), page.locator(".reader")
     reader.evaluate("item => item.scrollTo(0, 400)")
     assert reader.evaluate("item => item.scrollTop") > 100
-    assert places_of(page, scene) == before
+    assert points_of(page, scene) == before
     assert reader.evaluate("item => item.scrollWidth - item.clientWidth") <= 0
     reader.evaluate("item => item.scrollTo(0, 0)")
 
@@ -281,7 +281,7 @@ def test_nothing_moves_while_the_page_loads(browser, server, size):
 
 
 def edges(page):
-    return [box["width"] for box in places_of(page, HESS)["boxes"]]
+    return [box["width"] for box in points_of(page, HESS)["boxes"]]
 
 
 def test_a_picture_leads_by_its_key_or_a_click_and_the_link_keeps_it(look_at):
@@ -294,7 +294,7 @@ def test_a_picture_leads_by_its_key_or_a_click_and_the_link_keeps_it(look_at):
         press()
         wait_frames(tab, 4)
         assert edges(page)[i] >= 0.7 * stage
-        assert_in_sight(places_of(page, HESS), *SIZES["laptop"], 6)
+        assert_in_sight(points_of(page, HESS), *SIZES["laptop"], 6)
     # The others live.
     before = tab.caption(last)
     tab.change(lambda: tab.slide(h=0.2))

@@ -164,7 +164,7 @@ def test_where_the_energy_forbids_a_place_the_start_moves_to_the_edge_and_it_is_
     else:
         assert (admitted["psi"], notes) == (start, [])
     result = SECTION.compute(admitted, SECTION.pictures, False)
-    assert np.all(np.cos(result.section.own[:, 0]) <= -0.4 + 1e-3)
+    assert np.all(np.cos(result.section.chosen_points[:, 0]) <= -0.4 + 1e-3)
     stage_view = View(SECTION, {"h": 0.3, "psi": 3.0})
     xs = np.array(stage_view.data["section-forbidden"]["xs"]).reshape(3, 4)
     assert sorted(xs[1, :2]) == approx([-half, half], abs=1e-6)

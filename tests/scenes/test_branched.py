@@ -8,7 +8,7 @@ import pytest
 from pytest import approx
 
 from hess_explorer.scenes import scenes
-from hess_mechanics.dynamics.periodic import apart
+from hess_mechanics.dynamics.periodic import difference
 from support.thorough import sample
 from support.view import View, values_of
 
@@ -39,7 +39,7 @@ def points_of(view):
     return [
         point
         for part in view.result.branch.branches
-        for point in zip(part.values.tolist(), part.places, part.multipliers, strict=True)
+        for point in zip(part.values.tolist(), part.points, part.multipliers, strict=True)
     ]
 
 
@@ -58,11 +58,11 @@ def test_a_click_on_the_branch_shows_that_orbit_and_away_from_it_nothing_happens
     assert (chosen["low"], chosen["high"]) == state.branch.ends
     after = View(SCENES[name], {**view.values, **chosen, "low": along - 0.01, "high": along + 0.01}, seen=["branch"])
     orbit = after.result.periodic_orbit.closed_orbit.orbit
-    assert np.abs(apart(state.poincare.turns, orbit.places, place)).max(axis=1).min() < 0.02
+    assert np.abs(difference(state.poincare.turns, orbit.points, place)).max(axis=1).min() < 0.02
     # The orbit is marked.
     assert after.data["branch-shown"]["x"][0] == approx(along, abs=1e-6)
-    assert after.data["branch-shown"]["y"] == approx(orbit.places[:, side], abs=1e-6)
-    low, high = state.branch.upwards_range
+    assert after.data["branch-shown"]["y"] == approx(orbit.points[:, side], abs=1e-6)
+    low, high = state.branch.vertical_range
     away = state, state.branch.ends[0], high + (high - low)
     assert (picture.on_click(*away), picture.on_hover(*away)) == ({}, "")
     assert picture.on_hover(state, value, place[side]).startswith(f"{state.over} = ")

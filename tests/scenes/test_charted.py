@@ -108,7 +108,7 @@ def test_the_start_of_a_motion_in_a_section_is_a_place_of_the_chart():
 
 def test_a_box_zooms_in_and_other_sides_show_the_whole_range_again():
     state = state_of(known=False)
-    assert state.chart_part.look_closer((1.0, 0.5, 0.0, -0.5)) == {"chart_window": "0,-0.5;1,0.5"}
+    assert state.chart_part.box_window((1.0, 0.5, 0.0, -0.5)) == {"chart_window": "0,-0.5;1,0.5"}
     requested = RequestedState(TORI, {**TORI.defaults(), "chart_window": "0,-0.5;1,0.5"}, [])
     requested.change({"chart_x": "a"})
     assert requested.values["chart_window"] == ""

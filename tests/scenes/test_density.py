@@ -32,7 +32,7 @@ def test_visits_are_the_histogram_of_the_accurate_crossings_of_a_regular_orbit()
     )
     found = visits(state.poincare, WHOLE, (32, 20), [state.chosen_start], 400, True, density._LEVEL)
     exact = section(state.poincare, state.chosen_start, state.poincare.surface, 1e5, "precise", 400)
-    counted, _, _ = np.histogram2d(*state.poincare.places_of(exact.states).T, bins=(32, 20), range=np.transpose(WHOLE))
+    counted, _, _ = np.histogram2d(*state.poincare.points_of(exact.states).T, bins=(32, 20), range=np.transpose(WHOLE))
     assert found.counts.sum() == found.points == 400
     # One point in fifty at the edge of a cell may lie in the next one, as 400 points are computed at a coarser level.
     assert np.abs(found.counts - counted.T).sum() <= 2 * 400 / 50
@@ -69,7 +69,7 @@ def test_a_window_has_its_own_density_and_the_later_half_only_the_last_stage():
     shares = []
     for starts in (starts for _, starts in found._kinds):
         points = section_crossings(state.poincare, starts, 96, density._LEVEL)
-        for spots in map(state.poincare.places_of, points.states):
+        for spots in map(state.poincare.points_of, points.states):
             shares.append(np.mean(np.all((spots >= low) & (spots < high), axis=1)))
     # Orbits in a sea visit the window as often, though not at the same places after a while: both shares scatter.
     share = found.points / (96 * len(shares))

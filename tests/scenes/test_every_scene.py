@@ -235,7 +235,7 @@ def test_a_state_looks_the_same_whatever_was_shown_before(scene, preset):
     again = board.show(found)
     # Marks across a picture are as long as its axes, and labels find their places within them.
     held = [view for view in scene.views if view.kind == "plot" and view.name not in known]
-    later = {source for view in held for source in view.framed(found, view.first_axes, found.sources)}
+    later = {source for view in held for source in view.data_in_axes(found, view.first_axes, found.sources)}
     assert contents(but(board.sources, later)) == contents(but(first.sources, later))
     for view in scene.views:
         if view.name in known:

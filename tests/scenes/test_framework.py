@@ -9,7 +9,7 @@ import pytest
 
 from hess_explorer.protocol.specs import Controlled
 from hess_explorer.scenes.framework.scene import Motion, Scene, State
-from hess_explorer.scenes.framework.sliders import accuracy_level, like, number, specs_of
+from hess_explorer.scenes.framework.sliders import accuracy_level, number, redeclare, specs_of
 from hess_explorer.scenes.speed_accuracy import speed_and_accuracy
 from hess_mechanics import systems
 from hess_mechanics.euler_poisson.equations import HeavyBody
@@ -30,7 +30,7 @@ class Mixed(Base):
     """Another default and another doc."""
 
     third: float = number("z", 3.0, (0.0, 4.0), 0.1, bounds=(0.0, 10.0), label="Third", doc="The third.")
-    second: float = like(Base, "second", 2.5, doc="Another.")
+    second: float = redeclare(Base, "second", 2.5, doc="Another.")
     accuracy: str = accuracy_level()
 
 

@@ -46,7 +46,7 @@ def test_the_example_shows_a_section_and_an_orbit(scene):
     assert view.data["data-orbit"]["t"][-1] == approx(40.0)
     # The orbit starts where the section says, and is one of its energy.
     path = view.result.orbit.path
-    assert view.result.poincare.places_of(path.states[:1])[0] == approx((1.0, 1.2))
+    assert view.result.poincare.points_of(path.states[:1])[0] == approx((1.0, 1.2))
     assert max(path.drift.values()) < 1e-6
 
 

@@ -58,9 +58,9 @@ def test_at_first_a_section_has_the_beginnings_of_all_its_orbits(name):
     begun = first.section.points().reshape(20, 30, 2)[:, :8]
     assert whole.section.points().reshape(20, 45, 2)[:, :8] == approx(begun, abs=1e-5)
     # The chosen orbit is there at once.
-    assert len(first.section.own) == 45
+    assert len(first.section.chosen_points) == 45
     held = View(scenes()[name], values, dragging=True)
-    assert (held.report.todo, len(held.result.section.own)) == ((), 30)
+    assert (held.report.todo, len(held.result.section.chosen_points)) == ((), 30)
     # At the draft, whose first points are the same to the eye, but for an orbit or two that part fast.
     drawn = held.result.section.points().reshape(20, 30, 2)[:, :3]
     assert np.sort(np.abs(drawn - begun[:, :3]).max(axis=(1, 2)))[-3] < 1e-3

@@ -24,13 +24,13 @@ SCENE = scenes()["orbit-diagram"]
 def image(body, E, place, count=1):
     """Return the next points (count, 2) of the return map by SciPy."""
     section = SuslovSection(body, E, 3)
-    return section.places_of(crossings(lambda _, y: field(body, y), section.state_at(*place), count))
+    return section.points_of(crossings(lambda _, y: field(body, y), section.state_at(*place), count))
 
 
 def test_all_examples_are_rigid_bodies_from_one_edge_of_their_diagram_to_the_other():
     for scene in (SCENE, scenes()["ball-diagram"]):
         for state in (scene.of({**scene.defaults(), **preset.values}, (), True) for preset in scene.presets):
-            for value in (state.first, state.diagram.at, state.last):
+            for value in (state.first, state.diagram.value, state.last):
                 b = replace(state, **{state.diagram.name: value})
                 assert check_body(b.I11, b.I22, b.I13, b.I23).I33 is not None, (b, value)
 
@@ -122,7 +122,7 @@ def test_a_click_chooses_a_state_that_is_there_and_a_box_looks_closer():
     box = view.on_box(state, (0.05, 0.6, 0.15, 1.1))
     assert box == {"window": "0.05,0.6;0.15,1.1"}
     closer = SCENE.compute({**SCENE.defaults(), **box}, ("diagram",), True)
-    assert (closer.diagram.along_values[0], closer.diagram.along_values[-1]) == (0.05, 0.15)
+    assert (closer.diagram.parameter_values[0], closer.diagram.parameter_values[-1]) == (0.05, 0.15)
     # Edges beyond the bounds are one value there.
     beyond, _ = SCENE.admit({**SCENE.defaults(), "first": 1000.0, "last": 1422.5})
     assert (beyond["first"], beyond["last"]) == (999.0, 1000.0)
@@ -136,5 +136,5 @@ def test_the_way_back_begins_where_the_way_there_ended():
     there, back = (state.diagram.pieces[way] for way in ("rising", "falling"))
     assert (there[-1].values[-1], back[0].values[0]) == (2.4, 2.4)
     body, E = replace(state, I22=2.4).body, state.poincare.E
-    last, first = there[-1].places[-1][-1], back[0].places[0][0]
+    last, first = there[-1].points[-1][-1], back[0].points[0][0]
     assert image(body, E, last)[0] == approx(first, abs=1e-4)

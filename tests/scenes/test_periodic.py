@@ -12,8 +12,8 @@ from hess_explorer.scenes.framework import periodic_search
 from hess_explorer.scenes.framework.periodic_search import NONE
 from hess_explorer.scenes.framework.windows import pixels_in
 from hess_explorer.views.layers import Axes
-from hess_explorer.views.plane.periodic import within
-from hess_mechanics.dynamics.periodic import apart
+from hess_explorer.views.plane.periodic import visible_parts
+from hess_mechanics.dynamics.periodic import difference
 from support.view import View, values_of
 
 NAMES = ("suslov", "quartic", "ball-section", "euler-poisson")
@@ -55,8 +55,8 @@ def test_a_manifold_ends_where_the_map_jumps_and_no_line_is_drawn_across():
     for curve in ends:
         # Further on by a hundredth of the return it is somewhere else.
         before, after = curve.at(curve.parameters[-1]), curve.at(curve.parameters[-1] + 0.01)
-        assert apart(curve.turns, before, curve.points[-1]) == approx([0.0, 0.0], abs=1e-6)
-        assert np.hypot(*apart(curve.turns, after, before)) > 0.2
+        assert difference(curve.turns, before, curve.points[-1]) == approx([0.0, 0.0], abs=1e-6)
+        assert np.hypot(*difference(curve.turns, after, before)) > 0.2
 
 
 def test_where_every_orbit_of_the_ball_closes_the_chosen_one_is_parabolic():
@@ -135,7 +135,7 @@ def test_a_curve_goes_round_an_angle():
     x = np.linspace(2.0, 2.0 + 1.5 * turn, 400)
     curve = np.column_stack([x, np.sin(x)])
     axes = Axes((-pi, pi), (-1.0, 1.0))
-    parts = within(curve, turn, axes)
+    parts = visible_parts(curve, turn, axes)
     # From 2 on, once round, and a half turn to 2 + π.
     assert len(parts) == 3
     for part in parts:

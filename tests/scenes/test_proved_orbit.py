@@ -44,7 +44,7 @@ def test_a_short_orbit_is_right_to_its_end_and_nothing_is_drawn(name):
     scene = SCENES[name]
     view = shown(scene, {"span": 1.0}, whole=False)
     (task,) = tasks(view)
-    found = task.now()
+    found = task.compute()
     assert found.sentence.startswith("proved error ≤ ")
     assert found.sentence.endswith("certainly right to ½ pixel to its end")
     assert (found.band, found.circles) == ((), ())
@@ -116,7 +116,7 @@ def test_an_estimate_that_is_too_small_is_given_away():
     view = shown(HESS, {"span": 5.0, "accuracy": "draft"}, whole=False)
     (task,) = tasks(view)
     finding, motion, units = task.arguments
-    found = finding.now()
+    found = finding.compute()
     least = np.abs(found.orbit.states - true_states(motion, found.orbit.times)).max()
     for estimate, too_small in ((1.1 * least, False), (0.9 * least, True)):
         judgement = proved_error(Task(_told, Told(found, estimate)), motion, units)

@@ -37,7 +37,7 @@ def test_a_saddle_bounds_the_basins_and_its_manifold_runs_between_their_cells():
     view = example(TWO)
     (saddle,) = view.result.basins.saddles
     assert (saddle.kind, saddle.period) == ("saddle", 1)
-    assert view.points("repels") == approx(saddle.places)
+    assert view.points("repels") == approx(saddle.points)
     numbers = view.result.basins.arrivals.number
     for branch in view.result.basins.manifolds:
         psi, delta = branch.points.T

@@ -12,7 +12,7 @@ from pytest import approx
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.hess_case import proved_statement
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.maps.circle_map import EVENLY, about
+from hess_explorer.views.maps.circle_map import EVENLY, caption
 from hess_mechanics import circle_map, f_max
 from hess_mechanics.numerics.accuracy import REFERENCE
 from hess_mechanics.suslov_hess.bifurcation import curve_point
@@ -147,7 +147,7 @@ def test_on_the_edge_the_caption_says_that_there_is_no_torus_and_names_no_cycle(
     theta = circle_map(0.5, 1.625, 1.875, REFERENCE)
     assert theta.kind == "hyperbolic"
     found = proved_statement(1.0, 0.5, 1.625, 1.875)
-    assert about(theta, found.badge) == Caption(numbers=found.badge)
+    assert caption(theta, found.badge) == Caption(numbers=found.badge)
     assert found.badge == "Proved: no torus, but a circle with n₃ constant: two equilibria."
     assert "exactly two equilibria" in found.sentence
     assert "one periodic orbit" in proved_statement(1.0, 0.1, 1.625, 1.875).badge

@@ -12,7 +12,7 @@ from hess_explorer.export.picture_data import picture_data
 from hess_explorer.protocol.wire import Wire
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Motion
-from hess_explorer.scenes.framework.swarm_motions import swarm_motions, turned
+from hess_explorer.scenes.framework.swarm_motions import swarm_motions, turned_starts
 from support.view import values_of
 from support.wire import read
 
@@ -75,12 +75,12 @@ def test_starts_have_the_integrals_of_the_motion_and_lie_evenly_about_it(name):
 
 def test_on_a_line_they_lie_between_the_last_two_clicked_points_where_a_motion_is_possible():
     state, part = swarm_of("suslov", swarm="8", swarm_from="along a line", starts="1,1;0.2,0.9;1.6,2.3")
-    psi, delta = state.poincare.places_of(part.motions.states[:, 0]).T
+    psi, delta = state.poincare.points_of(part.motions.states[:, 0]).T
     assert psi == approx(np.linspace(0.2, 1.6, 8))
     assert delta == approx(np.linspace(0.9, 2.3, 8))
     # Left of ψ = −π/4 no motion is possible.
     state, part = swarm_of("suslov", swarm="50", swarm_from="along a line", starts="-2.5,1;1,1")
-    psi = state.poincare.places_of(part.motions.states[:, 0])[:, 0]
+    psi = state.poincare.points_of(part.motions.states[:, 0])[:, 0]
     assert psi == approx(np.linspace(-2.5, 1.0, 50)[-len(psi) :])
     assert psi.min() == approx(-np.pi / 4, abs=3.5 / 49)
     assert part.track()["count"] == len(psi)
@@ -94,10 +94,10 @@ def test_on_a_line_they_lie_between_the_last_two_clicked_points_where_a_motion_i
 def test_a_turned_momentum_keeps_the_area_integral_and_a_turned_velocity_its_direction():
     euler, suslov = (swarm_of(name)[0].motion() for name in ("euler-poisson", "suslov"))
     angles = np.array([-2.0, 0.0, 0.4])
-    M, gamma = np.split(turned(euler, angles), 2, axis=1)
+    M, gamma = np.split(turned_starts(euler, angles), 2, axis=1)
     assert np.sum(M * gamma, axis=1) == approx(np.dot(euler.start[:3], euler.start[3:]))
     assert [*M[1], *gamma[1]] == approx(euler.start)
-    w = turned(suslov, angles)[:, :2]
+    w = turned_starts(suslov, angles)[:, :2]
     assert np.arctan2(w[:, 1], w[:, 0]) - np.arctan2(*suslov.start[1::-1]) == approx(angles)
 
 

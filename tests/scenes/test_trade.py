@@ -12,10 +12,10 @@ from pytest import approx
 from hess_explorer.protocol.wire import Wire
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.stage import Stage
-from hess_explorer.scenes.framework.trial import Trial, bare, level_costs, section_error, sufficient_level
+from hess_explorer.scenes.framework.trial import Trial, bare_state, level_costs, section_error, sufficient_level
 from hess_explorer.scenes.framework.work import AUTO
 from hess_explorer.scenes.parts.orbits.costs import Costs
-from hess_mechanics.dynamics.trade import LevelCost, beyond
+from hess_mechanics.dynamics.trade import LevelCost, truth_plan
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.accuracy import LEVELS, PLANS, Kind
 from support.thorough import sample
@@ -39,7 +39,7 @@ CHEAP = [
 
 @pytest.mark.parametrize("name, trial", sample(CHEAP, 6), ids=lambda one: getattr(one, "kind", one))
 def test_a_finer_level_has_a_smaller_error(name, trial):
-    state = bare(SCENES[name].of(SCENES[name].defaults()))
+    state = bare_state(SCENES[name].of(SCENES[name].defaults()))
     errors = [one.error for one in level_costs(trial, state)]
     # The truth of an unstable motion is not known to more than 1e-4 pixels.
     assert errors[0] > 30.0 * errors[2] > 0.0
@@ -56,7 +56,7 @@ def test_the_status_line_says_up_to_which_crossing_the_orbit_is_where_it_is_draw
     found = {}
     for name in ("draft", "precise"):
         report = View(SUSLOV, {**SMALL, "accuracy": name}, seen=("section",)).report
-        said = r"right to ½ pixel: the chosen orbit up to crossing (\d+), others up to crossing (\d+)"
+        said = r"error below ½ pixel: chosen orbit up to crossing (\d+), others up to crossing (\d+)"
         found[name] = [*map(int, re.search(said, report.status).groups())]
     assert all(3 < draft < precise for draft, precise in zip(*found.values(), strict=True))
 
@@ -78,14 +78,14 @@ def test_cells_are_measured_on_a_grid_twice_as_fine():
     """At `reference` the error was 0 %: the truth had the same cells."""
     scene = SCENES["quartic"]
     trial = next(one for one in scene.trials if one.kind == Kind.INDICATOR)
-    state, plan = bare(scene.of(scene.defaults())), PLANS[Kind.INDICATOR]["reference"]
+    state, plan = bare_state(scene.of(scene.defaults())), PLANS[Kind.INDICATOR]["reference"]
     cells = trial.run(state, plan)
     twice = trial.run(state, dataclasses.replace(plan, cells=2.0 * plan.cells))
     whole = np.mean(np.kron(cells, np.ones((2, 2))) != twice)
     assert whole > 0.05
     # A quarter of the finer cells, one in each.
     deviation = np.sqrt(whole * (1.0 - whole) / cells.size)
-    measured = trial.error(state, cells, trial.run(state, beyond(Kind.INDICATOR)))
+    measured = trial.error(state, cells, trial.run(state, truth_plan(Kind.INDICATOR)))
     assert measured == approx(100.0 * whole, abs=500.0 * deviation)
 
 
@@ -94,7 +94,7 @@ def test_the_status_line_says_how_exact_a_map_of_rotation_numbers_is():
     errors = {}
     for name in ("draft", "standard", "precise"):
         report = View(scene, {"accuracy": name}, seen=("map",)).report
-        said = re.search(r"map \d+ × \d+, ρ to (\d\S+) \(99 of 100 cells\)", report.status)
+        said = re.search(r"map \d+ × \d+, error of ρ ≤ (\d\S+) in 99 % of the cells", report.status)
         errors[name] = float(said[1].replace("−", "-"))
         assert errors[name] <= PLANS[Kind.GRID][name].promise
     assert errors["draft"] > errors["standard"] > errors["precise"] > 0.0
@@ -107,7 +107,7 @@ def test_auto_is_the_cheapest_level_that_is_right_to_half_a_pixel():
     scene = SCENES["suslov-hess"]
     view = View(scene, {"accuracy": AUTO}, seen=("omega",))
     (orbit,) = [trial for trial in scene.trials if not trial.pictures]
-    assert sufficient_level(orbit, bare(view.result)) == "draft"
+    assert sufficient_level(orbit, bare_state(view.result)) == "draft"
     assert view.report.status.startswith("draft: orbit")
     assert "auto: draft · " in view.report.status
     # Half as many cells in the diagram are seen, so that is not enough for it.
@@ -150,20 +150,20 @@ def test_the_cost_of_all_is_measured_when_its_picture_is_unfolded():
     assert any(row.startswith("map: ") and row.endswith(" pixels") for row in view.report.quantities)
     # A draft of the map has a quarter of the cells: it is right, but not all.
     assert samples[0].error < 0.5
-    assert view.result.costs.about().numbers == "Cheapest levels without a visible error: orbit draft, map standard."
+    assert view.result.costs.caption().numbers == "Cheapest levels without a visible error: orbit draft, map standard."
 
 
 def test_a_chaotic_section_has_no_error_and_says_so():
     trial = next(one for one in SUSLOV.trials if one.kind == Kind.SECTION)
     costs = tuple(LevelCost(name, 1.0, nan, True) for name in LEVELS)
     work = types.SimpleNamespace(dragging=False, need=lambda *_, **__: costs)
-    found = Costs(work, bare(SUSLOV.of(SUSLOV.defaults())), (trial,))
-    assert found.about().numbers == "Section has no error to measure: everything is chaotic, or nothing is drawn."
+    found = Costs(work, bare_state(SUSLOV.of(SUSLOV.defaults())), (trial,))
+    assert found.caption().numbers == "Section has no error to measure: everything is chaotic, or nothing is drawn."
     assert (found.curves, found.rings(), found.level("draft"), [*found.rows()]) == ({}, [], None, [])
 
 
 def test_what_is_too_large_to_be_measured_says_so():
     view = View(scenes()["singular-measures-accuracy"], {"h": 60.0, "span": 200.0}, seen=("trade",))
     why = "In this time the cloud turns too often for 30 frames: choose a time span below "
-    assert view.result.costs.about().numbers.startswith(f"Cloud cannot be measured: {why}")
+    assert view.result.costs.caption().numbers.startswith(f"Cloud cannot be measured: {why}")
     assert view.report.todo == ()

@@ -71,7 +71,7 @@ def multipliers(_step):
     """Return the multiplier that is not the other one's inverse where the period doubles first."""
     body, E = heavy_body(package_lessons()[NAME].steps[0].at.values)
     map_ = return_map(replace(body, I23=float(cascade().values[0])), E=E)
-    return (min(periodic_orbit(map_, tuple(cascade().places[0][0]), 1).multipliers.real),)
+    return (min(periodic_orbit(map_, tuple(cascade().points[0][0]), 1).multipliers.real),)
 
 
 ROWS = {

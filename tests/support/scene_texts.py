@@ -95,7 +95,7 @@ def on_the_torus(I13):
     found = torus(I13)
     places = map_of(found).orbit(np.array(found.diagram.point), 4000)[1000:]
     values = np.abs(lyapunov_spectrum(found.body, found.poincare.state_at(*places[-1]), 8000.0).values)
-    middle = periodic_orbit(map_of(found), tuple(birth_of_the_torus()[1].places[0]), 1).places[0]
+    middle = periodic_orbit(map_of(found), tuple(birth_of_the_torus()[1].points[0]), 1).points[0]
     return I13, sum(values < 2e-3) - 2, (values[0], 2e-3), rotation_number(places, tuple(middle))[0]
 
 

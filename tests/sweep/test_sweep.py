@@ -36,7 +36,7 @@ def test_a_cell_without_a_number_says_why():
     assert found.status.values.tolist() == [[10, 10], [11, 10], [1, 10]]
     assert (explain(found, h=-2.0, f=0.0), explain(found, h=1.5, f=0.0)) == ("no such motion.", "ok.")
     cycles = sweep("circle-map", {"h": [0.2]}, numbers=["stable"], a=0.5, f=0.0)
-    assert "it has no two limit cycles" in explain(cycles, h=0.2)
+    assert "no pair of limit cycles" in explain(cycles, h=0.2)
     steep = sweep("circle-map", {"a": [500.0]}, numbers=["trace"], h=1.5, f=0.6)
     assert steep.status.item() == Outcome.BEYOND_RANGE
     with pytest.raises(InvalidParameter, match="all coordinates of one of its cells"):

@@ -2,12 +2,12 @@
 
 import numpy as np
 
-from hess_explorer.views.plane.layered_section import apart
+from hess_explorer.views.plane.layered_section import thin_out
 
 
 def test_fifty_thousand_points_are_all_drawn():
     points = np.random.default_rng(1).uniform((-3, -1), (3, 1), (50_000, 2))
-    assert np.array_equal(apart(points, ((-3.0, -1.0), (3.0, 1.0))), points)
+    assert np.array_equal(thin_out(points, ((-3.0, -1.0), (3.0, 1.0))), points)
 
 
 def test_of_more_there_is_one_in_each_cell_and_no_cell_is_missed():
@@ -18,7 +18,7 @@ def test_of_more_there_is_one_in_each_cell_and_no_cell_is_missed():
     s = random.uniform(0.0, 1.0, 100_000)
     curve = np.column_stack([s, 0.5 + 0.4 * np.sin(7.0 * s)])
     points = low + size * np.concatenate([curve, random.uniform(-0.2, 1.2, (2_000, 2))])
-    found = apart(points, window)
+    found = thin_out(points, window)
     assert len(found) < 10_000
     assert {*map(tuple, found.tolist())} <= {*map(tuple, points.tolist())}
     # Wherever there is a point, one is drawn within the diagonal of a cell.
@@ -27,4 +27,4 @@ def test_of_more_there_is_one_in_each_cell_and_no_cell_is_missed():
     for place in within[random.integers(0, len(within), 500)]:
         assert np.abs(seen - place).max(axis=1).min() <= 1.0 / 384.0 + 1e-5
     assert ((seen > -1e-5) & (seen < 1.0 + 1e-5)).all()
-    assert apart(np.full((60_000, 2), 5.0), window).shape == (0, 2)
+    assert thin_out(np.full((60_000, 2), 5.0), window).shape == (0, 2)

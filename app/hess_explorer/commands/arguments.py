@@ -43,7 +43,9 @@ def user_object(text: str, kind: str, fits: Callable[[Any], bool]) -> Any:
     path, _, name = text.rpartition(":")
     found = run_file(path).get(name)
     if not fits(found):
-        raise CommandError(f"{path!r} defines no {kind} {name!r}: write it like mine.py:{name}.")
+        raise CommandError(
+            f"{path!r} defines no {kind} {name!r}: define it there, or write FILE:NAME with another name."
+        )
     return found
 
 

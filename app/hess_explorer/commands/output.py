@@ -160,9 +160,9 @@ def show(data: bytes, out: Path | None = None) -> None:
 
 def write_file(path: Path, data: bytes) -> None:
     """Write a file, of which an earlier version stays until the new one is complete.  Raises `CommandError`."""
-    from hess_mechanics.numerics.files import write_whole
+    from hess_mechanics.numerics.files import write_atomically
 
     try:
-        write_whole(path, data)
+        write_atomically(path, data)
     except OSError as error:
         raise CommandError(f"Cannot write {str(path)!r} ({error.strerror}): choose another file.") from error

@@ -64,7 +64,7 @@ def time_budget(
 
     Parameters
     ----------
-    left : threading.Event
+    cancellation : threading.Event
         Set when the client has disconnected.
     seconds, wait : float
         Limits of CPU time and of wall-clock time, in seconds.

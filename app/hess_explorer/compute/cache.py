@@ -48,7 +48,7 @@ class Task(Generic[T_co]):
         object.__setattr__(self, "function", function)
         object.__setattr__(self, "arguments", arguments)
 
-    def now(self) -> T_co:
+    def compute(self) -> T_co:
         """Compute and return the result, bypassing the cache."""
         return self.function(*self.arguments)
 

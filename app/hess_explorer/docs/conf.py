@@ -32,7 +32,7 @@ nb_execution_timeout = 300
 suppress_warnings = ["mystnb.unknown_mime_type"]  # the scripts that HoloViews loads in a notebook
 
 autodoc_member_order = "alphabetical"
-autodoc_typehints = "none"  # the signatures of numpydoc have them
+autodoc_typehints = "none"  # numpydoc shows the types of the parameters
 numpydoc_show_class_members = False
 
 
@@ -54,7 +54,7 @@ def _table(*rows: Iterable[str]) -> Iterator[str]:
 def _output(words: list[str]) -> str:
     """Return the output of a command."""
     said = io.TextIOWrapper(io.BytesIO(), encoding="utf-8")
-    # Standard error has the message that a command takes long.
+    # Discard stderr, where slow commands report their progress.
     with redirect_stdout(said), redirect_stderr(io.StringIO()) as errors:
         if main(words):
             raise RuntimeError(f"hess-explorer {shlex.join(words)}: {errors.getvalue()}")
@@ -74,10 +74,10 @@ def _computations() -> Iterator[str]:
     for one in catalogue().values():
         every.setdefault(one.name, []).append(one)
     for name, of in every.items():
-        # Its numbers and its example are those of the Suslov problem.
+        # Document each computation by the example of the Suslov problem, if it has one.
         one = next((one for one in of if one.system.startswith("suslov")), of[0])
         system = motions().get(one.system)
-        own = [p for p in one.parameters if system is None or p not in (*system.parameters, *system.place)]
+        own = [p for p in one.parameters if system is None or p not in (*system.parameters, *system.point)]
         words = f"{one.key} {command_of(one).example}".strip()
         yield f"({name})=\n## {one.title}\n\n{inspect.cleandoc(one.doc)}\n"
         python = f"{{py:func}}`{one.function.__name__} <hess_mechanics.{one.function.__name__}>`"
@@ -95,7 +95,7 @@ def _computations() -> Iterator[str]:
     yield "## Systems\n"
     for system in motions().values():
         yield f"(system-{system.name})=\n### {system.name}\n\n{system.title}. Source: {system.source or 'none'}.\n"
-        yield from _parameters((*system.parameters, *system.place))
+        yield from _parameters((*system.parameters, *system.point))
     yield "(levels)=\n## What a level promises\n"
     yield from _table(*levels_table())
 

@@ -28,7 +28,7 @@ def lines_of(address: Address) -> list[str]:
     """Return the lines that create the state, compute and draw."""
     scene, name = address.scene, address.picture.name
     given = {spec.name: _value(spec, address.values[spec.name]) for spec in scene.specs}
-    given |= {key: repr(value) for key, value in address.looks.items()}
+    given |= {key: repr(value) for key, value in address.view_values.items()}
     words = [repr(scene.name).replace("'", '"'), *(f"{key}={value}" for key, value in given.items() if value)]
     return ["state = hess.state(", *_wrap(words), f'data = state.data("{name}")', f'state.plot("{name}")']
 

@@ -200,7 +200,7 @@ def angles_of(data: PictureData) -> dict[str, dict[str, str]]:
     angles = {*ANGLES, *getattr(type(data.state), "angles", ())}
     found: dict[str, bool] = {}
     for layer, columns in layers_of(data).items():
-        # A track is a motion, sampled densely: it jumps only where it starts a turn again.
+        # Tracks are sampled densely, so their angles jump only by full turns.
         is_track = f"data-{layer}" in data.columns
         for block in _blocks(columns):
             for name, column in block.items():

@@ -17,7 +17,7 @@ from hess_explorer.export.formats import WIDTHS, FileRequest
 from hess_explorer.export.picture_data import PictureData
 from hess_explorer.export.table import as_csv, as_json
 from hess_explorer.views import theme
-from hess_explorer.views.elements import as_it_is, on_paper, overlay
+from hess_explorer.views.elements import matplotlib_style, overlay, unchanged
 from hess_explorer.views.layers import Layer
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.space.cloud import CloudPlane
@@ -115,7 +115,7 @@ def as_figure(data: PictureData, width: float = 85.0, black: bool = False) -> Fi
         If the width is not supported, or Matplotlib is not installed.
     """
     WIDTHS.require("A figure", width, "mm wide")
-    plot, colour = data.picture, _in_black if black else as_it_is
+    plot, colour = data.picture, _in_black if black else unchanged
     assert isinstance(plot, Plot)
     assert data.axes is not None
     with _style():
@@ -128,7 +128,7 @@ def as_figure(data: PictureData, width: float = 85.0, black: bool = False) -> Fi
         renderer.get_plot(elements, fig=figure, axis=frame)
         for view, layer in densities(data):
             x, y = _density(data.columns.get(view.name, {}), data.client["t"])
-            frame.scatter(x, y, zorder=_OVER, **on_paper(layer, colour))
+            frame.scatter(x, y, zorder=_OVER, **matplotlib_style(layer, colour))
     return figure
 
 

@@ -52,11 +52,11 @@ class Address:
     def link(self) -> str:
         """The query of the state, without "?"."""
         return encode(self.scene.name, self.values) + "".join(
-            f"&{name}={value!r}" for name, value in self.looks.items()
+            f"&{name}={value!r}" for name, value in self.view_values.items()
         )
 
     @property
-    def looks(self) -> dict[str, float]:
+    def view_values(self) -> dict[str, float]:
         """The values of time and view that differ from their defaults."""
         return {name: value for name, value in self.client.items() if value != _DEFAULTS[name]}
 
@@ -244,7 +244,7 @@ def _picture_data(address: Address, state: Any) -> PictureData:
     caption = view.full_caption(state)
     axes = view.ranges(state, view.first_axes)
     columns = dict(state.sources)
-    for source, more in view.framed(state, axes, columns).items():
+    for source, more in view.data_in_axes(state, axes, columns).items():
         columns[source] = {**columns.get(source, {}), **more}
     return PictureData(
         address.scene,

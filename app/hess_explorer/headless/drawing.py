@@ -110,7 +110,7 @@ def page_of(data: PictureData) -> Iterator[Callable[[str, Any], Any]]:
     """
     if scenes().get(data.scene.name) is not data.scene:
         add(data.scene, data.scene.name)
-    # The plane of a cloud fills the density that another picture shows.
+    # The densities of this picture are computed from the frames of the cloud pictures.
     _, page = state_page(data.link, [data.picture.name, *(cloud.name for cloud, _ in densities(data))])
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "page.html"
@@ -130,7 +130,7 @@ def _open(browser: Browser, address: str) -> tuple[BrowserContext, JSHandle]:
         color_scheme="light",
         reduced_motion="reduce",
         offline=True,
-        # For `wait_ready`.
+        # `wait_ready` evaluates a script, which the Content-Security-Policy would block.
         bypass_csp=True,
     )
     try:

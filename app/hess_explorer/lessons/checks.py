@@ -11,7 +11,7 @@ from markdown_it.token import Token
 from hess_explorer.lessons.images import ImageError, Images
 from hess_explorer.lessons.lesson import LessonError
 from hess_explorer.lessons.markdown import DRAGGED, LAYER, BadFormula, formula, strict_parser
-from hess_explorer.lessons.settings import dragged_of, named_of, place_of
+from hess_explorer.lessons.settings import require_layer, require_number, state_of_link
 from hess_explorer.scenes.framework.scene import Scene
 
 _MOST_SHOWN = 40
@@ -65,13 +65,13 @@ def _check(token: Token, at: int, images: Images, scene: Scene[Any] | None) -> N
     elif token.type == "link_open":
         target = str(token.attrs["href"])
         if target.startswith("?"):
-            place_of(target, at)
+            state_of_link(target, at)
         elif LAYER.fullmatch(target):
             if scene is not None:
-                named_of(target, scene, at)
+                require_layer(target, scene, at)
         elif number := DRAGGED.fullmatch(target):
             if scene is not None:
-                dragged_of(number[2], scene, at)
+                require_number(number[2], scene, at)
         elif not re.match(r"https?://[^/]", target, re.IGNORECASE):
             ways = "https://…, ?scene=… for a state of the page, or picture/layer for what a picture shows"
             raise LessonError(f"the link to {_short(target)} leads nowhere: write {ways}.", at)

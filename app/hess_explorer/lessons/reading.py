@@ -45,14 +45,14 @@ from hess_explorer.lessons.settings import (
     animation_of,
     controls_of,
     corrections,
+    enlarged_picture_of,
     example_of,
-    hidden_of,
+    hidden_layer_of,
     is_number,
-    look_of,
-    only,
     pictures_of,
-    place_of,
     prediction_of,
+    require_keys,
+    state_of_link,
 )
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Scene
@@ -230,7 +230,7 @@ def _fields(text: str, line: int, allowed: tuple[str, ...]) -> _Fields:
     lines = {found[1].strip("\"'"): number for found, number in written if found}
     values = _yaml(text, line)
     wrong = next((str(key) for key in values if key not in allowed), "") if isinstance(values, dict) else ""
-    return _Fields(only(values, "this", allowed, lines.get(wrong, line)), lines, line)
+    return _Fields(require_keys(values, "this", allowed, lines.get(wrong, line)), lines, line)
 
 
 def _yaml(text: str, line: int) -> Any:
@@ -299,7 +299,7 @@ def _state(fields: _Fields, place: StateLink | None) -> StateLink:
     """Return the state of a step, by default `place`, the state of the previous step."""
     get, line_of = fields.get, fields.line_of
     if "state" in fields.values:
-        place = place_of(get("state"), line_of("state"))
+        place = state_of_link(get("state"), line_of("state"))
     if "example" in fields.values:
         place = example_of(get("example"), place, line_of("example"))
     if place is None:
@@ -321,13 +321,13 @@ def _step(part: _Part, level: int, fields: _Fields, place: StateLink) -> LessonS
         part.title,
         text,
         place,
-        look_of(get("look"), scene, line_of("look")),
+        enlarged_picture_of(get("look"), scene, line_of("look")),
         animation,
         question,
         answer,
         prediction_of(get("predict"), place, line_of("predict")),
         controls_of(get("controls"), animation, scene, line_of("controls")),
-        hidden_of(get("hide"), scene, line_of("hide")),
+        hidden_layer_of(get("hide"), scene, line_of("hide")),
         pictures_of(get("pictures"), scene, line_of("pictures")),
         part.line - 1,
     )

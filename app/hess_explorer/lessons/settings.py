@@ -38,7 +38,7 @@ def is_number(value: Any) -> TypeGuard[float]:
     return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
 
 
-def only(value: Any, what: str, allowed: Sequence[str], line: int) -> dict[str, Any]:
+def require_keys(value: Any, what: str, allowed: Sequence[str], line: int) -> dict[str, Any]:
     """Return a mapping that has only allowed keys."""
     if not isinstance(value, dict):
         raise LessonError(f"{what} must be a list of keys with values; the keys are {', '.join(allowed)}.", line)
@@ -57,7 +57,7 @@ def _one_of(value: object, what: str, allowed: Sequence[str], line: int) -> str:
 # ---- states ---------------------------------------------------------------------------------------------------------
 
 
-def place_of(text: object, line: int) -> StateLink:
+def state_of_link(text: object, line: int) -> StateLink:
     """Return the state of a link, each value within its bounds."""
     link = Link(urlsplit(text).query if isinstance(text, str) else "")
     scene = scenes().get(link.texts.get("scene", ""))
@@ -110,7 +110,7 @@ def _places(step: LessonStep) -> Iterator[tuple[str, StateLink]]:
 # ---- what is shown --------------------------------------------------------------------------------------------------
 
 
-def look_of(value: object, scene: Scene[Any], line: int) -> str:
+def enlarged_picture_of(value: object, scene: Scene[Any], line: int) -> str:
     """Return the name of the picture to enlarge, "" for none."""
     return _one_of(value, "look", scene.pictures, line) if value else ""
 
@@ -139,7 +139,7 @@ def animation_of(value: object, scene: Scene[Any], line: int) -> Animation | Non
     if value is None:
         return None
     names = ("name", "from", "to", "seconds")
-    settings = only(value, "animate", names, line)
+    settings = require_keys(value, "animate", names, line)
     if len(settings) < len(names):
         example = "{name: h, from: 0.2, to: 1.5, seconds: 8}"
         raise LessonError(f"animate needs name, from, to and seconds, like {example}.", line)
@@ -156,21 +156,21 @@ def animation_of(value: object, scene: Scene[Any], line: int) -> Animation | Non
     return Animation(name, float(settings["from"]), float(settings["to"]), float(settings["seconds"]))
 
 
-def hidden_of(value: object, scene: Scene[Any], line: int) -> HiddenLayer | None:
+def hidden_layer_of(value: object, scene: Scene[Any], line: int) -> HiddenLayer | None:
     """Return the layer that a step hides, or None."""
     if value is None:
         return None
-    plot, layer = _layer(only(value, "hide", ("picture", "layer"), line), "hide", scene, line)
+    plot, layer = _layer(require_keys(value, "hide", ("picture", "layer"), line), "hide", scene, line)
     return HiddenLayer(plot.name, plot.source_of(layer))
 
 
-def named_of(target: str, scene: Scene[Any], line: int) -> None:
+def require_layer(target: str, scene: Scene[Any], line: int) -> None:
     """Raise an error unless "picture/layer" names a curve or points of a planar picture."""
     given = dict(zip(("picture", "layer"), target.split("/"), strict=True))
     _layer(given, f"{target!r}", scene, line, (*_CURVES, *_POINTS))
 
 
-def dragged_of(name: str, scene: Scene[Any], line: int) -> None:
+def require_number(name: str, scene: Scene[Any], line: int) -> None:
     """Raise an error unless a number of the scene has this name."""
     _one_of(name, "a number to drag", [spec.name for spec in scene.specs if isinstance(spec, NumberSpec)], line)
 
@@ -179,8 +179,8 @@ def prediction_of(value: object, place: StateLink, line: int) -> Prediction | No
     """Return the prediction of a step, or None."""
     if value is None:
         return None
-    settings = only(value, "predict", ("picture", "layer", "then"), line)
-    then = place_of(settings["then"], line) if "then" in settings else place
+    settings = require_keys(value, "predict", ("picture", "layer", "then"), line)
+    then = state_of_link(settings["then"], line) if "then" in settings else place
     if then.scene != place.scene:
         raise LessonError(f"then must be a state of the same scene, {place.scene}.", line)
     plot, layer = _layer(settings, "predict", scenes()[place.scene], line, (*_CURVES, *_POINTS))

@@ -15,7 +15,7 @@ from hess_explorer.headless.drawing import png_of
 from hess_explorer.views import theme
 from hess_explorer.views.elements import SIDE, overlay, with_options
 from hess_explorer.views.plot import Plot
-from hess_mechanics.errors import InvalidParameter
+from hess_mechanics.errors import InvalidParameter, MissingLibrary
 from hess_mechanics.numerics.labelled import Labels, Result
 
 _MILLIMETRES = 71.0
@@ -46,7 +46,7 @@ def draw(data: PictureData) -> Any:
 
     Raises
     ------
-    InvalidParameter
+    MissingLibrary
         If the image needs Matplotlib and it is not installed.
     BrowserError
         If the image needs a browser and there is none.
@@ -67,7 +67,7 @@ def _image(data: PictureData) -> Any:
     try:
         from matplotlib.image import imread
     except ImportError as error:
-        raise InvalidParameter("Images need Matplotlib: pip install 'hess-explorer[export]'.") from error
+        raise MissingLibrary("Images need Matplotlib: pip install 'hess-explorer[export]'.") from error
 
     pixels = imread(io.BytesIO(png_of(data, _MILLIMETRES)))
     shared = {"title": data.title, "xaxis": None, "yaxis": None}

@@ -14,7 +14,7 @@ from hess_explorer.library.own_state import LevelState, OwnState
 from hess_explorer.protocol.expressions import NotANumber
 from hess_explorer.protocol.expressions import evaluate as number_of
 from hess_explorer.protocol.specs import Value, points_text
-from hess_explorer.scenes.framework.charted import Charts, of_motion
+from hess_explorer.scenes.framework.charted import Charts, motion_charts
 from hess_explorer.scenes.framework.part import part
 from hess_explorer.scenes.framework.scene import Preset, Scene
 from hess_explorer.scenes.framework.sliders import number, points
@@ -35,11 +35,11 @@ from hess_explorer.views.layers import Columns
 from hess_explorer.views.picture import Picture
 from hess_explorer.views.space.poisson_sphere import Sphere, gamma_columns
 from hess_mechanics.catalogue import computations_of
-from hess_mechanics.dynamics.cells import evenly
+from hess_mechanics.dynamics.cells import even_points
 from hess_mechanics.dynamics.system import System
 from hess_mechanics.dynamics.variable_section import VariableSection, variable_section
 from hess_mechanics.errors import InvalidParameter, ModelError
-from hess_mechanics.numerics.arguments import typed
+from hess_mechanics.numerics.arguments import check_arguments
 from hess_mechanics.parameters import Group
 
 _EXPONENT, _BRANCH, _CHART = "exponent", "branch", "chart"
@@ -75,7 +75,7 @@ class OwnScene(Scene[OwnState]):
         return f"The parameters change the equations, {chosen} the motion."
 
 
-@typed
+@check_arguments
 def scene(
     system: System,
     pictures: Sequence[str] = (),
@@ -146,7 +146,7 @@ def scene(
     views = [_picture(system, one, "integrals" in section) for one in drawn]
     names = [view.name for view in views]
     if len(set(names)) < len(names) or sum(isinstance(view, Sphere) for view in views) > 1:
-        raise InvalidParameter(f"{system.title}: each picture may occur once, and one of them may be a sphere.")
+        raise InvalidParameter(f"{system.title}: a picture occurs twice, or there are two spheres: leave one out.")
     sphere = next((view.labels for view in views if isinstance(view, Sphere)), None)
 
     def track(state: OwnState) -> Columns:
@@ -154,7 +154,7 @@ def scene(
         if sphere is None:
             return columns
         vector = np.column_stack([columns[name] for name in sphere])
-        # At the origin it has no direction.
+        # Avoid a division by 0 at the origin.
         length = np.maximum(np.linalg.norm(vector, axis=1, keepdims=True), 1e-300)
         return {**columns, **gamma_columns(vector / length)}
 
@@ -210,7 +210,7 @@ def scene(
 
 def _charts(system: System, fields: Sequence[str]) -> Charts:
     """Return the charts over the sliders, initially the first two."""
-    motions = of_motion(system, lambda s: s.chosen_start, lambda s: s.long, computations_of(system))
+    motions = motion_charts(system, lambda s: s.chosen_start, lambda s: s.long, computations_of(system))
     first, second = [*fields, "long"][:2]
     return Charts(motions, over=(first, second))
 
@@ -247,7 +247,9 @@ def _checked_section(system: System, section: Mapping[str, Any]) -> VariableSect
             system.at(), {name: known[name] for name in levels}, section["surface"], section["coordinates"]
         )
     if found is None or len(found.names) != 2:
-        raise InvalidParameter(f"{system.title}: a picture of a section needs a system of three or more variables.")
+        raise InvalidParameter(
+            f"{system.title}: its motions have no section with two coordinates: leave out the picture section."
+        )
     return found
 
 
@@ -258,7 +260,7 @@ def _point(section: VariableSection) -> str:
         point = first_point(section, section.system.example[0])
     if point is None:
         low, high = np.array(section.window).T
-        tried = low + evenly(_MOST_TRIALS).T * (high - low)
+        tried = low + even_points(_MOST_TRIALS).T * (high - low)
         _, there = section.states_at(*tried.T)
         point = tuple(tried[int(np.argmax(there))])
     return points_text([point])
@@ -297,7 +299,7 @@ def _slider(system: System, name: str, field: str, default: float, ends: tuple[f
     low, high = ends or (default - around, default + around)
     if not -_FARTHEST <= low < low + (high - low) / 200.0 < high <= _FARTHEST:
         raise InvalidParameter(
-            f"{system.title}: the slider of {name} must have two different ends between ±{_FARTHEST:g}."
+            f"{system.title}: the slider of {name} from {low:g} to {high:g} needs increasing ends up to ±{_FARTHEST:g}."
         )
     return number(
         symbol.format(name),
@@ -335,7 +337,7 @@ def _picture(system: System, picture: str, leveled: bool) -> Picture[Any]:
         shown = ("megno", "periodic_orbit") if leveled else ("megno",)
         return section_picture(
             layers=section_layers(*shown, ended=lambda s: s.section.points(ends=True)),
-            on_box=OwnState.look_closer,
+            on_box=OwnState.box_window,
         )
     names = picture.split()
     if len(names) == 3:

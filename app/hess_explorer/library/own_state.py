@@ -22,10 +22,10 @@ from hess_explorer.scenes.parts.sections import (
     Indicator,
     Section,
     SectionPeriodicOrbit,
+    choice_of_orbit,
     crossings_of_each,
     length_of_manifolds,
     start_on,
-    which,
 )
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.picture import Corners
@@ -107,11 +107,11 @@ class OwnState(State):
     megno = part(lambda s: Indicator(s.section, s.indicator == MEGNO))
 
     @property
-    def special(self) -> Caption | None:
+    def section_caption(self) -> Caption | None:
         """The caption of a section with MEGNO; None without it."""
         return self.megno.caption
 
-    def look_closer(self, corners: Corners) -> Values:
+    def box_window(self, corners: Corners) -> Values:
         """Return the window that a box in the section selects."""
         (x0, x1), (y0, y1) = self.poincare.window
         return box_window(corners, ((x0, y0), (x1, y1)))
@@ -128,7 +128,7 @@ class OwnState(State):
 class LevelState(OwnState):
     """A motion from a point of a section; each scene adds the levels of integrals, `i_…`, and the `place`."""
 
-    periodic: str = which()
+    periodic: str = choice_of_orbit()
     reach: float = length_of_manifolds()
 
     integrals: ClassVar[tuple[str, ...]] = ()
@@ -157,7 +157,7 @@ class LevelState(OwnState):
     periodic_orbit = part(lambda s: SectionPeriodicOrbit(s.section, s.periodic, s.reach))
 
     @property
-    def special(self) -> Caption | None:
+    def section_caption(self) -> Caption | None:
         """The caption of a section with a periodic orbit or MEGNO; None without them."""
         return self.periodic_orbit.caption or self.megno.caption
 

@@ -22,8 +22,8 @@ from hess_explorer.scenes import scene_named, scenes
 from hess_explorer.scenes.framework.scene import Scene
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.accuracy import Level
-from hess_mechanics.numerics.arguments import as_level_name, typed
-from hess_mechanics.numerics.files import write_whole
+from hess_mechanics.numerics.arguments import as_level_name, check_arguments
+from hess_mechanics.numerics.files import write_atomically
 
 __all__ = ["SceneState", "from_link", "state"]
 
@@ -131,7 +131,7 @@ class SceneState:
         """The names of the pictures."""
         return self._address.scene.pictures
 
-    def but(self, **changes: Any) -> SceneState:
+    def replace(self, **changes: Any) -> SceneState:
         """Return a copy with some parameters changed.
 
         Parameters
@@ -152,10 +152,10 @@ class SceneState:
         Examples
         --------
         >>> import hess_explorer as hess
-        >>> hess.state("suslov-hess").but(h=2.0).parameters["h"]
+        >>> hess.state("suslov-hess").replace(h=2.0).parameters["h"]
         2.0
         """
-        return state(self.scene, **{**self.parameters, **self._address.looks, **changes})
+        return state(self.scene, **{**self.parameters, **self._address.view_values, **changes})
 
     def data(self, picture: str = "") -> Table:
         """Return the data of a picture, with the columns of its CSV file.
@@ -288,7 +288,7 @@ class SceneState:
         # Imported here, because drawing needs libraries that data do not.
         from hess_explorer.headless.file import content
 
-        write_whole(path, content(self._picture_data(picture), FileRequest(kind, width, black, seconds)))
+        write_atomically(path, content(self._picture_data(picture), FileRequest(kind, width, black, seconds)))
         return path
 
     def code(self, picture: str = "") -> str:
@@ -401,7 +401,7 @@ def state(scene: str | Scene[Any] = "suslov-hess", /, **parameters: Any) -> Scen
     return SceneState(Address(found, found.views[0], values, client))
 
 
-@typed
+@check_arguments
 def from_link(link: str, *, lenient: bool = False) -> SceneState:
     """Return the state that a link describes.
 

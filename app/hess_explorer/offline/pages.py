@@ -8,7 +8,7 @@ from typing import Any
 from hess_explorer.export.picture_data import Address, address, picture_of
 from hess_explorer.lessons.lesson import TIME, Lesson
 from hess_explorer.offline.html import HOME, document
-from hess_explorer.offline.plan import StateFamily, across, family, read_slider, slider_of
+from hess_explorer.offline.plan import StateFamily, family, read_slider, slider_of, values_across
 from hess_explorer.offline.recording import Recording, Report
 from hess_explorer.page.lesson_description import describe_lesson
 from hess_explorer.protocol.specs import Values, encode
@@ -123,7 +123,7 @@ def _families(lesson: Lesson, count: int) -> list[StateFamily]:
             ends = sorted((animation.start, animation.end))
             _, _, sliders = found[encode(scene.name, values)]
             own = float(values[animation.name])
-            sliders.setdefault(animation.name, set()).update(ends, across(ends[0], ends[1], count, own))
+            sliders.setdefault(animation.name, set()).update(ends, values_across(ends[0], ends[1], count, own))
     return [
         family(
             scene,

@@ -55,7 +55,7 @@ class StateFamily:
         return {**self.base, **moving, **dict(zip(self.names, point, strict=True))}
 
 
-def across(low: float, high: float, count: int, own: float) -> tuple[float, ...]:
+def values_across(low: float, high: float, count: int, own: float) -> tuple[float, ...]:
     """Return about `count` rounded values from low to high, and the value `own`."""
     decimals = _DIGITS - 1 - math.floor(math.log10(high - low))
     return tuple(sorted({own, *(float(one) for one in np.round(np.linspace(low, high, count), decimals))}))
@@ -104,7 +104,7 @@ def read_slider(text: str, scene: Scene[Any], base: Values, count: int) -> tuple
         raise InvalidParameter(f"{text!r}: the ends must increase and lie within [{least:g}, {most:g}].")
     if not 2 <= count <= _MOST_VALUES:
         raise InvalidParameter(f"{text!r}: a slider has 2 to {_MOST_VALUES} values.")
-    return name, across(low, high, count, float(base[name]))
+    return name, values_across(low, high, count, float(base[name]))
 
 
 def slider_of(scene: Scene[Any], name: str, values: Values, count: int) -> tuple[float, ...]:
@@ -113,7 +113,7 @@ def slider_of(scene: Scene[Any], name: str, values: Values, count: int) -> tuple
     if not isinstance(spec, NumberSpec):
         return ()
     low, high, _ = slider_limits(spec, scene.limits(values))
-    return across(low, high, count, float(values[name]))
+    return values_across(low, high, count, float(values[name]))
 
 
 def family(

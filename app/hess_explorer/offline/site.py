@@ -16,7 +16,7 @@ from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Scene
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.accuracy import DRAFT
-from hess_mechanics.numerics.files import write_whole
+from hess_mechanics.numerics.files import write_atomically
 
 _INDEX = "index.html"
 _CLOUD = 500.0
@@ -112,7 +112,7 @@ def build(
 
     def write(path: str, content: bytes) -> None:
         (folder / path).parent.mkdir(parents=True, exist_ok=True)
-        write_whole(folder / path, content)
+        write_atomically(folder / path, content)
         sizes[path] = len(content)
 
     for done, (name, path) in enumerate(files.items(), 1):

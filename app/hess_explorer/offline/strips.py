@@ -75,7 +75,7 @@ def _step(values: Array, column: str, step: float | None) -> float:
     if values.size <= _SMALL:
         return max(abs(low), abs(high)) / 2**22
     step = step or extent / (_SHADES if column == "image" else _SPAN)
-    # A curve may leave its plot by very far; a constant array has no extent.
+    # Store values exactly if they are all equal, or if multiples of the step would overflow far beyond the plot.
     return step if extent < _LARGEST * step else EXACT
 
 
@@ -141,7 +141,7 @@ class OfflineStrip:
             before = None
         if before is not None:
             _, step_before, low_before, _ = self._arrays[before]
-            # The same step, unless it is too coarse now or much too fine, so that the differences are small.
+            # Keep the previous step if it is fine enough, because differences of equal steps compress better.
             if EXACT not in (step, step_before) and 1.0 <= step / step_before <= 2.0:
                 step = step_before
         low, whole = _quantise(values, step)

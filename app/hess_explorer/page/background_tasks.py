@@ -42,7 +42,7 @@ class BackgroundTasks:
         self._next = None
         self.background.stop()
 
-    def make_way(self) -> None:
+    def end_running(self) -> None:
         """End the running tasks, which would slow down another state, and allow tasks again."""
         self._stopped = False
         self.background.stop()
@@ -61,7 +61,7 @@ class BackgroundTasks:
         return self._left == 0 if more else self._stopped
 
     @property
-    def news(self) -> bool:
+    def has_news(self) -> bool:
         """True if a task has ended since the state was computed, or none is running or about to start."""
         return self._next is None and not 0 < self.background.backlog == self._left
 

@@ -29,7 +29,7 @@ from hess_mechanics.parameters import GROUPS
 def describe(name: str) -> str:
     """Return the description of a scene as JSON, which all sessions share."""
     scene = scenes()[name]
-    # "Speed and accuracy" has the parameters of a scene, but not its beads.
+    # "Speed and accuracy" has the parameters of a scene, but does not show its swarm.
     groups = [*GROUPS, *(["Swarm"] if SWARM in scene.tracks else []), "Chart"]
     text = json.dumps(
         {

@@ -175,7 +175,7 @@ class Session:
         if request.step is not None:
             self._go(request.step)
         if self._drawn is None or (self.scene.name, wanted.values) != self._drawn[:2]:
-            self._tasks.make_way()
+            self._tasks.end_running()
         if request.stop:
             self._tasks.stop()
 
@@ -241,7 +241,7 @@ class Session:
         )
         if self.is_new:
             self._draw()
-        elif self._tasks.progress is not None and self._tasks.news:
+        elif self._tasks.progress is not None and self._tasks.has_news:
             self._draw(more=True)
 
     def _draw(self, more: bool = False) -> None:

@@ -50,7 +50,7 @@ class Unreadable(Exception):
     """The text is not an allowed expression."""
 
 
-def in_python(text: str) -> str:
+def to_python(text: str) -> str:
     """Translate an expression to Python: typographic signs to ASCII, "^" to "**"."""
     return text.strip().replace("−", "-").replace("^", "**").replace("·", "*")
 
@@ -93,9 +93,9 @@ def evaluate(text: str) -> float:
     NotANumber
         If the text is too long, cannot be parsed, or has no finite value.
     """
-    text = in_python(text)
+    text = to_python(text)
     if len(text) > MOST:
-        raise NotANumber(f"The expression is longer than {MOST} characters.")
+        raise NotANumber(f"The expression is longer than {MOST} characters: shorten it.")
     if not _TEXT.fullmatch(text):
         raise NotANumber("This is not a number: type one like 1.5, 1e-8, pi/3, sqrt(2) or 1/7.")
     try:

@@ -12,7 +12,7 @@ import re
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from hess_explorer.protocol.expressions import Unreadable, calculate, in_python
+from hess_explorer.protocol.expressions import Unreadable, calculate, to_python
 from hess_mechanics.errors import InvalidParameter
 
 MOST = 200
@@ -72,7 +72,7 @@ def _quotient(a: Any, b: Any) -> _Terms:
 def _power(a: Any, n: Any) -> _Terms:
     exponent = _of(n)
     if set(exponent) != {(0, 0, 0)} or exponent[0, 0, 0] not in range(_DEGREE + 1):
-        raise InvalidParameter(f"The exponents of the formula are whole numbers from 0 to {_DEGREE}.")
+        raise InvalidParameter(f"An exponent of the formula is not a whole number from 0 to {_DEGREE}: change it.")
     found = _of(1.0)
     for _ in range(int(exponent[0, 0, 0])):
         found = _product(found, a)
@@ -114,7 +114,7 @@ def polynomial(text: str) -> dict[Exponents, float]:
     {(2, 0, 0): 0.5, (1, 0, 0): 2.0}
     """
     names = {name: _Terms({(int(i == 0), int(i == 1), int(i == 2)): 1.0}) for i, name in enumerate(_NAMES)}
-    plain = in_python(text).replace("γ", "g").translate(str.maketrans("₁₂₃", "123"))
+    plain = to_python(text).replace("γ", "g").translate(str.maketrans("₁₂₃", "123"))
     return _read(
         plain, _TEXT, names, {}, "polynomial: use numbers, g1, g2, g3, + − * / ^ and parentheses, like 0.5*g1^2 - g3"
     )
@@ -143,7 +143,7 @@ def drive(text: str) -> dict[Exponents, float]:
     >>> drive("cos(W*t) + sin(2*W*t)")
     {(1, 0, 0): 1.0, (1, 1, 0): 2.0}
     """
-    plain = re.sub(r"[WΩ]\s*\*?\s*t(?!\w)", "phase", in_python(text))
+    plain = re.sub(r"[WΩ]\s*\*?\s*t(?!\w)", "phase", to_python(text))
     functions = {"cos": lambda angle: _harmonic(angle, "real"), "sin": lambda angle: _harmonic(angle, "imag")}
     found = _read(
         plain,
@@ -162,7 +162,9 @@ def _harmonic(angle: Any, part: str) -> _Terms:
     terms = _of(angle)
     n = terms.get((0, 0, 1), 0.0)
     if set(terms) != set(_PHASE) or n not in range(1, _DEGREE + 1):
-        raise InvalidParameter(f"A drive must consist of cos(n*W*t) and sin(n*W*t), n from 1 to {_DEGREE}.")
+        raise InvalidParameter(
+            f"A cos or sin of the drive is not of n*W*t: write cos(n*W*t) and sin(n*W*t), n from 1 to {_DEGREE}."
+        )
     return _Terms({exponents: getattr(value, part) for exponents, value in _power(_TURN, n).items()})
 
 

@@ -72,7 +72,7 @@ class Room:
         """Number of followers."""
         return len(self._followers)
 
-    def opens_with(self, key: str) -> bool:
+    def is_lecturer_key(self, key: str) -> bool:
         """Return whether this is the key of the lecturer, in a time that does not depend on the key."""
         return hmac.compare_digest(self.key.encode(), key.encode("utf-8", "replace"))
 

@@ -12,7 +12,7 @@ from hess_explorer.scenes.diagrams import DiagramState, diagram_scene, regime_in
 from hess_explorer.scenes.framework import ball_parameters as ball
 from hess_explorer.scenes.framework.answers import Answer
 from hess_explorer.scenes.framework.scene import Preset
-from hess_explorer.scenes.framework.sliders import like, parameter
+from hess_explorer.scenes.framework.sliders import parameter, redeclare
 from hess_explorer.scenes.parts.diagrams.controls import parameter_of_diagram
 from hess_mechanics.chaplygin_ball.ball_section import BallSection
 from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody
@@ -68,9 +68,9 @@ class BallDiagram(DiagramState):
     b3: float = parameter(ball.B3, 0.7, softbounds=(-2.0, 2.0))
     h: float = parameter(H_BALL, 2.72)
     along: str = parameter_of_diagram(tuple(ball.PARAMETERS), "𝒟")
-    first: float = like(DiagramState, "first", 1.3)
-    last: float = like(DiagramState, "last", 1.7)
-    chosen: str = like(DiagramState, "chosen", "-2.6813,0.9923")
+    first: float = redeclare(DiagramState, "first", 1.3)
+    last: float = redeclare(DiagramState, "last", 1.7)
+    chosen: str = redeclare(DiagramState, "chosen", "-2.6813,0.9923")
 
     symbols: ClassVar[Mapping[str, str]] = ball.PARAMETERS
 

@@ -13,11 +13,11 @@ from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.specs import Values
 from hess_explorer.scenes.framework import ball_parameters as ball
 from hess_explorer.scenes.framework.answers import Answer
-from hess_explorer.scenes.framework.charted import Charts, of_motion, parameters_of
+from hess_explorer.scenes.framework.charted import Charts, motion_charts, parameters_of
 from hess_explorer.scenes.framework.part import part
 from hess_explorer.scenes.framework.scene import Preset, Scene
 from hess_explorer.scenes.framework.sliders import choice, number, parameter
-from hess_explorer.scenes.framework.solid_body import solid_body
+from hess_explorer.scenes.framework.solid_body import body_picture
 from hess_explorer.scenes.framework.swarm import turned_swarm
 from hess_explorer.scenes.parts.sections import (
     PLAIN,
@@ -37,12 +37,12 @@ from hess_explorer.views.graphs.graph import ANGLE, ANGLE_TICKS
 from hess_explorer.views.layers import Axes
 from hess_explorer.views.maps import scattering_map as square
 from hess_explorer.views.plane import section_plane
-from hess_explorer.views.plane.velocity_plane import orbit, orbit_alone, orbit_columns, pixels_per_unit, room_for
+from hess_explorer.views.plane.velocity_plane import half_width_for, orbit, orbit_alone, orbit_columns, pixels_per_unit
 from hess_explorer.views.plot import Plot
-from hess_explorer.views.space.poisson_sphere import Direction, along_the_orbit, centre_of_mass
+from hess_explorer.views.space.poisson_sphere import Direction, centre_of_mass, orbit_sphere
 from hess_explorer.views.text import digits, vector
 from hess_mechanics.chaplygin_ball import ball_section as mechanics
-from hess_mechanics.chaplygin_ball.ball_section import fastest, outside_band
+from hess_mechanics.chaplygin_ball.ball_section import largest_speed, nearest_possible_psi
 from hess_mechanics.chaplygin_ball.energy_surface import lowest_energy
 from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody
 from hess_mechanics.chaplygin_ball.integrable_cases import area_integral, has_area_integral, is_reversible
@@ -131,7 +131,7 @@ class BallSectionState(SectionState):
 
     def valid_state(self, notes: list[str]) -> BallSectionState:
         """Return the state with ψ moved out of the forbidden band; append a note."""
-        psi = self.psi if self.band is None else outside_band(self.band, self.psi)
+        psi = self.psi if self.band is None else nearest_possible_psi(self.band, self.psi)
         if psi != self.psi:
             notes.append(
                 f"With this energy γ cannot lie on the plane at ψ = {digits(self.psi)}: ψ was set to {digits(psi)}."
@@ -156,7 +156,9 @@ class BallSectionState(SectionState):
     @cached_property
     def weights(self) -> tuple[float, ...]:
         """Pixels per unit of each variable, fitted to the orbit."""
-        return pixels_per_unit(room_for(self.work.need(Task(fastest, self.body, self.start, self.duration))))
+        return pixels_per_unit(
+            half_width_for(self.work.need(Task(largest_speed, self.body, self.start, self.duration)))
+        )
 
     # ---- the parts ----------------------------------------------------------------------------------------------
 
@@ -182,7 +184,7 @@ class BallSectionState(SectionState):
 
     def half_width(self) -> float:
         """Return half the width of the (ω1, ω2)-plane."""
-        return room_for(float(np.hypot(*self.orbit.path.states[:, :2].T).max()))
+        return half_width_for(float(np.hypot(*self.orbit.path.states[:, :2].T).max()))
 
     def forbidden(self, axes: Axes) -> list[list[Array]]:
         """Return the forbidden band of ψ as rectangles."""
@@ -194,21 +196,21 @@ class BallSectionState(SectionState):
         """Return consecutive values (ψ, next ψ) of the chosen orbit (n, 2)."""
         closed = self.closed_orbit
         if closed is not None:
-            psi = closed.orbit.places[:, 0]
+            psi = closed.orbit.points[:, 0]
             return np.column_stack([psi, np.roll(psi, -1)])
-        psi = self.section.own[:, 0]
+        psi = self.section.chosen_points[:, 0]
         return None if self.section.known_orbits.reason else np.column_stack([psi[:-1], psi[1:]])
 
     # ---- words --------------------------------------------------------------------------------------------------
 
     def _about_section(self) -> Caption:
-        if self.special is not None:
-            return self.special
+        if self.section_caption is not None:
+            return self.section_caption
         if self.section.known_orbits.reason:
             return Caption("Omitted: too many steps.")
         volume = "The flow preserves volume." if self.I13 == self.I23 == 0.0 else "The flow does not preserve volume."
-        visited = occupied_cells(self.section.own, self.poincare.window, _CELLS)
-        counted = self.density.phrase or f"{len(self.section.own)} points of the "
+        visited = occupied_cells(self.section.chosen_points, self.poincare.window, _CELLS)
+        counted = self.density.phrase or f"{len(self.section.chosen_points)} points of the "
         return Caption(volume, f"{counted}orbit in {visited} of {_CELLS**2} cells.")
 
     def _about_returns(self) -> Caption:
@@ -239,7 +241,7 @@ SCENE = Scene(
     place=10,
     presets=PRESETS,
     measures=section_trials(),
-    charts=Charts(of_motion(SYSTEM, lambda s: s.chosen_start), over=("psi", "delta")),
+    charts=Charts(motion_charts(SYSTEM, lambda s: s.chosen_start), over=("psi", "delta")),
     group="Ball",
     essential=("h", "I13", "D", "psi"),
     handle="psi",
@@ -253,7 +255,7 @@ SCENE = Scene(
     swarm=turned_swarm(),
     tracks={"orbit": lambda s: orbit_columns(s.orbit.path)},
     views=(
-        solid_body(ball=True),
+        body_picture(ball=True),
         section_picture(
             title="Section γ₃ = 0 (upward crossings)",
             caption=BallSectionState._about_section,
@@ -264,13 +266,13 @@ SCENE = Scene(
             y_ticks=square.POLAR_TICKS,
             layers=section_layers(
                 forbidden=BallSectionState.forbidden,
-                start=lambda s: [(s.psi, s.delta)] if s.section.known_orbits.chosen else [],
+                start=lambda s: [(s.psi, s.delta)] if s.section.known_orbits.chosen_batches else [],
             ),
         ),
         orbit_alone(
             BallSectionState.half_width, lambda s: s.E, lambda s: s.proof.band, orbits=(orbit("chosen orbit"),)
         ),
-        along_the_orbit(lambda s: s.r, lambda s: s.proof.circles),
+        orbit_sphere(lambda s: s.r, lambda s: s.proof.circles),
         Plot(
             name="returns",
             title="First return",

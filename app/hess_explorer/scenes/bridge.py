@@ -13,7 +13,7 @@ from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.specs import Values
 from hess_explorer.scenes.framework import hess_case
 from hess_explorer.scenes.framework.answers import Answer
-from hess_explorer.scenes.framework.charted import Charts, of_torus
+from hess_explorer.scenes.framework.charted import Charts, torus_charts
 from hess_explorer.scenes.framework.hess_case import HeavyHess
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
 from hess_explorer.scenes.framework.sliders import (
@@ -25,16 +25,16 @@ from hess_explorer.scenes.framework.sliders import (
     slider_within,
     time_span,
 )
-from hess_explorer.scenes.framework.solid_body import Solid, heavy_solid, hess_solid, solid_body
+from hess_explorer.scenes.framework.solid_body import Solid, body_picture, heavy_solid, hess_solid
 from hess_explorer.scenes.framework.work import orbit_status
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.graphs.chart import LG_OF_0, lg, lg_axis
-from hess_explorer.views.graphs.graph import over_time
+from hess_explorer.views.graphs.graph import time_graph
 from hess_explorer.views.layers import Columns
 from hess_explorer.views.maps import circle_map as circle
 from hess_explorer.views.plane import andoyer, torus_plane
-from hess_explorer.views.plane.velocity_plane import nice_above, picture
+from hess_explorer.views.plane.velocity_plane import picture, round_up
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits, range_text
 from hess_mechanics import parameters as known
@@ -143,7 +143,7 @@ class BothSides(State):
             body = {"m": heavy.mu, **{name: 1.0 / a for name, a in zip(("I1", "I2", "I3"), heavy.a, strict=True)}}
         return {name: _without_round_off(value) for name, value in body.items()}
 
-    def means(self) -> Mapping[str, str]:
+    def meanings(self) -> Mapping[str, str]:
         """Return the meaning of h and f on the given side."""
         return dict.fromkeys("hf", (known.H_HEAVY if self.given == HEAVY else known.H_HESS).means)
 
@@ -191,7 +191,7 @@ class BothSides(State):
     def half_width(self) -> float:
         """Half width of the (ω1, ω2)-plane, with room for the ring and for the error at the level `draft`."""
         ring = 1.1 * float(np.max(np.abs(self.ring()[1])))
-        return nice_above(max(ring, 2.0 * DRAFT.promise * self.bridge.hess.frequency_unit))
+        return round_up(max(ring, 2.0 * DRAFT.promise * self.bridge.hess.frequency_unit))
 
     @cached_property
     def track(self) -> Track:
@@ -327,7 +327,7 @@ SCENE = Scene(
     __file__,
     place=13,
     presets=PRESETS,
-    charts=Charts(of_torus(lambda s: (s.bridge.hess.a, s.turning_points.h, s.turning_points.f)), over=("h", "f")),
+    charts=Charts(torus_charts(lambda s: (s.bridge.hess.a, s.turning_points.h, s.turning_points.f)), over=("h", "f")),
     group="Euler–Poisson",
     essential=("h", "f", "phi0"),
     answers=(Answer("Two bodies, one motion: a heavy top and a body on wheels, translated into each other."),),
@@ -337,8 +337,10 @@ SCENE = Scene(
     tracks={"orbit": BothSides.orbit_columns, **hess_case.CYCLE_TRACKS},
     angles=("phi", "phi_start", "l"),
     views=(
-        solid_body(lambda s: s.solids[0], section=True, title="The body of Suslov–Hess"),
-        solid_body(lambda s: s.solids[1], name="heavy", title="The body of Euler–Poisson", wheels=False, section=True),
+        body_picture(lambda s: s.solids[0], section=True, title="The body of Suslov–Hess"),
+        body_picture(
+            lambda s: s.solids[1], name="heavy", title="The body of Euler–Poisson", wheels=False, section=True
+        ),
         picture(
             BothSides._about_torus,
             lambda s: s.half_width,
@@ -354,7 +356,7 @@ SCENE = Scene(
             y=lambda s: lg_axis(largest_distance(s.map.h)),
             dot=("t", "apart"),
             layers=(
-                over_time(
+                time_graph(
                     "free",
                     lambda s: (s.difference.times, lg(s.difference.free)),
                     color=theme.MAP,
@@ -362,7 +364,7 @@ SCENE = Scene(
                     label="difference, without correction",
                     tag="without correction",
                 ),
-                over_time(
+                time_graph(
                     "held",
                     lambda s: (s.difference.times, lg(s.difference.held)),
                     color=theme.ORBIT,
@@ -375,7 +377,7 @@ SCENE = Scene(
             circle.picture(
                 map=lambda s: s.map,
                 iterates=lambda s: s.iterates,
-                caption=lambda s: circle.about(s.map),
+                caption=lambda s: circle.caption(s.map),
                 title="Circle map of both",
                 dot=("phi_start", "phi"),
                 on_click=lambda s, x, y: {"phi0": x},

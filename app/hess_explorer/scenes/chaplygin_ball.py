@@ -11,11 +11,11 @@ import numpy as np
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.answers import Answer
-from hess_explorer.scenes.framework.charted import Charts, ChartSource, of_motion, tensor_of
+from hess_explorer.scenes.framework.charted import Charts, ChartSource, motion_charts, tensor_of
 from hess_explorer.scenes.framework.circle_left import DIGITS, PHI, Gamma_picture, sphere
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
 from hess_explorer.scenes.framework.sliders import accuracy_level, parameter, show_proved_error, time_span
-from hess_explorer.scenes.framework.solid_body import Solid, constrained_solid, solid_body
+from hess_explorer.scenes.framework.solid_body import Solid, body_picture, constrained_solid
 from hess_explorer.scenes.framework.swarm import turned_swarm
 from hess_explorer.scenes.framework.trial import Trial, curve_error
 from hess_explorer.scenes.framework.work import orbit_status
@@ -92,7 +92,7 @@ class ChaplyginBall(State):
     @cached_property
     def half_width(self) -> float:
         """Half width of the (ω1, ω2)-plane, with room for the ellipse σ1."""
-        return plane.nice_above(1.1 * float(self.strip.outer.max()))
+        return plane.round_up(1.1 * float(self.strip.outer.max()))
 
     @cached_property
     def start(self) -> tuple[float, ...]:
@@ -142,7 +142,7 @@ class ChaplyginBall(State):
         return Task(model.all_phases, self.body, self.theta, count, self.distance, level, _MOST_STEPS)
 
     @cached_property
-    def crowd(self) -> tuple[StripOrbit, ...]:
+    def all_orbits(self) -> tuple[StripOrbit, ...]:
         """The orbits across the strip."""
         plan = self.plan(Kind.CURVE)
         found: tuple[StripOrbit, ...] = self.work.need(
@@ -186,7 +186,7 @@ class ChaplyginBall(State):
     def ellipse_names(self) -> list[tuple[float, float, str]]:
         """Return the labels of σ2 and σ1, in a quadrant without the line of equilibria."""
         angle = [(0.25 if self.I13 * self.I23 >= 0.0 else 0.75) * math.pi]
-        places = plane.beside(self.strip.sigma2(angle)[0], self.strip.sigma1(angle)[0], self.half_width)
+        places = plane.label_points(self.strip.sigma2(angle)[0], self.strip.sigma1(angle)[0], self.half_width)
         return [(float(x), float(y), name) for (x, y), name in zip(places, ("σ₂", "σ₁"), strict=True)]
 
     # ---- words --------------------------------------------------------------------------------------------------
@@ -199,7 +199,9 @@ class ChaplyginBall(State):
     def _about_curve(self) -> Caption:
         if self.map is None:
             return Caption("Omitted: too many steps.")
-        return Caption(numbers=f"θ⁻ = {in_digits(self.theta)}: {square.spread(self.map.theta_plus)}; dashed: 𝒟 = 0.")
+        return Caption(
+            numbers=f"θ⁻ = {in_digits(self.theta)}: {square.range_text(self.map.theta_plus)}; dashed: 𝒟 = 0."
+        )
 
     def _about_Gamma(self) -> Caption:
         first, last = math.cos(self.theta), float(self.Gamma[-1])
@@ -238,14 +240,14 @@ _MEASURES: tuple[Trial[ChaplyginBall], ...] = (
     Trial(
         Kind.MAP,
         ("curve",),
-        lambda s, plan: s.phases(plan.side(_PHASES), _EXACT if plan.level.aside else plan.level).now().theta_plus,
+        lambda s, plan: s.phases(plan.side(_PHASES), _EXACT if plan.level.aside else plan.level).compute().theta_plus,
         lambda s, found, truth: curve_error(found, truth, math.pi),
         alike="cells",
     ),
     Trial(
         Kind.CURVE,
         ("omega",),
-        lambda s, plan: s.strip_orbits(plan.side(_ORBITS), plan.level).now(),
+        lambda s, plan: s.strip_orbits(plan.side(_ORBITS), plan.level).compute(),
         lambda s, found, truth: math.sqrt(s.h) * 0.5 * PIXELS / s.half_width * largest_distance(found, truth),
         alike="cells",
     ),
@@ -264,7 +266,7 @@ SCENE = Scene(
                 "ball-scattering",
                 lambda s: {**tensor_of(s.body), "D": s.D, "theta": s.theta, "phi": s.phi, "distance": s.distance},
             ),
-            *of_motion(SYSTEM, lambda s: s.start),
+            *motion_charts(SYSTEM, lambda s: s.start),
         ),
         over=("phi", "theta"),
     ),
@@ -278,7 +280,7 @@ SCENE = Scene(
     swarm=turned_swarm(),
     tracks={"orbit": lambda s: plane.orbit_columns(s.orbit.path, Gamma=s.Gamma)},
     views=(
-        solid_body(ball=True, field=False),
+        body_picture(ball=True, field=False),
         plane.picture(
             lambda s: Caption("From Nᵘ to Nˢ.", "Every orbit crosses the strip between σ₂ and σ₁."),
             lambda s: s.half_width,
@@ -292,14 +294,14 @@ SCENE = Scene(
                     moving=True,
                 ),
                 names("names", ChaplyginBall.ellipse_names),
-                plane.arcs(lambda s: [track for track, _ in s.crowd if len(track) > 1]),
+                plane.arcs(lambda s: [track for track, _ in s.all_orbits if len(track) > 1]),
                 *plane.halves(
                     lambda s, _: s.strip.stable, lambda s, _: s.strip.unstable, ("Nˢ, circle joined", "Nᵘ, circle left")
                 ),
                 plane.band(lambda s: s.proof.band),
                 plane.orbit("orbits; the chosen one bold"),
                 # Placed evenly over the strip: the middles of the orbits, where all are slow, would cluster.
-                arrows("arrows", lambda s: plane.arrows_at(s.crowd), color=theme.ORBIT, alpha=0.8),
+                arrows("arrows", lambda s: plane.arrows_at(s.all_orbits), color=theme.ORBIT, alpha=0.8),
             ),
         ),
         sphere(
@@ -308,7 +310,7 @@ SCENE = Scene(
             left=lambda s: s.theta,
             joined=lambda s: float(np.clip(s.Gamma[-1], -1.0, 1.0)),
         ),
-        square.over_phases(
+        square.phase_plot(
             ChaplyginBall._about_curve,
             message=lambda s: s.map_or_reason[1],
             layers=(

@@ -16,7 +16,7 @@ from hess_explorer.scenes.framework.charted import Charts, ChartSource, paramete
 from hess_explorer.scenes.framework.part import Start, part
 from hess_explorer.scenes.framework.periodic_search import NONE, ClosedOrbit
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene
-from hess_explorer.scenes.framework.solid_body import Solid, constrained_solid, solid_body
+from hess_explorer.scenes.framework.solid_body import Solid, body_picture, constrained_solid
 from hess_explorer.scenes.framework.swarm import turned_swarm
 from hess_explorer.scenes.framework.windows import box_window
 from hess_explorer.scenes.parts.diagrams.controls import (
@@ -30,18 +30,18 @@ from hess_explorer.scenes.parts.diagrams.controls import (
 from hess_explorer.scenes.parts.diagrams.diagram_density import DiagramDensity
 from hess_explorer.scenes.parts.diagrams.growing_diagram import DiagramBranch, OrbitDiagram
 from hess_explorer.scenes.parts.orbits.proof import OrbitProof
-from hess_explorer.scenes.parts.orbits.regime import OrbitRegime, few
+from hess_explorer.scenes.parts.orbits.regime import OrbitRegime, distinct_points
 from hess_explorer.scenes.parts.sections import BodyOrbit
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.graphs.graph import about_0, over_time
+from hess_explorer.views.graphs.graph import axis_about_0, time_graph
 from hess_explorer.views.layers import Axes, curves, dots, levels, names, points
 from hess_explorer.views.maps import branch
 from hess_explorer.views.picture import Picture
 from hess_explorer.views.plane import density, layered_section, periodic
-from hess_explorer.views.plane.velocity_plane import orbit_columns, pixels_per_unit, room_for
+from hess_explorer.views.plane.velocity_plane import half_width_for, orbit_columns, pixels_per_unit
 from hess_explorer.views.plot import Plot
-from hess_explorer.views.space.poisson_sphere import along_the_orbit, centre_of_mass
+from hess_explorer.views.space.poisson_sphere import centre_of_mass, orbit_sphere
 from hess_explorer.views.text import digits
 from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.dynamics.orbit_diagram import Cascade
@@ -70,7 +70,7 @@ class DiagramState(DiagramControls):
         """Pixels per unit of each variable, with room for all motions of this energy."""
         I11, I22, *_, b1, b2, b3 = self.body.parameters
         highest = self.poincare.E + math.hypot(b1, b2, b3)
-        return pixels_per_unit(room_for(math.sqrt(2.0 * highest / min(I11, I22))))
+        return pixels_per_unit(half_width_for(math.sqrt(2.0 * highest / min(I11, I22))))
 
     @property
     def start(self) -> Start:
@@ -123,7 +123,7 @@ class DiagramState(DiagramControls):
         value, point, period = found
         return {self.diagram.name: value, "chosen": points_text([point]), "branch": f"period {period}"}
 
-    def start_here(self, x: float, y: float) -> Values:
+    def start_at(self, x: float, y: float) -> Values:
         """Return the parameter values of an orbit that starts at a point of the section."""
         return {"chosen": points_text([(x, min(max(y, 1e-6), math.pi - 1e-6))])}
 
@@ -165,7 +165,7 @@ def _flip_values(s: DiagramState, axes: Axes) -> list[tuple[float, float, str]]:
     located, (low, high) = s.diagram.cascade, axes.y
     if not isinstance(located, Cascade):
         return []
-    # Each name is lower than the one before, as the doublings come closer and closer.
+    # Stack the labels, because the doublings accumulate and labels at one height would overlap.
     heights = high - (high - low) * (_TOP + _LINE * np.arange(len(located.values)))
     return [
         (float(x), float(y), f"{m}→{2 * m}: {digits(float(x))}")
@@ -230,7 +230,7 @@ def _pictures(state: type[DiagramState], ball: bool) -> tuple[Picture[Any], ...]
             name="diagram",
             title="Orbit diagram",
             caption=DiagramState._about_diagram,
-            on_hover=lambda s, x, y: s.continuation.about(x, y),
+            on_hover=lambda s, x, y: s.continuation.tooltip(x, y),
             on_click=DiagramState.choose,
             axes=lambda s: (s.along, s.shown),
             first=Axes((state.first, state.last), (-math.pi, math.pi)),
@@ -261,7 +261,7 @@ def _pictures(state: type[DiagramState], ball: bool) -> tuple[Picture[Any], ...]
                 dots("rising", dotted(RISING), color=theme.ORBIT, size=3, label="forward, parameter rising"),
                 curves(
                     "here",
-                    within=lambda s, axes: _upright([s.diagram.at], axes),
+                    within=lambda s, axes: _upright([s.diagram.value], axes),
                     color=theme.INK,
                     width=1.5,
                     label="current state",
@@ -271,7 +271,7 @@ def _pictures(state: type[DiagramState], ball: bool) -> tuple[Picture[Any], ...]
                 names("flip-values", within=_flip_values, size=13, on_paper=True),
             ),
         ),
-        solid_body(ball=ball),
+        body_picture(ball=ball),
         Plot[DiagramState](
             name="section",
             title="Section γ₃ = 0 (upward crossings)",
@@ -279,7 +279,7 @@ def _pictures(state: type[DiagramState], ball: bool) -> tuple[Picture[Any], ...]
             axes=COORDINATES,
             x=(-math.pi, math.pi),
             y=(0.0, math.pi),
-            on_click=DiagramState.start_here,
+            on_click=DiagramState.start_at,
             starts=True,
             layers=(
                 *layered_section.layers(
@@ -291,9 +291,9 @@ def _pictures(state: type[DiagramState], ball: bool) -> tuple[Picture[Any], ...]
                     impossible=lambda s: s.poincare.impossible(_WINDOW),
                     labels=("attractor", "repeller"),
                 ),
-                points("few", lambda s: few(s.regime.sets[0]), color=theme.ORBIT, size=9),
+                points("few", lambda s: distinct_points(s.regime.sets[0]), color=theme.ORBIT, size=9),
                 *periodic.orbit_points(closed),
-                points("few-repelling", lambda s: few(s.regime.sets[1]), color=theme.UNSTABLE, size=9),
+                points("few-repelling", lambda s: distinct_points(s.regime.sets[1]), color=theme.UNSTABLE, size=9),
             ),
         ),
         Plot[DiagramState](
@@ -304,10 +304,10 @@ def _pictures(state: type[DiagramState], ball: bool) -> tuple[Picture[Any], ...]
             dot=("t", "turning"),
             first=Axes((0.0, 60.0), (-2.0, 2.0)),
             x=lambda s: (0.0, s.span),
-            y=lambda s: about_0(s.vertical_rate, 1e-6),
+            y=lambda s: axis_about_0(s.vertical_rate, 1e-6),
             layers=(
                 levels("levels", lambda s: [0.0]),
-                over_time(
+                time_graph(
                     "turning",
                     lambda s: (s.orbit.path.times, s.vertical_rate),
                     color=theme.ORBIT,
@@ -325,7 +325,7 @@ def _pictures(state: type[DiagramState], ball: bool) -> tuple[Picture[Any], ...]
             ),
         ),
         replace(
-            along_the_orbit(lambda s: centre_of_mass(s.body.parameters[-3:]), lambda s: s.proof.circles),
+            orbit_sphere(lambda s: centre_of_mass(s.body.parameters[-3:]), lambda s: s.proof.circles),
             button="Show the Poisson sphere",
         ),
     )

@@ -12,7 +12,7 @@ import numpy as np
 
 from hess_explorer.protocol.specs import Value, Values, points_text
 from hess_explorer.scenes.framework.answers import Answer
-from hess_explorer.scenes.framework.charted import Charts, of_motion
+from hess_explorer.scenes.framework.charted import Charts, motion_charts
 from hess_explorer.scenes.framework.hess_case import HeavyHess
 from hess_explorer.scenes.framework.inertia import limits_of_moments
 from hess_explorer.scenes.framework.orbit_batches import OrbitBatch, batch_of
@@ -28,7 +28,7 @@ from hess_explorer.scenes.framework.sliders import (
     points,
     time_span,
 )
-from hess_explorer.scenes.framework.solid_body import Solid, heavy_solid, solid_body
+from hess_explorer.scenes.framework.solid_body import Solid, body_picture, heavy_solid
 from hess_explorer.scenes.framework.swarm import turned_swarm
 from hess_explorer.scenes.parts.diagrams.hess_split import HessSplit, split_picture
 from hess_explorer.scenes.parts.orbits.exponent import exponent_picture, exponent_trial
@@ -58,10 +58,10 @@ from hess_explorer.scenes.parts.sections import (
 from hess_explorer.scenes.parts.sections.density import SectionDensity
 from hess_explorer.scenes.parts.sections.rotation_across import RotationAcross, rotation_picture, rotation_trial
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.layers import Columns, column, inside
+from hess_explorer.views.layers import Columns, column, crop
 from hess_explorer.views.plane import andoyer
-from hess_explorer.views.plane.section_plane import joined
-from hess_explorer.views.space.poisson_sphere import Direction, along_the_orbit, gamma_columns
+from hess_explorer.views.plane.section_plane import concatenate
+from hess_explorer.views.space.poisson_sphere import Direction, gamma_columns, orbit_sphere
 from hess_explorer.views.text import digits, vector
 from hess_mechanics.dynamics.return_map import section_crossings
 from hess_mechanics.dynamics.sampling import PIXELS
@@ -229,7 +229,9 @@ class EulerPoisson(FilledState):
         return Clicks(self, f"no motion with this h and f crosses {which}", remedy)
 
     density = part(
-        lambda s: SectionDensity(s.section, s.dense, 2, lambda states: (relation(s.body, states) <= 0.0).astype(int))
+        lambda s: SectionDensity(
+            s.section, s.shows_density, 2, lambda states: (relation(s.body, states) <= 0.0).astype(int)
+        )
     )
     branch = part(lambda s: SectionBranch(s, s.periodic_orbit, _OVER, ("sheet",)))
 
@@ -261,7 +263,7 @@ class EulerPoisson(FilledState):
     def track(self) -> Columns:
         """Return the columns of the orbit."""
         orbit = self.orbit.path
-        l, x = self.poincare.places_of(orbit.states).T
+        l, x = self.poincare.points_of(orbit.states).T
         return {"t": column(orbit.times), "l": column(l), "x": column(x), **gamma_columns(orbit.states[:, 3:])}
 
     @cached_property
@@ -270,10 +272,10 @@ class EulerPoisson(FilledState):
         return heavy_solid(self.body, self.orbit.path.times, self.orbit.path.states)
 
     @cached_property
-    def elsewhere(self) -> Array:
+    def other_sheets(self) -> Array:
         """The points (n, 2) of all orbits on other sheets of the energy surface."""
-        known = *self.section.known_orbits.chosen, *self.section.known_orbits.batches
-        return joined(batch.elsewhere for batch in known if batch.elsewhere is not None)
+        known = *self.section.known_orbits.chosen_batches, *self.section.known_orbits.batches
+        return concatenate(batch.elsewhere for batch in known if batch.elsewhere is not None)
 
     def hess_curve(self) -> tuple[Array, Array]:
         """Return the curve of the Hess manifold in the window, as x and y."""
@@ -283,8 +285,8 @@ class EulerPoisson(FilledState):
     # ---- words --------------------------------------------------------------------------------------------------
 
     def _about_section(self) -> Caption:
-        if self.special is not None:
-            return self.special
+        if self.section_caption is not None:
+            return self.section_caption
         kept = [one for batch in self.section.known_orbits.batches for one in batch.same_side]
         return Caption(
             "The two layers never mix." if self.away == 0.0 else "",
@@ -295,8 +297,8 @@ class EulerPoisson(FilledState):
         """Yield a and r, the start of the orbit and the check of the body."""
         yield f"a = {digits(self.body.hess_a)}, r = {vector(self.body.r)}"
         yield from super().quantities()
-        if self.section.has_result("known_orbits") and len(self.elsewhere):
-            yield f"on another sheet: {len(self.elsewhere)} points"
+        if self.section.has_result("known_orbits") and len(self.other_sheets):
+            yield f"on another sheet: {len(self.other_sheets)} points"
         yield self.body.check.sentence
 
 
@@ -309,12 +311,12 @@ def _crossings(
         bool(np.all(sign * relation(section.body, states) >= 0.0))
         for states, sign in zip(found.states, signs, strict=True)
     )
-    other = [section.places_of(states)[~section.is_on(states)] for states in found.states]
+    other = [section.points_of(states)[~section.is_on(states)] for states in found.states]
     return replace(
         batch_of(section, found),
         firsts=tuple(bool(sign > 0.0) for sign in signs),
         same_side=tuple(kept),
-        elsewhere=frozen(joined(other)),
+        elsewhere=frozen(concatenate(other)),
     )
 
 
@@ -325,7 +327,7 @@ SCENE = Scene(
     presets=PRESETS,
     measures=(*section_trials(orbits=40.0), exponent_trial(), rotation_trial()),
     charts=Charts(
-        of_motion(SYSTEM, lambda s: start_on(s.poincare, s.starts), time=lambda s: s.long),
+        motion_charts(SYSTEM, lambda s: start_on(s.poincare, s.starts), time=lambda s: s.long),
         over=_NAMES,
         point=("starts", _NAMES),
     ),
@@ -337,7 +339,7 @@ SCENE = Scene(
     ),
     title="Euler–Poisson: sections",
     summary="A heavy body near the Hess case: two stochastic layers with a barrier between them, a meandering torus.",
-    swarm=turned_swarm(lambda s, states: dict(zip("lx", s.poincare.places_of(states).T, strict=True)), angles=("l",)),
+    swarm=turned_swarm(lambda s, states: dict(zip("lx", s.poincare.points_of(states).T, strict=True)), angles=("l",)),
     tracks={"orbit": EulerPoisson.track},
     angles=("l",),
     views=(
@@ -348,15 +350,15 @@ SCENE = Scene(
             caption=EulerPoisson._about_section,
             labels=("r·M > 0", "r·M < 0"),
             dot=("l", "x"),
-            between=andoyer.between(
-                elsewhere=lambda s: s.elsewhere,
+            between=andoyer.middle_layers(
+                elsewhere=lambda s: s.other_sheets,
                 curve=EulerPoisson.hess_curve,
-                across=lambda s: inside(s.rotation.ends, s.section.frame),
+                across=lambda s: crop(s.rotation.ends, s.section.frame),
             ),
         ),
-        solid_body(wheels=False, section=True),
+        body_picture(wheels=False, section=True),
         rotation_picture(),
-        along_the_orbit(
+        orbit_sphere(
             lambda s: Direction(math.copysign(1.0, s.m) * np.array(s.body.r), "r"),
             lambda s: s.proof.circles,
             lambda s: s.clicks.colour,

@@ -17,12 +17,12 @@ from hess_explorer.scenes.framework.charted import Charts, ChartSource, tensor_o
 from hess_explorer.scenes.framework.circle_left import Gamma_picture
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
 from hess_explorer.scenes.framework.sliders import ONE_TURN, Slider, accuracy_level, choice, parameter, time_span
-from hess_explorer.scenes.framework.solid_body import Solid, constrained_solid, solid_body
+from hess_explorer.scenes.framework.solid_body import Solid, body_picture, constrained_solid
 from hess_explorer.scenes.framework.swarm import turned_swarm
 from hess_explorer.scenes.framework.work import orbit_status
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.graphs.graph import branches, over_time
+from hess_explorer.views.graphs.graph import branches, time_graph
 from hess_explorer.views.layers import Columns, Sign, arrows, curves, line, text
 from hess_explorer.views.plane import velocity_plane as plane
 from hess_explorer.views.plot import Plot
@@ -33,7 +33,7 @@ from hess_mechanics.dynamics.sampling import MOST_SAMPLES, PIXELS
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov import free
-from hess_mechanics.suslov.additional_integral import AdditionalIntegral, of_body
+from hess_mechanics.suslov.additional_integral import AdditionalIntegral, integral_of
 from hess_mechanics.suslov.equations import SYSTEM, SuslovBody
 
 _LEVELS = (0.25, 0.6, 1.6)
@@ -150,7 +150,7 @@ class FreeSuslov(State):
     @cached_property
     def half_width(self) -> float:
         """Half width of the (ω1, ω2)-plane."""
-        return plane.nice_above(1.3 * math.sqrt(2.0 * self.h / min(self.body.I11, self.body.I22)))
+        return plane.round_up(1.3 * math.sqrt(2.0 * self.h / min(self.body.I11, self.body.I22)))
 
     @cached_property
     def gamma(self) -> tuple[float, float, float]:
@@ -188,7 +188,7 @@ class FreeSuslov(State):
     @cached_property
     def F2(self) -> tuple[AdditionalIntegral, float] | None:
         """The additional integral and its value on the orbit; None if it does not exist."""
-        found = of_body(self.body)
+        found = integral_of(self.body)
         return None if found is None else (found, float(found(np.array(self.omega), np.array(self.gamma))))
 
     def motion(self) -> Motion:
@@ -267,7 +267,7 @@ class FreeSuslov(State):
     def quantities(self) -> Iterator[str]:
         """Yield I11 and k², the energy, the rate, the directions and F2."""
         points = self.points
-        yield from free_body.about_I11(self.k, self.body)
+        yield from free_body.derived_quantities(self.k, self.body)
         yield f"E = {digits(self.h)}"
         yield f"ω₀ = {digits(points.rate)}"
         yield f"|ω±| = {digits(points.speed)}"
@@ -322,8 +322,8 @@ SCENE = Scene(
                 *plane.energy_levels(FreeSuslov.ellipses, lambda s: s.half_width, "energy levels; level of F₂"),
                 plane.arcs(lambda s: s.arcs),
                 *plane.halves(
-                    lambda s, axes: plane.to_the_edge(s.points.stable, s.half_width, axes),
-                    lambda s, axes: plane.to_the_edge(s.points.unstable, s.half_width, axes),
+                    lambda s, axes: plane.half_line(s.points.stable, s.half_width, axes),
+                    lambda s, axes: plane.half_line(s.points.unstable, s.half_width, axes),
                     ("stable half, circle joined", "unstable half, circle left"),
                 ),
                 line(
@@ -340,7 +340,7 @@ SCENE = Scene(
                 *plane.equilibria(lambda s: s.points.stable, lambda s: s.points.unstable),
             ),
         ),
-        solid_body(field=False),
+        body_picture(field=False),
         Sphere(
             caption=FreeSuslov._about_sphere,
             looks={"orbit": "orbit", "second": "second"},
@@ -355,7 +355,7 @@ SCENE = Scene(
             axes=(" ", "γ₁"),
             dot=("across", "g1"),
             title=lambda s: f"γ₁ against {'phase φ about ξ' if s.across == 'phase' else 'time'}",
-            x=lambda s: plane.centred(math.pi) if s.across == "phase" else (0.0, s.span),
+            x=lambda s: plane.symmetric_range(math.pi) if s.across == "phase" else (0.0, s.span),
             y=_ROOM_BELOW,
             layers=(
                 curves("second", lambda s: s.gamma1(s.second), color=theme.MAP, dash="dotdash", tag="second orbit"),
@@ -367,7 +367,7 @@ SCENE = Scene(
             FreeSuslov._about_Gamma,
             lambda s: [*s.orbit.limits, s.second.limits[1]],
             lambda s: (s.orbit.times, s.orbit.Gamma),
-            over_time(
+            time_graph(
                 "second",
                 lambda s: (s.second.times, s.second.Gamma),
                 color=theme.MAP,

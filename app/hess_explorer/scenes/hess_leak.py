@@ -11,11 +11,11 @@ import numpy as np
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.answers import Answer
-from hess_explorer.scenes.framework.charted import Charts, of_torus
+from hess_explorer.scenes.framework.charted import Charts, torus_charts
 from hess_explorer.scenes.framework.hess_case import BY_THE_UNSTABLE_CYCLE, PHI0, RIS, UNSURE, HeavyHess, reduced_motion
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
 from hess_explorer.scenes.framework.sliders import Slider, accuracy_level, number, parameter
-from hess_explorer.scenes.framework.solid_body import Solid, heavy_solid, solid_body
+from hess_explorer.scenes.framework.solid_body import Solid, body_picture, heavy_solid
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.graphs.chart import LG_OF_0, lg, lg_axis
@@ -162,7 +162,7 @@ class HessLeak(State):
 
     def run_columns(self) -> Columns:
         """Return the columns of the orbit without correction."""
-        apart = lg(self.leaks["own"].apart)
+        apart = lg(self.leaks["own"].distance)
         return {"t": column(self.run.times), "apart": column(apart), **gamma_columns(self.run.states[:, 3:])}
 
     def exact_columns(self) -> Columns:
@@ -200,7 +200,7 @@ class HessLeak(State):
         )
 
     def _about_difference(self) -> Caption:
-        largest = digits(float(self.leaks["own"].apart.max()), 2)
+        largest = digits(float(self.leaks["own"].distance.max()), 2)
         return Caption(numbers=f"{self.run.level}: at most {largest} (units b = 1).")
 
     def _about_side(self) -> Caption:
@@ -256,7 +256,7 @@ SCENE = Scene(
     place=12,
     presets=PRESETS,
     charts=Charts(
-        of_torus(lambda s: (s.bridge.hess.a, s.hess.turning_points.h, s.hess.turning_points.f)), over=("h", "f")
+        torus_charts(lambda s: (s.bridge.hess.a, s.hess.turning_points.h, s.hess.turning_points.f)), over=("h", "f")
     ),
     group="Euler–Poisson",
     essential=("h", "f", "phi0", "returns"),
@@ -266,7 +266,7 @@ SCENE = Scene(
     tracks={"orbit": HessLeak.exact_columns, "second": HessLeak.run_columns},
     angles=("l",),
     views=(
-        solid_body(wheels=False, section=True),
+        body_picture(wheels=False, section=True),
         Plot(
             name="leak",
             title="r·M against time",
@@ -308,7 +308,7 @@ SCENE = Scene(
             x=HessLeak.times,
             y=lambda s: lg_axis(largest_distance(s.map.h)),
             dot=("t", "apart"),
-            layers=distances(lambda s: s.leaks, lambda leak: leak.apart),
+            layers=distances(lambda s: s.leaks, lambda leak: leak.distance),
         ),
     ),
 )

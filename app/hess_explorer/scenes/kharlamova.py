@@ -23,7 +23,7 @@ from hess_explorer.scenes.framework.sliders import (
     slider_within,
     time_span,
 )
-from hess_explorer.scenes.framework.solid_body import Solid, constrained_solid, solid_body
+from hess_explorer.scenes.framework.solid_body import Solid, body_picture, constrained_solid
 from hess_explorer.scenes.framework.swarm import turned_swarm
 from hess_explorer.scenes.framework.work import orbit_status
 from hess_explorer.views import theme
@@ -34,7 +34,7 @@ from hess_explorer.views.graphs.period_graph import has_periods, period_axis
 from hess_explorer.views.layers import Columns, Layer, curves, points, ring
 from hess_explorer.views.plane import plane_domain, plane_potential
 from hess_explorer.views.plane.plane_domain import plane_columns
-from hess_explorer.views.plane.velocity_plane import nice_above
+from hess_explorer.views.plane.velocity_plane import round_up
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.space.poisson_sphere import EQUATOR, Direction, Mark, Sphere, centre_of_mass, levels_about
 from hess_explorer.views.text import digits, vector
@@ -184,7 +184,7 @@ class Kharlamova(State):
     @cached_property
     def periods(self) -> Array:
         """Initial directions α in radians and periods T, (n, 2)."""
-        return self.work.need(Task(mechanics.periods_all_round, self.body, (self.q1, self.q2), self.p))
+        return self.work.need(Task(mechanics.periods_by_direction, self.body, (self.q1, self.q2), self.p))
 
     @cached_property
     def other_body(self) -> PotentialBody:
@@ -224,7 +224,7 @@ class Kharlamova(State):
 
     def half_width(self) -> float:
         """Return the half width of the picture of the domain."""
-        return nice_above(1.08 * max(self.body.axes))
+        return round_up(1.08 * max(self.body.axes))
 
     def fixed_points(self, kind: float) -> list[Array]:
         """Return the parts of the domain's edge with fixed points, stable (kind 1) or unstable (kind −1)."""
@@ -236,7 +236,7 @@ class Kharlamova(State):
         low, high = self.arc.ends
         more = 0.5 * self.arc.length
         return (
-            [] if self.arc.kind == "fixed" else [self.body.place(self.arc.u(np.linspace(low - more, high + more, 181)))]
+            [] if self.arc.kind == "fixed" else [self.body.q_of(self.arc.u(np.linspace(low - more, high + more, 181)))]
         )
 
     def force(self) -> Direction | None:
@@ -254,7 +254,7 @@ class Kharlamova(State):
 
     def tau_axis(self) -> tuple[float, float]:
         """Return an axis of τ with room for both arcs."""
-        middle, half = 0.5 * sum(self.arc.ends), nice_above(0.6 * self.arc.length)
+        middle, half = 0.5 * sum(self.arc.ends), round_up(0.6 * self.arc.length)
         return middle - half, middle + half
 
     # ---- words --------------------------------------------------------------------------------------------------
@@ -364,7 +364,7 @@ SCENE = Scene(
     swarm=turned_swarm(lambda s, states: dict(zip(("q1", "q2"), s.body.to_plane(states)[0].T, strict=True))),
     tracks={"orbit": Kharlamova.orbit_columns},
     views=(
-        solid_body(),
+        body_picture(),
         plane_domain.picture(
             "Domain of (q₁, q₂)",
             Kharlamova._about_domain,
@@ -372,7 +372,7 @@ SCENE = Scene(
             names=("q1", "q2"),
             dots={"mirror": ("mirror_q1", "mirror_q2")},
             layers=(
-                *plane_domain.ground(
+                *plane_domain.background_layers(
                     edge=lambda s: s.work.need(Task(mechanics.fixed_point_kinds, s.body, s.h))[0],
                     forbidden=lambda s: mechanics.forbidden(s.body, s.h),
                     levels=lambda s: mechanics.equipotentials(s.body, _LEVELS),

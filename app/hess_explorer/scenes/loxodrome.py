@@ -11,7 +11,7 @@ import numpy as np
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.answers import Answer
-from hess_explorer.scenes.framework.charted import Charts, of_torus
+from hess_explorer.scenes.framework.charted import Charts, torus_charts
 from hess_explorer.scenes.framework.inertia import limits_of_moments
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
 from hess_explorer.scenes.framework.sliders import Slider, accuracy_level, parameter, time_span
@@ -125,7 +125,7 @@ class Loxodrome(State):
         check_note = "" if self.pendulum.body.check.is_body else "Not a rigid body, so no ellipsoid. "
         return Caption(
             "The centre of mass swings in a plane.",
-            f"{check_note}Largest distance from the vertical plane: {digits(self.pendulum_motion.off_plane, 1)}.",
+            f"{check_note}Largest distance from the vertical plane: {digits(self.pendulum_motion.plane_distance, 1)}.",
         )
 
     def _about_space(self) -> Caption:
@@ -187,7 +187,7 @@ SCENE = Scene(
     __file__,
     place=14,
     presets=PRESETS,
-    charts=Charts(of_torus(lambda s: (s.pendulum.a, s.pendulum.h, 0.0)), over=("energy", "I2")),
+    charts=Charts(torus_charts(lambda s: (s.pendulum.a, s.pendulum.h, 0.0)), over=("energy", "I2")),
     group="Euler–Poisson",
     essential=("energy", "l", "I2"),
     answers=(

@@ -11,7 +11,7 @@ from hess_explorer.protocol.specs import Value
 from hess_explorer.scenes.diagrams import DiagramState, diagram_scene, regime_in
 from hess_explorer.scenes.framework.answers import Answer
 from hess_explorer.scenes.framework.scene import Preset
-from hess_explorer.scenes.framework.sliders import like, parameter
+from hess_explorer.scenes.framework.sliders import parameter, redeclare
 from hess_explorer.scenes.parts.diagrams.controls import parameter_of_diagram
 from hess_mechanics import parameters as known
 from hess_mechanics.suslov.equations import SYSTEM, SuslovBody
@@ -96,8 +96,8 @@ class SuslovDiagram(DiagramState):
     b3: float = parameter(known.B3, 1.2)
     h: float = parameter(known.H_SUSLOV, 2.3)
     along: str = parameter_of_diagram(tuple(_PARAMETERS), "I₂₃")
-    last: float = like(DiagramState, "last", 0.2)
-    chosen: str = like(DiagramState, "chosen", "0.7248,1.8925")
+    last: float = redeclare(DiagramState, "last", 0.2)
+    chosen: str = redeclare(DiagramState, "chosen", "0.7248,1.8925")
 
     symbols: ClassVar[Mapping[str, str]] = _PARAMETERS
 

@@ -30,7 +30,7 @@ from hess_explorer.scenes.parts.orbits.exponent import OrbitExponent, exponent_p
 from hess_explorer.scenes.parts.sections import BodyOrbit
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.graphs.graph import over_time, with_room
+from hess_explorer.views.graphs.graph import time_graph, with_margin
 from hess_explorer.views.layers import Columns, Range, line
 from hess_explorer.views.plane import section_plane
 from hess_explorer.views.plot import Plot
@@ -188,12 +188,12 @@ class OwnBodyState(State):
     @cached_property
     def is_compiled(self) -> bool:
         """True if equations of this form are compiled."""
-        # A chain, because a drag must not end the compilation.
+        # `newest` requests the compilation during a drag, too; `need` would not.
         return self.work.newest([[Task(_compile, self.body.system)]])[0] is not None
 
     @property
     def periodic_orbit(self) -> NotPeriodic:
-        """No periodic orbit; the exponent, which needs another kernel, waits until the orbit is compiled."""
+        """Placeholder for scenes without a periodic orbit; it delays the exponent until the equations are compiled."""
         return NotPeriodic(is_searching=not self.is_compiled)
 
     orbit = part(lambda s: BodyOrbit(s, max_step=s.max_step))
@@ -251,7 +251,7 @@ def _caption(s: OwnBodyState) -> Caption:
 
 
 def _room(name: str) -> Any:
-    return lambda s: None if s.track is None else with_room(s.track[name], 0.06, 1e-2)
+    return lambda s: None if s.track is None else with_margin(s.track[name], 0.06, 1e-2)
 
 
 def _energy_caption(s: OwnBodyState) -> Caption:
@@ -260,7 +260,7 @@ def _energy_caption(s: OwnBodyState) -> Caption:
     _, change, work = s.energies
     if s.body.is_driven:
         off = float(np.abs(change - work).max())
-        # A rotor along the axis of the constraint is driven without effect: W is zero up to rounding.
+        # A rotor along the axis of the constraint does no work, so W vanishes up to round-off.
         verb = "does" if np.abs(work).max() > _NO_WORK * max(1.0, np.abs(change).max()) else "does no"
         return Caption(f"The drive {verb} work.", f"|E − E₀ − W| ≤ {digits(off, 1)}.")
     return Caption("The energy is conserved.", f"|E − E₀| ≤ {digits(float(np.abs(change).max()), 1)}.")
@@ -280,7 +280,7 @@ def _crossing_points(s: OwnBodyState) -> Array | None:
 def _crossed_range(i: int) -> Any:
     def of(s: OwnBodyState) -> Range | None:
         found = _crossing_points(s)
-        return None if found is None or not len(found) else with_room(found[:, i], 0.06, 1e-2)
+        return None if found is None or not len(found) else with_margin(found[:, i], 0.06, 1e-2)
 
     return of
 
@@ -291,7 +291,7 @@ def _no_crossing(s: OwnBodyState) -> str:
 
 
 def _energy_range(s: OwnBodyState) -> Range | None:
-    return None if s.energies is None else with_room(np.concatenate(s.energies[1:]), 0.1, 1e-3)
+    return None if s.energies is None else with_margin(np.concatenate(s.energies[1:]), 0.1, 1e-3)
 
 
 def _graph(i: int) -> Any:
@@ -364,8 +364,8 @@ SCENE = Scene(
             x=lambda s: (0.0, s.lasts),
             y=_energy_range,
             layers=(
-                over_time("work", _graph(2), color=theme.MAP, dash="dashed", label="work W of the drive"),
-                over_time("change", _graph(1), color=theme.ORBIT, label="change of the energy"),
+                time_graph("work", _graph(2), color=theme.MAP, dash="dashed", label="work W of the drive"),
+                time_graph("change", _graph(1), color=theme.ORBIT, label="change of the energy"),
             ),
         ),
         exponent_picture(),

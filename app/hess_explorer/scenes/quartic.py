@@ -11,11 +11,11 @@ import numpy as np
 
 from hess_explorer.protocol.specs import Values
 from hess_explorer.scenes.framework.answers import Answer
-from hess_explorer.scenes.framework.charted import Charts, of_motion
+from hess_explorer.scenes.framework.charted import Charts, motion_charts
 from hess_explorer.scenes.framework.part import Start, part
 from hess_explorer.scenes.framework.scene import Preset, Scene
 from hess_explorer.scenes.framework.sliders import Slider, number, parameter, slider_within, time_span
-from hess_explorer.scenes.framework.solid_body import solid_body
+from hess_explorer.scenes.framework.solid_body import body_picture
 from hess_explorer.scenes.framework.swarm import turned_swarm
 from hess_explorer.scenes.framework.windows import Window
 from hess_explorer.scenes.parts.sections import (
@@ -34,7 +34,7 @@ from hess_explorer.scenes.parts.sections import (
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import Axes
 from hess_explorer.views.plane import plane_domain, section_plane
-from hess_explorer.views.plane.velocity_plane import centred, nice_above
+from hess_explorer.views.plane.velocity_plane import round_up, symmetric_range
 from hess_explorer.views.space.poisson_sphere import Sphere, centre_of_mass, parallels
 from hess_explorer.views.text import digits, variation_text, vector
 from hess_mechanics.dynamics.cells import occupied_cells
@@ -47,7 +47,7 @@ from hess_mechanics.suslov.equations import SYSTEM
 _CELLS = 32
 _NAMES = ("q", "p")
 _ALONG = {"h": "h", "I₁₁/I₂₂": "ratio", "b₃": "b3"}
-_P_AXIS = centred(1.05)
+_P_AXIS = symmetric_range(1.05)
 _HEIGHTS = (-0.75, -0.5, -0.25, 0.0, 0.25, 0.5, 0.75)
 """Values of γ3 on the equipotentials."""
 
@@ -107,7 +107,7 @@ class Quartic(SectionState):
 
     def valid_state(self, notes: list[str]) -> Quartic:
         """Return the state with a forbidden start moved to the edge of the region; append a note."""
-        q = self.body.inside((self.Q1, self.Q2))
+        q = self.body.nearest_possible((self.Q1, self.Q2))
         if q != (self.Q1, self.Q2):
             notes.append(f"With this energy the start is impossible: it was moved to the edge, q = {vector(q)}.")
         return self.with_values({"Q1": q[0], "Q2": q[1]})
@@ -138,7 +138,7 @@ class Quartic(SectionState):
     @property
     def half_width(self) -> float:
         """Half width of the plane of q."""
-        return nice_above(1.05 * max(self.body.axes))
+        return round_up(1.05 * max(self.body.axes))
 
     @property
     def weights(self) -> tuple[float, ...]:
@@ -160,7 +160,7 @@ class Quartic(SectionState):
 
     def section_window(self) -> Window:
         """Return the window of the section, with room for all q and p."""
-        (q0, q1), (p0, p1) = centred(nice_above(1.05 * self.body.longest)), _P_AXIS
+        (q0, q1), (p0, p1) = symmetric_range(round_up(1.05 * self.body.major_semi_axis)), _P_AXIS
         return (q0, p0), (q1, p1)
 
     @cached_property
@@ -168,7 +168,7 @@ class Quartic(SectionState):
         """q1p2 − q2p1 along the orbit (n,)."""
         return model.angular_momentum(self.body, self.orbit.path.states)
 
-    def first(self) -> tuple[float, float]:
+    def start_point(self) -> tuple[float, float]:
         """Return the q at which the orbit starts."""
         if self.closed_orbit is None:
             return self.Q1, self.Q2
@@ -177,11 +177,11 @@ class Quartic(SectionState):
 
     def impossible(self, axes: Axes) -> list[list[Array]]:
         """Return the forbidden region of the section."""
-        reach = 4.0 * max(axes.x[1], self.body.longest)
+        reach = 4.0 * max(axes.x[1], self.body.major_semi_axis)
         return (
             []
             if self.section.known_orbits.reason
-            else section_plane.outside(self.body.section_boundaries(), reach, 4.0)
+            else section_plane.exterior(self.body.section_boundaries(), reach, 4.0)
         )
 
     def start_at(self, x: float, y: float) -> Values:
@@ -201,12 +201,12 @@ class Quartic(SectionState):
         return Caption("Motion in a ring.", f"Semi-axes {first} and {second}, {hole}.")
 
     def _about_section(self) -> Caption:
-        if self.special is not None:
-            return self.special
+        if self.section_caption is not None:
+            return self.section_caption
         if self.section.known_orbits.reason:
             return Caption(numbers=self.section.known_orbits.reason)
-        visited = occupied_cells(self.section.own, self.poincare.window, _CELLS)
-        counted = self.density.phrase or f"{len(self.section.own)} points of the "
+        visited = occupied_cells(self.section.chosen_points, self.poincare.window, _CELLS)
+        counted = self.density.phrase or f"{len(self.section.chosen_points)} points of the "
         return Caption(numbers=f"{counted}orbit in {visited} of {_CELLS * _CELLS} cells.")
 
     def _about_sphere(self) -> Caption:
@@ -233,7 +233,7 @@ SCENE = Scene(
     place=7,
     presets=PRESETS,
     measures=section_trials(),
-    charts=Charts(of_motion(SYSTEM, lambda s: s.chosen_start), over=("h", "beta")),
+    charts=Charts(motion_charts(SYSTEM, lambda s: s.chosen_start), over=("h", "beta")),
     group="Heavy body",
     essential=("ratio", "h", "Q1", "Q2"),
     answers=(Answer("Each dot is one return: dots on a curve are a regular motion, a cloud of dots is chaos."),),
@@ -247,21 +247,21 @@ SCENE = Scene(
         )
     },
     views=(
-        solid_body(),
+        body_picture(),
         plane_domain.picture(
             "Point in the potential γ₃²/2",
             Quartic._about_domain,
             lambda s: s.half_width,
             names=("Q1", "Q2"),
             layers=(
-                *plane_domain.ground(
+                *plane_domain.background_layers(
                     lambda s: s.body.ellipse(), lambda s: s.body.holes(), lambda s: s.body.equipotentials(_HEIGHTS)
                 ),
-                *plane_domain.orbit(Quartic.first, label="start"),
+                *plane_domain.orbit(Quartic.start_point, label="start"),
             ),
         ),
         section_picture(
-            title=lambda s: "Section {} = 0 (upward crossings)".format("q₂" if s.body.across else "q₁"),
+            title=lambda s: "Section {} = 0 (upward crossings)".format("q₂" if s.body.minor_axis else "q₁"),
             caption=Quartic._about_section,
             axes=_NAMES,
             y=_P_AXIS,

@@ -12,7 +12,7 @@ import numpy as np
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.answers import Answer
-from hess_explorer.scenes.framework.charted import Charts, of_torus
+from hess_explorer.scenes.framework.charted import Charts, torus_charts
 from hess_explorer.scenes.framework.hess_case import map_or_none, possible_f
 from hess_explorer.scenes.framework.part import part
 from hess_explorer.scenes.framework.scene import Preset, Scene, State
@@ -110,7 +110,7 @@ class RotationNumber(State):
         return RotationMap(self, self.over, self.torus, self.line, window)
 
     @cached_property
-    def on_line(self) -> ParameterLine:
+    def parameter_line(self) -> ParameterLine:
         """The tori on the line, within the window of the map if the line lies in its plane."""
         low, high = dict(zip(self.rho.sides, self.rho.window, strict=True)).get(self.line, FULL[self.line])
         # The line's own parameter is set to 0, so the cache key is constant along the line.
@@ -120,15 +120,15 @@ class RotationNumber(State):
     def tori(self) -> rotation_line.Tori:
         """ρ and trace of tori on the line."""
         count = _ON_LINE // 4 if self.dragging else self.plan(Kind.LINE).side(_ON_LINE)
-        values = self.work.need(Task(mechanics.along, self.on_line, count, self.plan(Kind.LINE).level))
-        return rotation_line.Tori(self.on_line.places(count), values, self.on_line.place(self.torus))
+        values = self.work.need(Task(mechanics.values_along, self.parameter_line, count, self.plan(Kind.LINE).level))
+        return rotation_line.Tori(self.parameter_line.values(count), values, self.parameter_line.value_of(self.torus))
 
     @cached_property
     def other_family(self) -> Array | None:
         """ρ of the other family at the same parameters, NaN without a torus; None until known."""
         plan, count = self.plan(Kind.LINE), self.tori.x.size
         turns = plan.part(mechanics.TURNS)
-        task = Task(mechanics.perturbations_along, self.on_line, count, self.epsilon, plan.level, turns)
+        task = Task(mechanics.perturbations_along, self.parameter_line, count, self.epsilon, plan.level, turns)
         return None if self.dragging else self.work.need(task, preview=None)
 
     @property
@@ -140,7 +140,11 @@ class RotationNumber(State):
     @cached_property
     def periodic(self) -> PeriodicTorus | None:
         """The torus on the line with the rational ρ; None if there is none or until known."""
-        found = None if self.work.dragging else self.work.need(Task(_periodic, self.target, self.on_line), preview=None)
+        found = (
+            None
+            if self.work.dragging
+            else self.work.need(Task(_periodic, self.target, self.parameter_line), preview=None)
+        )
         return None if found is None else found[0]
 
     @cached_property
@@ -153,7 +157,7 @@ class RotationNumber(State):
     def _about_line(self) -> Caption:
         rho = str(self.target).replace("-", "−")
         if self.periodic is not None:
-            value = digits(self.on_line.place(self.periodic.torus))
+            value = digits(self.parameter_line.value_of(self.periodic.torus))
             difference = f"|Θ{superscript(self.target.denominator)} − id|"
             defect = digits(self.periodic.defect, 1)
             return Caption(
@@ -201,8 +205,10 @@ def _periodic(rho: Fraction, line: ParameterLine) -> tuple[PeriodicTorus | None]
 def _line(s: RotationNumber, plan: Plan) -> Array:
     """Return ρ of the tori on the line and of the other family."""
     count = plan.side(_ON_LINE)
-    values = mechanics.along(s.on_line, count, plan.level)
-    other_family = mechanics.perturbations_along(s.on_line, count, s.epsilon, plan.level, plan.part(mechanics.TURNS))
+    values = mechanics.values_along(s.parameter_line, count, plan.level)
+    other_family = mechanics.perturbations_along(
+        s.parameter_line, count, s.epsilon, plan.level, plan.part(mechanics.TURNS)
+    )
     return np.stack([np.where(values.possible, values.rho, np.nan), other_family])
 
 
@@ -216,7 +222,7 @@ _MEASURES: tuple[Trial[RotationNumber], ...] = (
     Trial(
         Kind.GRID,
         ("map",),
-        lambda s, plan: s.rho.rows(plan).now(),
+        lambda s, plan: s.rho.rows(plan).compute(),
         lambda s, found, truth: colour_error(found.rho[found.possible], truth.rho[found.possible]),
         COLOUR_UNIT,
         "cells",
@@ -231,7 +237,7 @@ _MEASURES: tuple[Trial[RotationNumber], ...] = (
     Trial(
         Kind.CURVE,
         ("map",),
-        lambda s, plan: s.rho.lock(plan).now(),
+        lambda s, plan: s.rho.tongue_boundary(plan).compute(),
         lambda s, found, truth: boundary_error(found, truth, Axes(*s.rho.window)),
     ),
 )
@@ -242,7 +248,7 @@ SCENE = Scene(
     place=8,
     presets=PRESETS,
     measures=_MEASURES,
-    charts=Charts(of_torus(lambda s: (s.a, s.h, s.f)), over=("h", "f")),
+    charts=Charts(torus_charts(lambda s: (s.a, s.h, s.f)), over=("h", "f")),
     group="Heavy body",
     essential=("a", "h", "f"),
     answers=(
@@ -262,7 +268,7 @@ SCENE = Scene(
             title=lambda s: f"ρ along {s.line}",
             caption=RotationNumber._about_line,
             axes=lambda s: (s.line, "ρ"),
-            x=lambda s: s.on_line.ends,
+            x=lambda s: s.parameter_line.ends,
             y=rotation_line.RHO,
             on_click=lambda s, x, y: {s.line: x},
             layers=rotation_line.rho_layers(
@@ -276,7 +282,7 @@ SCENE = Scene(
             title=lambda s: f"|trace| along {s.line}",
             axes=lambda s: (s.line, "|trace|"),
             caption=lambda s: Caption("Below 2: no cycle. Above: two cycles.", "Elliptic below 2, hyperbolic above."),
-            x=lambda s: s.on_line.ends,
+            x=lambda s: s.parameter_line.ends,
             y=rotation_line.TRACE,
             on_click=lambda s, x, y: {s.line: x},
             layers=rotation_line.trace_layers(lambda s: s.tori),

@@ -16,7 +16,7 @@ from hess_explorer.scenes.framework.charted import Charts, ChartSource, tensor_o
 from hess_explorer.scenes.framework.circle_left import CIRCLES, DIGITS, PHI, sphere
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
 from hess_explorer.scenes.framework.sliders import Slider, accuracy_level, parameter
-from hess_explorer.scenes.framework.solid_body import Solid, constrained_solid, solid_body
+from hess_explorer.scenes.framework.solid_body import Solid, body_picture, constrained_solid
 from hess_explorer.scenes.framework.swarm import turned_swarm
 from hess_explorer.scenes.framework.trial import Trial, curve_error
 from hess_explorer.scenes.framework.work import drift_status
@@ -165,7 +165,7 @@ class ScatteringState(State):
     # ---- words --------------------------------------------------------------------------------------------------
 
     def _about_curve(self) -> Caption:
-        return Caption(numbers=f"θ⁻ = {in_digits(self.theta)}: {square.spread(self.curve)} (dotted: θ⁻, π − θ⁻).")
+        return Caption(numbers=f"θ⁻ = {in_digits(self.theta)}: {square.range_text(self.curve)} (dotted: θ⁻, π − θ⁻).")
 
     def _about_map(self) -> Caption:
         return Caption(
@@ -178,7 +178,7 @@ class ScatteringState(State):
 
     def quantities(self) -> Iterator[str]:
         """Yield I11 and k², the rotation and the start."""
-        yield from free_body.about_I11(self.k, self.body)
+        yield from free_body.derived_quantities(self.k, self.body)
         yield f"cos χ = {in_digits(self.limit.cos_chi, 6)}"
         yield f"φ* = {in_digits(self.map.phi_star)}"
         yield f"δ = {in_digits(self.distance, 3)}"
@@ -247,8 +247,8 @@ SCENE = Scene(
     swarm=turned_swarm(),
     tracks={"orbit": lambda s: velocity_columns(s.orbit.times, s.orbit.omega, s.orbit.gamma)},
     views=(
-        solid_body(field=False),
-        square.over_phases(
+        body_picture(field=False),
+        square.phase_plot(
             ScatteringState._about_curve,
             layers=(
                 levels("levels", lambda s: (s.theta, math.pi - s.theta)),
@@ -262,7 +262,7 @@ SCENE = Scene(
                 ring("chosen", lambda s: [(s.phi, s.theta_plus)], size=18.0, label="chosen orbit", tag="chosen orbit"),
             ),
         ),
-        square.over_square(ScatteringState._about_map, ScatteringState.grid, lambda s: (s.phi, s.theta)),
+        square.square_plot(ScatteringState._about_map, ScatteringState.grid, lambda s: (s.phi, s.theta)),
         sphere(
             ScatteringState._about_sphere,
             xi=lambda s: s.points.xi,
@@ -270,7 +270,7 @@ SCENE = Scene(
             joined=lambda s: math.cos(s.theta_plus),
             signs=CIRCLES,
         ),
-        square.over_orders(
+        square.order_plot(
             lambda s: s.k_axis,
             lambda s: s.orders,
             lambda s: (s.k, s.limit.cos_chi),

@@ -16,7 +16,7 @@ from hess_explorer.scenes.framework.scene import Preset, Scene, State
 from hess_explorer.scenes.framework.sliders import ONE_TURN, accuracy_level, choice, number, parameter, time_span
 from hess_explorer.scenes.framework.trial import Trial
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.graphs.graph import with_room
+from hess_explorer.views.graphs.graph import with_margin
 from hess_explorer.views.layers import Columns, Range, column
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.space import cloud
@@ -171,7 +171,7 @@ class SingularMeasures(State):
     @property
     def heights(self) -> Range:
         """The vertical axis of the fourth picture."""
-        return with_room(np.append(self.statistics, 0.0), 0.08)
+        return with_margin(np.append(self.statistics, 0.0), 0.08)
 
     def track(self) -> Columns:
         """Return the times of the clouds and the mean of the fourth picture."""
@@ -180,14 +180,14 @@ class SingularMeasures(State):
     # ---- words --------------------------------------------------------------------------------------------------
 
     def _about_velocity(self) -> Caption:
-        return cloud.about_ends(self.clouds)
+        return cloud.ends_caption(self.clouds)
 
     def _about_sphere(self) -> Caption:
         first, last = (float(((self.clouds.cloud.gamma[:, i] @ self.strip.xi) ** 2).mean()) for i in (0, -1))
         return Caption("γ of the same points.", f"Mean of (γ, ξ)² {range_text(first, last, 3)}.")
 
     def _about_density(self) -> Caption:
-        s, mean = self.clouds.density.passed_by_most
+        s, mean = self.clouds.density.upper_quarter
         height = digits(self.clouds.density.height, 3)
         return Caption(
             "Mean over time against the invariant density.",
@@ -195,7 +195,7 @@ class SingularMeasures(State):
         )
 
     def _about_history(self) -> Caption:
-        return cloud.about_history(self.clouds, of_patch=self.along == "volume" and self.start == "small patch")
+        return cloud.history_caption(self.clouds, of_patch=self.along == "volume" and self.start == "small patch")
 
     def quantities(self) -> Iterator[str]:
         """Yield the system, its invariant density and the change of phase-space volume."""
@@ -220,7 +220,7 @@ class SingularMeasures(State):
 _CLOUD: Trial[SingularMeasures] = Trial(
     Kind.CLOUD,
     (),
-    lambda s, plan: s.task(plan.part(int(s.points), _FEW), plan.level).now(),
+    lambda s, plan: s.task(plan.part(int(s.points), _FEW), plan.level).compute(),
     lambda s, found, truth: cloud.largest_distance(found, truth),
     alike="share",
 )
@@ -246,7 +246,7 @@ SCENE = Scene(
             strip=lambda s: s.strip,
             b3=lambda s: s.b3,
             density="density-now",
-            half_width=lambda s: cloud.room(s.clouds),
+            half_width=lambda s: cloud.half_width(s.clouds),
             on_click=lambda s, x, y: {"start": "small patch", "angle": math.atan2(y, x)},
             starts=True,
         ),

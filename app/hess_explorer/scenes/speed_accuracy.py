@@ -11,7 +11,7 @@ from typing import Any
 from hess_explorer.protocol.specs import Spec, Value, Values
 from hess_explorer.scenes.framework.scene import Scene, State
 from hess_explorer.scenes.framework.sliders import Slider
-from hess_explorer.scenes.framework.trial import Trial, bare
+from hess_explorer.scenes.framework.trial import Trial, bare_state
 from hess_explorer.scenes.parts.orbits.costs import Costs, costs_picture
 from hess_explorer.scenes.parts.orbits.precision import PRECISION_PICTURES, Precision
 from hess_explorer.views.picture import Picture
@@ -35,7 +35,7 @@ class Study(State):
     @cached_property
     def costs(self) -> Costs:
         """Time and error of all computations of the state."""
-        plain = bare(self.base)
+        plain = bare_state(self.base)
         return Costs(self.work, plain, tuple(trial for trial in self.trials if trial.applies(plain)))
 
     @cached_property

@@ -11,11 +11,11 @@ import numpy as np
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.answers import Answer
-from hess_explorer.scenes.framework.charted import Charts, ChartSource, of_motion, parameters_of
+from hess_explorer.scenes.framework.charted import Charts, ChartSource, motion_charts, parameters_of
 from hess_explorer.scenes.framework.part import part
 from hess_explorer.scenes.framework.scene import Preset, Scene
 from hess_explorer.scenes.framework.sliders import TURN, choice, parameter, points, time_span
-from hess_explorer.scenes.framework.solid_body import solid_body
+from hess_explorer.scenes.framework.solid_body import body_picture
 from hess_explorer.scenes.framework.swarm import turned_swarm
 from hess_explorer.scenes.parts.orbits.exponent import exponent_trial
 from hess_explorer.scenes.parts.sections import (
@@ -37,12 +37,12 @@ from hess_explorer.views.graphs import conformal_time
 from hess_explorer.views.plane import layered_section
 from hess_explorer.views.plane.velocity_plane import (
     chosen_orbit,
-    nice_above,
     orbit_alone,
     orbit_columns,
     pixels_per_unit,
+    round_up,
 )
-from hess_explorer.views.space.poisson_sphere import along_the_orbit, centre_of_mass
+from hess_explorer.views.space.poisson_sphere import centre_of_mass, orbit_sphere
 from hess_explorer.views.text import digits
 from hess_mechanics.dynamics.cells import occupied_cells
 from hess_mechanics.dynamics.sampling import HALF_A_PIXEL
@@ -146,7 +146,7 @@ class Suslov(FilledState):
     @property
     def half_width(self) -> float:
         """Half width of the (ω1, ω2)-plane, with room for all motions of this energy."""
-        return nice_above(1.05 * math.sqrt(2.0 * self.h / min(self.I11, self.I22)))
+        return round_up(1.05 * math.sqrt(2.0 * self.h / min(self.I11, self.I22)))
 
     @property
     def weights(self) -> tuple[float, ...]:
@@ -188,12 +188,12 @@ class Suslov(FilledState):
         return f"Section {self.plane}{' (upward crossings)' if self.basins.arrivals is None else ': basins'}"
 
     def _about_section(self) -> Caption:
-        special = self.special or self.basins.caption
+        special = self.section_caption or self.basins.caption
         if special is not None:
             return special
         first, second = self.section.points(), self.section.points(False)
         if not self.orbits:
-            return Caption(numbers=f"{len(self.section.own)} points of chosen orbits.")
+            return Caption(numbers=f"{len(self.section.chosen_points)} points of chosen orbits.")
         backward = f", {len(second)} backward" if len(second) else ""
         # The later halves of the forward orbits show the attractors.
         later = self.section.points(later=True)
@@ -216,7 +216,7 @@ SCENE = Scene(
     measures=(*section_trials(orbits=40.0), exponent_trial(), basins_trial()),
     charts=Charts(
         (
-            *of_motion(SYSTEM, lambda s: start_on(s.poincare, s.starts), time=lambda s: s.long),
+            *motion_charts(SYSTEM, lambda s: start_on(s.poincare, s.starts), time=lambda s: s.long),
             ChartSource(
                 "basins suslov-section",
                 # Attractors belong to the whole section: one cell is enough.
@@ -250,9 +250,9 @@ SCENE = Scene(
             under=(layered_section.basins(lambda s: s.basins.arrivals, lambda s: s.section.frame),),
             over=periodic_layers(lambda s: s.basins),
         ),
-        solid_body(),
+        body_picture(),
         divergence_picture(),
-        along_the_orbit(
+        orbit_sphere(
             lambda s: centre_of_mass((s.b1, s.b2, s.b3)), lambda s: s.proof.circles, lambda s: s.clicks.colour
         ),
         replace(

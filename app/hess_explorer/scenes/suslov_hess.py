@@ -12,7 +12,7 @@ import numpy as np
 from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework import hess_case
 from hess_explorer.scenes.framework.answers import Answer
-from hess_explorer.scenes.framework.charted import Charts, of_torus
+from hess_explorer.scenes.framework.charted import Charts, torus_charts
 from hess_explorer.scenes.framework.hess_case import (
     ProvedStatement,
     limit_cycles,
@@ -30,7 +30,7 @@ from hess_explorer.scenes.framework.sliders import (
     show_proved_error,
     slider_within,
 )
-from hess_explorer.scenes.framework.solid_body import Solid, hess_solid, solid_body
+from hess_explorer.scenes.framework.solid_body import Solid, body_picture, hess_solid
 from hess_explorer.scenes.framework.trial import COLOUR_UNIT, Trial, boundary_error, colour_error, curve_error
 from hess_explorer.scenes.framework.work import orbit_status
 from hess_explorer.scenes.parts.orbits.hess_surface import INVARIANT, HessSurface, shading, surface_picture
@@ -39,7 +39,7 @@ from hess_explorer.views.layers import CellGrid, Columns
 from hess_explorer.views.maps import bifurcation_diagram as diagram
 from hess_explorer.views.maps import circle_map as circle
 from hess_explorer.views.plane import torus_density, torus_plane
-from hess_explorer.views.plane.velocity_plane import nice_above, picture
+from hess_explorer.views.plane.velocity_plane import picture, round_up
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.space.poisson_sphere import Circle, Direction, Sphere, parallels
 from hess_explorer.views.text import digits
@@ -144,7 +144,7 @@ class SuslovHess(State):
         largest = math.sqrt(2.0 * (diagram.window(self.h).x[1] + 1.0))
         halvings = math.floor(math.log2(largest / math.sqrt(2.0 * (self.h + 1.0))))
         ring = 1.02 * math.hypot(1.0, self.body.a) * largest * 0.5**halvings
-        return nice_above(self.body.frequency_unit * max(ring, 2.0 * DRAFT.promise))
+        return round_up(self.body.frequency_unit * max(ring, 2.0 * DRAFT.promise))
 
     @cached_property
     def track(self) -> Track:
@@ -296,7 +296,7 @@ _MEASURES: tuple[Trial[SuslovHess], ...] = (
     Trial(
         Kind.COLOURS,
         ("bifurcation",),
-        lambda s, plan: s.colours(affordable_cells(s.body.a, plan.grid(CELLS)), plan.level).now(),
+        lambda s, plan: s.colours(affordable_cells(s.body.a, plan.grid(CELLS)), plan.level).compute(),
         lambda s, found, truth: colour_error(found, truth),
         COLOUR_UNIT,
         "cells",
@@ -315,7 +315,7 @@ SCENE = Scene(
     place=1,
     presets=PRESETS,
     measures=_MEASURES,
-    charts=Charts(of_torus(lambda s: (s.body.a, s.h, s.f)), over=("h", "f")),
+    charts=Charts(torus_charts(lambda s: (s.body.a, s.h, s.f)), over=("h", "f")),
     swarm=hess_case.torus_swarm(lambda s: (s.body, s.h, s.f, s.phi0, s.map)),
     group="Heavy body",
     essential=("h", "f", "I23", "phi0"),
@@ -339,9 +339,9 @@ SCENE = Scene(
     tracks={"orbit": SuslovHess.orbit_columns, **hess_case.CYCLE_TRACKS},
     angles=("phi", "phi_start", "sigma"),
     views=(
-        solid_body(section=True),
+        body_picture(section=True),
         picture(
-            lambda s: torus_plane.about(s.map, s.turning_points),
+            lambda s: torus_plane.caption(s.map, s.turning_points),
             lambda s: s.half_width,
             torus_plane.layers(
                 lambda s: annulus(s.body, s.h, s.turning_points),
@@ -350,7 +350,7 @@ SCENE = Scene(
             ),
         ),
         Sphere(
-            caption=lambda s: torus_plane.about_heights(s.turning_points),
+            caption=lambda s: torus_plane.heights_caption(s.turning_points),
             circles=SuslovHess.heights,
             axis=lambda s: Direction(s.body.n3, "n₃"),
             looks={one: one for one in ("orbit", "stable", "unstable")},
@@ -359,14 +359,14 @@ SCENE = Scene(
             name="bifurcation",
             title="Bifurcation diagram",
             axes=("h", "f"),
-            caption=lambda s: diagram.about(s.h, s.f, s.map),
+            caption=lambda s: diagram.caption(s.h, s.f, s.map),
             dot=("h", "reach"),
             point=diagram.REACH,
             x=lambda s: diagram.window(s.h).x,
             y=lambda s: diagram.window(s.h).y,
             on_click=lambda s, x, y: {"h": x, "f": y},
             on_drag="here",
-            on_hover=lambda s, h, f: diagram.about_torus(s.body.a, h, f),
+            on_hover=lambda s, h, f: diagram.torus_tooltip(s.body.a, h, f),
             layers=diagram.layers(
                 rotation=lambda s: s.rotation,
                 boundary=lambda s: s.lock_boundary,
@@ -378,7 +378,7 @@ SCENE = Scene(
         circle.picture(
             map=lambda s: s.map,
             iterates=lambda s: s.iterates,
-            caption=lambda s: circle.about(s.map, "" if s.proof is None else s.proof.badge),
+            caption=lambda s: circle.caption(s.map, "" if s.proof is None else s.proof.badge),
             dot=("phi_start", "phi"),
             on_click=lambda s, x, y: {"phi0": x},
         ),

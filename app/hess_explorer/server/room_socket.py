@@ -121,7 +121,7 @@ class RoomSocket(WebSocketHandler):
                 self._room = room
             case _ if room is None:
                 self.close(*UNKNOWN)
-            case Lead(key) if room.opens_with(key):
+            case Lead(key) if room.is_lecturer_key(key):
                 room.lead(self)
                 self._room = room
             case Lead():

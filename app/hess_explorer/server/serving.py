@@ -35,7 +35,7 @@ from hess_explorer.server.modules import module_routes
 from hess_explorer.server.qr_code import QrCode
 from hess_explorer.server.room_page import RoomPage
 from hess_explorer.server.room_socket import RoomSocket
-from hess_explorer.server.shutdown import Workers, end_on_signals, leave
+from hess_explorer.server.shutdown import Workers, end_on_signals, exit_process
 from hess_explorer.server.warm import warm
 from hess_explorer.server.websockets import StateSocket
 
@@ -226,4 +226,4 @@ def serve(
     threading.Thread(target=_prepare, args=(address, port, ready), name="warm", daemon=True).start()
     server.start()
     server.io_loop.start()
-    leave(server)
+    exit_process(server)

@@ -62,7 +62,7 @@ def end_on_signals(loop: IOLoop) -> None:
         signal.signal(one, stop)
 
 
-def leave(server: Server) -> NoReturn:
+def exit_process(server: Server) -> NoReturn:
     """End this process with exit status 0 after its event loop has stopped."""
     with suppress(Exception):
         server.stop()

@@ -53,7 +53,7 @@ def compute(piece: SweepPlan) -> PieceResult:
     return {name: values.reshape(piece.shape) for name, values in arrays.items()}, failures
 
 
-def sendable(plan: SweepPlan) -> bytes:
+def serialize(plan: SweepPlan) -> bytes:
     """Serialize a plan without its axes, including functions that are defined in a notebook.
 
     Raises `InvalidParameter` if the computation cannot be pickled.

@@ -73,7 +73,9 @@ class SweepPlan:
     ) -> SweepPlan:
         """Return a validated plan.  Raises `InvalidParameter`, and `WorkLimit` above `MAX_CELLS` cells."""
         if not isinstance(over, Mapping) or not 1 <= len(over) <= _MOST_AXES:
-            raise InvalidParameter(f"A sweep is over one to {_MOST_AXES} parameters: name them with their values.")
+            raise InvalidParameter(
+                f"over = {over!s:.80}: give a mapping of one to {_MOST_AXES} parameters to their values."
+            )
         if both := over.keys() & fixed:
             raise InvalidParameter(f"{min(both)} is both swept and fixed: give it only once.")
         for name in as_parts("numbers", numbers):
@@ -125,5 +127,7 @@ def _axis(one: Parameter, values: Axis) -> Array:
         return np.linspace(low, high, int(values[2]))
     found = np.array([one.check(as_number(one.name, value)) for value in as_parts(one.name, values)])
     if np.unique(found).size < max(found.size, 1):
-        raise InvalidParameter(f"The values of {one.name} must be one or more different numbers.")
+        raise InvalidParameter(
+            f"The values of {one.name} are empty or repeat a number: give one or more different numbers."
+        )
     return found

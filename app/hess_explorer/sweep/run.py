@@ -175,7 +175,9 @@ def explain(result: xr.Dataset, **cell: float) -> str:
     """
     facts = result.attrs
     if {*cell} != {*result.status.dims}:
-        raise InvalidParameter("Pass a result of `sweep` or `read`, and all coordinates of one of its cells.")
+        raise InvalidParameter(
+            f"{', '.join(cell) or 'No coordinate'} given: pass values of {', '.join(map(str, result.status.dims))}."
+        )
     cell = {name: as_number(name, cell[name]) for name in map(str, result.status.dims)}
     if (failure := json.loads(facts["failures"]).get(cell_name(cell))) is not None:
         return str(failure)

@@ -182,7 +182,7 @@ def _open(place: Path | MemoryStore) -> xr.Dataset:
 
     with _reading(place, "does not contain a sweep: choose another folder."):
         found = xr.open_zarr(place, zarr_format=3, consolidated=False, chunks=None)
-        # Zarr does not keep their order.
+        # Restore the order of the variables, which Zarr does not keep.
         ordered: xr.Dataset = found[found.attrs["variables"].split(", ")]
         return ordered
 

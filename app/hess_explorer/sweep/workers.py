@@ -10,7 +10,7 @@ from textwrap import shorten
 from typing import TYPE_CHECKING, Any
 
 from hess_explorer.sweep.errors import WorkersLost
-from hess_explorer.sweep.piece import PieceResult, compute, compute_sent, sendable
+from hess_explorer.sweep.piece import PieceResult, compute, compute_sent, serialize
 from hess_explorer.sweep.plan import Region, SweepPlan, version
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.arguments import as_integer
@@ -42,7 +42,7 @@ def results(client: Client | None, plan: SweepPlan, regions: Iterable[Region]) -
         return
     from distributed import as_completed
 
-    content, left, lost = sendable(plan), iter(regions), []
+    content, left, lost = serialize(plan), iter(regions), []
     waiting: dict[Any, Region] = {}
     finished = as_completed(loop=client.loop)
 

@@ -38,7 +38,7 @@ _MARKERS = {"circle": "o", "triangle": "^", "inverted_triangle": "v", "diamond":
 _DASHES: Mapping[str, Any] = {"solid": "-", "dashed": (0, (6, 3)), "dotted": (0, (2, 4)), "dotdash": (0, (2, 4, 6, 4))}
 
 
-def as_it_is(colour: str) -> str:
+def unchanged(colour: str) -> str:
     """Return the colour unchanged."""
     return colour
 
@@ -49,7 +49,7 @@ def overlay(
     axes: Axes,
     names: tuple[str, str],
     title: str = "",
-    colour: Colour = as_it_is,
+    colour: Colour = unchanged,
 ) -> hv.Overlay:
     """Return the layers of a plot as HoloViews elements, with options for all loaded backends.
 
@@ -100,7 +100,7 @@ def _frame(plot: Plot[Any], axes: Axes, names: tuple[str, str]) -> Options:
     }
 
 
-def on_paper(layer: Layer[Any], colour: Colour) -> Options:
+def matplotlib_style(layer: Layer[Any], colour: Colour) -> Options:
     """Return the style of a layer as Matplotlib options."""
     return _KINDS[layer.glyph].matplotlib(_with_colours(layer.style, colour))
 

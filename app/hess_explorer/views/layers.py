@@ -170,7 +170,7 @@ def compose(get: Callable[[S], T | None], make: Callable[[T], U]) -> Callable[[S
     return of
 
 
-def inside(points: Positions, window: Positions) -> list[tuple[float, float]]:
+def crop(points: Positions, window: Positions) -> list[tuple[float, float]]:
     """Return the points within a window, given by two corners."""
     (x0, y0), (x1, y1) = window
     return [(x, y) for x, y in points if x0 <= x <= x1 and y0 <= y <= y1]

@@ -106,7 +106,7 @@ class Picture(ABC, Generic[S]):
         """Entries that the picture adds to the legend of its scene."""
         return self.signs
 
-    def there(self, drawn: Mapping[str, Columns]) -> tuple[Sign, ...]:
+    def visible_legend(self, drawn: Mapping[str, Columns]) -> tuple[Sign, ...]:
         """Return the legend entries that are visible, given the columns of all sources."""
         return self.legend
 
@@ -116,7 +116,7 @@ class Picture(ABC, Generic[S]):
         return None
 
     @property
-    def hands(self) -> str:
+    def gestures(self) -> str:
         """The mouse gestures that set values: "drag", "box", "drag box", "click" or none."""
         if self.on_click is None:
             return ""
@@ -129,7 +129,7 @@ class Picture(ABC, Generic[S]):
 
     def describe(self) -> dict[str, Any]:
         """Return the description of the picture, sent to the browser before the first data."""
-        return {"name": self.name, "kind": self.kind, "hands": self.hands, "starts": self.starts}
+        return {"name": self.name, "kind": self.kind, "hands": self.gestures, "starts": self.starts}
 
     def ranges(self, state: S, held: Axes | None) -> Axes | None:
         """Return the axes that fit a state, with the current axes `held` as fallback."""
@@ -139,11 +139,11 @@ class Picture(ABC, Generic[S]):
     def data(self, state: S) -> Sources:
         """Return the columns that do not depend on the axes, by data source."""
 
-    def framed(self, state: S, axes: Axes | None, drawn: Sources) -> Sources:
+    def data_in_axes(self, state: S, axes: Axes | None, drawn: Sources) -> Sources:
         """Return the columns that depend on the axes, by data source, given the columns `drawn` without axes."""
         return {}
 
-    def nothing(self, sentence: str, axes: Axes | None) -> Sources:
+    def empty_data(self, sentence: str, axes: Axes | None) -> Sources:
         """Return the columns of an empty picture; only a plot shows the sentence."""
         return {self.name: {}}
 

@@ -123,7 +123,7 @@ class Plot(Picture[S]):
             *(self.point.legend if self.dot is not None else ()),
         )
 
-    def there(self, drawn: Mapping[str, Columns]) -> tuple[Sign, ...]:
+    def visible_legend(self, drawn: Mapping[str, Columns]) -> tuple[Sign, ...]:
         """Return the visible legend entries, given the columns of all data sources.
 
         The legend does not repeat labels inside the picture.
@@ -163,7 +163,7 @@ class Plot(Picture[S]):
         """Return the columns that do not depend on the axes, by data source."""
         return {self.source_of(layer): layer.data(state) for layer in self.layers if layer.data is not None}
 
-    def framed(self, state: S, axes: Axes | None, drawn: Sources) -> Sources:
+    def data_in_axes(self, state: S, axes: Axes | None, drawn: Sources) -> Sources:
         """Return the columns that depend on the axes, by data source."""
         assert axes is not None
         found = {self.source_of(layer): layer.within(state, axes) for layer in self.layers if layer.within is not None}
@@ -174,7 +174,7 @@ class Plot(Picture[S]):
         found.update({f"{self.name}-{name}-label": one for name, one in labels.items()})
         return {**found, **self._words(self.names(state), sentence, axes)}
 
-    def nothing(self, sentence: str, axes: Axes | None) -> Sources:
+    def empty_data(self, sentence: str, axes: Axes | None) -> Sources:
         """Return the columns of an empty plot with a sentence as message."""
         assert axes is not None
         empty: Sources = {self.source_of(layer): {} for layer in self.all_layers}

@@ -14,7 +14,7 @@ from hess_mechanics.numerics.jit import inner, kernel
 
 
 @kernel
-def along(x, y, count):
+def sample_curve(x, y, count):
     """Return `count` points (2, count) evenly along the index of a curve of at least two points."""
     found = np.empty((2, count))
     for k in range(count):
@@ -77,7 +77,7 @@ def mean(sums_of_grid, x, y, half_width, half_height):
 
 
 @kernel
-def best(grid, region, places, half_width, half_height, edge, pull):
+def best_label(grid, region, places, half_width, half_height, edge, pull):
     """Return (cost, covered, x, y) of the best label about one of the places (2, n), inside the cells of a region.
 
     The cost is infinite outside the frame without its edge, and outside the region.
@@ -99,6 +99,6 @@ def best(grid, region, places, half_width, half_height, edge, pull):
 def compile_labels() -> None:
     """Compile the kernels that place labels, or load them."""
     grid, points = np.zeros((2, 2)), np.zeros((2, 2))
-    mark(grid, along(*points, 2), 0.0)
+    mark(grid, sample_curve(*points, 2), 0.0)
     fill(grid, points)
-    best(grid, grid, points, 0.1, 0.1, 0.0, 0.0)
+    best_label(grid, grid, points, 0.1, 0.1, 0.0, 0.0)

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from hess_explorer.views.layers import Axes, Columns, Layer
-from hess_explorer.views.tag_kernels import along, best, fill, mark
+from hess_explorer.views.tag_kernels import best_label, fill, mark, sample_curve
 from hess_mechanics.numerics.results import Array
 
 _CELLS = 48
@@ -75,9 +75,9 @@ def label_places(
         half = _half(layer.tag)
         inside = _inside(layer, given, frame)
         cost, covered, *place = (
-            best(taken, _FRAME, _around(points, half), *half, _EDGE, _PULL)
+            best_label(taken, _FRAME, _around(points, half), *half, _EDGE, _PULL)
             if inside is None
-            else best(taken, inside, _middles(inside), *half, _EDGE, _PULL)
+            else best_label(taken, inside, _middles(inside), *half, _EDGE, _PULL)
         )
         if cost == math.inf or covered > _FULL:
             continue
@@ -145,7 +145,7 @@ def _words(layer: Layer[Any], columns: Columns, frame: _Frame) -> Iterable[tuple
 
 def _dense(curve: Array, least: int) -> Array:
     """Interpolate a curve to at least 50 points, evenly along its index."""
-    points: Array = curve if curve.shape[1] < 2 else along(*curve, max(50, least))
+    points: Array = curve if curve.shape[1] < 2 else sample_curve(*curve, max(50, least))
     return points
 
 

@@ -78,7 +78,7 @@ def gradient(scale: tuple[str, ...]) -> str:
     return f"linear-gradient(90deg, {', '.join(scale[i * (len(scale) - 1) // 16] for i in range(17))})"
 
 
-def in_css(style: str) -> str:
+def to_css(style: str) -> str:
     """Replace the colours of a CSS style by variables of the page's theme."""
 
     def variable(match: re.Match[str]) -> str:

@@ -17,8 +17,8 @@ from functools import cache
 
 from hess_mechanics.catalogue import of_motions, of_problems, of_sections
 from hess_mechanics.catalogue.declared import Choice, Computation, NoValue, Number, declare
-from hess_mechanics.dynamics.motions import Motions, anywhere, section_of
-from hess_mechanics.dynamics.system import System, declared, systems
+from hess_mechanics.dynamics.motions import Motions, section_of, state_motions
+from hess_mechanics.dynamics.system import System, declarations, systems
 from hess_mechanics.errors import InvalidParameter
 
 __all__ = [
@@ -43,8 +43,8 @@ def motions() -> Mapping[str, Motions]:
     mapping of str to Motions
         The motions.
     """
-    result = {name: anywhere(system) for name, system in systems().items()}
-    result |= {one.name: one for one in declared("SECTION") if isinstance(one, Motions)}
+    result = {name: state_motions(system) for name, system in systems().items()}
+    result |= {one.name: one for one in declarations("SECTION") if isinstance(one, Motions)}
     sectioned = {one.system.name for one in result.values() if one.section is not None}
     for name, system in systems().items():
         if name not in sectioned and (section := section_of(system)) is not None:
@@ -65,7 +65,7 @@ def computations_of(system: System | Motions) -> Mapping[str, Computation]:
     mapping of str to Computation
         The computations, by name and system.
     """
-    both = [system] if isinstance(system, Motions) else [anywhere(system), section_of(system)]
+    both = [system] if isinstance(system, Motions) else [state_motions(system), section_of(system)]
     return {one.key: one for of in both if of is not None for one in _of(of)}
 
 

@@ -328,7 +328,7 @@ class Computation:
         for choice in self.choices:
             word = str(arguments.get(choice.name, choice.default))
             if word not in choice.names:
-                raise InvalidParameter(f"{choice.name} is one of {', '.join(choice.names)}, not {word[:40]!r}.")
+                raise InvalidParameter(f"{choice.name} = {word[:40]!r}: choose one of {', '.join(choice.names)}.")
             values[choice.name] = word
         return values
 
@@ -423,14 +423,14 @@ def declare(of: Motions, one: Computation, on_section: bool = False) -> Computat
     Computation
         The computation of this system.
     """
-    own = (*of.parameters, *of.place)
+    own = (*of.parameters, *of.point)
     names = {each.name for each in own}
 
     def call(accuracy: Level, **values: Any) -> Any:
         more = {name: value for name, value in values.items() if name not in names}
         start: tuple[Any, ...]
         if on_section and of.section is not None:
-            start = ReturnMap(of.section(values), accuracy), tuple(values[each.name] for each in of.place)
+            start = ReturnMap(of.section(values), accuracy), tuple(values[each.name] for each in of.point)
         else:
             start, more["accuracy"] = of.start(values), accuracy
         return (one.call or one.function)(*start, **more)

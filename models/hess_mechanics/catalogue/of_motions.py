@@ -12,7 +12,7 @@ from hess_mechanics import parameters as known
 from hess_mechanics.catalogue.declared import Computation, Number, real
 from hess_mechanics.dynamics.ensemble import complete
 from hess_mechanics.dynamics.megno import megno
-from hess_mechanics.dynamics.motions import usual, whole
+from hess_mechanics.dynamics.motions import integer, with_default
 from hess_mechanics.dynamics.orbit import MAX_SAMPLES, MAX_STEPS, solve
 from hess_mechanics.dynamics.plane_section import MAX_CROSSINGS, Plane, section
 from hess_mechanics.dynamics.spectrum import lyapunov_exponent, lyapunov_spectrum
@@ -25,15 +25,15 @@ __all__ = ["computations"]
 
 State = tuple[float, ...]
 
-_LONG = usual(known.SPAN, 500.0, "Time over which to average.")
+_LONG = with_default(known.SPAN, 500.0, "Time over which to average.")
 _STEPS = (
     known.MAX_STEP,
-    whole("max_steps", "N", MAX_STEPS, 1, 10**12, "Largest number of steps of all runs together."),
+    integer("max_steps", "N", MAX_STEPS, 1, 10**12, "Largest number of steps of all runs together."),
 )
 _TUBE_PARAMETERS = (
-    usual(known.TIME, 2.0),
-    whole("samples", "n", 5, 2, MAX_SAMPLES, "Evenly spaced times, with 0."),
-    whole("digits", "n", 18, 1, 100, "Number of digits that determines the width of the intervals."),
+    with_default(known.TIME, 2.0),
+    integer("samples", "n", 5, 2, MAX_SAMPLES, "Evenly spaced times, with 0."),
+    integer("digits", "n", 18, 1, 100, "Number of digits that determines the width of the intervals."),
     real(
         "seconds",
         "s",
@@ -80,7 +80,7 @@ def computations(system: System) -> Iterator[Computation]:
         "orbit",
         "Orbit",
         solve,
-        (usual(known.TIME, 50.0), whole("samples", "n", 500, 2, MAX_SAMPLES, "Evenly spaced times."), *_STEPS),
+        (with_default(known.TIME, 50.0), integer("samples", "n", 500, 2, MAX_SAMPLES, "Evenly spaced times."), *_STEPS),
         {
             **{
                 name: Number(
@@ -116,9 +116,9 @@ def computations(system: System) -> Iterator[Computation]:
                 for i, name in enumerate(names)
             ),
             real("offset", "c", 0.0, -1e3, 1e3, "Value of (n, y) on the plane."),
-            whole("sense", "s", 1, -1, 1, "1: crossed from below, −1: from above, 0: both."),
-            whole("crossings", "N", MAX_CROSSINGS, 1, MAX_CROSSINGS, "Largest number of crossings."),
-            usual(known.TIME, 100.0, "Time up to which crossings are counted; negative: backward."),
+            integer("sense", "s", 1, -1, 1, "1: crossed from below, −1: from above, 0: both."),
+            integer("crossings", "N", MAX_CROSSINGS, 1, MAX_CROSSINGS, "Largest number of crossings."),
+            with_default(known.TIME, 100.0, "Time up to which crossings are counted; negative: backward."),
             *_STEPS,
         ),
         {"crossings": Number("n", "number of crossings of the plane", lambda r: len(r.times))},
@@ -166,7 +166,7 @@ def computations(system: System) -> Iterator[Computation]:
         "megno",
         "MEGNO",
         megno,
-        (usual(known.SPAN, 200.0),),
+        (with_default(known.SPAN, 200.0),),
         {
             "megno": Number("Ȳ", "MEGNO", lambda r: r.values[0]),
             "divergence": Number(

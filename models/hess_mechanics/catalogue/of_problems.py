@@ -16,7 +16,7 @@ from hess_mechanics.chaplygin_ball.integrable_cases import period
 from hess_mechanics.chaplygin_ball.phase_cloud import Cloud
 from hess_mechanics.chaplygin_ball.phase_cloud_density import density, history
 from hess_mechanics.computations import cloud
-from hess_mechanics.dynamics.motions import usual, whole
+from hess_mechanics.dynamics.motions import integer, with_default
 from hess_mechanics.errors import OutsideRegion, Separatrix
 from hess_mechanics.numerics.accuracy import Kind, Level
 from hess_mechanics.numerics.arguments import unit_vector
@@ -55,7 +55,7 @@ def _tori(accuracy: Level, a: Array, h: Array, f: Array, phi: Array) -> Many:
 
 def _cycle(theta: CircleMap, number: int) -> FixedPoint:
     if len(theta.fixed_points) != 2:
-        raise NoValue(f"The circle map is {theta.kind}: it has no two limit cycles.")
+        raise NoValue(f"The circle map is {theta.kind}: the torus has no pair of limit cycles.")
     return theta.fixed_points[number]
 
 
@@ -63,12 +63,12 @@ def _cycle(theta: CircleMap, number: int) -> FixedPoint:
 
 
 def _usual(of: Iterable[Parameter], *defaults: float) -> tuple[Parameter, ...]:
-    return tuple(map(usual, of, defaults))
+    return tuple(map(with_default, of, defaults))
 
 
 _TENSOR = _usual(known.TENSOR, 2.0, 1.0, 0.3, 0.5)
-_CIRCLE = (usual(known.THETA, 1.0), usual(known.CIRCLE_PHASE, 0.0))
-_INNER = usual(known.D, 1.0)
+_CIRCLE = (with_default(known.THETA, 1.0), with_default(known.CIRCLE_PHASE, 0.0))
+_INNER = with_default(known.D, 1.0)
 
 
 # Many cells of a sweep over angles share a body.
@@ -84,15 +84,15 @@ def _scattering(accuracy: Level, theta: float, phi: float, arc: int, distance: f
 
 _CLOUD = (
     *_TENSOR,
-    usual(known.D, 0.0),
-    usual(known.H_FREE_BALL, 2.0),
+    with_default(known.D, 0.0),
+    with_default(known.H_FREE_BALL, 2.0),
     real("spread", "δ", 0.1, 1e-9, 1.0, "E = h(1 ± δ), or the radius of the patch."),
-    whole(
+    integer(
         "patch", "p", 0, 0, 1, "1: start from a patch about the ω at the angle, with γ = e3; 0: from the whole shell."
     ),
-    usual(known.CIRCLE_PHASE, 0.5, "Angle of ω at the patch, in radians."),
-    whole("count", "n", 1000, 1, 20_000, "Number of points."),
-    usual(known.TIME, 10.0),
+    with_default(known.CIRCLE_PHASE, 0.5, "Angle of ω at the patch, in radians."),
+    integer("count", "n", 1000, 1, 20_000, "Number of points."),
+    with_default(known.TIME, 10.0),
 )
 _SMALL = {"count": 50.0, "duration": 2.0}
 
@@ -130,7 +130,7 @@ COMPUTATIONS: tuple[Computation, ...] = (
         "circle-map",
         "Circle map Θ(φ) of a Suslov–Hess torus",
         circle_map,
-        (*_TORUS, usual(known.CIRCLE_PHASE, 0.5, "Angle φ whose image is computed, in radians.")),
+        (*_TORUS, with_default(known.CIRCLE_PHASE, 0.5, "Angle φ whose image is computed, in radians.")),
         {
             "rotation-number": Number("ρ", "rotation number", "of.rotation_number", "turns per return", turn=1.0),
             "trace": Number("|t|", "|trace| of the map as a matrix of SU(1,1)", "of.trace"),
@@ -173,7 +173,7 @@ COMPUTATIONS: tuple[Computation, ...] = (
         (
             *_TENSOR,
             *_CIRCLE,
-            whole("arc", "σ", 1, -1, 1, "Sign of I13ω1 + I23ω2 along the motion, 1 or −1."),
+            integer("arc", "σ", 1, -1, 1, "Sign of I13ω1 + I23ω2 along the motion, 1 or −1."),
             real(
                 "distance",
                 "δ",

@@ -10,7 +10,7 @@ import numpy as np
 from hess_mechanics import parameters as known
 from hess_mechanics.catalogue.declared import Choice, Computation, NoValue, Number, largest_difference, real
 from hess_mechanics.dynamics.manifolds import manifold
-from hess_mechanics.dynamics.motions import usual, whole
+from hess_mechanics.dynamics.motions import integer, with_default
 from hess_mechanics.dynamics.orbit_diagram import Cascade
 from hess_mechanics.dynamics.periodic import MAX_PERIOD, PeriodicOrbit
 from hess_mechanics.dynamics.regime import MotionKind, Regime, dynamics_of, regime
@@ -28,30 +28,30 @@ from hess_mechanics.return_maps import (
 
 __all__ = ["computations"]
 
-Place = tuple[float, ...]
+Point = tuple[float, ...]
 
 _UNDECIDED = (MotionKind.UNDECIDED, MotionKind.SETTLING)
-_TRANSIENT = whole("transient", "N₀", 300, 0, 20_000, "Crossings skipped.")
-_CROSSINGS = whole("crossings", "N", 200, 8, 20_000, "Crossings analysed.")
-_REGIME_PARAMETERS = _TRANSIENT, _CROSSINGS, usual(known.SPAN, 200.0, "Time of MEGNO and of the mean divergence.")
+_TRANSIENT = integer("transient", "N₀", 300, 0, 20_000, "Crossings skipped.")
+_CROSSINGS = integer("crossings", "N", 200, 8, 20_000, "Crossings analysed.")
+_REGIME_PARAMETERS = _TRANSIENT, _CROSSINGS, with_default(known.SPAN, 200.0, "Time of MEGNO and the mean divergence.")
 
 
 # ---- functions of a point of a section ------------------------------------------------------------------------------
 
 
-def _periodic(map_: ReturnMap, place: Place, period: int) -> PeriodicOrbit:
-    return periodic_orbit(map_, place, period or None)
+def _periodic(map_: ReturnMap, point: Point, period: int) -> PeriodicOrbit:
+    return periodic_orbit(map_, point, period or None)
 
 
 def _from_orbit(function: Callable[..., Any]) -> Callable[..., Any]:
     """Return a function of a map and a point, from one of a map and a periodic orbit."""
-    return lambda map_, place, period, **more: function(map_, _periodic(map_, place, period), **more)
+    return lambda map_, point, period, **more: function(map_, _periodic(map_, point, period), **more)
 
 
 def _along(function: Callable[..., Any]) -> Callable[..., Any]:
     """Return a function over evenly spaced values of a parameter, from one over any values."""
-    return lambda map_, place, parameter, low, to, values, **more: function(
-        map_, parameter, np.linspace(low, to, values), place, **more
+    return lambda map_, point, parameter, low, to, values, **more: function(
+        map_, parameter, np.linspace(low, to, values), point, **more
     )
 
 
@@ -72,7 +72,7 @@ def _reader_of(name: str) -> Callable[[Regime], float]:
 
 def _first(cascade: Cascade) -> float:
     if not len(cascade.values):
-        raise NoValue("No period doubles on this range: choose a longer one.")
+        raise NoValue("There is no period doubling in this range: choose a larger range.")
     return float(cascade.values[0])
 
 
@@ -116,9 +116,9 @@ def computations(example: PoincareSection, period: int) -> Iterator[Computation]
     value = constants[name]
     to = real("to", "to", value + 0.1 * max(1.0, abs(value)), -1e6, 1e6, "Last value of the parameter.")
     ends = real("low", "from", value, -1e6, 1e6, "First value of the parameter."), to
-    values = whole("values", "n", 50, 2, 20_000, "Number of values of the parameter.")
-    transient = usual(_TRANSIENT, 200.0)
-    returns = whole("period", "N", period, 0, MAX_PERIOD, "Number of returns; 0: detected, up to 12.")
+    values = integer("values", "n", 50, 2, 20_000, "Number of values of the parameter.")
+    transient = with_default(_TRANSIENT, 200.0)
+    returns = integer("period", "N", period, 0, MAX_PERIOD, "Number of returns; 0: detected, up to 12.")
     yield Computation(
         "periodic-orbit",
         "Periodic orbit",
@@ -135,20 +135,20 @@ def computations(example: PoincareSection, period: int) -> Iterator[Computation]
             "period": Number("N", "number of returns", "period"),
         },
         Kind.ORBIT,
-        "places",
+        "points",
         _periodic,
     )
     yield Computation(
         "branch",
         "Branch of periodic orbits over a parameter",
         continued_orbit,
-        (returns, to, whole("points", "n", 200, 2, 2000, "Largest number of points of the branch.")),
+        (returns, to, integer("points", "n", 200, 2, 2000, "Largest number of points of the branch.")),
         {
             "bifurcations": Number("n", "number of bifurcations", lambda r: len(r.bifurcations)),
             "end": Number("λ", "value of the parameter at the end", lambda r: r.values[-1]),
         },
         Kind.ORBIT,
-        lambda r, exact: largest_difference(r.places[-1], exact.places[-1]),
+        lambda r, exact: largest_difference(r.points[-1], exact.points[-1]),
         _from_orbit(continued_orbit),
         choices=over,
         example={"points": 5.0},
@@ -157,7 +157,7 @@ def computations(example: PoincareSection, period: int) -> Iterator[Computation]
         "period-doublings",
         "Period doublings over a parameter",
         period_doublings,
-        (returns, to, whole("most", "n", 3, 1, 6, "Largest number of doublings.")),
+        (returns, to, integer("most", "n", 3, 1, 6, "Largest number of doublings.")),
         {
             "count": Number("n", "number of doublings", lambda r: len(r.values)),
             "first": Number("λ₁", "value of the parameter at the first doubling", _first),
@@ -176,15 +176,15 @@ def computations(example: PoincareSection, period: int) -> Iterator[Computation]
             *ends,
             values,
             transient,
-            whole("crossings", "N", 64, 1, 20_000, "Crossings shown at each value."),
-            whole("follow", "f", 1, 0, 1, "1: each value starts where the one before ends; 0: at the place."),
-            whole("backward", "−t", 0, 0, 1, "1: backward in time, to repellers."),
+            integer("crossings", "N", 64, 1, 20_000, "Crossings shown at each value."),
+            integer("follow", "f", 1, 0, 1, "1: each value starts where the one before ends; 0: at the chosen point."),
+            integer("backward", "−t", 0, 0, 1, "1: backward in time, to repellers."),
         ),
         {"period": Number("N", "period at the last value, 0 if none is seen", lambda r: r.periods[-1])},
         Kind.SECTION,
         "periods",
-        lambda map_, place, backward, **more: _along(orbit_diagram)(
-            map_.inverse() if backward else map_, place, **more
+        lambda map_, point, backward, **more: _along(orbit_diagram)(
+            map_.inverse() if backward else map_, point, **more
         ),
         choices=over,
         example={"values": 3.0, "transient": 30.0, "crossings": 8.0},
@@ -206,7 +206,7 @@ def computations(example: PoincareSection, period: int) -> Iterator[Computation]
         _REGIME_PARAMETERS,
         {
             "distance": Number("d", "distance of attractor and repeller", "distance", error_reader="distance_error"),
-            "shared": Number("s", "fraction of the places that both share", "overlap"),
+            "shared": Number("s", "fraction of the points that both share", "overlap"),
         },
         Kind.INDICATOR,
         example={"transient": 60.0, "crossings": 64.0, "duration": 50.0},
@@ -219,14 +219,14 @@ def computations(example: PoincareSection, period: int) -> Iterator[Computation]
         "Poincaré section",
         section_orbits,
         (
-            whole("orbits", "n", 0, 0, 1000, "Orbits spread evenly over the section; 0: the one from the place."),
-            whole("crossings", "N", 200, 1, 10_000, "Crossings of each orbit."),
+            integer("orbits", "n", 0, 0, 1000, "Orbits spread evenly over the section; 0: the one from the point."),
+            integer("crossings", "N", 200, 1, 10_000, "Crossings of each orbit."),
         ),
         {"points": Number("n", "number of points", lambda r: sum(map(len, r.orbits)))},
         Kind.SECTION,
         _points_away,
-        lambda map_, place, orbits, crossings: section_orbits(
-            map_, starts=() if orbits else (place,), orbits=orbits or 1, crossings=crossings
+        lambda map_, point, orbits, crossings: section_orbits(
+            map_, starts=() if orbits else (point,), orbits=orbits or 1, crossings=crossings
         ),
         example={"crossings": 20.0},
     )
@@ -237,8 +237,8 @@ def computations(example: PoincareSection, period: int) -> Iterator[Computation]
         (
             returns,
             real("length", "s", 1.0, 1e-3, 1e3, "Length at which the branch ends."),
-            whole("stable", "W", 0, 0, 1, "1: the stable manifold, 0: the unstable one."),
-            whole("side", "±", 1, -1, 1, "1: along the direction of the saddle, −1: against it."),
+            integer("stable", "W", 0, 0, 1, "1: the stable manifold, 0: the unstable one."),
+            integer("side", "±", 1, -1, 1, "1: along the direction of the saddle, −1: against it."),
         ),
         {"length": Number("s", "length of the branch", "length", error_reader="error_estimate")},
         Kind.ORBIT,
@@ -251,18 +251,18 @@ def computations(example: PoincareSection, period: int) -> Iterator[Computation]
         "Basins of attraction",
         basins,
         (
-            whole("across", "m", 40, 1, 1000, "Number of cells across."),
-            whole("up", "n", 30, 1, 1000, "Number of cells up."),
+            integer("across", "m", 40, 1, 1000, "Number of cells across."),
+            integer("up", "n", 30, 1, 1000, "Number of cells up."),
             *(
                 real(name, name, value, -1e6, 1e6, "Side of the window.")
                 for name, value in (("x0", x0), ("x1", x1), ("y0", y0), ("y1", y1))
             ),
-            usual(known.SPAN, 1000.0, "Time over which the divergence is averaged."),
+            with_default(known.SPAN, 1000.0, "Time over which the divergence is averaged."),
         ),
         {"attractors": Number("N", "number of attractors", "attractors")},
         Kind.BASINS,
         lambda r, exact: float(np.mean(r.attractor != exact.attractor)),
-        lambda map_, place, across, up, x0, x1, y0, y1, duration: basins(
+        lambda map_, point, across, up, x0, x1, y0, y1, duration: basins(
             map_, (across, up), ((x0, y0), (x1, y1)), duration
         ),
         unit="fraction of the cells",

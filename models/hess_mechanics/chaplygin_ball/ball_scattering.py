@@ -324,7 +324,7 @@ def ball_scattering(
     phis = np.array(phis, float, ndmin=1)
     require_finite(theta_minus=theta_minus, distance=distance)
     if phis.ndim != 1 or phis.size == 0 or not np.all(np.isfinite(phis)):
-        raise InvalidParameter("The phases φ must be one or more finite numbers.")
+        raise InvalidParameter("The phases φ are empty or not finite: give one or more finite numbers.")
     if not 0.0 <= theta_minus <= math.pi:
         raise InvalidParameter(f"θ⁻ = {theta_minus:g}, but it is an angle between two vectors: choose 0 ≤ θ⁻ ≤ π.")
     if not 1e-10 <= abs(distance) <= 0.1:
@@ -332,7 +332,8 @@ def ball_scattering(
 
     states, before = starts(strip, theta_minus, phis, distance)
     rates = _rates(strip, np.array([theta_minus, *np.linspace(0.0, math.pi, 33)]))
-    # Departure from N^u at the rate of θ⁻, approach to N^s at that of the slowest circle; the factors cover the middle.
+    # Time of departure from N^u at the rate of θ⁻, plus time of approach to N^s at that of the slowest circle.  The
+    # factors 4 and 40 allow for the passage between them.
     with np.errstate(divide="ignore"):
         span = math.log(4.0 / abs(distance)) / rates[0] + math.log(40.0 / level.promise) / rates.min()
     # Steps must resolve the small distance, which determines the departure; half the promise is for other errors.

@@ -15,20 +15,20 @@ import numpy as np
 from hess_mechanics import parameters as known
 from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody, kinetic_energy
 from hess_mechanics.chaplygin_ball.integrable_cases import has_area_integral, is_reversible
-from hess_mechanics.dynamics.motions import body_parameters, on_section, usual
+from hess_mechanics.dynamics.motions import body_parameters, section_motions, with_default
 from hess_mechanics.dynamics.orbit import solve
 from hess_mechanics.dynamics.system import System
 from hess_mechanics.numerics.accuracy import DRAFT
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov.suslov_section import AngleSection
 
-__all__ = ["SECTION", "BallSection", "fastest", "outside_band"]
+__all__ = ["SECTION", "BallSection", "largest_speed", "nearest_possible_psi"]
 
 _EDGE = 1e-3
 _SAMPLES = 129
 
 
-def outside_band(band: tuple[float, float], psi: float) -> float:
+def nearest_possible_psi(band: tuple[float, float], psi: float) -> float:
     """Return the possible ψ nearest to a given one.
 
     Parameters
@@ -51,7 +51,7 @@ def outside_band(band: tuple[float, float], psi: float) -> float:
     return max(-math.pi, min(math.pi, moved))
 
 
-def fastest(body: BallBody, start: tuple[float, ...], duration: float) -> float:
+def largest_speed(body: BallBody, start: tuple[float, ...], duration: float) -> float:
     """Return the largest |ω| at 129 samples of an orbit.
 
     Parameters
@@ -130,11 +130,11 @@ class BallSection(AngleSection):
         return "the integrable case I₁₁ = I₂₂, b along e₃" if has_area_integral(self.body) else ""
 
 
-SECTION = on_section(
+SECTION = section_motions(
     "ball-section",
     "Chaplygin ball, a point of a section",
-    (*body_parameters(SYSTEM, 1.0, 3.0, 0.2, -0.1, 5.0, 0.5, 0.2, 0.8), usual(known.H_BALL, 2.5)),
-    (usual(known.PSI, 1.5), usual(known.DELTA, 1.2)),
+    (*body_parameters(SYSTEM, 1.0, 3.0, 0.2, -0.1, 5.0, 0.5, 0.2, 0.8), with_default(known.H_BALL, 2.5)),
+    (with_default(known.PSI, 1.5), with_default(known.DELTA, 1.2)),
     lambda values: BallSection(BallBody(*(values[name] for name in SYSTEM.parameters)), 0.0).at_constant(
         "h", values["h"]
     ),

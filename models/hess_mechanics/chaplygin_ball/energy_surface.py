@@ -241,7 +241,7 @@ def omega_of_energy(
     """
     length = math.hypot(*direction)
     if not (math.isfinite(length) and length > 0.0):
-        raise InvalidParameter("The direction of ω must be a finite nonzero vector.")
+        raise InvalidParameter(f"The direction of ω has the length {length:g}: give a finite nonzero vector.")
     potential = sum(b * g for b, g in zip(body.parameters[5:], gamma, strict=True))
     if not h >= potential:
         raise OutsideRegion(f"With this γ the ball at rest has the energy {potential:.6g}: choose h above it.")

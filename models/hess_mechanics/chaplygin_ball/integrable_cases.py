@@ -27,7 +27,7 @@ from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody
 from hess_mechanics.dynamics.plane_section import Plane, section
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.accuracy import LEVELS, Accuracy, Status
-from hess_mechanics.numerics.arguments import as_a, as_level, as_place
+from hess_mechanics.numerics.arguments import as_a, as_level, as_point
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.results import Array, Cost, facts_of
 
@@ -171,7 +171,7 @@ def period(body: BallBody, start: Sequence[float], accuracy: Accuracy = "precise
     level = as_level(accuracy)
     if not is_reversible(as_a(BallBody, body)):
         raise InvalidParameter("Orbits are periodic only for I13 = I23 = 0 and b3 = 0: set these to 0.")
-    p, given = np.array(body.parameters), np.array(as_place(SYSTEM.variables, start))
+    p, given = np.array(body.parameters), np.array(as_point(SYSTEM.variables, start))
     moment = max(body.I11, body.I22) + body.D
     least = min(body.I11, body.I22)
     nu = float(SYSTEM.frequency(given, p)) or 1.0

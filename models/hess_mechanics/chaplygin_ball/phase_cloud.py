@@ -29,14 +29,14 @@ from hess_mechanics.chaplygin_ball.energy_surface import line_of_rest
 from hess_mechanics.chaplygin_ball.equations import BallBody, determinant, inverse_times, kinetic_energy
 from hess_mechanics.chaplygin_ball.phase_cloud_kernels import integrate
 from hess_mechanics.dynamics.ensemble import integrate_many
-from hess_mechanics.dynamics.orbit import checked_times, require_finite_states, require_steps
+from hess_mechanics.dynamics.orbit import as_times, require_finite_states, require_steps
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import Accuracy, Level, Status
 from hess_mechanics.numerics.arguments import as_level
 from hess_mechanics.numerics.labelled import Labels, Result
-from hess_mechanics.numerics.measured import SAFETY, nearby
+from hess_mechanics.numerics.measured import SAFETY, perturb
 from hess_mechanics.numerics.parallel import THREADS
-from hess_mechanics.numerics.patience import go_on
+from hess_mechanics.numerics.patience import check_limit
 from hess_mechanics.numerics.results import Array, Cost, facts_of, frozen, unit_of
 from hess_mechanics.parameters import plain
 from hess_mechanics.rigid_body.inertia import require_finite
@@ -178,7 +178,7 @@ def _require_cloud(h: float, spread: float, count: int) -> None:
     if not 0.0 < spread < 1.0:
         raise InvalidParameter(f"The cloud's spread is {spread:g}: choose it between 0 and 1.")
     if count < 1:
-        raise InvalidParameter("A cloud needs at least one point.")
+        raise InvalidParameter(f"A cloud of {count} points is empty: choose at least one.")
 
 
 def shell(body: BallBody, h: float, spread: float, count: int) -> Array:
@@ -335,7 +335,7 @@ def cloud_of(body: BallBody, states: Array, times: Array, accuracy: Accuracy) ->
     """Return the cloud of given phase points at given times, with b = 0.
 
     The error of every sixteenth point, and of those that start closest to s = 0, is estimated by a second run with a
-    hundredth of the tolerance from a start `nearby`.  If it exceeds the promise of the level all points are recomputed
+    hundredth of the tolerance from a start `perturb`.  If it exceeds the promise of the level all points are recomputed
     with that tolerance, down to the floor of double precision.
 
     Parameters
@@ -366,7 +366,7 @@ def cloud_of(body: BallBody, states: Array, times: Array, accuracy: Accuracy) ->
     if any(body.parameters[5:]):
         raise InvalidParameter("1/|I13ω1 + I23ω2| is an invariant density only without a field: set b1 = b2 = b3 = 0.")
     J, (n1, n2) = _direction(body)
-    t = checked_times(times)
+    t = as_times(times)
     nu = math.sqrt(_twice_energy(body, states) / min(body.I11, body.I22)) or 1.0  # a bound on every |ω|
     first = np.column_stack([states[:, :2] @ [[n2, n1], [-n1, n2]] / nu, states[:, 2:]])
     if not np.all(first[:, 1]):
@@ -378,9 +378,9 @@ def cloud_of(body: BallBody, states: Array, times: Array, accuracy: Accuracy) ->
     out, total = _run(first, p, t * nu, level, max_steps)
     current = level
     while True:
-        go_on()
+        check_limit()
         finer = current.tighter()
-        fine, steps = _run(nearby(first[checked]), p, t * nu, finer, 2 * max_steps)
+        fine, steps = _run(perturb(first[checked]), p, t * nu, finer, 2 * max_steps)
         total += steps
         error = SAFETY * float(np.abs(out[checked] - fine).max()) + 2e-16
         if error <= level.promise or current.is_floor:

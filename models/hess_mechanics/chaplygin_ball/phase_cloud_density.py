@@ -19,7 +19,7 @@ from hess_mechanics.dynamics.ensemble import complete, ensemble
 from hess_mechanics.numerics.accuracy import Accuracy
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.results import Array, Ensemble, frozen
-from hess_mechanics.suslov.additional_integral import of_body
+from hess_mechanics.suslov.additional_integral import integral_of
 from hess_mechanics.suslov.equations import SuslovBody
 
 __all__ = ["BIN", "SMALLEST", "CloudHistory", "Clouds", "Density", "clouds", "density", "history", "sides"]
@@ -105,7 +105,7 @@ class Density(Result):
         return Labels({"ln|s|": (along, self.log_s)}, {name: (along, values) for name, values in parts.items()})
 
     @property
-    def passed_by_most(self) -> tuple[float, float]:
+    def upper_quarter(self) -> tuple[float, float]:
         """The |s| at the upper quarter of the range of ln|s|, which most points pass, and the mean there."""
         i = 3 * self.log_s.size // 4
         return math.exp(float(self.log_s[i])), float(self.mean[i])
@@ -128,7 +128,7 @@ def sides(cloud: Cloud) -> tuple[int, int, int] | None:
         0 or `eq834` does not hold.
     """
     body = cloud.body
-    integral = of_body(SuslovBody(body.I11, body.I22, body.I13, body.I23)) if body.D == 0.0 else None
+    integral = integral_of(SuslovBody(body.I11, body.I22, body.I13, body.I23)) if body.D == 0.0 else None
     if integral is None:
         return None
     values = integral(cloud.omega, cloud.gamma)
@@ -163,7 +163,7 @@ class Clouds:
     other: Ensemble | None
 
     @property
-    def fastest(self) -> float:
+    def largest_speed(self) -> float:
         """The largest |ω| of all points, in rad/T."""
         fastest = float(np.sqrt((self.cloud.omega**2).sum(axis=2).max()))
         if self.other is None:

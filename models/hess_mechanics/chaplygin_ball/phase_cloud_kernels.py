@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from hess_mechanics.chaplygin_ball.equations import inverse_times
-from hess_mechanics.numerics.batch_kernels import one_by_one
+from hess_mechanics.numerics.batch_kernels import sequential_integrator
 from hess_mechanics.numerics.jit import kernel
 from hess_mechanics.numerics.taylor_kernels import orbit_integrator
 from hess_mechanics.numerics.tracing import trace
@@ -33,7 +33,7 @@ def field(y: Sequence[Any], p: Sequence[Any]) -> tuple[Any, ...]:
     )
 
 
-_ensemble = one_by_one(orbit_integrator(trace(field, variables=5, parameters=6)))
+_ensemble = sequential_integrator(orbit_integrator(trace(field, variables=5, parameters=6)))
 
 
 @kernel

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from hess_mechanics.dynamics.cells import centres
 from hess_mechanics.dynamics.return_map import PoincareSection
-from hess_mechanics.numerics.patience import go_on
+from hess_mechanics.numerics.patience import check_limit
 from hess_mechanics.numerics.results import Array, frozen
 
 __all__ = ["CROSSINGS", "LOST", "NOWHERE", "Arrivals", "Orbits", "RecurrentSets", "arrivals", "recurrent_sets"]
@@ -133,7 +133,7 @@ class Arrivals:
 def _cells(section: PoincareSection, states: Array) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """Return row and column of the cells of states (n, d)."""
     low, high = np.array(section.window).T
-    at = np.floor((section.places_of(states) - low) / (high - low) * _CELLS).astype(int)
+    at = np.floor((section.points_of(states) - low) / (high - low) * _CELLS).astype(int)
     column, row = (np.clip(one, 0, count - 1) for one, count in zip(at.T, _CELLS, strict=True))
     return row, column
 
@@ -206,7 +206,7 @@ def recurrent_sets(orbits: Orbits) -> RecurrentSets:
 
 
 def arrivals(orbits: Orbits, sets: RecurrentSets, x: Array, y: Array) -> Arrivals:
-    """Return where orbits arrive within `CROSSINGS` crossings.
+    """Return the recurrent sets that orbits reach within `CROSSINGS` crossings.
 
     Parameters
     ----------
@@ -235,7 +235,7 @@ def arrivals(orbits: Orbits, sets: RecurrentSets, x: Array, y: Array) -> Arrival
     for piece in _PIECES if sets.states else ():
         if not left.size:
             break
-        go_on()
+        check_limit()
         following = orbits.follow(states, piece)
         whole = np.array([len(orbit) == piece for orbit in following])
         left, before = left[whole], before[whole]

@@ -12,7 +12,7 @@ from hess_mechanics.dynamics.attraction import Arrivals, Orbits, RecurrentSets, 
 from hess_mechanics.dynamics.cells import Window, centres
 from hess_mechanics.numerics.results import Mask, frozen
 
-__all__ = ["arrivals_of_cells", "cells_to_compute", "coarsest_cells", "merge", "unsure"]
+__all__ = ["ambiguity", "arrivals_of_cells", "cells_to_compute", "coarsest_cells", "merge"]
 
 
 def _on_boundary(cells: NDArray[Any]) -> Mask:
@@ -131,7 +131,7 @@ def coarsest_cells(cells: NDArray[Any]) -> NDArray[Any]:
     return cells
 
 
-def unsure(cells: NDArray[Any]) -> float:
+def ambiguity(cells: NDArray[Any]) -> float:
     """Estimate the fraction of the area that a grid twice as fine would assign to another basin.
 
     A straight boundary passes through about one cell for each pair of neighbours that differ; about a quarter of that

@@ -203,7 +203,7 @@ class Attractors:
         return len(self.sets.states)
 
     @property
-    def alone(self) -> bool:
+    def all_attract(self) -> bool:
         """True if every recurrent set attracts."""
         return all(one.attracts for one in self.contractions)
 

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from hess_mechanics.dynamics.periodic import apart
+from hess_mechanics.dynamics.periodic import difference
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.results import Array
 
@@ -72,7 +72,7 @@ def window_rates(sums: Array, times: Array) -> Array:
     return np.array([_weighted_mean(rates[one]) for one in windows])
 
 
-def irregularity(turns: Sequence[float], places: Array, precision: float) -> float:
+def irregularity(turns: Sequence[float], points: Array, precision: float) -> float:
     """Return the difference between averages over the halves of an orbit, in units of that of white noise.
 
     On a quasi-periodic orbit with a smooth invariant curve weighted averages converge faster than any power of n, on a
@@ -84,7 +84,7 @@ def irregularity(turns: Sequence[float], places: Array, precision: float) -> flo
     ----------
     turns : sequence of float
         Period of each coordinate, ∞ if it is not an angle.
-    places : ndarray, shape (n, d)
+    points : ndarray, shape (n, d)
         Points of the orbit.
     precision : float
         Error of the points, which does not count as irregularity.
@@ -101,13 +101,13 @@ def irregularity(turns: Sequence[float], places: Array, precision: float) -> flo
     E. Sander, J. D. Meiss, Birkhoff averages and rotational invariant circles for area-preserving maps, Physica D 411
     (2020), 132569.
     """
-    series = bounded_series(turns, places)
+    series = bounded_series(turns, points)
     both = np.concatenate([series, series**2], axis=1)
     half = len(both) // 2
     weight = _weights(half)
     off = np.abs(weight @ (both[:half] - both[half : 2 * half]))
-    most = max(1, len(places) // _LEAST_REPEATS)
-    gaps = [float(np.abs(apart(turns, places[m:], places[:-m])).max()) for m in range(1, most + 1)]
+    most = max(1, len(points) // _LEAST_REPEATS)
+    gaps = [float(np.abs(difference(turns, points[m:], points[:-m])).max()) for m in range(1, most + 1)]
     closest = 1 + int(np.argmin(gaps))
     worst = math.inf if closest * min(gaps) < _TOO_CLOSE * max(gaps) else 0.0
     for m in (1, closest):
@@ -119,14 +119,14 @@ def irregularity(turns: Sequence[float], places: Array, precision: float) -> flo
     return worst
 
 
-def bounded_series(turns: Sequence[float], places: Array) -> Array:
+def bounded_series(turns: Sequence[float], points: Array) -> Array:
     """Return bounded functions along an orbit: cos and sin of angles, other coordinates over their range.
 
     Parameters
     ----------
     turns : sequence of float
         Period of each coordinate, ∞ if it is not an angle.
-    places : ndarray, shape (n, d)
+    points : ndarray, shape (n, d)
         Points of the orbit.
 
     Returns
@@ -134,14 +134,14 @@ def bounded_series(turns: Sequence[float], places: Array) -> Array:
     ndarray, shape (n, m)
         The functions, one or two for each coordinate.
     """
-    away = places - places.mean(axis=0)
+    away = points - points.mean(axis=0)
     size = max(float(np.abs(away).max()), float(np.ptp(away, axis=0).max()), 1e-300)
     return np.column_stack(
         [
             one
             for i, turn in enumerate(turns)
             for one in (
-                (np.cos(2.0 * math.pi * places[:, i] / turn), np.sin(2.0 * math.pi * places[:, i] / turn))
+                (np.cos(2.0 * math.pi * points[:, i] / turn), np.sin(2.0 * math.pi * points[:, i] / turn))
                 if math.isfinite(turn)
                 else (away[:, i] / size,)
             )

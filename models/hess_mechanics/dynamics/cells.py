@@ -8,7 +8,7 @@ import numpy as np
 
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["Window", "centres", "evenly", "occupied_cells"]
+__all__ = ["Window", "centres", "even_points", "occupied_cells"]
 
 Window = tuple[tuple[float, float], tuple[float, float]]
 """Two opposite corners, (x0, y0), (x1, y1), the lower left one first."""
@@ -58,7 +58,7 @@ _PLASTIC = np.array([[0.7548776662466927], [0.5698402909980532]])
 """1/ρ and 1/ρ² of the plastic number, ρ³ = ρ + 1."""
 
 
-def evenly(count: int, origin: float = 0.0) -> Array:
+def even_points(count: int, origin: float = 0.0) -> Array:
     """Return points of the R2 low-discrepancy sequence in the unit square (Roberts, 2018).
 
     Any initial segment of the sequence fills the square evenly.

@@ -24,16 +24,16 @@ from hess_mechanics.dynamics.periodic import (
     Map,
     PeriodicOrbit,
     Shot,
-    apart,
+    difference,
     kind_of,
     multipliers_of,
-    place_units,
     shoot,
+    units_of,
 )
 from hess_mechanics.errors import InvalidParameter, ModelError, NotConverged
 from hess_mechanics.numerics.labelled import Labels, Result, components
 from hess_mechanics.numerics.measured import SAFETY
-from hess_mechanics.numerics.patience import go_on
+from hess_mechanics.numerics.patience import check_limit
 from hess_mechanics.numerics.results import Array, Complex, frozen
 
 __all__ = ["Bifurcation", "Branch", "MapFamily", "branch_from", "extension"]
@@ -71,7 +71,7 @@ class Bifurcation:
         Value of the parameter.
     error : float
         Estimated error of the value.
-    places : ndarray, shape (m, d)
+    points : ndarray, shape (m, d)
         Points of the orbit.
     multipliers : ndarray of complex, shape (d,)
         Multipliers of the orbit.
@@ -82,7 +82,7 @@ class Bifurcation:
     kind: str
     value: float
     error: float
-    places: Array
+    points: Array
     multipliers: Complex
     after: int
 
@@ -99,7 +99,7 @@ class Branch(Result):
         Names of the coordinates.
     values : ndarray, shape (n,)
         Values of the parameter.
-    places : ndarray, shape (n, m, d)
+    points : ndarray, shape (n, m, d)
         Points of each orbit.
     multipliers : ndarray of complex, shape (n, d)
         Multipliers of each orbit.
@@ -122,7 +122,7 @@ class Branch(Result):
     parameter: str
     names: tuple[str, ...]
     values: Array
-    places: Array
+    points: Array
     multipliers: Complex
     kinds: tuple[str, ...]
     errors: Array
@@ -135,7 +135,7 @@ class Branch(Result):
     @property
     def period(self) -> int:
         """Period of all orbits."""
-        return int(self.places.shape[1])
+        return int(self.points.shape[1])
 
     @property
     def error_estimate(self) -> float:
@@ -159,13 +159,13 @@ class Branch(Result):
         return Labels(
             {self.parameter: (along, self.values)},
             {
-                **components(self.names, self.places[:, 0], *along),
+                **components(self.names, self.points[:, 0], *along),
                 **parts,
                 **({} if self.times is None else {"time": (along, self.times)}),
                 "kind": (along, np.array(self.kinds)),
                 "error": (along, self.errors),
             },
-            {"time": "T", **place_units(self.names)},
+            {"time": "T", **units_of(self.names)},
             {
                 "period": self.period,
                 "level": self.level,
@@ -224,18 +224,18 @@ class _Track:
     def split(self, z: Array) -> tuple[Array, float]:
         return z[:-1].reshape(self.shape) * self.root, float(z[-1] * self.width)
 
-    def joined(self, places: Array, value: float) -> Array:
-        return np.append(places.ravel() / self.root, value / self.width)
+    def joined(self, points: Array, value: float) -> Array:
+        return np.append(points.ravel() / self.root, value / self.width)
 
     def point(self, z: Array, iterations: int = 0, better: bool = False) -> _Point:
         """Return F and its derivatives at z.  Raises as the family."""
-        places, value = self.split(z)
+        points, value = self.split(z)
         map_ = self.at(value).tighter() if better else self.at(value)
-        shot = shoot(map_, places)
+        shot = shoot(map_, points)
         # Only Newton's steps and the tangent use this derivative; its error does not move the orbit.
         h = 1e-5 * self.width
-        sides = [self.at(value + sign * h).image(places) for sign in (1.0, -1.0)]
-        by_value = apart(map_.turns, *sides) / (2.0 * h)
+        sides = [self.at(value + sign * h).image(points) for sign in (1.0, -1.0)]
+        by_value = difference(map_.turns, *sides) / (2.0 * h)
         # The equations are divided by √m, like the points.
         return _Point(z, shot, by_value.ravel() * self.width / self.root, iterations)
 
@@ -247,7 +247,7 @@ class _Track:
         """Return the point of the branch in the plane through `guess` across a direction.  Raises `NotConverged`."""
         z, before = guess, math.inf
         for iteration in range(1, 13):
-            go_on()
+            check_limit()
             try:
                 point = self.point(z, iteration)
                 step = self._step(point, across, float(across @ (z - guess)))
@@ -346,10 +346,10 @@ def branch_from(
     edge = start if edge is None else edge
     if not (all(map(math.isfinite, (start, end, edge))) and min(edge, end) <= start <= max(edge, end) and start != end):
         raise InvalidParameter(f"{parameter} runs from {start:g} to {end:g}: give two different finite numbers.")
-    track = _Track(lru_cache(_MAPS)(family), parameter, orbit.names, orbit.level, (edge, end), orbit.places.shape)
-    along = np.zeros(orbit.places.size + 1)
+    track = _Track(lru_cache(_MAPS)(family), parameter, orbit.names, orbit.level, (edge, end), orbit.points.shape)
+    along = np.zeros(orbit.points.size + 1)
     along[-1] = math.copysign(1.0, end - start)
-    z = track.joined(orbit.places, start)
+    z = track.joined(orbit.points, start)
     try:
         point = track.corrected(z, along)
     except NotConverged as error:
@@ -401,10 +401,10 @@ def extension(
     """
     if branch.heading is None:
         raise InvalidParameter(f"This branch cannot be continued: {branch.end_reason}")
-    shape, maps = branch.places.shape[1:], lru_cache(_MAPS)(family)
+    shape, maps = branch.points.shape[1:], lru_cache(_MAPS)(family)
     track = _Track(maps, branch.parameter, branch.names, branch.level, (edge, end), shape)
     along, step = branch.heading
-    point = track.corrected(track.joined(branch.places[-1], float(branch.values[-1])), along)
+    point = track.corrected(track.joined(branch.points[-1], float(branch.values[-1])), along)
     return _followed(track, point, point.tangent(along), points, step, longest)
 
 
@@ -424,7 +424,7 @@ def _followed(
         room = _to_edge(last.z[-1], t[-1], low, high)
         ahead = min(step, room)
         try:
-            # The last point lies at the end of the range itself.
+            # Place the last point exactly at the end of the range.
             following, tangent = track.beside(last.z + ahead * t, along if room <= step else t, t)
         except NotConverged as error:
             step = 0.5 * min(step, ahead)
@@ -444,14 +444,14 @@ def _followed(
             ended = f"At {track.parameter} = {track.split(following.z)[1]:.9g}, the end of the range."
         if any(one.kind == until for one in bifurcations):
             ended = f"Beyond the {until}."
-    places, values = zip(*(track.split(one.z) for one in line), strict=True)
+    orbits, values = zip(*(track.split(one.z) for one in line), strict=True)
     multipliers = np.array([multipliers_of(one.shot.derivatives)[0] for one in line])
     kinds = tuple(kind_of(one, max(1e-9, 10.0 * error)) for one, error in zip(multipliers, errors, strict=True))
     return Branch(
         track.parameter,
         track.names,
         frozen(np.array(values)),
-        frozen(np.array(places)),
+        frozen(np.array(orbits)),
         frozen(multipliers),
         kinds,
         frozen(np.array(errors)),
@@ -516,7 +516,8 @@ def _located(track: _Track, kind: str, last: _Point, t: Array, ahead: float, aft
             else:
                 low, f_low = s, f
                 f_high, side = (0.5 * f_high if side < 0 else f_high), -1
-        # The zero of a better map lies where its sign function, here off by Δf, vanishes along the branch.
+        # Error of the located point: the test function of a more accurate map differs there by Δf, so its zero is
+        # shifted along the branch by Δf divided by the slope of f.
         across = point.tangent(t)
         better = track.point(point.z + track._step(track.point(point.z, better=True), t, 0.0), better=True)
         along = abs((_signs(better, better.tangent(t))[kind] - f) * (high - low) / (f_high - f_low))
@@ -525,14 +526,14 @@ def _located(track: _Track, kind: str, last: _Point, t: Array, ahead: float, aft
     except _SINGULAR:
         # At a crossing of branches the equations are singular; the zero is bracketed by regular points.
         off, point = _closed_in(track, at, (low, high), point, t)
-    places, value = track.split(point.z)
-    if kind == "branch point" and _breaks_a_symmetry(track.at(value), places, point):
+    points, value = track.split(point.z)
+    if kind == "branch point" and _breaks_a_symmetry(track.at(value), points, point):
         kind = "pitchfork"
     return Bifurcation(
         kind,
         value,
         off * track.width + 4e-16 * max(1.0, abs(value)),
-        frozen(places.copy()),
+        frozen(points.copy()),
         frozen(multipliers_of(point.shot.derivatives)[0]),
         after,
     )
@@ -576,12 +577,12 @@ def _first_of(
     return None
 
 
-def _breaks_a_symmetry(map_: Map, places: Array, point: _Point) -> bool:
+def _breaks_a_symmetry(map_: Map, points: Array, point: _Point) -> bool:
     """Return True if the orbit has a symmetry that those of the other branch do not have."""
-    own = set(map_.symmetries_of(places, 1e-7))
+    own = set(map_.symmetries_of(points, 1e-7))
     if not own:
         return False
-    away = np.linalg.svd(point.shot.jacobian)[2][-1].reshape(places.shape)
+    away = np.linalg.svd(point.shot.jacobian)[2][-1].reshape(points.shape)
     # A symmetry that shifts the phase is exact only to second order: it returns to the section along the motion.
-    aside = map_.symmetries_of(places + _ASIDE * away / np.abs(away).max(), 0.1 * _ASIDE)
+    aside = map_.symmetries_of(points + _ASIDE * away / np.abs(away).max(), 0.1 * _ASIDE)
     return bool(own - set(aside))

@@ -8,21 +8,21 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hess_mechanics.dynamics.orbit import checked_times, require_finite_states, require_steps
+from hess_mechanics.dynamics.orbit import as_times, require_finite_states, require_steps
 from hess_mechanics.dynamics.system import Body, Problem
-from hess_mechanics.numerics.patience import go_on
+from hess_mechanics.numerics.patience import check_limit
 from hess_mechanics.numerics.results import Array, Complex, frozen
 
 __all__ = ["DoubleDoubleOrbit", "double_double_orbit"]
 
 _MOST_STEPS = 100_000
 _AT_ONCE = 20
-"""Number of times integrated between two calls of `go_on`."""
+"""Number of times integrated between two calls of `check_limit`."""
 
 
 @dataclass(frozen=True)
 class DoubleDoubleOrbit:
-    """An orbit with 31 digits, of which an unstable motion loses some.
+    """An orbit computed with 31 digits; instability reduces their number over time.
 
     Attributes
     ----------
@@ -43,7 +43,7 @@ class DoubleDoubleOrbit:
         """The states, rounded to doubles, shape (n, d)."""
         return frozen(self.pairs.real.copy())
 
-    def away(self, states: Array) -> Array:
+    def errors_of(self, states: Array) -> Array:
         """Return the errors of computed states, without rounding the truth first.
 
         Parameters
@@ -94,17 +94,18 @@ def double_double_orbit(
     >>> from hess_mechanics.dynamics.doubled import double_double_orbit
     >>> suslov = systems()["suslov"]
     >>> orbit = solve(*suslov.example_motion, [0.0, 1.0, 2.0], level("precise"))
-    >>> bool(double_double_orbit(*suslov.example_motion, orbit.times).away(orbit.states).max() < orbit.error_estimate)
+    >>> truth = double_double_orbit(*suslov.example_motion, orbit.times)
+    >>> bool(truth.errors_of(orbit.states).max() < orbit.error_estimate)
     True
     """
-    t = checked_times(times)
+    t = as_times(times)
     problem = Problem.of(body, [start])
     unit = math.ldexp(1.0, -round(math.log2(problem.nu)))
     p = np.asarray(body.parameters, complex)
     out = np.empty((t.size, problem.scale.size), complex)
     here, begun, left = np.array(start, complex), 0.0, _MOST_STEPS
     for first in range(0, t.size, _AT_ONCE):
-        go_on()
+        check_limit()
         part = slice(first, first + _AT_ONCE)
         steps = body.system.doubled(here, begun, p, problem.scale, unit, t[part], left, out[part])
         require_steps(

@@ -11,7 +11,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from hess_mechanics.dynamics.periodic import Map, PeriodicOrbit, apart, find_periodic, images_of
+from hess_mechanics.dynamics.periodic import Map, PeriodicOrbit, difference, find_periodic, images_of
 from hess_mechanics.errors import ModelError, NotConverged
 from hess_mechanics.numerics.results import Array
 
@@ -46,15 +46,15 @@ def saddle_between(map_: Map, one: Array, other: Array, number_of: Callable[[Arr
     NotConverged
         If no saddle is found, or the boundary is not smooth.
     """
-    a, b = np.asarray(one, float), one + apart(map_.turns, other, one)
+    a, b = np.asarray(one, float), one + difference(map_.turns, other, one)
     own = number_of(a)
     for _ in range(_HALVINGS):
         middle = 0.5 * (a + b)
         a, b = (middle, b) if number_of(middle) == own else (a, middle)
     orbits = [images_of(map_, end, _CROSSINGS) for end in (a, b)]
     both = min(map(len, orbits))
-    away = np.abs(apart(map_.turns, orbits[0][:both], orbits[1][:both])).max(axis=1)
-    # The later the closer to the saddle, as long as both ends run together.
+    away = np.abs(difference(map_.turns, orbits[0][:both], orbits[1][:both])).max(axis=1)
+    # The two orbits approach the saddle until they separate: start Newton's method from their last common points.
     last = int(np.argmax(away > 1e-3)) if np.any(away > 1e-3) else both
     for first in range(max(0, last - _MOST - 1), -1, -_MOST):
         try:
@@ -63,4 +63,4 @@ def saddle_between(map_: Map, one: Array, other: Array, number_of: Callable[[Arr
             continue
         if orbit.kind.startswith("saddle"):
             return orbit
-    raise NotConverged(f"No saddle up to period {_MOST} is found on the boundary here.")
+    raise NotConverged(f"No saddle up to period {_MOST} is found on the boundary here: choose two other points.")

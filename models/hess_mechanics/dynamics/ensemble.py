@@ -9,13 +9,13 @@ from typing import Protocol, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from hess_mechanics.dynamics.orbit import MAX_STEPS, as_max_step, as_max_steps, checked_times, drift_of, end_error
+from hess_mechanics.dynamics.orbit import MAX_STEPS, as_max_step, as_max_steps, as_times, drift_of, end_error
 from hess_mechanics.dynamics.system import Body, Problem
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import Accuracy, Level, Status
 from hess_mechanics.numerics.arguments import as_level
 from hess_mechanics.numerics.measured import SAFETY, UNSURE, safety_of
-from hess_mechanics.numerics.parallel import THREADS, share
+from hess_mechanics.numerics.parallel import THREADS, run_in_threads
 from hess_mechanics.numerics.results import Array, Cost, Ensemble, frozen
 
 __all__ = ["MAX_NUMBERS", "complete", "ensemble", "integrate_many"]
@@ -80,7 +80,7 @@ def integrate_many(
         results = out[own], steps[own], ends[own]
         kernel(states[own], parameters, times, level.order, level.tolerance, longest, max_steps, *results)
 
-    share(part, -(-count // _SHARE), threads)
+    run_in_threads(part, -(-count // _SHARE), threads)
     return out, steps, ends
 
 
@@ -138,11 +138,11 @@ def ensemble(
     """
     level = as_level(accuracy)
     start = time.perf_counter()
-    t = checked_times(times)
+    t = as_times(times)
     problem = Problem.of(body, states)
     count, dimension = problem.states.shape
     if count == 0:
-        raise InvalidParameter("An ensemble needs at least one initial state.")
+        raise InvalidParameter("There are no initial states: give at least one.")
     if count * t.size * dimension > MAX_NUMBERS:
         raise WorkLimit(f"{count} orbits at {t.size} times are too many: choose fewer of one or the other.")
     scaled_times = problem.times(t)
@@ -156,7 +156,7 @@ def ensemble(
 
     out, steps, reached = run(problem, slice(None), level)
     done = steps >= 0
-    problems = problem, problem.nearby().rounded(out[done, -1])
+    problems = problem, problem.perturb().with_rounding(out[done, -1])
     total = int(steps[done].sum())
     errors, scaled_errors = np.full(count, np.inf), np.zeros(count)
     todo = np.flatnonzero(done)

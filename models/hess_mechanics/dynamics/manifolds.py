@@ -19,12 +19,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from hess_mechanics.dynamics.periodic import Map, PeriodicOrbit, apart, place_units
+from hess_mechanics.dynamics.periodic import Map, PeriodicOrbit, difference, units_of
 from hess_mechanics.errors import InvalidParameter, ModelError, NotConverged
 from hess_mechanics.numerics.accuracy import Status
 from hess_mechanics.numerics.labelled import Labels, Result, components
 from hess_mechanics.numerics.measured import SAFETY
-from hess_mechanics.numerics.patience import go_on
+from hess_mechanics.numerics.patience import check_limit
 from hess_mechanics.numerics.results import Array, frozen
 
 __all__ = ["MAX_RETURNS", "Intersection", "Manifold", "crossings_of", "heights_at", "manifold", "split"]
@@ -116,7 +116,7 @@ class Manifold(Result):
                 **components(self.names, self.points, "length"),
                 "τ": (("length",), self.parameters),
             },
-            place_units(self.names),
+            units_of(self.names),
             {
                 "manifold": "stable" if self.stable else "unstable",
                 "side": self.side,
@@ -153,15 +153,15 @@ class _Curve:
     def third_order(self) -> float:
         """Return the distance of F(σ = 1/λ) from the point σ = 1 of the first piece: its third order, and round-off."""
         there = self.map_.after(self._near(1.0 / self.multiplier), self.returns)
-        return float(np.linalg.norm(apart(self.map_.turns, there, self._near(1.0))))
+        return float(np.linalg.norm(difference(self.map_.turns, there, self._near(1.0))))
 
 
-def _begun(map_: Map, orbit: PeriodicOrbit, side: int, place: int) -> _Curve:
+def _begun(map_: Map, orbit: PeriodicOrbit, side: int, index: int) -> _Curve:
     """Return the curve with the longest first piece that is right to the promise of the map.
 
     Raises `InvalidParameter` if the orbit is not a saddle.
     """
-    saddle = orbit.places[place % orbit.period]
+    saddle = orbit.points[index % orbit.period]
     M, at = np.eye(2), saddle
     for _ in range(orbit.period):
         at, D = map_.with_derivative(at)
@@ -170,8 +170,8 @@ def _begun(map_: Map, orbit: PeriodicOrbit, side: int, place: int) -> _Curve:
     big = int(np.argmax(np.abs(values)))
     if values.imag.any() or not abs(values[big]) > 1.0 + 1e-6 or abs(values[1 - big]) >= 1.0:
         raise InvalidParameter(
-            "Only a saddle has these manifolds: choose a periodic orbit with one multiplier inside "
-            "and one outside of the unit circle."
+            f"This {orbit.kind} has no such manifolds: choose a saddle, with one multiplier inside and one outside of "
+            "the unit circle."
         )
     value, returns = float(values[big].real), orbit.period
     v = np.asarray(vectors[:, big].real, float)
@@ -181,7 +181,7 @@ def _begun(map_: Map, orbit: PeriodicOrbit, side: int, place: int) -> _Curve:
     size, error = _CURVED, math.inf
     q: Array = np.zeros(2)
     try:
-        both = [apart(map_.turns, map_.after(saddle + sign * size * v, returns), saddle) for sign in (1.0, -1.0)]
+        both = [difference(map_.turns, map_.after(saddle + sign * size * v, returns), saddle) for sign in (1.0, -1.0)]
         q = np.asarray(np.linalg.solve(value * value * np.eye(2) - M, 0.5 * (both[0] + both[1])) / size**2, float)
     except ModelError:
         # Close to the edge of the section the manifold starts as a straight line.
@@ -209,7 +209,7 @@ def manifold(
     *,
     stable: bool = False,
     side: int = 1,
-    place: int = 0,
+    index: int = 0,
     sagitta: float = 1e-3,
     longest: float = 0.1,
     most: int = 4000,
@@ -229,7 +229,7 @@ def manifold(
         Return the stable manifold instead of the unstable one.
     side : {1, -1}, default 1
         Leave the saddle along its direction (1) or against it (−1).
-    place : int, default 0
+    index : int, default 0
         Index of the point of the saddle orbit from which the branch starts.
     sagitta : float, default 1e-3
         Largest distance between the curve and the returned polyline, positive, in units of the coordinates.
@@ -263,13 +263,15 @@ def manifold(
     True
     """
     if not (math.isfinite(length) and length > 0.0 and sagitta > 0.0 and longest > 0.0):
-        raise InvalidParameter("The length of a manifold, its sagitta and its longest chord must be positive numbers.")
+        raise InvalidParameter(
+            f"length = {length}, sagitta = {sagitta}, longest = {longest}: choose positive finite numbers."
+        )
     if side not in (-1, 1):
-        raise InvalidParameter("The side must be 1 (along the direction of the saddle) or -1 (against it).")
+        raise InvalidParameter(f"side = {side}: choose 1 (along the direction of the saddle) or −1 (against it).")
     if len(getattr(map_, "turns", ())) != 2:
-        raise InvalidParameter("A manifold needs the return map of a section with two coordinates: give another map.")
+        raise InvalidParameter("This map does not have two coordinates: give the return map of a section that has two.")
     forwards = map_.inverse() if stable else map_
-    curve = _begun(forwards, saddle, side, place)
+    curve = _begun(forwards, saddle, side, index)
     points, parameters, ended = _followed(curve, length, sagitta, longest, most, returns)
     lengths = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
     return Manifold(
@@ -301,7 +303,7 @@ def _followed(
     ahead, before, spent = 0.0, 0.0, 0
     ended = "At its length."
     while total < length:
-        go_on()
+        check_limit()
         if spent > returns:
             ended = f"After {returns} returns of the map."
             break
@@ -318,15 +320,15 @@ def _followed(
                         break
                     before = total
                 ahead += 1.0 / _FIRST
-                waiting.append((ahead, here + apart(turns, curve.at(ahead), here)))
+                waiting.append((ahead, here + difference(turns, curve.at(ahead), here)))
             right, there = waiting[-1]
             middle = curve.at(0.5 * (tau + right))
             spent += max(1, math.floor(right)) * curve.returns
         except ModelError as error:
             ended = f"At the length {total:.6g}, for what follows: {error}"
             break
-        middle = here + apart(turns, middle, here)
-        there = middle + apart(turns, there, middle)
+        middle = here + difference(turns, middle, here)
+        there = middle + difference(turns, there, middle)
         chord = there - here
         size = float(np.linalg.norm(chord))
         off = float(np.linalg.norm(middle - 0.5 * (here + there)))
@@ -335,8 +337,8 @@ def _followed(
         if (across > sagitta or size > longest or off > 0.35 * size) and right - tau > 1e-12 * max(1.0, tau):
             waiting.append((0.5 * (tau + right), middle))
             continue
-        # Beyond it the images of the first piece go on elsewhere: they are not joined.  Where exactly it is, a more
-        # accurate map knows better: what is closer to it than the sagitta is left out.
+        # The map is discontinuous here, so the branch ends.  Drop the points within a sagitta of the jump, because the
+        # error of the map shifts the jump along the branch.
         if size > longest:
             while len(points) > 2 and float(np.linalg.norm(points[-2] - here)) < sagitta:
                 points.pop()
@@ -344,7 +346,7 @@ def _followed(
             ended = f"At the length {total:.6g} the map jumps: an orbit touches the plane of the section."
             break
         waiting.pop()
-        # The middle is known anyway, and halves the sagitta twice.
+        # Keep the middle, which is already computed: it reduces the sagitta by a factor of four.
         for parameter, point in ((0.5 * (tau + right), middle), (right, there)):
             total += float(np.linalg.norm(point - points[-1]))
             points.append(point)
@@ -370,9 +372,9 @@ def _error(curve: _Curve, points: Array, parameters: Array) -> float:
             continue
         along = points[min(i + 1, last)] - points[max(i - 1, 0)]
         along = along / max(float(np.linalg.norm(along)), 1e-300)
-        away = apart(curve.map_.turns, there, points[i])
+        away = difference(curve.map_.turns, there, points[i])
         off = max(off, abs(float(_cross(away, along))))
-    # Without a comparison nothing is known.
+    # No point could be compared, so the error is unknown.
     return SAFETY * off + curve.first_error + 4e-16 if off >= 0.0 else math.inf
 
 
@@ -385,7 +387,7 @@ class Intersection:
 
     Attributes
     ----------
-    place : ndarray, shape (2,)
+    point : ndarray, shape (2,)
         The point.
     parameters : (float, float)
         Parameter τ on each manifold.
@@ -398,7 +400,7 @@ class Intersection:
         errors; False where they run together.
     """
 
-    place: Array
+    point: Array
     parameters: tuple[float, float]
     angle: float
     error: float
@@ -427,7 +429,7 @@ def crossings_of(one: Manifold, other: Manifold, most: int = 100) -> list[Inters
     for i, j in _meeting(one, other):
         crossing = _refined(one, other, (i, j))
         if crossing is not None and all(
-            np.abs(apart(one.turns, crossing.place, known.place)).max() > 1e-9 + crossing.error + known.error
+            np.abs(difference(one.turns, crossing.point, known.point)).max() > 1e-9 + crossing.error + known.error
             for known in crossings
         ):
             crossings.append(crossing)
@@ -442,7 +444,7 @@ def _meeting(one: Manifold, other: Manifold) -> list[tuple[int, int]]:
     pairs = []
     da, db = np.diff(a, axis=0), np.diff(b, axis=0)
     for i in range(len(da)):
-        start = apart(one.turns, b[:-1], a[i])
+        start = difference(one.turns, b[:-1], a[i])
         with np.errstate(divide="ignore", invalid="ignore"):
             s, t = (_cross(start.T, along) / _cross(da[i], db.T) for along in (db.T, da[i]))
         pairs += [(i + 1, int(j) + 1) for j in np.flatnonzero((s >= 0.0) & (s < 1.0) & (t >= 0.0) & (t < 1.0))]
@@ -457,19 +459,19 @@ def _refined(one: Manifold, other: Manifold, pair: tuple[int, int]) -> Intersect
     step = np.zeros(2)
     try:
         for iteration in range(20):
-            go_on()
+            check_limit()
             # After two steps slopes are right to a percent, which costs fewer points than to compute them again.
             for k, (curve, sign) in enumerate(((one, 1.0), (other, -1.0)) if iteration < 2 else ()):
                 both = [curve.at(tau[k] + side * h[k]) for side in (1.0, -1.0)]
-                slopes[:, k] = sign * apart(one.turns, *both) / (2.0 * h[k])
-            left = apart(one.turns, one.at(tau[0]), other.at(tau[1]))
+                slopes[:, k] = sign * difference(one.turns, *both) / (2.0 * h[k])
+            left = difference(one.turns, one.at(tau[0]), other.at(tau[1]))
             step = np.asarray(-np.linalg.solve(slopes, left), float)
             room = np.array([float(np.ptp(end)) for end in ends])
             tau = np.asarray(tau + np.clip(step, -room, room), float)
             if np.abs(slopes * step).max() < 1e-13:
                 break
-        place = one.at(tau[0])
-        left = apart(one.turns, place, other.at(tau[1]))
+        point = one.at(tau[0])
+        left = difference(one.turns, point, other.at(tau[1]))
     except (ModelError, np.linalg.LinAlgError):
         return None
     if any(not end[0] - np.ptp(end) <= value <= end[1] + np.ptp(end) for value, end in zip(tau, ends, strict=True)):
@@ -478,7 +480,7 @@ def _refined(one: Manifold, other: Manifold, pair: tuple[int, int]) -> Intersect
     angle = math.atan2(abs(float(_cross(u, v))), abs(float(u @ v)))
     off = (one.error_estimate + other.error_estimate + float(np.abs(left).max())) / max(math.sin(angle), 1e-6)
     return Intersection(
-        frozen(place),
+        frozen(point),
         (float(tau[0]), float(tau[1])),
         angle,
         off,
@@ -495,7 +497,7 @@ def _changes_sides(one: Manifold, other: Manifold, tau: Array, chord: float, alo
         try:
             point, t = one.at(tau[0] + side * chord), float(tau[1])
             for _ in range(_FEET):
-                away = apart(one.turns, point, other.at(t))
+                away = difference(one.turns, point, other.at(t))
                 # An error along the curve changes the distance across it only in second order.
                 if abs(float(away @ u)) <= 1e-3 * float(np.linalg.norm(away)):
                     break
@@ -546,7 +548,7 @@ def _height_on(curve: Manifold, axis: int, value: float, i: int) -> float:
     reference = curve.points[i]
 
     def away(tau: float) -> Array:
-        return apart(curve.turns, curve.at(tau), reference)
+        return difference(curve.turns, curve.at(tau), reference)
 
     tau = brentq(lambda tau: reference[axis] + away(tau)[axis] - value, *curve.parameters[i : i + 2], xtol=1e-14)
     return float((reference + away(tau))[1 - axis])

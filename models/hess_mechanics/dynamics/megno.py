@@ -18,7 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hess_mechanics.dynamics.birkhoff import batch_error, volume_sign, window_rates
-from hess_mechanics.dynamics.orbit import checked_duration, require_finite_rates
+from hess_mechanics.dynamics.orbit import as_duration, require_finite_rates
 from hess_mechanics.dynamics.spectrum import no_chaos
 from hess_mechanics.dynamics.system import Body, Problem
 from hess_mechanics.dynamics.variation import LONGEST, one_direction, tangent
@@ -26,7 +26,7 @@ from hess_mechanics.errors import InvalidParameter, MotionEnds, WorkLimit
 from hess_mechanics.numerics.accuracy import STANDARD, Accuracy
 from hess_mechanics.numerics.arguments import as_level
 from hess_mechanics.numerics.labelled import Labels, Result
-from hess_mechanics.numerics.parallel import THREADS, share
+from hess_mechanics.numerics.parallel import THREADS, run_in_threads
 from hess_mechanics.numerics.results import Array, Cost, Mask, frozen
 from hess_mechanics.parameters import plain
 
@@ -190,12 +190,12 @@ def megno(
     (1,)
     """
     level = as_level(accuracy)
-    checked_duration(duration, "an indicator")
+    as_duration(duration, "an indicator")
     begun = time.perf_counter()
     problem = Problem.of(body, states)
     if abs(duration) * problem.nu > _LONGEST:
         raise WorkLimit(
-            f"The time of an indicator may be at most {plain(_LONGEST / problem.nu, 4)} here: choose a shorter one."
+            f"MEGNO takes too long for t = {plain(abs(duration), 4)}: choose at most {plain(_LONGEST / problem.nu, 4)}."
         )
     count, size = problem.states.shape
     # At least one sample per 1/ν, in twelve stretches after the first fifth.
@@ -210,7 +210,7 @@ def megno(
         try:
             follow(i)
         except (WorkLimit, InvalidParameter) as error:
-            # Another motion is not lost with this one.
+            # One failed motion must not stop the others.
             numbers[:, i], reasons[i] = math.nan, str(error)
             ends[i] = abs(error.time) if isinstance(error, MotionEnds) else math.nan
 
@@ -234,7 +234,7 @@ def megno(
         grows = count <= _FEW and bool(y.mean() > CHAOTIC)
         no_chaos_because[i] = no_chaos(problem, start, along.states, float(t[-1]), level, grows)
 
-    share(one, count, threads, _SHARE)
+    run_in_threads(one, count, threads, _SHARE)
     return Megno(
         abs(duration),
         frozen(numbers[0].copy()),

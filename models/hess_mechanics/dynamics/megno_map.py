@@ -11,13 +11,13 @@ import numpy as np
 
 from hess_mechanics.dynamics.cells import Window, centres
 from hess_mechanics.dynamics.megno import megno
-from hess_mechanics.dynamics.periodic import place_units
+from hess_mechanics.dynamics.periodic import units_of
 from hess_mechanics.dynamics.return_map import PoincareSection, ReturnMap
 from hess_mechanics.errors import InvalidParameter, OutsideRegion
 from hess_mechanics.numerics.accuracy import Accuracy
-from hess_mechanics.numerics.arguments import as_cells, as_number, as_place
+from hess_mechanics.numerics.arguments import as_cells, as_number, as_point
 from hess_mechanics.numerics.labelled import Labels, Result
-from hess_mechanics.numerics.parallel import share
+from hess_mechanics.numerics.parallel import run_in_threads
 from hess_mechanics.numerics.results import Array, frozen
 
 __all__ = ["ENDED", "NOWHERE", "MegnoMap", "corners", "megno_map", "require_plane", "row_of_cells", "time_of"]
@@ -107,7 +107,7 @@ def labels_of_cells(
     return Labels(
         {up: ((up,), y), across: ((across,), x)},
         {name: ((up, across), of) for name, of in arrays.items()},
-        {**place_units(names), **units},
+        {**units_of(names), **units},
         facts,
     )
 
@@ -200,7 +200,7 @@ def megno_map(
     def row(i: int) -> None:
         rows[i] = row_of_cells(section, window, shape, i, span, level)
 
-    share(row, n)
+    run_in_threads(row, n)
     across, up = section.names
     return MegnoMap(
         (across, up),
@@ -229,7 +229,7 @@ def require_plane(section: PoincareSection) -> None:
     """
     if len(section.names) != 2:
         raise InvalidParameter(
-            f"The section of this body has the single coordinate {section.names[0]}: this needs a section with two."
+            f"The section of this body has only the coordinate {section.names[0]}: choose a body with two."
         )
 
 
@@ -256,7 +256,7 @@ def corners(section: PoincareSection, window: Window | None) -> Window:
     require_plane(section)
     names, sides = section.names, section.window
     given = tuple(zip(*sides, strict=True)) if window is None else window
-    (x0, y0), (x1, y1) = (as_place(names, corner) for corner in given)
+    (x0, y0), (x1, y1) = (as_point(names, corner) for corner in given)
     # A window may start at any angle.
     inside = all(
         math.isfinite(turn) or (low <= a and b <= high)
@@ -265,8 +265,8 @@ def corners(section: PoincareSection, window: Window | None) -> Window:
     if not (x0 < x1 and y0 < y1 and inside):
         across, up = (f"{low:.6g} to {high:.6g}" for low, high in sides)
         raise InvalidParameter(
-            "A window must be (x0, y0), (x1, y1) with x0 < x1 and y0 < y1. "
-            f"On this section {names[0]} runs from {across}, {names[1]} from {up}."
+            f"({x0:.6g}, {y0:.6g}), ({x1:.6g}, {y1:.6g}) is not a window: give (x0, y0), (x1, y1) with x0 < x1 and y0 "
+            f"< y1. On this section {names[0]} runs from {across}, {names[1]} from {up}."
         )
     return (x0, y0), (x1, y1)
 

@@ -19,7 +19,7 @@ from hess_mechanics.parameters import Parameter
 if TYPE_CHECKING:
     from hess_mechanics.dynamics.return_map import PoincareSection
 
-__all__ = ["Motions", "anywhere", "body_parameters", "on_section", "section_of", "usual", "whole"]
+__all__ = ["Motions", "body_parameters", "integer", "section_motions", "section_of", "state_motions", "with_default"]
 
 Start = tuple[float, ...]
 Values = Mapping[str, float]
@@ -51,7 +51,7 @@ _FREE = (-1e6, 1e6)
 """Bounds of a number of a user's system."""
 
 
-def usual(of: Parameter, default: float, doc: str = "") -> Parameter:
+def with_default(of: Parameter, default: float, doc: str = "") -> Parameter:
     """Return a parameter with another default.
 
     Parameters
@@ -71,7 +71,7 @@ def usual(of: Parameter, default: float, doc: str = "") -> Parameter:
     return replace(of, default=default, doc=doc or of.doc)
 
 
-def whole(name: str, symbol: str, default: float, low: float, high: float, doc: str) -> Parameter:
+def integer(name: str, symbol: str, default: float, low: float, high: float, doc: str) -> Parameter:
     """Return an integer parameter of a computation.
 
     Parameters
@@ -109,7 +109,7 @@ class Motions:
         The equations of motion.
     parameters : tuple of Parameter
         Parameters of the body, and of the energy and plane of a section; their defaults are the example.
-    place : tuple of Parameter
+    point : tuple of Parameter
         Where the motion starts: the state, or the coordinates of a point of the section.
     start : callable
         Function from the values of both to body and state; it raises a `ModelError` if there is no motion.
@@ -118,14 +118,14 @@ class Motions:
     source : str, default ""
         Label of the equations in the paper.
     period : int, default 1
-        Number of returns of the saddle near the place, for examples.
+        Number of returns of the saddle near the point, for examples.
     """
 
     name: str
     title: str
     system: System
     parameters: tuple[Parameter, ...]
-    place: tuple[Parameter, ...]
+    point: tuple[Parameter, ...]
     start: Callable[[Values], tuple[Body, Start]]
     section: Callable[[Values], PoincareSection] | None = None
     source: str = ""
@@ -137,7 +137,7 @@ def _parameter(system: System, name: str, default: float) -> Parameter:
     own = _KNOWN if system.labels else {}
     parameter = (_REDUCED if system.name == "hess" else {}).get(name) or own.get(name)
     if parameter is not None:
-        return usual(parameter, default)
+        return with_default(parameter, default)
     reach = max(1.0, 2.0 * abs(default))
     return Parameter(name, name, name, default, (-reach, reach), reach / 100.0, _FREE)
 
@@ -163,7 +163,7 @@ def body_parameters(system: System, *values: float) -> tuple[Parameter, ...]:
     )
 
 
-def anywhere(system: System) -> Motions:
+def state_motions(system: System) -> Motions:
     """Return the motions of a system that start at any state, by default at that of its example.
 
     Parameters
@@ -177,7 +177,7 @@ def anywhere(system: System) -> Motions:
         The motions.
     """
     names = system.arguments
-    place = tuple(_parameter(system, name, value) for name, value in zip(names, system.example[0], strict=True))
+    point = tuple(_parameter(system, name, value) for name, value in zip(names, system.example[0], strict=True))
 
     def start(values: Values) -> tuple[Body, Start]:
         state = tuple(values[name] for name in names)
@@ -186,14 +186,14 @@ def anywhere(system: System) -> Motions:
         return system.at([values[name] for name in system.parameters]), state
 
     labels = ", ".join(system.labels)
-    return Motions(system.name, system.title, system, body_parameters(system), place, start, source=labels)
+    return Motions(system.name, system.title, system, body_parameters(system), point, start, source=labels)
 
 
-def on_section(
+def section_motions(
     name: str,
     title: str,
     parameters: tuple[Parameter, ...],
-    place: tuple[Parameter, ...],
+    point: tuple[Parameter, ...],
     section: Callable[[Values], PoincareSection],
     system: System,
     source: str = "",
@@ -209,7 +209,7 @@ def on_section(
         Name in words.
     parameters : tuple of Parameter
         Parameters of the body, of the energy and of the plane.
-    place : tuple of Parameter
+    point : tuple of Parameter
         Coordinates of the point.
     section : callable
         Function from the values of the parameters to the section.
@@ -228,9 +228,9 @@ def on_section(
 
     def start(values: Values) -> tuple[Body, Start]:
         of = section(values)
-        return of, of.state_at(*(values[one.name] for one in place))
+        return of, of.state_at(*(values[one.name] for one in point))
 
-    return Motions(name, title, system, parameters, place, start, section, source, period)
+    return Motions(name, title, system, parameters, point, start, section, source, period)
 
 
 def section_of(system: System) -> Motions | None:
@@ -267,7 +267,7 @@ def section_of(system: System) -> Motions | None:
     energies = tuple(_parameter(system, name, value) for name, value in levels.items())
     at = dict(zip(system.variables, system.example[0], strict=True))
     argument = dict(zip(system.variables, system.arguments, strict=True))
-    place = tuple(_parameter(system, argument[name], at[name]) for name in example.names)
-    return on_section(
-        f"{system.name}-section", f"{system.title}, a point of a section", (*body, *energies), place, section, system
+    point = tuple(_parameter(system, argument[name], at[name]) for name in example.names)
+    return section_motions(
+        f"{system.name}-section", f"{system.title}, a point of a section", (*body, *energies), point, section, system
     )

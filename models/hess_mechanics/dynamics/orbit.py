@@ -22,10 +22,10 @@ __all__ = [
     "LARGEST",
     "MAX_SAMPLES",
     "MAX_STEPS",
+    "as_duration",
     "as_max_step",
     "as_max_steps",
-    "checked_duration",
-    "checked_times",
+    "as_times",
     "drift_of",
     "drifts_along",
     "end_error",
@@ -52,7 +52,7 @@ _SHORTEST = 1e-290
 """Shortest time span for rates: divided by a shorter one, the round-off of a zero overflows."""
 
 
-def checked_times(times: float | Sequence[float] | Array) -> Array:
+def as_times(times: float | Sequence[float] | Array) -> Array:
     """Return a validated copy of times.
 
     Parameters
@@ -74,16 +74,16 @@ def checked_times(times: float | Sequence[float] | Array) -> Array:
     """
     t = np.array(times, dtype=float, ndmin=1)
     if t.ndim != 1 or t.size == 0 or not np.all(np.isfinite(t)):
-        raise InvalidParameter("The times must be one or more finite numbers.")
+        raise InvalidParameter("The times are empty or not finite: give one or more finite numbers.")
     if t.size > MAX_SAMPLES:
         raise WorkLimit(f"{t.size} times are too many: at most {MAX_SAMPLES} are allowed.")
     before = np.concatenate(([0.0], t[:-1]))
     if np.any(t < before) and np.any(t > before):
-        raise InvalidParameter("The times must be monotonic and start at 0 or on one side of it.")
+        raise InvalidParameter("The times turn back: give increasing times from 0 on, or decreasing ones.")
     return t
 
 
-def checked_duration(duration: float, what: str) -> float:
+def as_duration(duration: float, what: str) -> float:
     """Return a validated duration.
 
     Parameters
@@ -105,8 +105,8 @@ def checked_duration(duration: float, what: str) -> float:
     """
     if not _SHORTEST <= abs(duration) < math.inf:
         raise InvalidParameter(
-            f"The time span of {what} must be a finite nonzero number, of {_SHORTEST:g} or "
-            "more: choose one like 100, or -100 for backwards."
+            f"The time span of {what} is {duration:g}, and must be finite and at least {_SHORTEST:g}: choose one like "
+            "100, or -100 for backwards."
         )
     return float(duration)
 
@@ -121,7 +121,7 @@ def require_steps(steps: int, too_long: str, where: Callable[[], WorkLimit | Non
     too_long : str
         Message for a kernel that ran out of steps.
     where : callable, optional
-        Function that returns the error of a motion that stopped, with its place; None if only a neighbour did.
+        Function that returns the error of a motion that stopped, with its state; None if only a neighbour did.
 
     Raises
     ------
@@ -466,14 +466,14 @@ def solve(
     (3, 5)
     """
     level = as_level(accuracy)
-    times = checked_times(
+    times = as_times(
         times if np.ndim(times) else np.linspace(0.0, times, as_integer("samples", samples, 2, MAX_SAMPLES))
     )
     problem = Problem.of(body, [start])
     scaled_times = problem.times(times)
     longest = as_max_step(max_step, problem)
     most_steps = as_max_steps(max_steps)
-    nearby = problem.nearby()
+    nearby = problem.perturb()
     problems = [problem, nearby]
 
     def run(at: Level, spent: int) -> tuple[Array, int]:
@@ -494,7 +494,7 @@ def solve(
             raise end_error(problem, steps, end, out[reached], most_steps)
         require_finite_states(out)
         if not at.aside:
-            problems[1] = nearby.rounded(out)
+            problems[1] = nearby.with_rounding(out)
         return out, steps
 
     result = measured(level, run, lambda one, other: float(np.abs(one - other).max()))

@@ -18,10 +18,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hess_mechanics.dynamics.continuation import Bifurcation, branch_from
-from hess_mechanics.dynamics.periodic import MAX_PERIOD, Map, PeriodicOrbit, apart, find_periodic, place_units, shoot
+from hess_mechanics.dynamics.periodic import MAX_PERIOD, Map, PeriodicOrbit, difference, find_periodic, shoot, units_of
 from hess_mechanics.errors import InvalidParameter, ModelError, NotConverged, OutsideRegion, WorkLimit
 from hess_mechanics.numerics.labelled import Labels, Result, components
-from hess_mechanics.numerics.patience import go_on
+from hess_mechanics.numerics.patience import check_limit
 from hess_mechanics.numerics.results import Array, Mask, frozen
 
 __all__ = [
@@ -70,12 +70,12 @@ class OrbitMap(Map, Protocol):
     def preserves_volume(self) -> bool:
         """True if the map preserves a volume and has no attractors."""
 
-    def orbit(self, place: Array, count: int) -> Array:
+    def orbit(self, point: Array, count: int) -> Array:
         """Return the next points of an orbit.
 
         Parameters
         ----------
-        place : ndarray, shape (d,)
+        point : ndarray, shape (d,)
             Point where the orbit starts.
         count : int
             Number of points.
@@ -99,7 +99,7 @@ class Diagram(Result):
         Names of the coordinates.
     values : ndarray, shape (n,)
         Values of the parameter, in the order in which they were visited.
-    places : tuple of ndarray, shape (m, d)
+    points : tuple of ndarray, shape (m, d)
         Points at each value; empty if the motion does not return.
     periods : ndarray of int, shape (n,)
         Period at each value; 0 if none up to 64 is found.
@@ -114,7 +114,7 @@ class Diagram(Result):
     parameter: str
     names: tuple[str, ...]
     values: Array
-    places: tuple[Array, ...]
+    points: tuple[Array, ...]
     periods: Whole
     ends: Array
     conservative: Mask
@@ -128,19 +128,19 @@ class Diagram(Result):
         Labels
             The coordinates over the points.
         """
-        value = np.repeat(self.values, [len(one) for one in self.places])
-        points = np.concatenate([np.empty((0, len(self.names))), *self.places])
+        value = np.repeat(self.values, [len(one) for one in self.points])
+        points = np.concatenate([np.empty((0, len(self.names))), *self.points])
         along = ("point",)
         return Labels(
             {self.parameter: (along, value)},
             components(self.names, points, *along),
-            place_units(self.names),
+            units_of(self.names),
             {"level": self.level},
         )
 
 
 def period_of(
-    turns: Sequence[float], places: Array, promise: float = 0.0, most: int = MAX_PERIOD, same: float = SAME
+    turns: Sequence[float], points: Array, promise: float = 0.0, most: int = MAX_PERIOD, same: float = SAME
 ) -> tuple[int, bool]:
     """Return the least period that the points of an orbit show, and whether the orbit has settled.
 
@@ -151,7 +151,7 @@ def period_of(
     ----------
     turns : sequence of float
         Period of each coordinate, ∞ if it is not an angle.
-    places : ndarray, shape (n, d)
+    points : ndarray, shape (n, d)
         Points of the orbit.
     promise : float, default 0.0
         Error of the points.
@@ -167,20 +167,20 @@ def period_of(
     settled : bool
         True if the orbit has settled.
     """
-    most = min(most, len(places) // 3)
+    most = min(most, len(points) // 3)
     if most < 1:
         return 0, False
     ways = np.empty((most, 2))
     for m in range(1, most + 1):
-        halves = places[: len(places) // 2 + m // 2], places[len(places) // 2 - m // 2 :]
-        ways[m - 1] = [np.abs(apart(turns, one[m:], one[:-m])).max() for one in halves]
+        halves = points[: len(points) // 2 + m // 2], points[len(points) // 2 - m // 2 :]
+        ways[m - 1] = [np.abs(difference(turns, one[m:], one[:-m])).max() for one in halves]
         if ways[m - 1].max() <= max(same, _PROMISES * promise):
             # A multiplier near −1 makes an orbit look twice as long while it is still settling.
             shorter = [k - 1 for k in range(1, m) if m % k == 0]
             is_settled = bool(np.all(ways[shorter, 1] >= _SETTLING * ways[shorter, 0]))
             return (m, True) if is_settled else (0, False)
     first, second = ways.T
-    # If all candidates close better over time, or the best one does, the orbit tends to a periodic one.
+    # The orbit settles if the distance to its own shift decreases, in the median over all periods and for the best one.
     ratios = second / first
     return 0, min(float(np.median(ratios)), float(ratios[second.argmin()])) >= _SETTLING
 
@@ -231,25 +231,29 @@ def diagram_over(
     """
     along = np.array(values, float, ndmin=1)
     if not (along.ndim == 1 and np.all(np.isfinite(along)) and 1 <= along.size <= MAX_VALUES):
-        raise InvalidParameter(f"An orbit diagram needs 1 to {MAX_VALUES} finite values of its parameter.")
+        raise InvalidParameter(
+            f"{along.size} values of the parameter, or some not finite: give 1 to {MAX_VALUES} finite values."
+        )
     if not (crossings >= 1 and transient >= 0 and transient + crossings <= MAX_CROSSINGS):
-        raise WorkLimit(f"At most {MAX_CROSSINGS} crossings per value are allowed: choose fewer.")
+        raise WorkLimit(
+            f"{transient} + {crossings} crossings per value: choose at least 1 and at most {MAX_CROSSINGS}."
+        )
     first = np.array(start, float)
     restart = first if again is None else np.array(again, float)
-    place = first
-    places: list[Array] = []
+    point = first
+    shown: list[Array] = []
     periods, conservative = np.zeros(along.size, np.int64), np.zeros(along.size, bool)
     ends = np.full((along.size, first.size), np.nan)
     names: tuple[str, ...] = ()
     level = ""
     for i, value in enumerate(along.tolist()):
-        go_on()
+        check_limit()
         points = np.empty((0, first.size))
         try:
             map_ = family(value)
             names, level = map_.names, map_.level
             conservative[i] = map_.preserves_volume
-            for origin in (place, restart) if follow else (restart,):
+            for origin in (point, restart) if follow else (restart,):
                 try:
                     orbit = _after_transient(map_, origin, transient, crossings)
                 except OutsideRegion:
@@ -262,17 +266,17 @@ def diagram_over(
         except ModelError:
             # At this value there is no such body, or no motion: the diagram has a gap.
             pass
-        places.append(frozen(points.copy()))
+        shown.append(frozen(points.copy()))
         if len(points):
             periods[i], _ = period_of(map_.turns, points, map_.promise)
-            ends[i] = place = points[-1]
+            ends[i] = point = points[-1]
         else:
-            place = restart
+            point = restart
     return Diagram(
         parameter,
         names,
         frozen(along),
-        tuple(places),
+        tuple(shown),
         frozen(periods),
         frozen(ends),
         frozen(conservative),
@@ -294,7 +298,7 @@ def _after_transient(map_: OrbitMap, origin: Array, transient: int, crossings: i
 def _has_approached(map_: OrbitMap, orbit: Array) -> bool:
     """Return True if the points (n, d) have come a thousand times closer to a periodic orbit than they were."""
     for m in range(1, min(_WATCHED, len(orbit) - 1) // 3 + 1):
-        steps = np.abs(apart(map_.turns, orbit[m:], orbit[:-m])).max(axis=1)
+        steps = np.abs(difference(map_.turns, orbit[m:], orbit[:-m])).max(axis=1)
         first, last = float(steps[:m].max()), float(steps[-m:].max())
         if last <= min(_CLOSE * map_.promise, _CLOSER * first):
             return True
@@ -318,7 +322,7 @@ def first_doubling(parts: Sequence[Diagram]) -> tuple[float, Array, float] | Non
         doubles between neighbours.
     """
     known = [
-        one for part in parts for one in zip(part.values.tolist(), part.periods.tolist(), part.places, strict=True)
+        one for part in parts for one in zip(part.values.tolist(), part.periods.tolist(), part.points, strict=True)
     ]
     for way in (known, known[::-1]):
         periods = [m for _, m, _ in way]
@@ -349,7 +353,7 @@ class Cascade(Result):
         Estimated errors of the values.
     periods : ndarray of int, shape (k,)
         Period before each doubling.
-    places : tuple of ndarray, shape (m, d)
+    points : tuple of ndarray, shape (m, d)
         Points of the orbit at each doubling.
     end_reason : str
         Reason why there are no more doublings.
@@ -362,7 +366,7 @@ class Cascade(Result):
     values: Array
     errors: Array
     periods: Whole
-    places: tuple[Array, ...]
+    points: tuple[Array, ...]
     end_reason: str
     level: str
 
@@ -455,7 +459,7 @@ def cascade(
     at, far = start, end
     ended = f"After {doublings} doublings."
     while len(flips) < doublings:
-        go_on()
+        check_limit()
         try:
             branch = branch_from(family, orbit, parameter, at, far, _POINTS, until="flip")
         except NotConverged as error:
@@ -486,8 +490,8 @@ def cascade(
         orbit.names,
         frozen(np.array([one.value for one in flips])),
         frozen(np.array([one.error for one in flips])),
-        frozen(np.array([len(one.places) for one in flips], np.int64)),
-        tuple(one.places for one in flips),
+        frozen(np.array([len(one.points) for one in flips], np.int64)),
+        tuple(one.points for one in flips),
         ended,
         orbit.level,
     )
@@ -495,7 +499,7 @@ def cascade(
 
 def _doubled(family: Callable[[float], Map], flip: Bifurcation, step: float) -> tuple[float, PeriodicOrbit] | None:
     """Return the orbit of twice the period beyond a flip, and the parameter; a stable orbit if there is one."""
-    twice = np.concatenate([flip.places, flip.places])
+    twice = np.concatenate([flip.points, flip.points])
     away = np.linalg.svd(shoot(family(flip.value), twice).jacobian)[2][-1].reshape(twice.shape)
     away /= np.abs(away).max()
     other: tuple[float, PeriodicOrbit] | None = None
@@ -503,12 +507,15 @@ def _doubled(family: Callable[[float], Map], flip: Bifurcation, step: float) -> 
         value = flip.value + share * step
         map_ = family(value)
         for amplitude in _AMPLITUDES:
-            go_on()
+            check_limit()
             try:
                 orbit = find_periodic(map_, twice + amplitude * away)
             except ModelError:
                 continue
-            if orbit.period == len(twice) and np.abs(apart(map_.turns, orbit.places, twice)).max() < _NEAR * amplitude:
+            if (
+                orbit.period == len(twice)
+                and np.abs(difference(map_.turns, orbit.points, twice)).max() < _NEAR * amplitude
+            ):
                 if orbit.kind.startswith("stable"):
                     return value, orbit
                 other = other or (value, orbit)

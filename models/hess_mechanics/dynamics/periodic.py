@@ -18,7 +18,7 @@ from hess_mechanics.errors import InvalidParameter, ModelError, NotConverged
 from hess_mechanics.numerics.accuracy import Status
 from hess_mechanics.numerics.labelled import Labels, Result, components
 from hess_mechanics.numerics.measured import SAFETY
-from hess_mechanics.numerics.patience import go_on
+from hess_mechanics.numerics.patience import check_limit
 from hess_mechanics.numerics.results import Array, Complex, frozen
 
 __all__ = [
@@ -26,13 +26,13 @@ __all__ = [
     "Map",
     "PeriodicOrbit",
     "Shot",
-    "apart",
+    "difference",
     "find_periodic",
     "images_of",
     "kind_of",
     "multipliers_of",
-    "place_units",
     "shoot",
+    "units_of",
 ]
 
 MAX_PERIOD = 64
@@ -72,12 +72,12 @@ class Map(Protocol):
     def is_floor(self) -> bool:
         """True if the map cannot be computed more accurately."""
 
-    def image(self, place: Array) -> Array:
+    def image(self, point: Array) -> Array:
         """Return P(x) at one point or several.
 
         Parameters
         ----------
-        place : ndarray, shape (d,) or (m, d)
+        point : ndarray, shape (d,) or (m, d)
             The points.
 
         Returns
@@ -86,12 +86,12 @@ class Map(Protocol):
             Their images.
         """
 
-    def after(self, place: Array, count: int) -> Array:
+    def after(self, point: Array, count: int) -> Array:
         """Return the images after several iterations.
 
         Parameters
         ----------
-        place : ndarray, shape (d,) or (m, d)
+        point : ndarray, shape (d,) or (m, d)
             The points.
         count : int
             Number of iterations.
@@ -102,12 +102,12 @@ class Map(Protocol):
             The images P^count(x).
         """
 
-    def with_derivative(self, place: Array) -> tuple[Array, Array]:
+    def with_derivative(self, point: Array) -> tuple[Array, Array]:
         """Return P(x) and its derivative at one point or several.
 
         Parameters
         ----------
-        place : ndarray, shape (d,) or (m, d)
+        point : ndarray, shape (d,) or (m, d)
             The points.
 
         Returns
@@ -127,12 +127,12 @@ class Map(Protocol):
             The inverse.
         """
 
-    def symmetries_of(self, places: Array, near: float) -> Sequence[str]:
+    def symmetries_of(self, points: Array, near: float) -> Sequence[str]:
         """Return the symmetries that take an orbit to itself.
 
         Parameters
         ----------
-        places : ndarray, shape (m, d)
+        points : ndarray, shape (m, d)
             Points of the orbit.
         near : float
             Distance within which two points count as equal.
@@ -153,7 +153,7 @@ class Map(Protocol):
         """
 
 
-def place_units(names: Sequence[str]) -> dict[str, str]:
+def units_of(names: Sequence[str]) -> dict[str, str]:
     """Return the units of the coordinates of a section; canonical coordinates have none.
 
     Parameters
@@ -170,7 +170,7 @@ def place_units(names: Sequence[str]) -> dict[str, str]:
     return {name: units[name] for name in names if name in units}
 
 
-def apart(turns: Sequence[float], a: Array, b: Array) -> Array:
+def difference(turns: Sequence[float], a: Array, b: Array) -> Array:
     """Return the difference a − b, with differences of angles reduced to half a turn.
 
     Parameters
@@ -185,11 +185,11 @@ def apart(turns: Sequence[float], a: Array, b: Array) -> Array:
     ndarray, shape (..., d)
         The differences.
     """
-    difference: Array = np.asarray(a, float) - np.asarray(b, float)
+    result: Array = np.asarray(a, float) - np.asarray(b, float)
     for i, turn in enumerate(turns):
         if math.isfinite(turn):
-            difference[..., i] -= turn * np.round(difference[..., i] / turn)
-    return difference
+            result[..., i] -= turn * np.round(result[..., i] / turn)
+    return result
 
 
 @dataclass(frozen=True)
@@ -198,7 +198,7 @@ class Shot:
 
     Attributes
     ----------
-    places : ndarray, shape (m, d)
+    points : ndarray, shape (m, d)
         Points x_i.
     residuals : ndarray, shape (m, d)
         Residuals P(x_i) − x_(i+1).
@@ -206,14 +206,14 @@ class Shot:
         Derivatives DP(x_i).
     """
 
-    places: Array
+    points: Array
     residuals: Array
     derivatives: Array
 
     @property
     def jacobian(self) -> Array:
         """Jacobian J of the residuals, shape (m d, m d)."""
-        m, d = self.places.shape
+        m, d = self.points.shape
         J = np.zeros((m, d, m, d))
         for i in range(m):
             J[i, :, i, :] += self.derivatives[i]
@@ -236,7 +236,7 @@ class Shot:
         u, values, v = np.linalg.svd(self.jacobian)
         nonzero = values > family * max(1.0, float(values[0]))
         solution = -(v[nonzero].T / values[nonzero]) @ (u.T[nonzero] @ self.residuals.ravel())
-        return np.asarray(solution.reshape(self.places.shape))
+        return np.asarray(solution.reshape(self.points.shape))
 
     @property
     def size(self) -> float:
@@ -244,14 +244,14 @@ class Shot:
         return float(np.abs(self.residuals).max())
 
 
-def shoot(map_: Map, places: Array) -> Shot:
+def shoot(map_: Map, points: Array) -> Shot:
     """Return the equations of multiple shooting at given points.
 
     Parameters
     ----------
     map_ : Map
         The map.
-    places : ndarray, shape (m, d)
+    points : ndarray, shape (m, d)
         The points.
 
     Returns
@@ -264,8 +264,8 @@ def shoot(map_: Map, places: Array) -> Shot:
     ModelError
         If the map has no image at a point.
     """
-    images, derivatives = map_.with_derivative(places)
-    return Shot(places, apart(map_.turns, images, np.roll(places, -1, axis=0)), derivatives)
+    images, derivatives = map_.with_derivative(points)
+    return Shot(points, difference(map_.turns, images, np.roll(points, -1, axis=0)), derivatives)
 
 
 def multipliers_of(derivatives: Array) -> tuple[Complex, float, float]:
@@ -361,7 +361,7 @@ class PeriodicOrbit(Result):
     ----------
     names : tuple of str
         Names of the coordinates.
-    places : ndarray, shape (m, d)
+    points : ndarray, shape (m, d)
         Points of the orbit in order, where m is the least period.
     multipliers : ndarray of complex, shape (d,)
         Multipliers, the largest first.
@@ -390,7 +390,7 @@ class PeriodicOrbit(Result):
     """
 
     names: tuple[str, ...]
-    places: Array
+    points: Array
     multipliers: Complex
     kind: str
     error_estimate: float
@@ -406,7 +406,7 @@ class PeriodicOrbit(Result):
     @property
     def period(self) -> int:
         """Number of returns after which the orbit closes."""
-        return len(self.places)
+        return len(self.points)
 
     def labels(self) -> Labels:
         """Return the points of the orbit, with its type and multipliers.
@@ -419,8 +419,8 @@ class PeriodicOrbit(Result):
         multipliers = {f"multiplier {i + 1}": _shown(complex(one)) for i, one in enumerate(self.multipliers)}
         return Labels(
             {"return": (("return",), np.arange(self.period))},
-            components(self.names, self.places, "return"),
-            place_units(self.names),
+            components(self.names, self.points, "return"),
+            units_of(self.names),
             {
                 "period": self.period,
                 "time": self.time,
@@ -442,17 +442,17 @@ def _shown(value: complex) -> float | str:
     return value.real if value.imag == 0.0 else f"{value.real:.17g}{value.imag:+.17g}i"
 
 
-def _converged(map_: Map, places: Array) -> tuple[Shot, int]:
+def _converged(map_: Map, points: Array) -> tuple[Shot, int]:
     """Return the solution of Newton's method with damped steps from points (m, d).  Raises `NotConverged`."""
     try:
-        shot = shoot(map_, places)
+        shot = shoot(map_, points)
     except ModelError as error:
         raise NotConverged(f"Newton's method cannot start here: {error}") from error
     before = math.inf
     # If every point is periodic, J consists of the errors of the map.
     family = max(_FAMILY, map_.promise)
     for iteration in range(1, _ITERATIONS + 1):
-        go_on()
+        check_limit()
         step = shot.step(family)
         length = float(np.abs(step).max())
         # Close to the solution, steps shrink quadratically until the map's own round-off dominates.
@@ -462,17 +462,17 @@ def _converged(map_: Map, places: Array) -> tuple[Shot, int]:
         share = min(1.0, 0.5 / length)
         while True:
             try:
-                tried = shoot(map_, shot.places + share * step)
+                tried = shoot(map_, shot.points + share * step)
                 if tried.size < shot.size or length <= map_.promise:
                     break
             except ModelError:
                 pass
             share *= 0.5
             if share < 1e-4:
-                raise _not_converged(len(places))
+                raise _not_converged(len(points))
         shot = tried
         before = length if share == 1.0 else math.inf
-    raise _not_converged(len(places))
+    raise _not_converged(len(points))
 
 
 def _not_converged(m: int) -> NotConverged:
@@ -512,13 +512,15 @@ def find_periodic(
     NotConverged
         If no orbit is found.
     """
-    places = np.array(start, float, ndmin=2)
-    if places.ndim != 2 or places.shape[1] != len(map_.turns) or not np.all(np.isfinite(places)):
-        raise InvalidParameter(f"A point has {len(map_.turns)} finite coordinates here: {', '.join(map_.names)}.")
-    if len(places) > 1:
-        return _measured(map_, *_converged(map_, places))
+    points = np.array(start, float, ndmin=2)
+    if points.ndim != 2 or points.shape[1] != len(map_.turns) or not np.all(np.isfinite(points)):
+        raise InvalidParameter(
+            f"{start!s:.80} is not a point here: give {len(map_.turns)} finite numbers, {', '.join(map_.names)}."
+        )
+    if len(points) > 1:
+        return _measured(map_, *_converged(map_, points))
     others: set[int] = set()
-    for guess in _guesses(map_, places[0], period, most, near):
+    for guess in _guesses(map_, points[0], period, most, near):
         try:
             orbit = _measured(map_, *_converged(map_, guess))
         except NotConverged:
@@ -539,14 +541,14 @@ def find_periodic(
     raise _not_converged(period)
 
 
-def _guesses(map_: Map, place: Array, period: int | None, most: int, near: bool) -> Iterator[Array]:
+def _guesses(map_: Map, point: Array, period: int | None, most: int, near: bool) -> Iterator[Array]:
     """Yield the points (m, d) from which Newton's method starts, the best first, see `find_periodic`."""
     if period is None:
-        orbit = images_of(map_, place, most)
+        orbit = images_of(map_, point, most)
         for back in np.argsort(_closeness(map_, orbit[1:], orbit[0]), kind="stable")[: 1 if near else _TRIED]:
             yield orbit[: back + 1]
         return
-    orbit = images_of(map_, place, period - 1 if near else (_FOLLOWED + 1) * period)
+    orbit = images_of(map_, point, period - 1 if near else (_FOLLOWED + 1) * period)
     if len(orbit) < period:
         raise NotConverged(
             f"From here a motion returns only {len(orbit) - 1} times: start elsewhere for an orbit of period {period}."
@@ -558,17 +560,17 @@ def _guesses(map_: Map, place: Array, period: int | None, most: int, near: bool)
 
 
 def _closeness(map_: Map, a: Array, b: Array) -> Array:
-    return np.asarray(np.abs(apart(map_.turns, a, b)).max(axis=1))
+    return np.asarray(np.abs(difference(map_.turns, a, b)).max(axis=1))
 
 
-def images_of(map_: Map, place: Array, count: int) -> Array:
+def images_of(map_: Map, point: Array, count: int) -> Array:
     """Return a point and its images, as far as they exist.
 
     Parameters
     ----------
     map_ : Map
         The map.
-    place : ndarray, shape (d,)
+    point : ndarray, shape (d,)
         The point.
     count : int
         Number of iterations.
@@ -583,10 +585,10 @@ def images_of(map_: Map, place: Array, count: int) -> Array:
     NotConverged
         If the point itself has no image.
     """
-    orbit = [place]
+    orbit = [point]
     try:
         for _ in range(count):
-            go_on()
+            check_limit()
             orbit.append(map_.image(orbit[-1]))
             if not np.all(np.isfinite(orbit[-1])) or np.abs(orbit[-1]).max() > _FAR:
                 return np.array(orbit[:-1])
@@ -596,14 +598,14 @@ def images_of(map_: Map, place: Array, count: int) -> Array:
     return np.array(orbit)
 
 
-def _least_period(map_: Map, places: Array, error: float) -> int:
+def _least_period(map_: Map, points: Array, error: float) -> int:
     """Return the least divisor of m after which the points (m, d) repeat."""
-    m = len(places)
+    m = len(points)
     near = max(1e3 * error, 1e-7)
     return next(
         k
         for k in range(1, m + 1)
-        if m % k == 0 and np.abs(apart(map_.turns, places, np.roll(places, -k, axis=0))).max() <= near
+        if m % k == 0 and np.abs(difference(map_.turns, points, np.roll(points, -k, axis=0))).max() <= near
     )
 
 
@@ -613,17 +615,17 @@ def _measured(map_: Map, shot: Shot, iterations: int) -> PeriodicOrbit:
     If the error exceeds the promise, the more accurate map takes over.
     """
     current = map_
-    shot = shoot(current, shot.places[: _least_period(current, shot.places, map_.promise)])
+    shot = shoot(current, shot.points[: _least_period(current, shot.points, map_.promise)])
     while True:
         better = current.tighter()
         # The residuals of Newton's equations for the better map are the error of this one.
-        there = shoot(better, shot.places)
+        there = shoot(better, shot.points)
         family = max(_FAMILY, current.promise)
         step = there.step(family)
         values = np.linalg.svd(there.jacobian, compute_uv=False)
         nonzero = values[values > family * max(1.0, float(values[0]))]
         condition = float(nonzero[0] / nonzero[-1]) if nonzero.size else 1.0
-        size = max(1.0, float(np.abs(shot.places).max()))
+        size = max(1.0, float(np.abs(shot.points).max()))
         # Relative to the smallest singular value, not the condition: a unit residual becomes 1/σ.
         least = float(nonzero[-1]) if nonzero.size else 1.0
         error = SAFETY * float(np.abs(step).max()) + 4.0 * _ROUNDING * size / least
@@ -632,23 +634,23 @@ def _measured(map_: Map, shot: Shot, iterations: int) -> PeriodicOrbit:
             error = max(error, SAFETY * there.size)
         if error <= map_.promise or current.is_floor:
             break
-        current, shot = better, shoot(better, shot.places + step)
-    moved = shoot(better, shot.places + step)
+        current, shot = better, shoot(better, shot.points + step)
+    moved = shoot(better, shot.points + step)
     off = _multiplier_error(shot.derivatives, moved.derivatives)
     multipliers = multipliers_of(shot.derivatives)[0]
-    places = shot.places.copy()
+    points = shot.points.copy()
     for i, turn in enumerate(map_.turns):
         if math.isfinite(turn):
-            places[:, i] -= turn * np.ceil(places[:, i] / turn - 0.5)
+            points[:, i] -= turn * np.ceil(points[:, i] / turn - 0.5)
     # Time of one period, of this orbit and of that of the better map.
     time, other = (
         abs(one.time_of(at)) if hasattr(one, "time_of") else math.nan
-        for one, at in ((current, shot.places), (better, moved.places))
+        for one, at in ((current, shot.points), (better, moved.points))
     )
     status = Status.OK if error <= map_.promise else Status.FLOOR if map_.is_floor else Status.PROMISE_NOT_MET
     return PeriodicOrbit(
         map_.names,
-        frozen(places),
+        frozen(points),
         frozen(multipliers),
         kind_of(multipliers, off),
         error,

@@ -26,8 +26,8 @@ from hess_mechanics.numerics.accuracy import Accuracy, Level
 from hess_mechanics.numerics.arguments import as_level
 from hess_mechanics.numerics.labelled import Labels, Result, components
 from hess_mechanics.numerics.measured import measured
-from hess_mechanics.numerics.parallel import THREADS, share
-from hess_mechanics.numerics.patience import go_on
+from hess_mechanics.numerics.parallel import THREADS, run_in_threads
+from hess_mechanics.numerics.patience import check_limit
 from hess_mechanics.numerics.results import Array, Cost, SectionCrossings, angle_facts, frozen, unit_of
 
 __all__ = [
@@ -77,9 +77,13 @@ class Plane:
 
     def __post_init__(self) -> None:
         if not (all(map(math.isfinite, self.normal)) and any(self.normal) and math.isfinite(self.offset)):
-            raise InvalidParameter("A plane needs a finite nonzero normal and a finite offset.")
+            raise InvalidParameter(
+                "The normal of the plane is 0, or the normal or offset is not finite: choose others."
+            )
         if self.sense not in (-1, 0, 1):
-            raise InvalidParameter("The sense of a crossing is 1 (from below), −1 (from above) or 0 (both).")
+            raise InvalidParameter(
+                f"sense = {self.sense}: choose 1 (crossings from below), −1 (from above) or 0 (both)."
+            )
 
     def gradient(self, state: Array) -> Array:
         """Return the normal.
@@ -121,7 +125,9 @@ class Plane:
             If the normal does not have d components, or the offset is too large.
         """
         if len(self.normal) != len(system.variables):
-            raise InvalidParameter(f"The normal of the plane has {len(system.variables)} components here.")
+            raise InvalidParameter(
+                f"The normal has {len(self.normal)} components: give {len(system.variables)} for {system.title}."
+            )
         largest = max(map(abs, self.normal))
         normal = np.array(self.normal) / largest * problem.scale
         length = float(np.linalg.norm(normal))
@@ -165,7 +171,7 @@ class AnglePlane:
     sense: int = 1
 
     def __post_init__(self) -> None:
-        # The conditions are those of a plane.
+        # Validate value and sense as those of a plane.
         Plane((1.0,), self.value, self.sense)
 
     def gradient(self, state: Array) -> Array:
@@ -208,7 +214,9 @@ class AnglePlane:
             If the system has no variable with this index.
         """
         if self.index not in range(len(system.variables)):
-            raise InvalidParameter(f"{system.title}: the index of the angle is from 0 to {len(system.variables) - 1}.")
+            raise InvalidParameter(
+                f"{system.title} has no variable {self.index}: choose 0 to {len(system.variables) - 1}."
+            )
         return system.cross_angle, np.array([self.index, problem.scale[self.index], self.value]), 0.0
 
 
@@ -287,12 +295,14 @@ class _Search:
     ) -> _Search:
         """Validate the arguments and scale them.  Raises `InvalidParameter`, `WorkLimit`."""
         if not math.isfinite(duration):
-            raise InvalidParameter("The end of the time span must be finite.")
+            raise InvalidParameter(f"The end of the time span is {duration}: choose a finite number.")
         if not 1 <= crossings <= MAX_CROSSINGS:
-            raise WorkLimit(f"The number of crossings must lie between 1 and {MAX_CROSSINGS}.")
+            raise WorkLimit(f"{crossings} crossings: choose a number between 1 and {MAX_CROSSINGS}.")
         problem = Problem.of(body, states)
         if not hasattr(plane, "crossing_kernel"):
-            raise InvalidParameter("A section needs a surface, such as Plane(normal, offset).")
+            raise InvalidParameter(
+                f"A {type(plane).__name__} is not a surface: give one such as Plane(normal, offset)."
+            )
         plane.crossing_kernel(body.system, problem)
         starts = np.array(states, float, ndmin=2)
         longest = as_max_step(max_step, problem)
@@ -342,7 +352,7 @@ class _Search:
 
     def measured(self) -> SectionCrossings:
         """Return the crossings of the first orbit, with an error from a more accurate run with a nearby start."""
-        nearby = self.problem.nearby()
+        nearby = self.problem.perturb()
         problems = [self.problem, nearby]
 
         def run(level: Level, spent: int) -> tuple[tuple[Array, Array], int]:
@@ -351,7 +361,7 @@ class _Search:
             if ended is not None:
                 raise ended
             if not level.aside:
-                problems[1] = nearby.rounded(np.vstack((self.problem.states, crossings[1])))
+                problems[1] = nearby.with_rounding(np.vstack((self.problem.states, crossings[1])))
             return crossings, steps
 
         result = measured(self.level, run, self._apart)
@@ -607,7 +617,7 @@ def section_points(
     count = len(search.starts)
     parts = max(1, min(_PARTS, crossings // 10))
     one_part = replace(search, crossings=-(-crossings // parts))
-    problem = search.problem.nearby() if level.aside else search.problem
+    problem = search.problem.perturb() if level.aside else search.problem
     results: dict[int, tuple[Array, int]] = {}
     reasons = [""] * count
 
@@ -615,7 +625,7 @@ def section_points(
         pieces: list[Array] = []
         start, steps = problem.states[orbit], 0
         for _ in range(parts):
-            go_on()
+            check_limit()
             (_, points), taken, ended = one_part.run(problem, start, search.end / parts, level, steps)
             pieces.append(points)
             steps += taken
@@ -640,7 +650,7 @@ def section_points(
             except WorkLimit as error:
                 refused.append(error)
 
-    share(one, count, threads, _SHARE)
+    run_in_threads(one, count, threads, _SHARE)
     if refused:
         raise refused[0]
     p = np.asarray(body.parameters, float)

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hess_mechanics.dynamics.periodic import apart
+from hess_mechanics.dynamics.periodic import difference
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.results import Array
 
@@ -47,8 +47,8 @@ def nearest(turns: Sequence[float], a: Array, b: Array) -> Array:
 
     box = np.array([turn if math.isfinite(turn) else 0.0 for turn in turns])
 
-    def wrapped(places: Array) -> Array:
-        result = np.mod(places, turns, where=np.isfinite(turns), out=np.array(places, float))
+    def wrapped(points: Array) -> Array:
+        result = np.mod(points, turns, where=np.isfinite(turns), out=np.array(points, float))
         return np.where(result >= turns, 0.0, result)
 
     return np.asarray(cKDTree(wrapped(b), boxsize=box).query(wrapped(a))[0])
@@ -101,7 +101,7 @@ class SetDistance:
     settled: bool
 
     @property
-    def apart(self) -> bool:
+    def is_separated(self) -> bool:
         """True if no point of one set is close to the other set, as far as the grain resolves this."""
         return self.settled and self.overlap < 0.005 and self.distance > self.grain + self.error
 
@@ -130,11 +130,11 @@ def set_distance(turns: Sequence[float], a: Array, b: Array) -> SetDistance:
     """
     if min(len(a), len(b)) < _LEAST:
         raise InvalidParameter(
-            f"A comparison needs at least {_LEAST} points in each set: follow the orbits for longer."
+            f"Sets of {len(a)} and {len(b)} points are too small to compare: follow the orbits for at least {_LEAST}."
         )
     halves = [(one[: len(one) // 2], one[len(one) // 2 :]) for one in (a, b)]
     grains = [max(_RESOLVED, distance(turns, *both)) for both in halves]
-    sizes = [float(np.abs(apart(turns, one, one[0])).max()) for one in (a, b)]
+    sizes = [float(np.abs(difference(turns, one, one[0])).max()) for one in (a, b)]
     settled = all(grain < _SETTLED * size or grain == _RESOLVED for grain, size in zip(grains, sizes, strict=True))
     whole = distance(turns, a, b)
     parts = [
@@ -142,7 +142,7 @@ def set_distance(turns: Sequence[float], a: Array, b: Array) -> SetDistance:
     ]
     shared = []
     for (first, second), other in zip(halves, (b, a), strict=True):
-        # As close as 95 of 100 points of one half are to the other half.
+        # "Close" means within the distance that 95 % of the points of one half have from the other half.
         close = max(_RESOLVED, float(np.quantile(nearest(turns, first, second), _QUANTILE)))
         own = np.concatenate([first, second])
         shared.append(float(np.mean(nearest(turns, own, other) <= close)))

@@ -10,7 +10,7 @@ from typing import Any
 
 from hess_mechanics.numerics.balls import ArbBall
 
-__all__ = ["Along", "Slope"]
+__all__ = ["Slope", "TaylorModel"]
 
 
 class _Number:
@@ -31,7 +31,7 @@ class _Number:
         return self * other
 
 
-class Along(_Number):
+class TaylorModel(_Number):
     """A Taylor model: a function of s in [0, δ] as a polynomial and an upper bound on its error there.
 
     Polynomials have at most 2 `terms` coefficients; higher terms are added to the bound.
@@ -48,14 +48,14 @@ class Along(_Number):
         Upper bound on the error.  By default the polynomial is exact.
     """
 
-    __slots__ = ("_most", "delta", "polynomial", "rest", "terms")
+    __slots__ = ("_bound", "delta", "polynomial", "rest", "terms")
 
     def __init__(self, polynomial: ArbBall, delta: ArbBall, terms: int, rest: ArbBall | None = None) -> None:
         self.polynomial, self.delta, self.terms, self.rest = polynomial, delta, terms, rest
-        self._most: ArbBall | None = None
+        self._bound: ArbBall | None = None
 
     @classmethod
-    def number(cls, value: Any, delta: ArbBall, terms: int) -> Along:
+    def number(cls, value: Any, delta: ArbBall, terms: int) -> TaylorModel:
         """Return a constant as a Taylor model.
 
         Parameters
@@ -76,7 +76,7 @@ class Along(_Number):
 
         return cls(arb_poly([value]), delta, terms)
 
-    def _with(self, polynomial: ArbBall, rest: ArbBall | None) -> Along:
+    def _with(self, polynomial: ArbBall, rest: ArbBall | None) -> TaylorModel:
         if len(polynomial) > 2 * self.terms:
             from flint import arb_poly
 
@@ -84,14 +84,14 @@ class Along(_Number):
             beyond = _size(coefficients[2 * self.terms :], self.delta) * self.delta ** (2 * self.terms)
             rest = beyond if rest is None else rest + beyond
             polynomial = arb_poly(coefficients[: 2 * self.terms])
-        return Along(polynomial, self.delta, self.terms, rest)
+        return TaylorModel(polynomial, self.delta, self.terms, rest)
 
     @property
-    def most(self) -> ArbBall:
+    def bound(self) -> ArbBall:
         """Upper bound on |polynomial| on [0, δ]."""
-        if self._most is None:
-            self._most = _size(self.polynomial.coeffs(), self.delta)
-        return self._most
+        if self._bound is None:
+            self._bound = _size(self.polynomial.coeffs(), self.delta)
+        return self._bound
 
     def distance(self, other: ArbBall) -> ArbBall:
         """Return an upper bound on the distance from a polynomial on [0, δ].
@@ -109,18 +109,18 @@ class Along(_Number):
         bound = _size((self.polynomial - other).coeffs(), self.delta)
         return bound if self.rest is None else bound + self.rest
 
-    def __neg__(self) -> Along:
-        return Along(-self.polynomial, self.delta, self.terms, self.rest)
+    def __neg__(self) -> TaylorModel:
+        return TaylorModel(-self.polynomial, self.delta, self.terms, self.rest)
 
-    def __add__(self, other: Any) -> Along:
-        if not isinstance(other, Along):
-            return Along(self.polynomial + other, self.delta, self.terms, self.rest)
+    def __add__(self, other: Any) -> TaylorModel:
+        if not isinstance(other, TaylorModel):
+            return TaylorModel(self.polynomial + other, self.delta, self.terms, self.rest)
         rest = self.rest if other.rest is None else other.rest if self.rest is None else self.rest + other.rest
-        return Along(self.polynomial + other.polynomial, self.delta, self.terms, rest)
+        return TaylorModel(self.polynomial + other.polynomial, self.delta, self.terms, rest)
 
-    def __mul__(self, other: Any) -> Along:
-        if not isinstance(other, Along):
-            return Along(
+    def __mul__(self, other: Any) -> TaylorModel:
+        if not isinstance(other, TaylorModel):
+            return TaylorModel(
                 self.polynomial * other,
                 self.delta,
                 self.terms,
@@ -129,20 +129,20 @@ class Along(_Number):
         rest = None
         for one, two in ((self, other), (other, self)):
             if one.rest is not None:
-                off = one.rest * two.most
+                off = one.rest * two.bound
                 rest = off if rest is None else rest + off
         if self.rest is not None and other.rest is not None:
             rest = rest + self.rest * other.rest
         return self._with(self.polynomial * other.polynomial, rest)
 
-    def __pow__(self, exponent: int) -> Along:
-        product = Along.number(1, self.delta, self.terms)
+    def __pow__(self, exponent: int) -> TaylorModel:
+        product = TaylorModel.number(1, self.delta, self.terms)
         factor = self if exponent >= 0 else self.inverse()
         for _ in range(abs(exponent)):
             product = product * factor
         return product
 
-    def inverse(self) -> Along:
+    def inverse(self) -> TaylorModel:
         """Return 1/b from its truncated series q: 1/b = q/(1 − η), η = 1 − qb.
 
         Returns
@@ -165,16 +165,16 @@ class Along(_Number):
             raise ZeroDivisionError("a divisor that may vanish where a step begins") from None
         finally:
             ctx.cap = before
-        truncation = Along(q, self.delta, self.terms)
+        truncation = TaylorModel(q, self.delta, self.terms)
         off = (truncation * self).distance(arb_poly([1]))
         if not off < 1:
             raise ZeroDivisionError("a divisor that may vanish along a step")
-        return Along(q, self.delta, self.terms, (truncation.most * off / (1 - off)).abs_upper() + arb(0))
+        return TaylorModel(q, self.delta, self.terms, (truncation.bound * off / (1 - off)).abs_upper() + arb(0))
 
-    def __truediv__(self, other: Any) -> Along:
-        return self * (other.inverse() if isinstance(other, Along) else 1 / (other + 0 * self.delta))
+    def __truediv__(self, other: Any) -> TaylorModel:
+        return self * (other.inverse() if isinstance(other, TaylorModel) else 1 / (other + 0 * self.delta))
 
-    def __rtruediv__(self, other: Any) -> Along:
+    def __rtruediv__(self, other: Any) -> TaylorModel:
         return self.inverse().__mul__(other)
 
 

@@ -26,7 +26,7 @@ from hess_mechanics.dynamics.birkhoff import bounded_series, ensemble_mean, irre
 from hess_mechanics.dynamics.ensemble import complete
 from hess_mechanics.dynamics.megno import CHAOTIC, REGULAR, Megno, longest_duration, megno
 from hess_mechanics.dynamics.orbit_diagram import SAME, period_of
-from hess_mechanics.dynamics.periodic import apart, find_periodic, place_units
+from hess_mechanics.dynamics.periodic import difference, find_periodic, units_of
 from hess_mechanics.dynamics.plane_section import section
 from hess_mechanics.dynamics.point_sets import SetDistance, nearest, set_distance
 from hess_mechanics.dynamics.return_map import ReturnMap
@@ -36,9 +36,9 @@ from hess_mechanics.dynamics.system import Problem
 from hess_mechanics.dynamics.zero_one import LEAST, zero_one_of_bands
 from hess_mechanics.errors import ModelError, NoReturn, OutsideRegion, WorkLimit
 from hess_mechanics.numerics.accuracy import Status
-from hess_mechanics.numerics.arguments import as_integer, as_place
+from hess_mechanics.numerics.arguments import as_integer, as_point
 from hess_mechanics.numerics.labelled import Labels, Result, components
-from hess_mechanics.numerics.patience import go_on
+from hess_mechanics.numerics.patience import check_limit
 from hess_mechanics.numerics.results import Array, frozen
 
 __all__ = ["Dynamics", "MotionKind", "Regime", "comparison", "dynamics_of", "regime"]
@@ -127,7 +127,7 @@ class Regime(Result):
         Return map of the section.
     kind : MotionKind
         Kind of the motion.
-    places : Array, shape (n, d)
+    points : Array, shape (n, d)
         Its crossings after the transient.
     duration : float
         Time of MEGNO, positive, in units T; for a motion that did not return, the time limit.
@@ -146,7 +146,7 @@ class Regime(Result):
 
     map_: ReturnMap
     kind: MotionKind
-    places: Array
+    points: Array
     duration: float
     period: int = 0
     megno: float = 0.0
@@ -175,8 +175,8 @@ class Regime(Result):
         """
         return Labels(
             {},
-            components(self.map_.names, self.places, "crossing"),
-            place_units(self.map_.names),
+            components(self.map_.names, self.points, "crossing"),
+            units_of(self.map_.names),
             {
                 "kind": self.kind.words,
                 "period": self.period,
@@ -285,62 +285,62 @@ def regime(
         as_integer("transient", transient, 0, _MOST_CROSSINGS),
         as_integer("crossings", crossings, 1, _MOST_CROSSINGS),
     )
-    start = as_place(map_.names, start)
-    places = map_.orbit(np.array(start), transient + crossings)
-    if len(places) < transient + crossings:
-        return _not_seen(map_, places, start)
-    places = places[transient:]
-    # A time of 0, or none, is refused by the indicator itself.
-    span = max(duration, _RETURNS * map_.time_of(places[-1])) if duration > 0.0 else duration
-    evidence = _evidence(map_, places, span)
+    start = as_point(map_.names, start)
+    points = map_.orbit(np.array(start), transient + crossings)
+    if len(points) < transient + crossings:
+        return _not_seen(map_, points, start)
+    points = points[transient:]
+    # MEGNO raises the error for a time that is not positive.
+    span = max(duration, _RETURNS * map_.time_of(points[-1])) if duration > 0.0 else duration
+    evidence = _evidence(map_, points, span)
     for _ in range(_ROUNDS - 1):
         if evidence.kind not in (MotionKind.UNDECIDED, MotionKind.SETTLING):
             break
-        count = min(_LONGER * len(places), _MOST_CROSSINGS)
-        longest = longest_duration(map_.section, map_.state_at(places[-1]))
+        count = min(_LONGER * len(points), _MOST_CROSSINGS)
+        longest = longest_duration(map_.section, map_.state_at(points[-1]))
         longer = max(span, min(_LONGER * span, longest))
-        if (count, longer) == (len(places), span):
+        if (count, longer) == (len(points), span):
             break
-        go_on()
-        following = map_.orbit(places[-1], count)
+        check_limit()
+        following = map_.orbit(points[-1], count)
         if len(following) < count:
-            return _not_seen(map_, following, places[-1])
-        places, span = following, longer
-        evidence = _evidence(map_, places, span)
+            return _not_seen(map_, following, points[-1])
+        points, span = following, longer
+        evidence = _evidence(map_, points, span)
     kind, measure = evidence.kind, map_.section.measure
     if kind in _ON_ONE_SET and not (measure or evidence.dissipative or map_.preserves_volume):
-        measure = _reversor(map_, places)
-    if kind is MotionKind.QUASI_PERIODIC and evidence.dissipative and not _has_a_curve(map_, places[-1], span):
+        measure = _reversor(map_, points)
+    if kind is MotionKind.QUASI_PERIODIC and evidence.dissipative and not _has_a_curve(map_, points[-1], span):
         kind = MotionKind.NO_PERIOD
     divergence = (0.0, 0.0) if measure else (evidence.divergence, evidence.divergence_error)
     return Regime(
-        map_, kind, frozen(places.copy()), span, evidence.period, evidence.late, evidence.k, *divergence, measure
+        map_, kind, frozen(points.copy()), span, evidence.period, evidence.late, evidence.k, *divergence, measure
     )
 
 
-def _not_seen(map_: ReturnMap, places: Array, start: Sequence[float] | Array) -> Regime:
-    last = places[-1] if len(places) else np.array(start, float)
+def _not_seen(map_: ReturnMap, points: Array, start: Sequence[float] | Array) -> Regime:
+    last = points[-1] if len(points) else np.array(start, float)
     measure = map_.section.measure
-    return Regime(map_, MotionKind.NO_RETURN, frozen(places.copy()), map_.wait(last), measure=measure)
+    return Regime(map_, MotionKind.NO_RETURN, frozen(points.copy()), map_.wait(last), measure=measure)
 
 
-def _evidence(map_: ReturnMap, places: Array, duration: float) -> _Evidence:
-    period, settled = _period(map_, places)
-    # A periodic orbit is one whatever its neighbours do; of others an ensemble tells.
-    starts = places[-1:] if period else _ensemble(map_, places)
+def _evidence(map_: ReturnMap, points: Array, duration: float) -> _Evidence:
+    period, settled = _period(map_, points)
+    # A periodic orbit needs no ensemble; the kind of other motions follows from the mean over their neighbours.
+    starts = points[-1:] if period else _ensemble(map_, points)
     early, late = (_indicated(map_, starts, time) for time in (duration / 2.0, duration))
     windows = late.windows
     mean, error = (windows[0, 0], np.ptp(windows)) if len(windows) == 1 else ensemble_mean(windows)
-    plane, enough = map_.section, len(places) >= LEAST
+    plane, enough = map_.section, len(points) >= LEAST
     winds = bool(plane.integrable or plane.measure)
     return _Evidence(
-        len(places),
+        len(points),
         period,
         settled,
         float(np.median(early.values)),
         float(np.median(late.values)),
-        zero_one_of_bands(bounded_series(map_.turns, places).sum(axis=1)) if enough else math.nan,
-        irregularity(map_.turns, places, _PRECISION * map_.promise) if enough else math.inf,
+        zero_one_of_bands(bounded_series(map_.turns, points).sum(axis=1)) if enough else math.nan,
+        irregularity(map_.turns, points, _PRECISION * map_.promise) if enough else math.inf,
         float(mean),
         0.0 if map_.preserves_volume else float(error) + map_.promise,
         winds or all(late.no_chaos),
@@ -348,20 +348,20 @@ def _evidence(map_: ReturnMap, places: Array, duration: float) -> _Evidence:
     )
 
 
-def _period(map_: ReturnMap, places: Array) -> tuple[int, bool]:
+def _period(map_: ReturnMap, points: Array) -> tuple[int, bool]:
     """Return the period of an orbit, 0 if Newton's method confirms none, and True if the orbit has settled."""
-    most = min(_LONGEST_PERIOD, len(places) // 3)
-    period, settled = period_of(map_.turns, places, map_.promise, most)
+    most = min(_LONGEST_PERIOD, len(points) // 3)
+    period, settled = period_of(map_.turns, points, map_.promise, most)
     # Next to a doubling, an orbit of twice the period looks like one of the period that doubled.
     for m in (period, 2 * period) if period else ():
-        if m <= most and _closes(map_, places, m):
+        if m <= most and _closes(map_, points, m):
             return m, True
-    return 0, period_of(map_.turns, places, 0.0, most, 0.0)[1] if period else settled
+    return 0, period_of(map_.turns, points, 0.0, most, 0.0)[1] if period else settled
 
 
-def _closes(map_: ReturnMap, places: Array, m: int) -> bool:
+def _closes(map_: ReturnMap, points: Array, m: int) -> bool:
     """Return True if Newton's method finds an orbit of period m on which the points lie, or to which they tend."""
-    last, precision = places[-m:], min(SAME, _CLOSED * map_.promise)
+    last, precision = points[-m:], min(SAME, _CLOSED * map_.promise)
     if m == 1 and _at_rest(map_, last[0], precision):
         # There is no return, but the motion is known: f(y) = 0.
         return True
@@ -373,9 +373,9 @@ def _closes(map_: ReturnMap, places: Array, m: int) -> bool:
         return False
     if orbit.period != m or orbit.status is Status.PROMISE_NOT_MET:
         return False
-    periods = len(places) // m
-    away = np.abs(apart(map_.turns, places[-periods * m :].reshape(periods, m, -1), orbit.places)).max(axis=(1, 2))
-    gap = float(np.abs(apart(map_.turns, places[m:], places[:-m])).max())
+    periods = len(points) // m
+    away = np.abs(difference(map_.turns, points[-periods * m :].reshape(periods, m, -1), orbit.points)).max(axis=(1, 2))
+    gap = float(np.abs(difference(map_.turns, points[m:], points[:-m])).max())
     if away[-1] <= precision or (gap <= precision and away[-1] <= SAME):
         return True
     # An attracting orbit is the limit if the distance falls as its multiplier says.
@@ -383,16 +383,16 @@ def _closes(map_: ReturnMap, places: Array, m: int) -> bool:
     return rate < 1.0 and float(away[-1]) < 0.5 * (1.0 + rate ** (periods - 1)) * float(away[0])
 
 
-def _at_rest(map_: ReturnMap, place: Array, precision: float) -> bool:
-    problem = Problem.of(map_.section, map_.state_at(place)[None])
+def _at_rest(map_: ReturnMap, point: Array, precision: float) -> bool:
+    problem = Problem.of(map_.section, map_.state_at(point)[None])
     return float(np.abs(problem.system.rates(problem.states, problem.parameters)).max()) <= precision
 
 
-def _ensemble(map_: ReturnMap, places: Array) -> Array:
+def _ensemble(map_: ReturnMap, points: Array) -> Array:
     """Return the end points (m, d) of orbits that started next to different points (n, d) of an orbit."""
-    ends, count = [], min(len(places), _INDEPENDENT)
+    ends, count = [], min(len(points), _INDEPENDENT)
     for i in range(_MEMBERS):
-        start = places[i * len(places) // _MEMBERS]
+        start = points[i * len(points) // _MEMBERS]
         try:
             following = map_.orbit(start + _SHIFT * (i + 1), count)
         except OutsideRegion:
@@ -402,47 +402,47 @@ def _ensemble(map_: ReturnMap, places: Array) -> Array:
     return np.array(ends)
 
 
-def _indicated(map_: ReturnMap, places: Array, duration: float) -> Megno:
-    states = map_.state_at(places)
+def _indicated(map_: ReturnMap, points: Array, duration: float) -> Megno:
+    states = map_.state_at(points)
     return complete(megno(map_.section, states, -duration if map_.backward else duration, map_.accuracy, threads=1))
 
 
-def _reversor(map_: ReturnMap, places: Array) -> str:
+def _reversor(map_: ReturnMap, points: Array) -> str:
     """Return the reversor that takes a motion to itself, in words; an empty string if there is none.
 
     As it changes the sign of the divergence and of time, the mean divergence of such a motion is 0.
     """
     plane = map_.section
-    halves = np.array_split(places, 2)
+    halves = np.array_split(points, 2)
     precision = _GRAINS * float(np.quantile(nearest(map_.turns, *halves), 0.95)) + _CLOSED * map_.promise
-    states = map_.state_at(places[:: -(-len(places) // _MIRRORED)])
+    states = map_.state_at(points[:: -(-len(points) // _MIRRORED)])
     for mirror in sign_symmetries(plane.system, plane.parameters):
         if not mirror.reverses:
             continue
         try:
             images = np.array(
                 [
-                    section(plane, one, plane.surface, map_.wait(places[-1]), map_.accuracy, 1).states[0]
+                    section(plane, one, plane.surface, map_.wait(points[-1]), map_.accuracy, 1).states[0]
                     for one in map(mirror.image, states)
                 ]
             )
-            there = plane.places_of(images)
+            there = plane.points_of(images)
             # The image has to be on the same levels of the integrals.
             same = float(np.abs(map_.state_at(there) - images).max()) <= SAME * max(1.0, float(np.abs(images).max()))
         except (ModelError, IndexError):
             continue
-        if same and float(nearest(map_.turns, there, places).max()) <= precision:
+        if same and float(nearest(map_.turns, there, points).max()) <= precision:
             return f"the reversor {mirror.name} takes the motion to itself"
     return ""
 
 
-def _has_a_curve(map_: ReturnMap, place: Array, duration: float) -> bool:
+def _has_a_curve(map_: ReturnMap, point: Array, duration: float) -> bool:
     """True if one more exponent is 0 than the integrals and the direction of motion require.
 
     An attracting invariant curve has such an exponent; an attracting periodic orbit, however long, does not.
     """
     spectrum = lyapunov_spectrum(
-        map_.section, map_.state_at(place), -duration if map_.backward else duration, map_.accuracy
+        map_.section, map_.state_at(point), -duration if map_.backward else duration, map_.accuracy
     )
     return spectrum.zeros >= spectrum.integrals + 2
 
@@ -467,24 +467,24 @@ class Dynamics(Result):
     comparisons: tuple[SetDistance, ...]
 
     @property
-    def settled(self) -> tuple[SetDistance, ...]:
+    def settled_comparisons(self) -> tuple[SetDistance, ...]:
         """Comparisons of the orbits that have settled; all comparisons if there is no such orbit."""
         return tuple(one for one in self.comparisons if one.settled) or self.comparisons
 
     @property
     def distance(self) -> float:
         """Distance between the sets, the mean over the settled orbits."""
-        return float(np.mean([one.distance for one in self.settled]))
+        return float(np.mean([one.distance for one in self.settled_comparisons]))
 
     @property
     def distance_error(self) -> float:
         """The largest error, grain or difference from the mean."""
-        return max(max(one.error, one.grain, abs(one.distance - self.distance)) for one in self.settled)
+        return max(max(one.error, one.grain, abs(one.distance - self.distance)) for one in self.settled_comparisons)
 
     @property
     def overlap(self) -> float:
         """Fraction of the points of one set that lie at the other, the mean over the settled orbits."""
-        return float(np.mean([one.overlap for one in self.settled]))
+        return float(np.mean([one.overlap for one in self.settled_comparisons]))
 
     @property
     def verdict(self) -> str:
@@ -492,9 +492,9 @@ class Dynamics(Result):
         if self.motion.map_.preserves_volume or self.motion.measure:
             return "conservative"
         if sum(one.settled for one in self.comparisons) >= _ENOUGH and self.motion.volume < 0:
-            if all(one.apart for one in self.settled):
+            if all(one.is_separated for one in self.settled_comparisons):
                 return "dissipative"
-            if all(one.overlap >= _TOUCHING for one in self.settled):
+            if all(one.overlap >= _TOUCHING for one in self.settled_comparisons):
                 return "mixed"
         return "not told apart"
 
@@ -512,7 +512,7 @@ class Dynamics(Result):
         return Labels(
             {"set": (along, which)},
             components(names, points, *along),
-            place_units(names),
+            units_of(names),
             {
                 "verdict": self.verdict,
                 "distance": self.distance,
@@ -609,7 +609,7 @@ def comparison(
     origin = np.array(start, float)
     pairs: list[tuple[Array, Array]] = []
     for i in range(_MEMBERS):
-        go_on()
+        check_limit()
         pair: list[Array] = []
         for one in (map_, map_.inverse()):
             orbit = one.orbit(origin + _SHIFT * i, transient + crossings)

@@ -21,9 +21,9 @@ from typing import Protocol
 
 import numpy as np
 
-from hess_mechanics.dynamics.cells import Window, evenly
+from hess_mechanics.dynamics.cells import Window, even_points
 from hess_mechanics.dynamics.orbit import MAX_STEPS, end_error, end_of, require_finite_states, require_steps
-from hess_mechanics.dynamics.periodic import apart
+from hess_mechanics.dynamics.periodic import difference
 from hess_mechanics.dynamics.plane_section import SectionPoints, Surface, section_points
 from hess_mechanics.dynamics.symmetry import Mirror, sign_symmetries
 from hess_mechanics.dynamics.system import Problem, System
@@ -31,7 +31,7 @@ from hess_mechanics.dynamics.variation import onto_surface
 from hess_mechanics.errors import InvalidParameter, NoReturn, OutsideRegion, WorkLimit
 from hess_mechanics.numerics.accuracy import Accuracy, Level
 from hess_mechanics.numerics.arguments import as_integer, as_number
-from hess_mechanics.numerics.patience import go_on
+from hess_mechanics.numerics.patience import check_limit
 from hess_mechanics.numerics.results import Array, Mask
 from hess_mechanics.parameters import plain
 
@@ -57,7 +57,7 @@ _AGREE = 1e-14
 _TRIED = (4, 200, 4000)
 """Points tried for each state of a section: motions may cross it in a small part only."""
 _TURNS = 120.0
-_TOO_LONG = f"This return needs more than {MAX_STEPS} steps: choose another place, or a cheaper level."
+_TOO_LONG = f"This return needs more than {MAX_STEPS} steps: choose another point, or a cheaper level."
 _AT_ONCE = 1e-8
 """A crossing before this time, in units of 1/ν, is the start itself."""
 
@@ -139,12 +139,12 @@ class PoincareSection(Protocol):
     def states_at(self) -> Callable[..., tuple[Array, Mask]]:
         """Function of coordinates, arrays (n,), that returns states (n, d) and a mask (n,) of possible points."""
 
-    def state_at(self, *place: float) -> tuple[float, ...]:
+    def state_at(self, *point: float) -> tuple[float, ...]:
         """Return the state at a point of the section.
 
         Parameters
         ----------
-        *place : float
+        *point : float
             Coordinates of the point.
 
         Returns
@@ -157,10 +157,10 @@ class PoincareSection(Protocol):
         OutsideRegion
             If no motion crosses the section there.
         """
-        states, there = self.states_at(*np.array(place, float)[:, None])
+        states, there = self.states_at(*np.array(point, float)[:, None])
         if not there[0]:
-            where = ", ".join(f"{name} = {x:.6g}" for name, x in zip(self.names, place, strict=True))
-            raise OutsideRegion(f"No motion crosses the section at {where}: choose another place, or a larger energy.")
+            where = ", ".join(f"{name} = {x:.6g}" for name, x in zip(self.names, point, strict=True))
+            raise OutsideRegion(f"No motion crosses the section at {where}: choose another point, or a larger energy.")
         return tuple(states[0].tolist())
 
     def spread(self, count: int, window: Window | None = None) -> tuple[tuple[float, ...], ...]:
@@ -180,13 +180,13 @@ class PoincareSection(Protocol):
         """
         low, high = np.array(self.window).T[..., None] if window is None else np.array(window)[..., None]
         for tried in _TRIED:
-            shares = evenly(tried * count, 0.5)[: len(self.names)]
+            shares = even_points(tried * count, 0.5)[: len(self.names)]
             states, there = self.states_at(*(low + (high - low) * shares))
             if np.count_nonzero(there) >= count:
                 break
         return tuple(map(tuple, states[there][:count].tolist()))
 
-    def places_of(self, states: Array) -> Array:
+    def points_of(self, states: Array) -> Array:
         """Return the points of the section at which given states lie.
 
         Parameters
@@ -373,16 +373,16 @@ class ReturnMap:
         """
         if not isinstance(name, str) or name not in self.section.constants:
             raise InvalidParameter(
-                f"There is no {name} here to change: choose one of {', '.join(self.section.constants) or 'none'}."
+                f"{name} is not a constant here: choose one of {', '.join(self.section.constants) or 'none'}."
             )
         return self.section.constants[name]
 
-    def state_at(self, place: Array) -> Array:
+    def state_at(self, point: Array) -> Array:
         """Return the state at a point of the section.
 
         Parameters
         ----------
-        place : array_like, shape (k,) or (m, k)
+        point : array_like, shape (k,) or (m, k)
             Coordinates of the point, or of several points.
 
         Returns
@@ -395,22 +395,22 @@ class ReturnMap:
         OutsideRegion
             If no motion crosses the section at a point.
         """
-        places = self._places(place)
-        states, there = self.section.states_at(*np.atleast_2d(places).T)
+        points = self._points(point)
+        states, there = self.section.states_at(*np.atleast_2d(points).T)
         for i in np.flatnonzero(~there):
             # A computed point may lie beyond the edge by its error: take the nearest of some points around it.
             ways = np.array([*product((0.0, -1.0, 1.0), repeat=len(self.names))])
             around = np.multiply.outer(self.promise * _AROUND, ways).reshape(-1, len(self.names))
-            near, inside = self.section.states_at(*(np.atleast_2d(places)[i] + around).T)
-            states[i] = near[np.argmax(inside)] if inside.any() else self.section.state_at(*np.atleast_2d(places)[i])
-        return np.asarray(states if places.ndim > 1 else states[0])
+            near, inside = self.section.states_at(*(np.atleast_2d(points)[i] + around).T)
+            states[i] = near[np.argmax(inside)] if inside.any() else self.section.state_at(*np.atleast_2d(points)[i])
+        return np.asarray(states if points.ndim > 1 else states[0])
 
-    def image(self, place: Array) -> Array:
+    def image(self, point: Array) -> Array:
         """Return the image of a point: the next crossing.
 
         Parameters
         ----------
-        place : array_like, shape (k,) or (m, k)
+        point : array_like, shape (k,) or (m, k)
             Coordinates of the point, or of several points.
 
         Returns
@@ -427,14 +427,14 @@ class ReturnMap:
         WorkLimit
             If the return needs too many steps.
         """
-        return self.after(place, 1)
+        return self.after(point, 1)
 
-    def after(self, place: Array, count: int) -> Array:
+    def after(self, point: Array, count: int) -> Array:
         """Return the image of a point after several returns.
 
         Parameters
         ----------
-        place : array_like, shape (k,) or (m, k)
+        point : array_like, shape (k,) or (m, k)
             Coordinates of the point, or of several points.
         count : int
             Number of returns.
@@ -453,20 +453,20 @@ class ReturnMap:
         WorkLimit
             If the returns need too many steps.
         """
-        places, count = self._places(place), as_integer("count", count, 0, _MOST)
+        points, count = self._points(point), as_integer("count", count, 0, _MOST)
         if count == 0:
-            return places
-        problem, _, states = self._crossings(self.state_at(np.atleast_2d(places)), count, _LONGEST)
-        return np.asarray(self.section.places_of(states * problem.scale)).reshape(places.shape)
+            return points
+        problem, _, states = self._crossings(self.state_at(np.atleast_2d(points)), count, _LONGEST)
+        return np.asarray(self.section.points_of(states * problem.scale)).reshape(points.shape)
 
-    def orbit(self, place: Array, count: int) -> Array:
+    def orbit(self, point: Array, count: int) -> Array:
         """Return the next crossings of the orbit from a point.
 
         The orbit is projected back to the levels of the integrals after every 50 crossings, so it can have any length.
 
         Parameters
         ----------
-        place : array_like, shape (k,)
+        point : array_like, shape (k,)
             Coordinates of the point.
         count : int
             Number of crossings.
@@ -486,15 +486,15 @@ class ReturnMap:
         section = self.section
         parts = [np.empty((0, len(self.turns)))]
         left = as_integer("count", count, 0, _MOST)
-        problem, search = self._search(np.atleast_2d(self.state_at(place)))
+        problem, search = self._search(np.atleast_2d(self.state_at(point)))
         start = problem.states[0]
         while left > 0:
-            go_on()
+            check_limit()
             target = min(left, _PIECE)
             number, times, states = search(start, target + 1, self._limit(problem, _WAIT))
             require_steps(
                 number,
-                f"{target} returns need more than {MAX_STEPS} steps here: choose another place, or a cheaper level.",
+                f"{target} returns need more than {MAX_STEPS} steps here: choose another point, or a cheaper level.",
                 partial(end_error, problem, number, times[-1], states[-1], MAX_STEPS),
             )
             first = int(number > 0 and abs(times[0]) < _AT_ONCE)
@@ -503,26 +503,26 @@ class ReturnMap:
             on = np.flatnonzero(section.is_on(states))
             if not on.size:
                 break
-            places = np.asarray(section.places_of(states[on]))
-            # Beyond the edge a point is wrong by too much: the next piece starts before it, or it is computed again.
-            inside = section.states_at(*places.T)[1]
+            points = np.asarray(section.points_of(states[on]))
+            # A point beyond the edge is inaccurate: restart before it; if it is the first, use a smaller tolerance.
+            inside = section.states_at(*points.T)[1]
             on = on[: len(on) if inside.all() else max(1, int(np.argmin(inside)))]
             again = not inside[0] and not self.is_floor
-            parts.append(self.tighter().orbit(place, 1) if again else places[: on.size])
+            parts.append(self.tighter().orbit(point, 1) if again else points[: on.size])
             # If the last crossings are on another sheet, the next call repeats them.
             left -= int(on[-1]) + 1
             if not len(parts[-1]):
                 break
-            place = parts[-1][-1]
-            start = self.state_at(place) / problem.scale
+            point = parts[-1][-1]
+            start = self.state_at(point) / problem.scale
         return np.concatenate(parts)
 
-    def wait(self, place: Array) -> float:
+    def wait(self, point: Array) -> float:
         """Return the time limit of `orbit` for the next crossing from a point.
 
         Parameters
         ----------
-        place : array_like, shape (k,)
+        point : array_like, shape (k,)
             Coordinates of the point.
 
         Returns
@@ -535,15 +535,15 @@ class ReturnMap:
         OutsideRegion
             If no motion crosses the section at the point.
         """
-        problem = Problem.of(self.section, np.atleast_2d(self.state_at(place)))
+        problem = Problem.of(self.section, np.atleast_2d(self.state_at(point)))
         return self._limit(problem, _WAIT) * self.section.slowness / problem.nu
 
-    def time_of(self, place: Array, count: int = 1) -> float:
+    def time_of(self, point: Array, count: int = 1) -> float:
         """Return the time that several returns from a point take.
 
         Parameters
         ----------
-        place : array_like, shape (k,) or (m, k)
+        point : array_like, shape (k,) or (m, k)
             Coordinates of the point, or of several points whose times are added.
         count : int, default 1
             Number of returns.
@@ -562,15 +562,15 @@ class ReturnMap:
         WorkLimit
             If the returns need too many steps.
         """
-        problem, times, _ = self._crossings(np.atleast_2d(self.state_at(place)), count, _WAIT)
+        problem, times, _ = self._crossings(np.atleast_2d(self.state_at(point)), count, _WAIT)
         return float(times.sum() / problem.nu)
 
-    def with_derivative(self, place: Array) -> tuple[Array, Array]:
+    def with_derivative(self, point: Array) -> tuple[Array, Array]:
         """Return the image of a point and the derivative of the map there.
 
         Parameters
         ----------
-        place : array_like, shape (k,) or (m, k)
+        point : array_like, shape (k,) or (m, k)
             Coordinates of the point, or of several points.
 
         Returns
@@ -589,8 +589,8 @@ class ReturnMap:
         WorkLimit
             If a return needs too many steps.
         """
-        places = self._places(place)
-        several = np.atleast_2d(places)
+        points = self._points(point)
+        several = np.atleast_2d(points)
         problem, times, ends = self._crossings(self.state_at(several), 1, _LONGEST)
         section, scale = self.section, problem.scale
         states = ends * scale
@@ -601,21 +601,21 @@ class ReturnMap:
             np.array([section.surface.gradient(state) for state in states]),
         )
         moved = onto @ frame.swapaxes(1, 2) @ (self._tangents(several) / scale).swapaxes(1, 2)
-        images = np.asarray(section.places_of(states))
+        images = np.asarray(section.points_of(states))
         derivatives = self._in_plane(states, images, moved.swapaxes(1, 2))
-        return images.reshape(places.shape), derivatives.reshape(*places.shape, places.shape[-1])
+        return images.reshape(points.shape), derivatives.reshape(*points.shape, points.shape[-1])
 
-    def _places(self, place: Array) -> Array:
+    def _points(self, point: Array) -> Array:
         """Return coordinates as an array (k,) or (m, k).  Raises `InvalidParameter`."""
         try:
-            places = np.atleast_1d(np.asarray(place, float))
+            points = np.atleast_1d(np.asarray(point, float))
         except (TypeError, ValueError, OverflowError):
-            places = np.empty(0)
-        if places.ndim > 2 or places.shape[-1] != len(self.names):
+            points = np.empty(0)
+        if points.ndim > 2 or points.shape[-1] != len(self.names):
             raise InvalidParameter(
-                f"A point of the section consists of {len(self.names)} numbers here: {', '.join(self.names)}."
+                f"{point!s:.80} is not a point here: give {len(self.names)} numbers, {', '.join(self.names)}."
             )
-        return places
+        return points
 
     def _limit(self, problem: Problem, default: float) -> float:
         """Return the time limit of a return, in units of 1/ν times the slowness of the section."""
@@ -659,7 +659,7 @@ class ReturnMap:
         """
         section, accuracy = self.section, self.accuracy
         problem = Problem.of(section, starts)
-        problem = problem.nearby() if accuracy.aside else problem
+        problem = problem.perturb() if accuracy.aside else problem
         surface = section.surface
         cross, normal, offset = surface.crossing_kernel(section.system, problem)
         direction = section.slowness * (-1.0 if self.backward else 1.0)
@@ -690,7 +690,7 @@ class ReturnMap:
         longest = self._limit(problem, longest)
         times, states = np.empty(len(starts)), np.empty_like(problem.states)
         for i, start in enumerate(problem.states):
-            go_on()
+            check_limit()
             target = count
             while True:
                 number, all_times, all_states = search(start, target, longest * count)
@@ -704,7 +704,7 @@ class ReturnMap:
                 limit = longest * count * self.section.slowness / problem.nu
                 raise NoReturn(
                     f"From here the motion did not return to the section {_times(count)} within t = "
-                    f"{plain(limit, 4)}: choose another place, or a larger `longest`."
+                    f"{plain(limit, 4)}: choose another point, or a larger `longest`."
                 )
             times[i], states[i] = all_times[-1], all_states[-1]
         require_finite_states(states)
@@ -712,15 +712,15 @@ class ReturnMap:
             raise NoReturn("From here the motion returns on another sheet of the section: choose another point.")
         return problem, times, states
 
-    def _tangents(self, places: Array) -> Array:
+    def _tangents(self, points: Array) -> Array:
         """Return ∂Y/∂x (m, k, d) at points (m, k).  Raises `OutsideRegion` at the very edge of the section."""
-        m, k = places.shape
+        m, k = points.shape
         tangents = np.empty((m, k, len(self.section.system.variables)))
         left, step = np.arange(m), _STEP
         while left.size:
             sizes = np.array([step, 0.25 * step])
             shifts = sizes[:, None, None, None] * _SHIFTS[:, None, None] * np.eye(k)
-            states, there = self.section.states_at(*(places[left, None, None, None] + shifts).reshape(-1, k).T)
+            states, there = self.section.states_at(*(points[left, None, None, None] + shifts).reshape(-1, k).T)
             whole = np.asarray(there.reshape(left.size, -1).all(axis=1))
             inside = states.reshape(left.size, *shifts.shape[:3], -1)[whole]
             both = np.einsum("nswkd,w->nskd", inside, _WEIGHTS) / sizes[:, None, None]
@@ -734,14 +734,14 @@ class ReturnMap:
                 raise OutsideRegion("This point is too close to the edge of the section: choose another one.")
         return tangents
 
-    def _in_plane(self, states: Array, places: Array, away: Array) -> Array:
+    def _in_plane(self, states: Array, points: Array, away: Array) -> Array:
         """Return ∂x/∂Y at states (m, d) along directions (m, k, d); column j belongs to direction j."""
         # In units of the state: its components differ in size.
         unit = _STEP * np.abs(states).max(axis=1, initial=1.0)[:, None, None]
         sizes = np.maximum(np.linalg.norm(away, axis=2, keepdims=True), 1e-300)
         shifted = states[:, None] + _SHIFTS[:, None, None, None] * unit * away / sizes
-        near = self.section.places_of(shifted.reshape(-1, states.shape[1])).reshape(_SHIFTS.size, *away.shape[:2], -1)
-        moved = apart(self.turns, near, places[:, None])
+        near = self.section.points_of(shifted.reshape(-1, states.shape[1])).reshape(_SHIFTS.size, *away.shape[:2], -1)
+        moved = difference(self.turns, near, points[:, None])
         return np.asarray((np.tensordot(_WEIGHTS, moved, 1) / unit * sizes).swapaxes(1, 2))
 
     @cached_property
@@ -760,12 +760,12 @@ class ReturnMap:
     def mirrors(self) -> tuple[Mirror, ...]:
         """Symmetries that map motions through this section to such motions, and reversors that map it to itself."""
         for state in self.section.spread(1):
-            place = self.section.places_of(np.array([state]))[0]
+            point = self.section.points_of(np.array([state]))[0]
             known = sign_symmetries(self.section.system, self.section.parameters)
-            return tuple(one for one in known if self.mirror_image(one, place) is not None)
+            return tuple(one for one in known if self.mirror_image(one, point) is not None)
         return ()
 
-    def mirror_image(self, mirror: Mirror, place: Array) -> Array | None:
+    def mirror_image(self, mirror: Mirror, point: Array) -> Array | None:
         """Return the mirror image of a point, or where the motion through the image crosses the section next.
 
         The image of a reversor must lie on the section itself.
@@ -774,7 +774,7 @@ class ReturnMap:
         ----------
         mirror : Mirror
             A symmetry of the system.
-        place : array_like, shape (k,)
+        point : array_like, shape (k,)
             Coordinates of the point.
 
         Returns
@@ -787,14 +787,14 @@ class ReturnMap:
         OutsideRegion
             If no motion crosses the section at the point.
         """
-        state = mirror.image(self.state_at(place))
-        image = np.asarray(self.section.places_of(state[None])[0])
+        state = mirror.image(self.state_at(point))
+        image = np.asarray(self.section.points_of(state[None])[0])
         states, there = self.section.states_at(*(np.array([x]) for x in image))
         size = max(1.0, float(np.abs(state).max()))
         turns = [
             2.0 * math.pi if name in self.section.system.angles else math.inf for name in self.section.system.variables
         ]
-        if there[0] and float(np.abs(apart(turns, states[0], state)).max()) < 1e-9 * size:
+        if there[0] and float(np.abs(difference(turns, states[0], state)).max()) < 1e-9 * size:
             return image
         if mirror.reverses:
             return None
@@ -802,14 +802,14 @@ class ReturnMap:
             problem, _, ends = self._crossings(state[None], 1, _LONGEST)
         except (NoReturn, WorkLimit):
             return None
-        return np.asarray(self.section.places_of(ends * problem.scale)[0])
+        return np.asarray(self.section.points_of(ends * problem.scale)[0])
 
-    def symmetries_of(self, places: Array, near: float = 1e-7) -> Sequence[str]:
+    def symmetries_of(self, points: Array, near: float = 1e-7) -> Sequence[str]:
         """Return the symmetries of an orbit.
 
         Parameters
         ----------
-        places : ndarray, shape (m, k)
+        points : ndarray, shape (m, k)
             Points of the orbit.
         near : float, default 1e-7
             Distance within which the image of a point is another point of the orbit; at least 1000 times the error.
@@ -821,10 +821,10 @@ class ReturnMap:
         """
         names = []
         for mirror in self.mirrors:
-            images = [self.mirror_image(mirror, place) for place in places]
+            images = [self.mirror_image(mirror, point) for point in points]
             if all(
                 image is not None
-                and np.abs(apart(self.turns, places, image)).max(axis=1).min() < max(near, 1e3 * self.promise)
+                and np.abs(difference(self.turns, points, image)).max(axis=1).min() < max(near, 1e3 * self.promise)
                 for image in images
             ):
                 names.append(mirror.name)

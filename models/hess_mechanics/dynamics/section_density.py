@@ -113,8 +113,8 @@ def visits(
         some = starts[first : first + _TOGETHER]
         orbits = complete(section_crossings(section, some, crossings, accuracy, not forward, threads=1))
         for states in orbits.states:
-            places = section.places_of(states[section.is_on(states)])
-            within = places[np.all((places >= low) & (places < high), axis=1)]
+            coordinates = section.points_of(states[section.is_on(states)])
+            within = coordinates[np.all((coordinates >= low) & (coordinates < high), axis=1)]
             at = ((within - low) * (cells / (high - low))).astype(int)
             np.add.at(counts, at[:, 1] * cells[0] + at[:, 0], 1)
             points += len(within)
@@ -194,9 +194,9 @@ def visits_over(
             # At this value there is no such body, or no motion.
             continue
         states = orbits.states[0]
-        places = section.places_of(states[section.is_on(states)])
-        ends[j] = places[-1] if len(places) else np.nan
-        y = places[transient:, side]
+        coordinates = section.points_of(states[section.is_on(states)])
+        ends[j] = coordinates[-1] if len(coordinates) else np.nan
+        y = coordinates[transient:, side]
         within = y[(y >= low) & (y < high)]
         np.add.at(counts[:, j], ((within - low) * (rows / (high - low))).astype(int), 1)
         points += len(within)

@@ -12,10 +12,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from hess_mechanics.dynamics.periodic import apart
+from hess_mechanics.dynamics.periodic import difference
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["HALF_A_PIXEL", "away_from", "errors_in_pixels", "right_crossings", "torn_away", "typical"]
+__all__ = ["HALF_A_PIXEL", "away_from", "errors_in_pixels", "has_diverged", "lower_median", "right_crossings"]
 
 HALF_A_PIXEL = 0.5
 _LOST, _CHAOTIC, _NOTHING = 30.0, 30.0, 1e-6
@@ -45,11 +45,11 @@ def errors_in_pixels(
         Distances, where m is the length of the shorter run.
     """
     both = min(len(orbit), len(exact))
-    away = apart(periods, orbit[:both], exact[:both])
+    away = difference(periods, orbit[:both], exact[:both])
     return np.asarray(np.linalg.norm(away * np.asarray(pixels), axis=1), float)
 
 
-def torn_away(away: Array) -> bool:
+def has_diverged(away: Array) -> bool:
     """Return True if chaos has made a computed orbit a different one.
 
     Parameters
@@ -117,7 +117,7 @@ def right_crossings(
     return tuple(counts)
 
 
-def typical(counts: Sequence[int]) -> int | None:
+def lower_median(counts: Sequence[int]) -> int | None:
     """Return the lower median of counts.
 
     Parameters

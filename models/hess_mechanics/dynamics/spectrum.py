@@ -20,14 +20,14 @@ from functools import cached_property, partial
 import numpy as np
 
 from hess_mechanics.dynamics.birkhoff import ERRORS, STRETCHES, batch_error
-from hess_mechanics.dynamics.orbit import MAX_SAMPLES, MAX_STEPS, checked_duration, end_of, require_finite_rates
+from hess_mechanics.dynamics.orbit import MAX_SAMPLES, MAX_STEPS, as_duration, end_of, require_finite_rates
 from hess_mechanics.dynamics.system import Body, Problem
-from hess_mechanics.dynamics.variation import LONGEST, frame_ahead, one_direction, tangent
+from hess_mechanics.dynamics.variation import LONGEST, flow_frame, one_direction, tangent
 from hess_mechanics.errors import WorkLimit
 from hess_mechanics.numerics.accuracy import PLANS, STANDARD, Accuracy, Kind, Level, Status, plan
 from hess_mechanics.numerics.arguments import as_level
 from hess_mechanics.numerics.labelled import Labels, Result
-from hess_mechanics.numerics.patience import go_on
+from hess_mechanics.numerics.patience import check_limit
 from hess_mechanics.numerics.results import Array, Cost, frozen
 from hess_mechanics.parameters import plain
 
@@ -335,7 +335,7 @@ def lyapunov_exponent(body: Body, start: Sequence[float], duration: float, accur
     50.0
     """
     level = plan(Kind.EXPONENT, accuracy).level
-    span = checked_duration(duration, "a Lyapunov exponent")
+    span = as_duration(duration, "a Lyapunov exponent")
     problem = Problem.of(body, [start])
     samples = abs(span) / _INTERVAL * problem.nu
     if not samples <= MAX_SAMPLES:
@@ -397,12 +397,12 @@ def lyapunov_spectrum(
     (5,)
     """
     level = as_level(accuracy)
-    checked_duration(duration, "Lyapunov exponents")
+    as_duration(duration, "Lyapunov exponents")
     begun = time.perf_counter()
     problem, system = Problem.of(body, [start]), body.system
     y, d, end = problem.states[0], len(system.variables), duration * problem.nu
     # Other columns in general position.
-    frame, speed = frame_ahead(problem, np.cos(1.0 + np.arange(d * d).reshape(d, d) ** 2), _SLOW)
+    frame, speed = flow_frame(problem, np.cos(1.0 + np.arange(d * d).reshape(d, d) ** 2), _SLOW)
     ahead = speed > _SLOW
     stretches = _SETTLES + STRETCHES
     part = end / stretches * np.arange(1, _SAMPLES + 1) / _SAMPLES
@@ -411,7 +411,7 @@ def lyapunov_spectrum(
     steps, i = 0, 0
     where = partial(end_of, problem, y, end)
     while i < count:
-        go_on()
+        check_limit()
         motion = tangent(problem, y, frame, part, level, LIMIT, ahead, steps, where)
         steps += motion.steps
         if ahead:
@@ -432,7 +432,7 @@ def lyapunov_spectrum(
     first = _SETTLES * _SAMPLES
     together = np.column_stack([growth, volume])
     mean, error = batch_error(together[first:], times[first:])
-    # Error of the steps themselves.
+    # Error of the integration: one tolerance per step.
     floor = (level.tolerance + 1e-15) * steps / abs(duration)
     order = np.argsort(-mean[:-1], kind="stable")
     rates = growth[1:, order] / times[1:, None]

@@ -23,13 +23,13 @@ import numpy as np
 
 from hess_mechanics.errors import InvalidParameter, ModelError, WrongScaling
 from hess_mechanics.numerics.accuracy import Level
-from hess_mechanics.numerics.batch_kernels import ensemble_integrator, one_by_one
+from hess_mechanics.numerics.batch_kernels import ensemble_integrator, sequential_integrator
 from hess_mechanics.numerics.doubled_kernels import doubled_integrator
 from hess_mechanics.numerics.events_kernels import ANGLE, SurfaceKernels, crossing_finder, plane
 from hess_mechanics.numerics.expressions import Node
 from hess_mechanics.numerics.field_values import Undefined, values_at, values_with_rounding
 from hess_mechanics.numerics.jit import announced, derived_kernel, inner
-from hess_mechanics.numerics.measured import nearby
+from hess_mechanics.numerics.measured import perturb
 from hess_mechanics.numerics.recursions import Recursion
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.numerics.step_kernels import LONGEST
@@ -38,7 +38,7 @@ from hess_mechanics.numerics.tracing import Field, check, divergence, expression
 from hess_mechanics.numerics.variation_kernels import Variation, products, variation, variation_integrator
 from hess_mechanics.parameters import plain
 
-__all__ = ["Body", "ParametrizedSystem", "Problem", "System", "declared", "in_units_of_time", "systems"]
+__all__ = ["Body", "ParametrizedSystem", "Problem", "System", "declarations", "in_units_of_time", "systems"]
 
 
 Integrals = Callable[[Sequence[Any], Sequence[Any]], Mapping[str, Any]]
@@ -262,7 +262,9 @@ class System:
     def _check_field(self) -> None:
         """Record the field with symbols, and compute the integrals of the example."""
         if len({*self.variables, *self.parameters}) < len(self.variables) + len(self.parameters):
-            raise InvalidParameter(f"{self.title}: each name may occur once among variables and parameters.")
+            raise InvalidParameter(
+                f"{self.title}: a name occurs twice among variables and parameters: rename one of them."
+            )
         for what in ("field", "integrals", "frequency", "rescale", "unit"):
             if not callable(getattr(self, what)):
                 raise InvalidParameter(f"{self.title}: `{what}` must be a function of y and p.")
@@ -293,8 +295,8 @@ class System:
         draw = np.random.default_rng(_SEED)
         state, parameters = (np.array(values, float) for values in self.example)
         for _ in range(_CHECKS):
-            # Near the example, where the equations are defined, with no component equal to 0; and d + 1 states, because
-            # a `rescale` for a single state would mistake d states for one.
+            # Draw states near the example, where the equations are defined.  Use d + 1 of them, because a `rescale`
+            # written for one state (d,) would accept d states (d, d).
             shape = state.size + 1, state.size
             states = state * draw.uniform(0.5, 2.0, shape) + draw.uniform(-0.5, 0.5, shape)
             p = np.where(parameters == 0.0, 1.0, parameters) * draw.uniform(0.5, 2.0, parameters.size)
@@ -331,9 +333,8 @@ class System:
                 leading = ", ".join(self.variables[: self.angular_velocities]) or "none"
                 raise WrongScaling(
                     f"{self.title}: in units of time 1/ν, ν = {plain(problem.nu, 4)}, {name} becomes "
-                    f"{plain(other, 4)} and should stay {plain(one, 4)}. Correct `rescale`, or "
-                    "`angular_velocities`, which counts the leading variables that scale with 1/time "
-                    f"(now: {leading})."
+                    f"{plain(other, 4)} and should stay {plain(one, 4)}. Correct `rescale`, or `angular_velocities`, "
+                    f"which counts the leading variables that scale with 1/time (now: {leading})."
                 )
 
     def _rates(self, y: Array, p: Array) -> Array:
@@ -430,7 +431,7 @@ class System:
         return values, errors
 
     def rounding(self, states: Array, parameters: Array) -> Array | None:
-        """Return the mean round-off of the rates at states, as far as a moved start does not show it.
+        """Return the mean round-off errors of the rates at states, without those that a perturbed start reveals.
 
         A rate that is the difference of much larger numbers is wrong by more than a rounding of itself or of the state.
         A system with `rescale` is integrated in units in which all terms are O(1), so that its rates are not.
@@ -506,7 +507,7 @@ class System:
         if self.recursion.is_quadratic and not self.recursion.functions and self.tolerance is None:
             return self._kernel("ensemble", arguments, ensemble_integrator)
         orbit = self.orbit
-        return self._kernel("ensemble", arguments, lambda _: one_by_one(orbit), adjusts=False)
+        return self._kernel("ensemble", arguments, lambda _: sequential_integrator(orbit), adjusts=False)
 
     @cached_property
     def cross(self) -> Kernel:
@@ -610,7 +611,7 @@ class System:
             # Code run by `exec` without a `__name__` has no module.
             module = getattr(self.field, "__module__", None) or __name__
             compiled = derived_kernel(name, source, module, **names)
-            # The kernels of this package are compiled when it starts for the first time.
+            # Kernels of this package are compiled at its first start, which has its own message.
             if module.startswith("hess_mechanics."):
                 return compiled
             count = len(self.recursion.pairs) if written is None else written
@@ -704,7 +705,7 @@ def _modules() -> tuple[ModuleType, ...]:
     return tuple(importlib.import_module(name) for name in names)
 
 
-def declared(name: str) -> list[object]:
+def declarations(name: str) -> list[object]:
     """Return all objects that the modules of the package define under a name.
 
     Parameters
@@ -741,11 +742,13 @@ def systems() -> dict[str, System]:
     >>> "suslov" in systems()
     True
     """
-    known = {one.name: one for one in declared("SYSTEM") if isinstance(one, System)}
+    known = {one.name: one for one in declarations("SYSTEM") if isinstance(one, System)}
     for brought in entry_points(group="hess_mechanics.systems"):
         system = brought.load()
         if not isinstance(system, System) or system.name in known:
-            raise InvalidParameter(f"{brought.value} must be a System whose name no other system has, not {system!r}.")
+            raise InvalidParameter(
+                f"{brought.value} provides {system!r}: provide a System whose name no other system has."
+            )
         known[system.name] = system
     return known
 
@@ -804,9 +807,11 @@ class Problem:
         given, p = np.array(states, float, ndmin=2), np.asarray(body.parameters, float)
         for shape, names in ((given.shape[1:], system.variables), (p.shape, system.parameters)):
             if shape != (len(names),):
-                raise InvalidParameter(f"{system.title} takes {len(names)} numbers here: {', '.join(names)}.")
+                raise InvalidParameter(
+                    f"{system.title}: the shape {shape} does not fit, give {len(names)} numbers, {', '.join(names)}."
+                )
         if not (np.all(np.isfinite(given)) and np.all(np.isfinite(p))):
-            raise InvalidParameter("Every component of the state and every parameter must be a finite number.")
+            raise InvalidParameter("A component of the state or a parameter is not finite: give finite numbers.")
         with np.errstate(over="ignore"):
             nu = float(np.max(system.frequency(given.T, p), initial=0.0)) or 1.0
         if not np.isfinite(nu):
@@ -823,18 +828,18 @@ class Problem:
             )
         return cls(system, np.ascontiguousarray(scaled.T), p, nu, scale)
 
-    def nearby(self) -> Problem:
-        """Return the same problem with starts that differ by roundings, see `measured.nearby`.
+    def perturb(self) -> Problem:
+        """Return the same problem with starts that differ by roundings, see `measured.perturb`.
 
         Returns
         -------
         Problem
             The other problem.
         """
-        return replace(self, states=nearby(self.states))
+        return replace(self, states=perturb(self.states))
 
-    def rounded(self, motion: Array) -> Problem:
-        """Return the problem with rates that are wrong by their round-off, if they cancel along a motion.
+    def with_rounding(self, motion: Array) -> Problem:
+        """Return the problem with the round-off errors added to its rates, if these cancel along a motion.
 
         Parameters
         ----------

@@ -10,9 +10,9 @@ from functools import cache
 from typing import Any, Literal, TypeVar
 
 from hess_mechanics.numerics.accuracy import LEVELS, PLANS, REFERENCE, STANDARD, Kind, Plan
-from hess_mechanics.numerics.patience import go_on
+from hess_mechanics.numerics.patience import check_limit
 
-__all__ = ["Alike", "LevelCost", "beyond", "enough", "measure"]
+__all__ = ["Alike", "LevelCost", "first_sufficient", "measure", "truth_plan"]
 
 R = TypeVar("R")
 Alike = Literal["", "share", "cells"]
@@ -49,8 +49,8 @@ class LevelCost:
         return not math.isnan(self.error)
 
 
-def beyond(kind: Kind) -> Plan:
-    """Return the plan of the truth of a kind of computation.
+def truth_plan(kind: Kind) -> Plan:
+    """Return the plan of the reference result with which the levels of a kind of computation are compared.
 
     Its tolerance is finer than that of `reference`, and it has twice as many returns or points along a curve.  For
     basins and indicators the level is `aside`: their points lie beside the centres of the cells.
@@ -84,7 +84,7 @@ def measure(
     run : callable
         Function from a plan to the result.
     error : callable
-        Function error(result, truth) that returns the distance of a result from that of the plan `beyond`.
+        Function error(result, truth) that returns the distance of a result from that of the plan `truth_plan`.
     repeats : int, default 1
         Number of runs, of which the fastest counts.
     alike : str, default ""
@@ -104,7 +104,7 @@ def measure(
     @cache
     def truth(own: float) -> R:
         same: dict[str, Any] = {alike: own} if alike else {}
-        return run(replace(beyond(kind), **same))
+        return run(replace(truth_plan(kind), **same))
 
     def exact(plan: Plan) -> R:
         """Return the truth for the result of a plan; plans that are alike share it."""
@@ -116,7 +116,7 @@ def measure(
         plan, seconds = PLANS[kind][name], []
         known = exact(plan)
         for _ in range(repeats):
-            go_on()
+            check_limit()
             start = time.perf_counter()
             result = run(plan)
             seconds.append(time.perf_counter() - start)
@@ -124,7 +124,7 @@ def measure(
         yield LevelCost(plan.level.name, 1e3 * min(seconds), error(result, known), complete)
 
 
-def enough(samples: Iterable[LevelCost], largest: float) -> str:
+def first_sufficient(samples: Iterable[LevelCost], largest: float) -> str:
     """Return the first complete level whose error is small enough, or the last level.
 
     If `largest` is the largest invisible error, more accuracy would make no visible difference.

@@ -31,15 +31,15 @@ from typing import Any
 
 import numpy as np
 
-from hess_mechanics.dynamics.orbit import checked_times, solve
-from hess_mechanics.dynamics.polynomials import Along, Slope
+from hess_mechanics.dynamics.orbit import as_times, solve
+from hess_mechanics.dynamics.polynomials import Slope, TaylorModel
 from hess_mechanics.dynamics.system import Body, Problem, System
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import Accuracy
 from hess_mechanics.numerics.arguments import as_integer
-from hess_mechanics.numerics.balls import BALL_FUNCTIONS, ArbBall, Enclosure, enclosure, rational, working
+from hess_mechanics.numerics.balls import BALL_FUNCTIONS, ArbBall, Enclosure, enclosure, rational, working_precision
 from hess_mechanics.numerics.labelled import Labels, Result
-from hess_mechanics.numerics.patience import go_on
+from hess_mechanics.numerics.patience import check_limit
 from hess_mechanics.numerics.recursions import Recursion
 from hess_mechanics.numerics.results import Array, Orbit, frozen
 
@@ -160,7 +160,9 @@ class ProvedOrbit(Result):
         """Check that the orbit and the tube belong together."""
         times = self.tube.times
         if self.orbit.system != self.tube.system or not np.array_equal(self.orbit.times[: times.size], times):
-            raise InvalidParameter("The orbit and the tube must have the same system and the same times.")
+            raise InvalidParameter(
+                "The orbit and the tube differ in their system or times: compute both for the same ones."
+            )
 
     @cached_property
     def _errors(self) -> list[list[tuple[Fraction, Fraction]]]:
@@ -257,13 +259,13 @@ def tube(
     """
     as_integer("digits", digits, 1, 100)
     begun = time.perf_counter()
-    targets = checked_times(times)
+    targets = as_times(times)
     problem, system = Problem.of(body, [start]), body.system
     length = abs(float(targets[-1]))
     best: Tube | None = None
     bits, left = max(_FIRST_BITS, _whole(3.33 * digits + _GUARD_BITS)), most_work
     while True:
-        with working(bits):
+        with working_precision(bits):
             walk = _Walk(system, [float(x) for x in start], [float(x) for x in body.parameters], problem.scale, bits)
             states, width = walk.through(targets, 10.0 ** (-digits), left)
         left -= walk.work
@@ -356,7 +358,7 @@ class _Walk:
         self.field, self.variables = system.field, len(state)
         start = [arb(x) for x in state]
         if system.recursion.functions:
-            # Functions of the state are variables of an arithmetic field; balls enclose them at the start.
+            # Functions of the state become variables of an arithmetic field; enclose their initial values in balls.
             self.field = _functions(system.recursion)["extended"]
             start += _functions(system.recursion)["started"](tuple(start), tuple(self.p))
             self.scale += [max(1.0, abs(float(x))) for x in start[self.variables :]]
@@ -380,7 +382,7 @@ class _Walk:
         targets = [Fraction(float(t)) for t in times]
         sign = -1 if targets[-1] < 0 else 1
         while len(states) < len(targets):
-            go_on()
+            check_limit()
             left = math.nextafter(float(abs(targets[-1] - self.t)), math.inf)
             step = self._step(sign, left, most_work)
             if step is None:
@@ -462,10 +464,10 @@ class _Walk:
         from flint import arb, ctx
 
         delta = arb(length)
-        rates = self.field([Along(one, delta, self.terms) for one in along], self.p)
+        rates = self.field([TaylorModel(one, delta, self.terms) for one in along], self.p)
         defects = []
         for one, rate, size in zip(along, rates, self.scale, strict=True):
-            known = rate if isinstance(rate, Along) else Along.number(rate, delta, self.terms)
+            known = rate if isinstance(rate, TaylorModel) else TaylorModel.number(rate, delta, self.terms)
             defects.append(((known * sign).distance(one.derivative()) / size).abs_upper())
         start = self.radius + _norm(defects) * delta
         if not start.is_finite():

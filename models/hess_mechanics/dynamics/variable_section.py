@@ -129,7 +129,7 @@ class VariableSection(PoincareSection):
             return replace(self, body=self.system.at(self.parameters, **{name: value}))
         return replace(self, integrals=tuple((own, value if own == name else x) for own, x in self.integrals))
 
-    def places_of(self, states: Array) -> Array:
+    def points_of(self, states: Array) -> Array:
         """Return the points of the section at which given states lie.
 
         Parameters
@@ -142,19 +142,19 @@ class VariableSection(PoincareSection):
         ndarray, shape (n, k)
             Coordinates, angles within half a turn of the middle of their range.
         """
-        places = states[:, [self._index(name) for name in self.names]]
+        points = states[:, [self._index(name) for name in self.names]]
         turns, middle = np.array(self.turns), np.mean(self.ranges, axis=1)
-        return np.asarray(places - np.where(np.isinf(turns), 0.0, _TURN) * np.round((places - middle) / turns))
+        return np.asarray(points - np.where(np.isinf(turns), 0.0, _TURN) * np.round((points - middle) / turns))
 
     def _index(self, name: str) -> int:
         return self.system.variables.index(name)
 
-    def states_at(self, *places: Array) -> tuple[Array, Mask]:
+    def states_at(self, *points: Array) -> tuple[Array, Mask]:
         """Return the states at points of the section.
 
         Parameters
         ----------
-        *places : ndarray
+        *points : ndarray
             Coordinates of the points, each of shape (n,).
 
         Returns
@@ -164,10 +164,10 @@ class VariableSection(PoincareSection):
         possible : ndarray of bool, shape (n,)
             True for points that motions cross.
         """
-        y = np.zeros((len(self.system.variables), np.size(places[0])))
+        y = np.zeros((len(self.system.variables), np.size(points[0])))
         y[self._index(self.variable)] = self.value
-        for name, place in zip(self.names, places, strict=True):
-            y[self._index(name)] = place
+        for name, point in zip(self.names, points, strict=True):
+            y[self._index(name)] = point
         unknown, here = [self._index(name) for name in self.solved], self._index(self.variable)
         example = np.array(self.system.example[0])
         size = max(1.0, float(np.abs(example).max()))
@@ -269,9 +269,11 @@ def variable_section(
     if len(system.variables) < 2:
         raise InvalidParameter(f"{system.title}: a system of one variable has no section; `solve` gives its motion.")
     if sense not in (1, -1):
-        raise InvalidParameter("The sense of the crossings of a return map is 1 (increasing) or −1 (decreasing).")
+        raise InvalidParameter(f"sense = {sense!s:.20}: choose 1 (increasing) or −1 (decreasing).")
     if surface is not None and (isinstance(surface, str) or len(surface) != 2):
-        raise InvalidParameter(f"The surface is a variable and a value, such as ({system.variables[0]!r}, 0.0).")
+        raise InvalidParameter(
+            f"surface = {surface!r:.80}: give a variable and a value, such as ({system.variables[0]!r}, 0.0)."
+        )
     variable, value = surface or (system.variables[0], 0.0)
     known = system.integrals(*system.example)
     for name, names, what in (
@@ -297,7 +299,9 @@ def variable_section(
         )
     ranges = None if window is None else as_pairs("window", window)
     if ranges is not None and (len(ranges) != len(chosen) or any(low >= high for low, high in ranges)):
-        raise InvalidParameter(f"The window has a lower and a higher number for each of {', '.join(chosen)}.")
+        raise InvalidParameter(
+            f"window = {ranges!s:.80}: give a lower and a higher number for each of {', '.join(chosen)}."
+        )
     reach = max(1.0, 1.5 * max(map(abs, system.example[0])))
     return VariableSection(
         body,

@@ -28,7 +28,7 @@ from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["LONGEST", "Tangent", "frame_ahead", "one_direction", "onto_surface", "tangent"]
+__all__ = ["LONGEST", "Tangent", "flow_frame", "one_direction", "onto_surface", "tangent"]
 
 LONGEST = 1e6
 """Length at which a single vector is normalised."""
@@ -81,7 +81,7 @@ def one_direction(size: int) -> Array:
     return np.asarray(direction / np.linalg.norm(direction))[:, None]
 
 
-def frame_ahead(problem: Problem, frame: Array, slow: float) -> tuple[Array, float]:
+def flow_frame(problem: Problem, frame: Array, slow: float) -> tuple[Array, float]:
     """Return orthonormal columns, the first one along f(y) at the start of a motion, and |f|.
 
     Parameters
@@ -173,7 +173,7 @@ def tangent(
     )
     require_finite_states(states)
     if known:
-        # An overflow is found below.
+        # `require_finite_neighbours` reports an overflow.
         with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
             along = system.rates(states, p) / (vectors[:, 0] @ system.field(start.tolist(), p.tolist()))
         frames = np.concatenate([along[:, :, None], frames], axis=2)

@@ -15,7 +15,7 @@ from hess_mechanics.dynamics.doubled import DoubleDoubleOrbit, double_double_orb
 from hess_mechanics.dynamics.orbit import drifts_along, solve
 from hess_mechanics.dynamics.system import Problem, systems
 from hess_mechanics.numerics.accuracy import LEVELS, REFERENCE
-from hess_mechanics.numerics.patience import go_on
+from hess_mechanics.numerics.patience import check_limit
 from hess_mechanics.numerics.results import Array, frozen
 
 __all__ = [
@@ -41,7 +41,7 @@ _LONGEST = 5000.0
 _LONG_RUN = 0.1
 """A run longer than this many seconds is not repeated: disturbances are short compared with it."""
 _EVALUATIONS = 1000
-"""Number of evaluations of the field, about 10 ms, between two calls of `go_on` by SciPy's methods."""
+"""Number of evaluations of the field, about 10 ms, between two calls of `check_limit` by SciPy's methods."""
 _MOST_STEPS_FOR_OTHERS = 1500
 """Largest number of steps of `reference` for which SciPy's methods run; together they take 0.16 ms per such step."""
 
@@ -166,9 +166,9 @@ def growth(
     first = system.angular_velocities
     errors, pixels, drifts = {}, {}, {}
     for level in LEVELS.values():
-        go_on()
+        check_limit()
         states = solve(body, start, exact.times, level).states
-        difference = exact.away(states)
+        difference = exact.errors_of(states)
         errors[level.name] = frozen(np.max(difference / exact.scale, axis=1))
         weighted = difference * np.asarray(weights)
         pixels[level.name] = frozen(
@@ -185,7 +185,7 @@ def _best_of(run: Callable[[], T], repeats: int) -> tuple[float, T]:
     for _ in range(repeats):
         if _LONG_RUN < best < np.inf:
             break
-        go_on()
+        check_limit()
         start = time.perf_counter()
         result = run()
         best = min(best, time.perf_counter() - start)
@@ -226,7 +226,7 @@ def measure_levels(
     points = []
     for level in LEVELS.values():
         ms, states = _best_of(lambda: solve(body, start, exact.times, level).states, 3)  # noqa: B023 (called at once)
-        points.append(WorkPoint("Taylor", level.name, ms, float(np.max(exact.away(states) / exact.scale))))
+        points.append(WorkPoint("Taylor", level.name, ms, float(np.max(exact.errors_of(states) / exact.scale))))
     return tuple(points)
 
 
@@ -327,7 +327,7 @@ def measure_others(
 
     def rates(_: float, y: Sequence[float]) -> Sequence[float]:
         if next(evaluations) % _EVALUATIONS == 0:
-            go_on()
+            check_limit()
         return system.field(y, parameters)
 
     points = []
@@ -336,7 +336,7 @@ def measure_others(
             run = partial(solve_ivp, rates, (0.0, duration), start, method, exact.times, rtol=tolerance, atol=tolerance)
             ms, solved = _best_of(run, 1)
             points.append(
-                WorkPoint(method, f"{tolerance:.0e}", ms, float(np.max(exact.away(solved.y.T) / exact.scale)))
+                WorkPoint(method, f"{tolerance:.0e}", ms, float(np.max(exact.errors_of(solved.y.T) / exact.scale)))
             )
     return tuple(points)
 

@@ -27,7 +27,7 @@ from numpy.typing import NDArray
 
 from hess_mechanics import parameters as known
 from hess_mechanics.dynamics.cells import Window, centres
-from hess_mechanics.dynamics.motions import body_parameters, on_section, usual
+from hess_mechanics.dynamics.motions import body_parameters, section_motions, with_default
 from hess_mechanics.dynamics.return_map import PoincareSection
 from hess_mechanics.dynamics.system import Problem, System
 from hess_mechanics.errors import InvalidParameter
@@ -120,7 +120,7 @@ class AndoyerPlane:
             If the system is not that of the Euler–Poisson equations.
         """
         if system is not SYSTEM:
-            raise InvalidParameter("Andoyer–Deprit variables exist only for the Euler–Poisson equations.")
+            raise InvalidParameter(f"{system.title} has no Andoyer–Deprit variables: give a HeavyBody.")
         return cross, np.array([self.f / problem.scale[0]]), 0.0
 
 
@@ -237,7 +237,7 @@ class AndoyerSection(PoincareSection):
     def __post_init__(self) -> None:
         require_finite(h=self.h, f=self.f)
         if self.sheet not in range(SHEETS):
-            raise InvalidParameter(f"The section has at most {SHEETS} sheets: choose one from 0 to {SHEETS - 1}.")
+            raise InvalidParameter(f"The section has no sheet {self.sheet}: choose one from 0 to {SHEETS - 1}.")
 
     @property
     def parameters(self) -> tuple[float, ...]:
@@ -319,7 +319,7 @@ class AndoyerSection(PoincareSection):
         """
         l, x = np.array(l, float, ndmin=1), np.array(x, float, ndmin=1)
         if not (np.all(np.isfinite(l)) and np.all(np.abs(x) <= 1.0)):
-            raise InvalidParameter("On the section l is an angle and x = L/G lies between −1 and 1.")
+            raise InvalidParameter("An l is not finite or an L/G is beyond ±1: give finite angles l, and −1 ≤ L/G ≤ 1.")
         out = np.full((l.size, SHEETS), np.nan)
         K, P, Q = self._factors(l, x)
         if self.f == 0.0:
@@ -362,7 +362,7 @@ class AndoyerSection(PoincareSection):
         growth = 2.0 * np.sum(y[:3] * rates[:3], axis=0) * y[5] + safe * safe * rates[5] - self.f * rates[2]
         return y.T, (G > 0.0) & (growth > 0.0)
 
-    def places_of(self, states: Array) -> Array:
+    def points_of(self, states: Array) -> Array:
         """Return the points of the section at which given states lie, on any sheet.
 
         Parameters
@@ -466,13 +466,13 @@ def _section(values: Mapping[str, float]) -> AndoyerSection:
     return AndoyerSection(body, values["h"], values["f"], int(values["sheet"]))
 
 
-SECTION = on_section(
+SECTION = section_motions(
     "euler-poisson-section",
     "Euler–Poisson, a point of the Andoyer–Deprit section",
     (
         *body_parameters(SYSTEM, 1.0, 0.625, 0.25, 0.6, 0.0, 0.8, 1.0),
-        usual(known.H_HEAVY, 1.5),
-        usual(known.F_HEAVY, -0.7),
+        with_default(known.H_HEAVY, 1.5),
+        with_default(known.F_HEAVY, -0.7),
         known.SHEET,
     ),
     (known.L, known.X),

@@ -282,7 +282,7 @@ class Leak:
     samples: int
 
     @cached_property
-    def apart(self) -> Array:
+    def distance(self) -> Array:
         """The distance from the exact motion, shape (n,), in units b = 1."""
         return self.bridge.distance(self.run.states, self.exact.states)
 

@@ -15,7 +15,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from hess_mechanics.dynamics.manifolds import Manifold, manifold, split
-from hess_mechanics.dynamics.periodic import apart, find_periodic
+from hess_mechanics.dynamics.periodic import difference, find_periodic
 from hess_mechanics.dynamics.return_map import ReturnMap, section_crossings
 from hess_mechanics.errors import NotConverged, OutsideRegion
 from hess_mechanics.euler_poisson.andoyer import AndoyerSection, hess_curve
@@ -170,7 +170,7 @@ def saddles(torus: HessTorus, accuracy: Accuracy) -> Saddles:
             raise OutsideRegion(
                 "A limit cycle of the Hess manifold does not cross the section g = π/2 here: choose other h and f."
             )
-        cycles.append(find_periodic(map_, map_.section.places_of(crossing.states[0])[0], near=True).places)
+        cycles.append(find_periodic(map_, map_.section.points_of(crossing.states[0])[0], near=True).points)
     repels, attracts = cycles
     half = 0.5 * math.remainder(float(attracts[0, 0] - repels[0, 0]), 2.0 * math.pi)
     return Saddles(repels, attracts, float(repels[0, 0]) + half)
@@ -212,13 +212,13 @@ def split_at(torus: HessTorus, away: float, accuracy: Accuracy) -> Split:
     return Split(away, known.l, value, error)
 
 
-def _towards(map_: ReturnMap, places: Array, l: float, stable: bool) -> Manifold:
+def _towards(map_: ReturnMap, points: Array, l: float, stable: bool) -> Manifold:
     """Return the branch along the Hess manifold, from the saddle next to these points to l and beyond."""
-    orbit = find_periodic(map_, places if len(places) > 1 else places[0], None if len(places) > 1 else 1, near=True)
+    orbit = find_periodic(map_, points if len(points) > 1 else points[0], None if len(points) > 1 else 1, near=True)
     if (
         not orbit.kind.startswith("saddle")
-        or orbit.period != len(places)
-        or np.abs(apart(map_.turns, orbit.places, places)).max() > _ELSEWHERE
+        or orbit.period != len(points)
+        or np.abs(difference(map_.turns, orbit.points, points)).max() > _ELSEWHERE
     ):
         raise NotConverged(
             "The limit cycles of the Hess manifold are not found as saddles of the section: choose a "
@@ -226,7 +226,7 @@ def _towards(map_: ReturnMap, places: Array, l: float, stable: bool) -> Manifold
         )
     sheet = map_.section
     assert isinstance(sheet, AndoyerSection)
-    from_ = float(orbit.places[0, 0])
+    from_ = float(orbit.points[0, 0])
     way = math.remainder(l - from_, 2.0 * math.pi)
     along = np.linspace(from_, from_ + way, 200)
     curve = np.column_stack([along, hess_curve(sheet.body, along)])

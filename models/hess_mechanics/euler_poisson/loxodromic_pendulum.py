@@ -22,14 +22,14 @@ from functools import cached_property
 
 import numpy as np
 
-from hess_mechanics.dynamics.orbit import checked_duration, solve
+from hess_mechanics.dynamics.orbit import as_duration, solve
 from hess_mechanics.dynamics.sampling import PIXELS, SAGITTA, sample_times
 from hess_mechanics.errors import InvalidParameter, OutsideRegion
 from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.euler_poisson.hess_isomorphism import Bridge
 from hess_mechanics.numerics.accuracy import Accuracy
 from hess_mechanics.numerics.arguments import as_a
-from hess_mechanics.numerics.labelled import Printed
+from hess_mechanics.numerics.labelled import ShortRepr
 from hess_mechanics.numerics.results import Array, Orbit, frozen
 from hess_mechanics.rigid_body.attitude import Attitude, orthonormal
 from hess_mechanics.rigid_body.inertia import require_finite
@@ -206,7 +206,7 @@ class LoxodromicPendulum:
 
 
 @dataclass(frozen=True)
-class LoxodromicMotion(Printed):
+class LoxodromicMotion(ShortRepr):
     """Motion of a loxodromic pendulum; the result of `loxodromic_motion`.
 
     Attributes
@@ -243,7 +243,7 @@ class LoxodromicMotion(Printed):
         return frozen(np.arctan2(np.hypot(self.middle[:, 0], self.middle[:, 2]), self.middle[:, 1]))
 
     @property
-    def off_plane(self) -> float:
+    def plane_distance(self) -> float:
         """The largest distance of the centre of mass from its great circle."""
         return float(np.max(np.abs(self.centre[:, 1])))
 
@@ -303,7 +303,7 @@ def loxodromic_motion(pendulum: LoxodromicPendulum, duration: float, accuracy: A
     >>> float(motion.times[-1]), round(float(motion.l[-1]), 5)
     (4.0, 0.50954)
     """
-    span = checked_duration(duration, "a loxodromic motion")
+    span = as_duration(duration, "a loxodromic motion")
     system = WITH_ATTITUDE.at((pendulum.a, 1.0))
     weights = np.array([0.0] * 2 + [0.5 * PIXELS] * 6)
     times = sample_times(system, pendulum.start, pendulum.length(span), weights, SAGITTA, _MOST)

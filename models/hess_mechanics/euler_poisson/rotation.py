@@ -18,7 +18,7 @@ from hess_mechanics.euler_poisson.andoyer import AndoyerSection
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["RESOLUTION", "RotationProfile", "on_line", "rotation_along"]
+__all__ = ["RESOLUTION", "RotationProfile", "rotation_along", "states_on_line"]
 
 RESOLUTION = 1e-4
 """Largest difference of the rotation numbers of both halves of an orbit on a closed curve."""
@@ -36,13 +36,13 @@ class RotationProfile(Result):
     Attributes
     ----------
     along : tuple of ndarray
-        Places on the line where orbits start, each in parts without a gap.
+        Positions on the line where orbits start, each in parts without a gap.
     rho : tuple of ndarray
         Rotation numbers in turns per return, in the same parts.
     librations : ndarray, shape (n,)
         Starts of closed curves that do not wind round, and so have no rotation number.
     sea : ndarray, shape (n, 2)
-        Parts of the line whose orbits do not lie on closed curves, each from one place to another.
+        Parts of the line whose orbits do not lie on closed curves, each from one position to another.
     """
 
     along: tuple[Array, ...]
@@ -56,7 +56,7 @@ class RotationProfile(Result):
         Returns
         -------
         Labels
-            The rotation numbers over the places.
+            The rotation numbers over the positions.
         """
         gap = np.full(1, np.nan)
         along, rho = ([piece for part in parts for piece in (part, gap)][:-1] for parts in (self.along, self.rho))
@@ -68,7 +68,7 @@ class RotationProfile(Result):
         )
 
     @property
-    def places(self) -> Array:
+    def points(self) -> Array:
         """All positions on the line, shape (n,)."""
         return np.concatenate([np.empty(0), *self.along])
 
@@ -79,8 +79,8 @@ class RotationProfile(Result):
 
     @property
     def extremum(self) -> tuple[float, float] | None:
-        """Place and value of an extremum of ρ inside the line; None if ρ is monotonic."""
-        along, rho = self.places, self.numbers
+        """Position and value of an extremum of ρ inside the line; None if ρ is monotonic."""
+        along, rho = self.points, self.numbers
         for i in (int(np.argmin(rho)), int(np.argmax(rho))) if rho.size else ():
             if 2 <= i <= len(rho) - 3 and min(abs(rho[i] - rho[0]), abs(rho[i] - rho[-1])) > 3 * RESOLUTION:
                 return float(along[i]), float(rho[i])
@@ -103,11 +103,11 @@ class RotationProfile(Result):
         """
         if not (self.numbers.size and exact.numbers.size):
             return math.nan
-        apart = self.numbers - np.interp(self.places, exact.places, exact.numbers)
+        apart = self.numbers - np.interp(self.points, exact.points, exact.numbers)
         return float(np.median(np.abs(apart - np.round(apart))))
 
 
-def on_line(section: AndoyerSection, ends: LineEnds, count: int) -> tuple[tuple[float, tuple[float, ...]], ...]:
+def states_on_line(section: AndoyerSection, ends: LineEnds, count: int) -> tuple[tuple[float, tuple[float, ...]], ...]:
     """Return the states of a section at equidistant points of a line.
 
     Parameters
@@ -175,7 +175,7 @@ def rotation_along(
     ]
     going = [(share, turns) for share, turns, spread in numbers if spread <= resolved < abs(turns)]
 
-    def place(share: Array) -> Array:
+    def point(share: Array) -> Array:
         return np.asarray((1.0 - share) * ends[0][axis] + share * ends[1][axis])
 
     along, rho = (np.array(column) for column in zip(*going, strict=True)) if going else (np.empty(0), np.empty(0))
@@ -186,10 +186,10 @@ def rotation_along(
     coasts = np.flatnonzero(np.diff(at_sea) > 1.5 / count) + 1
     seas = [(part[0] - 0.5 / count, part[-1] + 0.5 / count) for part in np.split(at_sea, coasts) if part.size]
     return RotationProfile(
-        tuple(np.split(place(along), cuts)),
+        tuple(np.split(point(along), cuts)),
         tuple(np.split(rho, cuts)),
-        place(np.array([share for share, turns, spread in numbers if spread <= resolved and abs(turns) <= resolved])),
-        place(np.array(seas).reshape(-1, 2)),
+        point(np.array([share for share, turns, spread in numbers if spread <= resolved and abs(turns) <= resolved])),
+        point(np.array(seas).reshape(-1, 2)),
     )
 
 

@@ -67,7 +67,7 @@ class Level:
     order : int
         Order of the Taylor series, at least 2.
     aside : bool, default False
-        Start a few units in the last place beside the given state, see `measured.nearby`.
+        Start a few units in the last place beside the given state, see `measured.perturb`.
     """
 
     name: str
@@ -185,7 +185,7 @@ def level(name: str) -> Level:
     try:
         return LEVELS[name]
     except (KeyError, TypeError):
-        raise InvalidParameter(f"There is no accuracy level of that name; choose one of {', '.join(LEVELS)}.") from None
+        raise InvalidParameter(f"There is no accuracy level {name!s:.20}: choose one of {', '.join(LEVELS)}.") from None
 
 
 def cheapest(error: float) -> Level:

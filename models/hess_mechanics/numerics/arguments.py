@@ -24,8 +24,8 @@ __all__ = [
     "as_number",
     "as_pairs",
     "as_parts",
-    "as_place",
-    "typed",
+    "as_point",
+    "check_arguments",
     "unit_vector",
 ]
 
@@ -219,14 +219,14 @@ def as_cells(cells: Any) -> tuple[int, int]:
     return m, n
 
 
-def as_pairs(name: str, places: Any) -> list[tuple[float, float]]:
+def as_pairs(name: str, points: Any) -> list[tuple[float, float]]:
     """Return points of a plane as pairs of floats.
 
     Parameters
     ----------
     name : str
         Name of the argument, for the message.
-    places : object
+    points : object
         The argument.
 
     Returns
@@ -240,23 +240,23 @@ def as_pairs(name: str, places: Any) -> list[tuple[float, float]]:
         If it is not a sequence of pairs of finite numbers.
     """
     try:
-        return [(as_number(name, x), as_number(name, y)) for x, y in places]
+        return [(as_number(name, x), as_number(name, y)) for x, y in points]
     except InvalidParameter:
         raise
     except (TypeError, ValueError):
         raise InvalidParameter(
-            f"{name} = {_short(places)} is not a list of points; write them like [(0.0, 0.5), (1.0, 0.2)]."
+            f"{name} = {_short(points)} is not a list of points; write them like [(0.0, 0.5), (1.0, 0.2)]."
         ) from None
 
 
-def as_place(names: tuple[str, ...], place: Any) -> tuple[float, ...]:
+def as_point(names: tuple[str, ...], point: Any) -> tuple[float, ...]:
     """Return a point with one float for each of some coordinates.
 
     Parameters
     ----------
     names : tuple of str
         Names of the coordinates, for the message.
-    place : object
+    point : object
         The argument.
 
     Returns
@@ -270,19 +270,19 @@ def as_place(names: tuple[str, ...], place: Any) -> tuple[float, ...]:
         If it does not have one finite number for each coordinate.
     """
     try:
-        return tuple(as_number(name, x) for name, x in zip(names, place, strict=True))
+        return tuple(as_number(name, x) for name, x in zip(names, point, strict=True))
     except InvalidParameter:
         raise
     except (TypeError, ValueError):
         raise InvalidParameter(
-            f"{_short(place)} is not a point here: give {len(names)} numbers, {', '.join(names)}."
+            f"{_short(point)} is not a point here: give {len(names)} numbers, {', '.join(names)}."
         ) from None
 
 
 # ---- annotations ----------------------------------------------------------------------------------------------------
 
 
-def typed(function: Callable[P, T]) -> Callable[P, T]:
+def check_arguments(function: Callable[P, T]) -> Callable[P, T]:
     """Return a function that checks its arguments against their annotations first.
 
     Numbers become floats or integers, sequences of numbers become arrays, and a single number counts as one of these.
@@ -439,10 +439,12 @@ def unit_vector(gamma: Sequence[float]) -> tuple[tuple[float, float, float], str
     >>> unit_vector((0.0, 3.0, 4.0))[0]
     (0.0, 0.6, 0.8)
     """
-    gamma = as_place(("γ1", "γ2", "γ3"), gamma)
+    gamma = as_point(("γ1", "γ2", "γ3"), gamma)
     length = math.hypot(*gamma)
     if not (math.isfinite(length) and length > 0):
-        raise InvalidParameter("γ must be a finite nonzero vector: it is the direction of the vertical.")
+        raise InvalidParameter(
+            f"γ has the length {length:g}: give a finite nonzero vector, the direction of the vertical."
+        )
     g1, g2, g3 = (g / length for g in gamma)
     note = None if abs(length - 1) <= 1e-15 else f"γ had length {length:.12g}; it was normalised to 1."
     return (g1, g2, g3), note

@@ -32,7 +32,7 @@ __all__ = [
     "rational",
     "series_coefficients",
     "to_digits",
-    "working",
+    "working_precision",
 ]
 
 ArbBall = Any
@@ -89,7 +89,7 @@ BALL_FUNCTIONS = {name: _of_balls("__pow__" if name == "pow" else name) for name
 
 
 @contextmanager
-def working(bits: int) -> Iterator[Any]:
+def working_precision(bits: int) -> Iterator[Any]:
     """Set the precision of ball arithmetic for the body of a `with` statement.
 
     One thread at a time: the precision is global.
@@ -250,7 +250,7 @@ class Enclosure:
             digits = len(str(int(1 / share))) + 1 if share else max(30, len(str(self.low.denominator)) + 1)
         return _rounded(self.low, digits, ROUND_FLOOR), _rounded(self.high, digits, ROUND_CEILING)
 
-    def outside_doubles(self) -> tuple[str, str]:
+    def double_decimals(self) -> tuple[str, str]:
         """Return two decimals that enclose the interval, also after conversion to doubles.
 
         Returns
@@ -326,7 +326,7 @@ def to_digits(digits: int, compute: Callable[[Any], ArbBall]) -> Enclosure:
     """
     bits = 128
     while bits <= _MOST_BITS:
-        with working(bits) as library:
+        with working_precision(bits) as library:
             ball = compute(library)
             if ball.is_finite() and enclosure(ball).precision < 10.0 ** (-digits):
                 return enclosure(ball)

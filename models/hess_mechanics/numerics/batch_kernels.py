@@ -15,11 +15,11 @@ from llvmlite.binding import get_host_cpu_features
 
 from hess_mechanics.numerics.jit import part
 from hess_mechanics.numerics.recursions import Recursion
-from hess_mechanics.numerics.step_kernels import checked, is_small, last_terms, parts, step_size
-from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED, STOPPED, compensated
-from hess_mechanics.numerics.unrolled import compiled, items
+from hess_mechanics.numerics.step_kernels import is_small, last_terms, parts, step_check, step_size
+from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED, STOPPED, compensated_sum
+from hess_mechanics.numerics.unrolled import compile_source, items
 
-__all__ = ["LANES", "ensemble_integrator", "one_by_one"]
+__all__ = ["LANES", "ensemble_integrator", "sequential_integrator"]
 
 LANES = 8 if get_host_cpu_features().get("avx512f") else 4
 """Orbits at a time: the sums of eight need the 32 vector registers of AVX-512."""
@@ -35,7 +35,7 @@ def _expansion_of_lanes(recursion: Recursion) -> Callable[..., Any]:
     products = [items(f"q[{j}, {lane}]" for j in range(m)) for lane in range(LANES)]
     results = [f"c[k + 1, {i}, {lane}] = y{lane}[{i}] * s" for i in range(n) for lane in range(LANES)]
     # All lanes are read before any is written, so that the compiler can vectorise the loop.
-    return compiled(
+    return compile_source(
         f"""
 def expand(c, q, parameters, order):
     p = ({items(f"parameters[{i}]" for i in range(recursion.parameters))})
@@ -74,7 +74,7 @@ def _convolution_of_lanes(recursion: Recursion) -> Callable[..., Any]:
     def read(name: str, order: str) -> str:
         return "\n        ".join(f"{name}{row}_{lane} = c[{order}, {row}, {lane}]" for row in rows for lane in lanes)
 
-    return compiled(f"""
+    return compile_source(f"""
 def convolve(c, q, k):
     m = k // 2
     if 2 * m == k:
@@ -104,8 +104,8 @@ def ensemble_integrator(recursion: Recursion) -> Callable[..., Any]:
     Only for fields without functions.
     """
     n, m = recursion.variables, len(recursion.pairs)
-    expand, check = _expansion_of_lanes(recursion), checked(recursion)
-    largest, smallest, values, add = compiled(f"""
+    expand, check = _expansion_of_lanes(recursion), step_check(recursion)
+    largest, smallest, values, add = compile_source(f"""
 def largest(c, k, out):
     {_for_lanes(lambda lane: f"a{lane} = 0.0")}
     for i in range({n}):
@@ -211,7 +211,7 @@ def add(y, low, s, compensated):
                     if steps[own] <= max_steps and h[lane] > 0.0:
                         before[lane] = h[lane]
                         step[lane] = direction * h[lane]
-                        t[lane], t_low[lane] = compensated(t[lane], t_low[lane], step[lane])
+                        t[lane], t_low[lane] = compensated_sum(t[lane], t_low[lane], step[lane])
                         continue
                     steps[own] = STEP_LIMIT_REACHED if h[lane] > 0.0 else STOPPED
                     ends[own] = t[lane]
@@ -220,12 +220,12 @@ def add(y, low, s, compensated):
                 orbit[lane] = -1
                 running -= 1
             for i in range(n):
-                add(c[0, i], low[i], values(c, i, step), compensated)
+                add(c[0, i], low[i], values(c, i, step), compensated_sum)
 
     return integrate
 
 
-def one_by_one(orbit: Callable[..., Any]) -> Callable[..., Any]:
+def sequential_integrator(orbit: Callable[..., Any]) -> Callable[..., Any]:
     """Return the solver of `ensemble_integrator`, made from the solver of one orbit (`orbit_integrator`).
 
     It serves fields with functions, whose steps are checked, and fields with stages, for which lanes would be a third

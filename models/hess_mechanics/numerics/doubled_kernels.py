@@ -20,7 +20,7 @@ from hess_mechanics.numerics.pairs_kernels import DOUBLED_FUNCTIONS, add, divide
 from hess_mechanics.numerics.recursions import Recursion
 from hess_mechanics.numerics.step_kernels import last_terms, step_size
 from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED
-from hess_mechanics.numerics.unrolled import compiled, items
+from hess_mechanics.numerics.unrolled import compile_source, items
 
 __all__ = ["ORDER", "TOLERANCE", "doubled_integrator"]
 
@@ -59,7 +59,7 @@ def _expansion(recursion: Recursion) -> Callable[..., Any]:
     steps[k] = unit of time/(k+1).  Auxiliary series that are still unknown are 0, so that products omit their terms.
     """
     tree = ast.fix_missing_locations(_Doubled().visit(ast.parse(recursion.source)))
-    functions = compiled(compile(tree, "<doubled>", "exec"), **_NAMES, **DOUBLED_FUNCTIONS)
+    functions = compile_source(compile(tree, "<doubled>", "exec"), **_NAMES, **DOUBLED_FUNCTIONS)
     n, known, pairs = recursion.variables, recursion.known, recursion.pairs
     moving = recursion.moving
     y, q = items(f"c[k, {i}]" for i in range(known[-1])), items(f"q[{j}]" for j in range(len(pairs)))
@@ -88,7 +88,7 @@ def _expansion(recursion: Recursion) -> Callable[..., Any]:
             if k > 0:
                 q[j] = add(q[j], multiply(c[k, left[j]], c[0, right[j]]))
 
-    return compiled(
+    return compile_source(
         f"""
 def expand(c, p, steps, inner, q):
     k = 0
@@ -120,7 +120,7 @@ def doubled_integrator(recursion: Recursion) -> Callable[..., Any]:
     """
     n, parameters_count = recursion.variables, recursion.parameters
     expand = _expansion(recursion)
-    packed = compiled(f"""
+    packed = compile_source(f"""
 def packed(parameters):
     return ({items(f"parameters[{i}]" for i in range(parameters_count))})
 """)["packed"]

@@ -19,18 +19,18 @@ import numpy as np
 
 from hess_mechanics.numerics.jit import inner, part
 from hess_mechanics.numerics.recursions import Recursion
-from hess_mechanics.numerics.step_kernels import checked, step_of, suspicion
+from hess_mechanics.numerics.step_kernels import step_check, step_condition, step_of
 from hess_mechanics.numerics.taylor_kernels import (
     PATIENCE,
     STALLED,
     STEP_LIMIT_REACHED,
     STOPPED,
     columns_of,
-    compensated,
+    compensated_sum,
     expansion,
     workspace,
 )
-from hess_mechanics.numerics.unrolled import compiled, evaluation
+from hess_mechanics.numerics.unrolled import compile_source, evaluation
 
 __all__ = ["ANGLE", "SurfaceKernels", "crossing_finder", "plane"]
 
@@ -177,7 +177,7 @@ def plane(n: int) -> SurfaceKernels:
         return " + ".join(f"{row}{i}] * normal[{i}]" for i in range(n))
 
     return SurfaceKernels(
-        **compiled(f"""
+        **compile_source(f"""
 def along(c, normal, e, scratch):
     for k in range(e.size):
         e[k] = {height("c[k, ")}
@@ -242,8 +242,8 @@ def crossing_finder(recursion: Recursion, surface: SurfaceKernels | None = None)
     and the last rows of `times` and `states` hold the time and the state reached.
     """
     n, columns = recursion.variables, columns_of(recursion)
-    expand, evaluate, check = expansion(recursion), evaluation(n), checked(recursion)
-    suspects, watched = suspicion(recursion), recursion.seen
+    expand, evaluate, check = expansion(recursion), evaluation(n), step_check(recursion)
+    suspects, watched = step_condition(recursion), recursion.seen
     surface = surface or plane(n)
     along, height, counted, curved = surface.along, surface.height, surface.counted, surface.curved
     shorter = surface.shorter
@@ -306,7 +306,7 @@ def crossing_finder(recursion: Recursion, surface: SurfaceKernels | None = None)
                 return STOPPED if ends else STEP_LIMIT_REACHED, steps
             evaluate(c, direction * h, increments)
             for i in range(n):
-                y[i], low[i] = compensated(y[i], low[i], increments[i])
+                y[i], low[i] = compensated_sum(y[i], low[i], increments[i])
             at_end = height(y, normal) - offset
             below_at_end = at_end < 0.0
             for root in range(roots_on_step(e, h, below, at_end, below_at_end, sense_of_steps, roots, pieces)):
@@ -331,6 +331,6 @@ def crossing_finder(recursion: Recursion, surface: SurfaceKernels | None = None)
             below = below_at_end
             if last:
                 return crossings, steps
-            t, t_low = compensated(t, t_low, direction * h)
+            t, t_low = compensated_sum(t, t_low, direction * h)
 
     return cross

@@ -110,7 +110,7 @@ class Tape:
         # −0.0 and 0.0 are one number, and so are an integer and the equal float.
         return self.leaf("number", int(value) if value == int(value) and abs(value) < 2**53 else float(value))
 
-    def lifted(self, x: Any) -> Node:
+    def node_of(self, x: Any) -> Node:
         """Return the node of a symbol or a number.  Raises `NotTraceable` for anything else."""
         if isinstance(x, Symbol):
             return x.node
@@ -223,7 +223,7 @@ class Tape:
         if x.operation in _RATES:
             if all(one is self.number(0) for one in inner):
                 return self.number(0)
-            return self.lifted(_RATES[x.operation](*(Symbol(self, node) for node in (x, *x.arguments, *inner))))
+            return self.node_of(_RATES[x.operation](*(Symbol(self, node) for node in (x, *x.arguments, *inner))))
         (a, b), (da, db) = x.arguments, inner
         if x.operation == "*":
             return self.apply("+", self.apply("*", da, b), self.apply("*", a, db))
@@ -236,7 +236,7 @@ class Tape:
 
 def _operators(sign: str) -> tuple[Callable[[Symbol, Any], Any], Callable[[Symbol, Any], Any]]:
     """Return the methods of an operation: with the symbol on the left, and on the right."""
-    return lambda one, other: one.combined(sign, one, other), lambda one, other: one.combined(sign, other, one)
+    return lambda one, other: one.combine(sign, one, other), lambda one, other: one.combine(sign, other, one)
 
 
 class Symbol:
@@ -248,11 +248,11 @@ class Symbol:
     def __init__(self, tape: Tape, node: Node) -> None:
         self.tape, self.node = tape, node
 
-    def combined(self, operation: str, left: Any, right: Any) -> Any:
+    def combine(self, operation: str, left: Any, right: Any) -> Any:
         """Return the symbol of an operation on two symbols or numbers."""
         if not all(isinstance(x, Symbol | _Number) for x in (left, right)):
             return NotImplemented
-        return Symbol(self.tape, self.tape.apply(operation, self.tape.lifted(left), self.tape.lifted(right)))
+        return Symbol(self.tape, self.tape.apply(operation, self.tape.node_of(left), self.tape.node_of(right)))
 
     __add__, __radd__ = _operators("+")
     __sub__, __rsub__ = _operators("-")
@@ -268,12 +268,12 @@ class Symbol:
     def __pow__(self, exponent: Any) -> Any:
         if not isinstance(exponent, Symbol | _Number):
             return NotImplemented
-        return Symbol(self.tape, self.tape.power(self.node, self.tape.lifted(exponent)))
+        return Symbol(self.tape, self.tape.power(self.node, self.tape.node_of(exponent)))
 
     def __rpow__(self, base: Any) -> Any:
         if not isinstance(base, _Number):
             return NotImplemented
-        return Symbol(self.tape, self.tape.power(self.tape.lifted(base), self.node))
+        return Symbol(self.tape, self.tape.power(self.tape.node_of(base), self.node))
 
     def __array_ufunc__(self, ufunc: np.ufunc, method: str, *inputs: Any, **given: Any) -> Any:
         """Leave functions and arithmetic to the methods of this class, for each element of an array."""
@@ -311,7 +311,7 @@ def _function_of(name: str) -> Callable[..., Symbol]:
     """Return the method of `Symbol` for a function, which NumPy calls for arrays of objects."""
 
     def call(self: Symbol, *others: Any) -> Symbol:
-        return Symbol(self.tape, self.tape.call(name, self.node, *map(self.tape.lifted, others)))
+        return Symbol(self.tape, self.tape.call(name, self.node, *map(self.tape.node_of, others)))
 
     return call
 

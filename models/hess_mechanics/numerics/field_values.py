@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from hess_mechanics.numerics.expressions import FUNCTIONS, Node
-from hess_mechanics.numerics.recursions import below
+from hess_mechanics.numerics.recursions import topological_order
 from hess_mechanics.numerics.results import Array
 
 __all__ = ["Undefined", "values_at", "values_with_rounding"]
@@ -51,7 +51,7 @@ def values_with_rounding(
         If an operation has no finite result.
     """
     known: dict[Node, tuple[float, float]] = {}
-    for node in below(nodes):
+    for node in topological_order(nodes):
         try:
             pair = _evaluated(node, [known[argument] for argument in node.arguments], y, p)
         except (ValueError, ArithmeticError):
@@ -81,7 +81,7 @@ def values_at(node: Node, y: Sequence[Array], p: Sequence[float]) -> Array:
     """
     known: dict[Node, Array | float] = {}
     with np.errstate(all="ignore"):
-        for one in below([node]):
+        for one in topological_order([node]):
             arguments: list[Any] = [known[argument] for argument in one.arguments]
             match one.operation:
                 case "number":

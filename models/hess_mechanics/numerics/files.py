@@ -8,10 +8,10 @@ import uuid
 from contextlib import suppress
 from pathlib import Path
 
-__all__ = ["write_whole"]
+__all__ = ["write_atomically"]
 
 
-def write_whole(path: str | Path, content: bytes, modified: float | None = None) -> None:
+def write_atomically(path: str | Path, content: bytes, modified: float | None = None) -> None:
     """Write a file at once: an earlier one stays as it is until the new one is complete.
 
     Parameters

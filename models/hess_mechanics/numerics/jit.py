@@ -25,20 +25,20 @@ from typing import Any
 import numba
 from numba.core import event
 
-from hess_mechanics.numerics.files import write_whole
-from hess_mechanics.numerics.kernel_files import keep, let_go
-from hess_mechanics.numerics.patience import go_on
+from hess_mechanics.numerics.files import write_atomically
+from hess_mechanics.numerics.kernel_files import cache_on_disk, release
+from hess_mechanics.numerics.patience import check_limit
 
 __all__ = [
     "CACHE_FOLDER",
     "announced",
-    "as_written",
     "derived_kernel",
     "inner",
     "kernel",
     "part",
     "seconds_compiling",
     "source_hash",
+    "unfused",
 ]
 
 _OPTIONS: dict[str, Any] = {
@@ -168,7 +168,7 @@ def _sources() -> dict[str, tuple[str, list[str]]]:
     if memory is not None and entries != known:
         # The file only saves work.
         with suppress(OSError):
-            write_whole(memory, json.dumps(entries).encode())
+            write_atomically(memory, json.dumps(entries).encode())
     return {name: (digest, imported) for name, (_, digest, imported) in entries.items()}
 
 
@@ -243,7 +243,7 @@ def kernel(function: Callable[..., Any]) -> Callable[..., Any]:
     # Numba reads the folder at this moment.
     before, _CONFIG.CACHE_DIR = _CONFIG.CACHE_DIR, str(folder)
     try:
-        return keep(_compiled(function, _OPTIONS), folder)
+        return cache_on_disk(_compiled(function, _OPTIONS), folder)
     finally:
         _CONFIG.CACHE_DIR = before
 
@@ -273,14 +273,14 @@ class _LongCompilations(event.Listener):  # type: ignore[misc]  # numba has no t
             self.of.runs = True
             _LOG.warning(text)
         if getattr(self.of, "runs", False):
-            go_on()
+            check_limit()
 
     def on_end(self, event: Any) -> None:
         if _announcement(event):
             self.of.runs = False
         # Not `event.is_failed`, which means the opposite in some versions of Numba.
         if event.kind == "numba:compile" and tuple(event.data["args"]) not in event.data["dispatcher"].overloads:
-            let_go(event.data["dispatcher"])
+            release(event.data["dispatcher"])
 
 
 def _announcement(event: Any) -> str:
@@ -308,9 +308,9 @@ def derived_kernel(name: str, source: str, module: str, **names: Any) -> Callabl
         if not is_stored:
             with suppress(OSError):
                 folder.mkdir(mode=0o700, exist_ok=True)
-                # To Numba, a file of another time is another source.  This one is named by its hash, and two processes
-                # that begin together both write it.
-                write_whole(path, source.encode(), modified=0.0)
+                # Numba takes another modification time for another source.  The file is named by its hash, so a fixed
+                # time lets processes that write it at once share the cache.
+                write_atomically(path, source.encode(), modified=0.0)
             is_stored = _holds(path, source)
     namespace: dict[str, Any] = {"__name__": module, **names}
     exec(compile(source, file, "exec"), namespace)
@@ -339,7 +339,7 @@ def part(function: Callable[..., Any]) -> Callable[..., Any]:
     return _compiled(function, _ONLY_INLINED)
 
 
-def as_written(function: Callable[..., Any]) -> Callable[..., Any]:
+def unfused(function: Callable[..., Any]) -> Callable[..., Any]:
     """Compile like `inner`, without fused operations, for arithmetic that depends on its roundings."""
     return _compiled(function, {**_INLINED, "fastmath": False})
 

@@ -17,7 +17,7 @@ from filelock import FileLock, Timeout
 from numba.core import sigutils
 from numba.core.caching import FunctionCache
 
-__all__ = ["KernelFiles", "keep", "let_go"]
+__all__ = ["KernelFiles", "cache_on_disk", "release"]
 
 PATIENCE = 60.0
 """Seconds to wait for another process that compiles the same kernel."""
@@ -83,7 +83,7 @@ class KernelFiles(FunctionCache):  # type: ignore[misc]  # numba has no types
             self._lock.release(force=True)
 
 
-def keep(dispatcher: Any, folder: Path) -> Callable[..., Any]:
+def cache_on_disk(dispatcher: Any, folder: Path) -> Callable[..., Any]:
     """Return the kernel with its machine code cached below this folder; Numba's `CACHE_DIR` must be set to it.
 
     The attribute is the one that `njit(cache=True)` sets: Numba has no public way to choose another cache class.
@@ -102,7 +102,7 @@ def keep(dispatcher: Any, folder: Path) -> Callable[..., Any]:
     return dispatcher  # type: ignore[no-any-return]
 
 
-def let_go(dispatcher: Any) -> None:
+def release(dispatcher: Any) -> None:
     """Let other processes compile a kernel whose compilation here has failed or was stopped."""
     files = getattr(dispatcher, "_cache", None)
     if isinstance(files, KernelFiles):

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from hess_mechanics.errors import InvalidParameter
 
-__all__ = ["Labels", "Printed", "Result", "components"]
+__all__ = ["Labels", "Result", "ShortRepr", "components"]
 
 _LINES = 10
 """Most lines of a printed result."""
@@ -66,7 +66,7 @@ class Labels:
     facts: Mapping[str, Any] = field(default_factory=dict)
 
 
-class Printed:
+class ShortRepr:
     """Base class of data classes that print in at most ten lines, with the size of arrays instead of their numbers."""
 
     def __str__(self) -> str:

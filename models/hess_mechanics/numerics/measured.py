@@ -21,10 +21,10 @@ from typing import Generic, TypeVar
 import numpy as np
 
 from hess_mechanics.numerics.accuracy import Level, Status
-from hess_mechanics.numerics.patience import go_on
+from hess_mechanics.numerics.patience import check_limit
 from hess_mechanics.numerics.results import Array, Cost
 
-__all__ = ["SAFETY", "UNSURE", "Measured", "measured", "nearby", "safety_of"]
+__all__ = ["SAFETY", "UNSURE", "MeasuredResult", "measured", "perturb", "safety_of"]
 
 R = TypeVar("R")
 
@@ -38,7 +38,7 @@ _FARTHEST = 3.0 * 2.0**-52
 _GOLDEN = 0.5 * (5.0**0.5 - 1.0)
 
 
-def nearby(values: Array) -> Array:
+def perturb(values: Array) -> Array:
     """Return numbers that differ from the given ones by roundings, up to three units in the last place.
 
     Each number moves in proportion to its size, like a rounding: 0 stays 0, and a start 1e-300 away from an invariant
@@ -66,7 +66,7 @@ def _factors(count: int) -> Array:
 
 
 @dataclass(frozen=True)
-class Measured(Generic[R]):
+class MeasuredResult(Generic[R]):
     """A result from the given start, with its error.
 
     Attributes
@@ -114,7 +114,9 @@ def safety_of(off: Array, before: Array) -> Array:
     return np.maximum(SAFETY, before / (100.0 * np.maximum(off, 1e-300)))
 
 
-def measured(level: Level, run: Callable[[Level, int], tuple[R, int]], apart: Callable[[R, R], float]) -> Measured[R]:
+def measured(
+    level: Level, run: Callable[[Level, int], tuple[R, int]], apart: Callable[[R, R], float]
+) -> MeasuredResult[R]:
     """Return a computation with its error estimate, within the promise of the level if double precision allows it.
 
     The first run is compared with a more accurate one from a nearby start.  If they differ too much, a still more
@@ -127,7 +129,7 @@ def measured(level: Level, run: Callable[[Level, int], tuple[R, int]], apart: Ca
     level : Level
         Order and tolerance of the first run, and the promised error.
     run : callable
-        Function run(level, steps) that returns the result at a level, from a start `nearby` if `level.aside`, and the
+        Function run(level, steps) that returns the result at a level, from a start `perturb` if `level.aside`, and the
         number of steps; `steps` is the number of steps of all runs before.
     apart : callable
         Difference of two results, in the units of the promise.
@@ -141,7 +143,7 @@ def measured(level: Level, run: Callable[[Level, int], tuple[R, int]], apart: Ca
     current, error = level, 0.0
     first, steps = run(current, 0)
     while True:
-        go_on()
+        check_limit()
         tighter = current.tighter()
         second, taken = run(tighter, steps)
         steps += taken
@@ -158,5 +160,5 @@ def measured(level: Level, run: Callable[[Level, int], tuple[R, int]], apart: Ca
                     other, error = third, max(error, SAFETY * further + 2e-16)
                     safety = error / further if further < math.inf else SAFETY
             cost = Cost(steps, (time.perf_counter() - begun) * 1e3)
-            return Measured(result, other, error, safety, level.status(error), cost)
+            return MeasuredResult(result, other, error, safety, level.status(error), cost)
         current, first = tighter, second

@@ -8,16 +8,16 @@ from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from contextvars import copy_context
 
-from hess_mechanics.numerics.patience import charge, go_on
+from hess_mechanics.numerics.patience import charge, check_limit
 
-__all__ = ["THREADS", "share"]
+__all__ = ["THREADS", "run_in_threads"]
 
 THREADS = min(8, os.cpu_count() or 1)
 
 _pool = ThreadPoolExecutor(max_workers=THREADS, thread_name_prefix="kernel")
 
 
-def share(work: Callable[[int], None], count: int, threads: int = THREADS, at_once: int = 1) -> None:
+def run_in_threads(work: Callable[[int], None], count: int, threads: int = THREADS, at_once: int = 1) -> None:
     """Run work(0), …, work(count − 1) on the thread pool, and raise the first error.
 
     Before each item the request may be cancelled, see `patience`.
@@ -36,7 +36,7 @@ def share(work: Callable[[int], None], count: int, threads: int = THREADS, at_on
 
     def some(first: int, after: int) -> None:
         for i in range(first, min(after, count)):
-            go_on()
+            check_limit()
             work(i)
 
     if threads == 1 or count <= at_once:

@@ -1,4 +1,4 @@
-"""Cancellation and CPU budget of a request: long computations call `go_on` between their parts."""
+"""Cancellation and CPU budget of a request: long computations call `check_limit` between their parts."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 
-__all__ = ["charge", "go_on", "work_limit"]
+__all__ = ["charge", "check_limit", "work_limit"]
 
 _asked: ContextVar[tuple[Callable[[], None], Callable[[float], None]] | None] = ContextVar("patience", default=None)
 
@@ -34,7 +34,7 @@ def work_limit(check: Callable[[], None], spend: Callable[[float], None]) -> Ite
         _asked.reset(token)
 
 
-def go_on() -> None:
+def check_limit() -> None:
     """Raise the error of the request's check, if the request has been cancelled or has used up its budget."""
     limit = _asked.get()
     if limit is not None:

@@ -23,7 +23,7 @@ from dataclasses import dataclass
 from hess_mechanics.numerics.expressions import FUNCTIONS, Node, Tape
 from hess_mechanics.numerics.unrolled import items
 
-__all__ = ["Recursion", "Series", "below"]
+__all__ = ["Recursion", "Series", "topological_order"]
 
 
 @dataclass(frozen=True)
@@ -89,7 +89,7 @@ class Series:
         self._places: dict[Node, int] = {}
         self._divided: set[Node] = set()  # the products d·z of the quotients
 
-    def lowered(self, node: Node) -> Node:
+    def lower(self, node: Node) -> Node:
         """Return the node as a sum of series and products with constant factors."""
         if node not in self._lowered:
             self._lowered[node] = self._lower(node)
@@ -103,18 +103,18 @@ class Series:
         if node in self._functions:
             return self._tape.leaf("series", self._functions[node])
         if node.operation == "negative":
-            return self._sum((-1, self.lowered(node.arguments[0])))
+            return self._sum((-1, self.lower(node.arguments[0])))
         a, b = node.arguments
         if node.operation in "+-":
-            return self._sum((1, self.lowered(a)), (1 if node.operation == "+" else -1, self.lowered(b)))
+            return self._sum((1, self.lower(a)), (1 if node.operation == "+" else -1, self.lower(b)))
         if node.operation == "*":
             if not a.moves or not b.moves:
                 factor, series = (a, b) if not a.moves else (b, a)
-                return self._scaled(factor, self.lowered(series))
-            return self._product(self.lowered(a), self.lowered(b))
+                return self._scaled(factor, self.lower(series))
+            return self._product(self.lower(a), self.lower(b))
         if not b.moves:
-            return self._scaled(self._tape.apply("/", self._tape.number(1), b), self.lowered(a))
-        return self._quotient(self.lowered(a), b)
+            return self._scaled(self._tape.apply("/", self._tape.number(1), b), self.lower(a))
+        return self._quotient(self.lower(a), b)
 
     def _sum(self, *signed: tuple[int, Node]) -> Node:
         terms: list[tuple[int, Node]] = []
@@ -164,7 +164,7 @@ class Series:
         return self._tape.leaf("series", self._places[form])
 
     def _quotient(self, numerator: Node, divisor: Node) -> Node:
-        d = self._series(self.lowered(divisor))
+        d = self._series(self.lower(divisor))
         inverse = self._tape.apply("/", self._tape.number(1), self._tape.start(divisor))
         z = self._tape.leaf("series", self._variables + len(self._rules))
         product = self._tape.linear("product", d, z)
@@ -176,13 +176,13 @@ class Series:
         """Return the stage of each auxiliary series, later than those of all series that its rule needs."""
         levels: list[int] = []
         for i, rule in enumerate(self._rules):
-            needed = [node.value - self._variables for node in below([rule]) if node.operation == "series"]
+            needed = [node.value - self._variables for node in topological_order([rule]) if node.operation == "series"]
             levels.append(1 + max((levels[j] for j in needed if 0 <= j != i), default=-1))
         return levels
 
     def recursion(self, rates: Sequence[Node], parameters: int, watched: tuple[str, ...] = ()) -> Recursion:
         """Return the recursion of a field with these rates, of which the last ones are `watched`."""
-        forms = [self.lowered(rate) for rate in rates]
+        forms = [self.lower(rate) for rate in rates]
         # Keep only the series that the rates need: an unused intermediate result costs nothing.
         used = self._used(forms)
         levels = self._levels()
@@ -191,7 +191,7 @@ class Series:
         places = {i: i for i in range(self._variables)}
         places |= {self._variables + i: self._variables + at for at, i in enumerate(order)}
         rules = [[self._rules[i] for i in stage] for stage in stages]
-        everything = below([*forms, *(rule for stage in rules for rule in stage)])
+        everything = topological_order([*forms, *(rule for stage in rules for rule in stage)])
         products = [node for node in everything if node.operation == "product"]
         factors = [
             node
@@ -242,7 +242,7 @@ class Series:
         indices: dict[int, None] = {}
         waiting = list(forms)
         while waiting:
-            for node in below([waiting.pop()]):
+            for node in topological_order([waiting.pop()]):
                 i = node.value - self._variables if node.operation == "series" else -1
                 if i >= 0 and i not in indices:
                     indices[i] = None
@@ -250,7 +250,7 @@ class Series:
         return list(indices)
 
 
-def below(roots: Iterable[Node]) -> list[Node]:
+def topological_order(roots: Iterable[Node]) -> list[Node]:
     """Return all nodes of these expressions, each once and after its arguments."""
     nodes: dict[Node, None] = {}
 

@@ -24,9 +24,9 @@ import numpy as np
 from hess_mechanics.numerics.expressions import FUNCTIONS
 from hess_mechanics.numerics.jit import inner
 from hess_mechanics.numerics.recursions import Recursion
-from hess_mechanics.numerics.unrolled import compiled, items
+from hess_mechanics.numerics.unrolled import compile_source, items
 
-__all__ = ["LONGEST", "checked", "is_small", "last_terms", "parts", "step_of", "step_size", "suspicion"]
+__all__ = ["LONGEST", "is_small", "last_terms", "parts", "step_check", "step_condition", "step_of", "step_size"]
 
 LONGEST = 0.01
 """Longest step in a field with functions, as a fraction of the duration."""
@@ -57,11 +57,11 @@ would fall like h^order.  `System.rounding` measures what it means for the motio
 @cache
 def parts(recursion: Recursion) -> dict[str, Callable[..., Any]]:
     """Return the compiled functions of the source of a recursion."""
-    return compiled(recursion.source, **FUNCTIONS)
+    return compile_source(recursion.source, **FUNCTIONS)
 
 
 @cache
-def suspicion(recursion: Recursion) -> Callable[..., Any]:
+def step_condition(recursion: Recursion) -> Callable[..., Any]:
     """Return the compiled suspects(seen, h, before): True if a step h after the step `before` must be checked."""
     divisors = range(recursion.observed, recursion.seen)
     # Three orders are enough: if a divisor changes by higher ones alone, the first step has been checked.
@@ -70,7 +70,7 @@ def suspicion(recursion: Recursion) -> Callable[..., Any]:
         for i in divisors
     ]
     tests = ["True"] if recursion.functions else ["h > 2.0 * before", *changes]
-    return compiled(
+    return compile_source(
         f"""
 def suspects(seen, h, before):
     return {" or ".join(tests)}
@@ -194,7 +194,7 @@ _ALLOWED = {
 
 
 @cache
-def checked(recursion: Recursion) -> Callable[..., Any]:
+def step_check(recursion: Recursion) -> Callable[..., Any]:
     """Return the compiled check of steps.
 
     check(c, seen, h, most, direction, parameters, tolerance) returns a step up to h at whose end and inner point the
@@ -207,7 +207,7 @@ def checked(recursion: Recursion) -> Callable[..., Any]:
     extended = "y + started(y, p)" if recursion.functions else "y"
     # In a polynomial field p′ − f(p) is s^order times a polynomial, which no inner point shows better than the end.
     points = 2 if recursion.functions or recursion.watched else 1
-    compare = compiled(
+    compare = compile_source(
         f"""
 def compare(c, h, parameters):
     p = ({items(f"parameters[{i}]" for i in range(recursion.parameters))})
@@ -240,7 +240,7 @@ def compare(c, h, parameters):
         if off <= bound + {_ROUNDING_ACROSS!r} * size:
             return across
 """
-    return compiled(
+    return compile_source(
         f"""
 def check(c, seen, h, most, direction, parameters, tolerance):
     bound = {_DEFECT!r} * c.shape[0] * tolerance

@@ -19,9 +19,9 @@ from numba import float64, int64
 
 from hess_mechanics.numerics.jit import inner, part
 from hess_mechanics.numerics.recursions import Recursion
-from hess_mechanics.numerics.step_kernels import checked, parts, step_of, suspicion
+from hess_mechanics.numerics.step_kernels import parts, step_check, step_condition, step_of
 from hess_mechanics.numerics.tracing import trace
-from hess_mechanics.numerics.unrolled import compiled, evaluation, items
+from hess_mechanics.numerics.unrolled import compile_source, evaluation, items
 
 __all__ = [
     "PATIENCE",
@@ -29,7 +29,7 @@ __all__ = [
     "STEP_LIMIT_REACHED",
     "STOPPED",
     "columns_of",
-    "compensated",
+    "compensated_sum",
     "compile_shared",
     "convolution",
     "convolution_source",
@@ -56,7 +56,7 @@ def expansion(recursion: Recursion) -> Callable[..., Any]:
     rates, then those that are watched.
     """
     convolve = convolution(columns_of(recursion))
-    return compiled(expansion_source(recursion), **parts(recursion), convolve=convolve)["expand"]
+    return compile_source(expansion_source(recursion), **parts(recursion), convolve=convolve)["expand"]
 
 
 def expansion_source(recursion: Recursion) -> str:
@@ -140,7 +140,7 @@ def expand(c, left, right, inverses, parameters, seen):
 @cache
 def convolution(columns: int) -> Callable[..., Any]:
     """Return the compiled `convolve` of `convolution_source`."""
-    return compiled(convolution_source(columns))["convolve"]
+    return compile_source(convolution_source(columns))["convolve"]
 
 
 def convolution_source(columns: int) -> str:
@@ -180,7 +180,7 @@ def workspace(order, n, columns):
 
 
 @inner
-def compensated(total, low, increment):
+def compensated_sum(total, low, increment):
     """Return total + low + increment as a rounded sum and its round-off."""
     increment += low
     new = total + increment
@@ -197,8 +197,8 @@ def orbit_integrator(recursion: Recursion) -> Callable[..., Any]:
     round-off does not grow with the number of steps.
     """
     n, columns = recursion.variables, columns_of(recursion)
-    expand, evaluate, check = expansion(recursion), evaluation(n), checked(recursion)
-    suspects, watched = suspicion(recursion), recursion.seen
+    expand, evaluate, check = expansion(recursion), evaluation(n), step_check(recursion)
+    suspects, watched = step_condition(recursion), recursion.seen
 
     @part
     def integrate(state, parameters, times, order, tolerance, longest, max_steps, out):
@@ -242,8 +242,8 @@ def orbit_integrator(recursion: Recursion) -> Callable[..., Any]:
                 return STOPPED if ends else STEP_LIMIT_REACHED, t
             evaluate(c, direction * h, increments)
             for i in range(n):
-                y[i], low[i] = compensated(y[i], low[i], increments[i])
-            t, t_low = compensated(t, t_low, direction * h)
+                y[i], low[i] = compensated_sum(y[i], low[i], increments[i])
+            t, t_low = compensated_sum(t, t_low, direction * h)
             before = h
             steps += 1
 

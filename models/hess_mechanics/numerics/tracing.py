@@ -26,7 +26,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from hess_mechanics.numerics.expressions import ALLOWED, Node, NotTraceable, Symbol, Tape
-from hess_mechanics.numerics.recursions import Recursion, Series, below
+from hess_mechanics.numerics.recursions import Recursion, Series, topological_order
 
 __all__ = ["Field", "check", "constant", "derivative", "divergence", "expressions", "positive", "trace"]
 
@@ -120,7 +120,9 @@ def trace(field: Field, variables: int, parameters: int, observed: int = 0) -> R
     tape, results = _record(field, variables, parameters, observed)
     functions = tape.functions(results, variables)
     watched = [(node.operation, node.arguments[0]) for node in functions if node.operation in _SATURATED]
-    quotients = [node for node in below(results[:variables]) if node.operation == "/" and node.arguments[1].moves]
+    quotients = [
+        node for node in topological_order(results[:variables]) if node.operation == "/" and node.arguments[1].moves
+    ]
     divisors = [
         *(node.arguments[1] for node in quotients if node.arguments[1] not in tape.positive),
         *(node for node in functions if node.operation == "sqrt"),
@@ -218,8 +220,10 @@ def _record(field: Field, variables: int, parameters: int, observed: int) -> tup
     try:
         results = field(y, p)
         if not hasattr(results, "__iter__"):
-            raise NotTraceable("A field returns a sequence of rates, one for each variable: (rate,) for a single one.")
-        rates = [tape.lifted(rate) for rate in results]
+            raise NotTraceable(
+                f"This field returns a {type(results).__name__}, not a sequence: return a rate for each variable."
+            )
+        rates = [tape.node_of(rate) for rate in results]
     except NotTraceable:
         raise
     except IndexError as error:

@@ -13,14 +13,14 @@ from typing import Any
 
 from hess_mechanics.numerics.jit import part
 
-__all__ = ["compiled", "evaluation", "items"]
+__all__ = ["compile_source", "evaluation", "items"]
 
 
 _LONGEST = 30
 """Length beyond which Python builds a tuple display from a list."""
 
 
-def compiled(source: str | CodeType, **names: Callable[..., Any]) -> dict[str, Callable[..., Any]]:
+def compile_source(source: str | CodeType, **names: Callable[..., Any]) -> dict[str, Callable[..., Any]]:
     """Return the compiled functions of a source by name; they may call each other and the functions `names`."""
     namespace: dict[str, Any] = dict(names)
     exec(source, namespace)
@@ -41,7 +41,7 @@ def items(texts: Iterable[str]) -> str:
 def evaluation(count: int) -> Callable[..., Any]:
     """Return a function (c, s, increments) that sets increments[i] = Σ_{k≥1} c[k, i] s^k for i = 0 … count−1."""
     each = range(count)
-    return compiled(f"""
+    return compile_source(f"""
 def evaluate(c, s, increments):
     {" = ".join(f"a{i}" for i in each)} = 0.0
     for k in range(c.shape[0] - 1, 0, -1):

@@ -21,19 +21,19 @@ import numpy as np
 from hess_mechanics.numerics.expressions import Symbol
 from hess_mechanics.numerics.jit import inner, part
 from hess_mechanics.numerics.recursions import Recursion
-from hess_mechanics.numerics.step_kernels import checked, last_terms, step_size, suspicion
+from hess_mechanics.numerics.step_kernels import last_terms, step_check, step_condition, step_size
 from hess_mechanics.numerics.taylor_kernels import (
     PATIENCE,
     STALLED,
     STEP_LIMIT_REACHED,
     STOPPED,
     columns_of,
-    compensated,
+    compensated_sum,
     expansion,
     workspace,
 )
 from hess_mechanics.numerics.tracing import Field, derivative, trace
-from hess_mechanics.numerics.unrolled import compiled, evaluation
+from hess_mechanics.numerics.unrolled import compile_source, evaluation
 
 __all__ = ["Variation", "products", "variation", "variation_integrator"]
 
@@ -222,9 +222,9 @@ def variation_integrator(of: Variation, columns: int, ahead: bool = False) -> Ca
     recursion = of.recursion
     n, width, lanes, last_seen = recursion.variables, columns_of(recursion), _lanes(columns), recursion.observed - 1
     watched = recursion.seen
-    expand, evaluate, check = expansion(recursion), evaluation(n), checked(recursion)
-    suspects = suspicion(recursion)
-    carry = compiled(_carrying_source(of, lanes))["carry"]
+    expand, evaluate, check = expansion(recursion), evaluation(n), step_check(recursion)
+    suspects = step_condition(recursion)
+    carry = compile_source(_carrying_source(of, lanes))["carry"]
     evaluate_row = evaluation(lanes)
     known = int(ahead)
 
@@ -302,11 +302,11 @@ def variation_integrator(of: Variation, columns: int, ahead: bool = False) -> Ca
             evaluate(c, s, increments)
             for i in range(n):
                 evaluate_row(v[:, i], s, moved[i])
-                y[i], low[i] = compensated(y[i], low[i], increments[i])
+                y[i], low[i] = compensated_sum(y[i], low[i], increments[i])
                 for j in range(columns):
                     v[0, i, j] += moved[i, j]
-            volume, volume_low = compensated(volume, volume_low, _spread_over(seen, last_seen, inverses, s))
-            t, t_low = compensated(t, t_low, s)
+            volume, volume_low = compensated_sum(volume, volume_low, _spread_over(seen, last_seen, inverses, s))
+            t, t_low = compensated_sum(t, t_low, s)
             steps += 1
 
     return vary

@@ -46,7 +46,7 @@ class Attitude:
         """
         return np.asarray(np.einsum("nij,nj->ni", self.axes, np.broadcast_to(vector, self.axes.shape[:2])))
 
-    def every_second(self) -> Attitude:
+    def thin(self) -> Attitude:
         """Return the first, every second and the last of the samples, for a preview.
 
         Returns

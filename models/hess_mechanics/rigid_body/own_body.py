@@ -64,12 +64,18 @@ class Polynomial:
 
     def __post_init__(self) -> None:
         if not np.iterable(self.exponents) or not np.iterable(self.coefficients):
-            raise InvalidParameter("A polynomial has terms (i, j, k), and one coefficient for each: see Polynomial.")
+            raise InvalidParameter(
+                "The exponents or coefficients are not sequences: write Polynomial(((1, 0, 0), (0, 0, 2)), (0.5, 1.0))."
+            )
         if len(self.exponents) != len(self.coefficients) or len(self.exponents) > _TERMS:
-            raise InvalidParameter(f"A polynomial has at most {_TERMS} terms, each with one coefficient.")
+            raise InvalidParameter(
+                f"{len(self.exponents)} terms, {len(self.coefficients)} coefficients: give as many, at most {_TERMS}."
+            )
         for one in self.exponents:
             if sum(as_integer("An exponent", n, 0, _DEGREE) for n in as_parts("A term", one, 3)) > _DEGREE:
-                raise InvalidParameter(f"The degree of a polynomial is at most {_DEGREE}.")
+                raise InvalidParameter(
+                    f"The degree of the term {one} is more than {_DEGREE}: choose smaller exponents."
+                )
         require_finite(**{f"coefficient {i + 1}": one for i, one in enumerate(self.coefficients)})
 
     def __call__(self, g1: Any, g2: Any, g3: Any) -> Any:

@@ -72,7 +72,9 @@ class Reversal:
             If the system has other variables.
         """
         if system.variables != _VARIABLES:
-            raise InvalidParameter(f"Reversals are defined for systems with the variables {', '.join(_VARIABLES)}.")
+            raise InvalidParameter(
+                f"{system.title} has no reversals: give a system with the variables {', '.join(_VARIABLES)}."
+            )
         return _cross(system), np.zeros(1), 0.0
 
 

@@ -39,7 +39,7 @@ __all__ = [
     "additional_integral",
     "coefficients",
     "formula",
-    "of_body",
+    "integral_of",
     "order",
 ]
 
@@ -147,7 +147,9 @@ def coefficients(k: int, I22: Fraction | float, I23: Fraction | float) -> Coeffi
     """
     _check_order(k)
     if not (I22 > 0 and I23 != 0):
-        raise InvalidParameter("F2 needs I22 > 0 and a nonzero I23: with I13 = I23 = 0 ω is constant.")
+        raise InvalidParameter(
+            f"I22 = {I22:g}, I23 = {I23:g}: choose I22 > 0, and a nonzero I23, without which ω is constant."
+        )
     I22, I23 = Fraction(I22), Fraction(I23)
     I11 = I22 + k * k * I23**2 / I22
     n, x = (k + 1) // 2, I23 / I22
@@ -362,7 +364,7 @@ def additional_integral(k: int, body: SuslovBody) -> AdditionalIntegral:
     return AdditionalIntegral(k, permuted, a, b, c, I11_of(k, I22, I23))
 
 
-def of_body(body: SuslovBody) -> AdditionalIntegral | None:
+def integral_of(body: SuslovBody) -> AdditionalIntegral | None:
     """Return the additional integral F2 of a body.
 
     Parameters

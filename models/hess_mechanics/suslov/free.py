@@ -29,13 +29,13 @@ from fractions import Fraction
 
 import numpy as np
 
-from hess_mechanics.dynamics.orbit import checked_times, drift_of, require_finite_states
+from hess_mechanics.dynamics.orbit import as_times, drift_of, require_finite_states
 from hess_mechanics.dynamics.sampling import MOST_SAMPLES, SAGITTA
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import Accuracy, Level, Status
-from hess_mechanics.numerics.arguments import as_level, as_place, unit_vector
+from hess_mechanics.numerics.arguments import as_level, as_point, unit_vector
 from hess_mechanics.numerics.labelled import Labels, Result
-from hess_mechanics.numerics.measured import measured, nearby
+from hess_mechanics.numerics.measured import measured, perturb
 from hess_mechanics.numerics.results import Array, Complex, Cost, facts_of, frozen, unit_of
 from hess_mechanics.parameters import plain
 from hess_mechanics.rigid_body.inertia import require_finite
@@ -416,7 +416,7 @@ def passage(body: SuslovBody, omega: Sequence[float]) -> Passage:
         If γ rotates too often during the passage, see `shape`.
     """
     of = shape(body)
-    w1, w2 = as_place(("ω1", "ω2"), omega)
+    w1, w2 = as_point(("ω1", "ω2"), omega)
     r = math.hypot(math.sqrt(body.I11) * w1, math.sqrt(body.I22) * w2)
     if r == 0.0:
         raise InvalidParameter("ω = 0: the body is at rest for ever, h = 0. Choose a nonzero ω1 or ω2.")
@@ -484,7 +484,7 @@ def transfer(of: PassageConstants, arc: int, u: Array, accuracy: Accuracy) -> tu
     first, p = np.array([0.0, 1.0, arc * of.kappa, 0.0, 1.0, 0.0, 0.0, 0.0]), np.array([of.K, arc * of.c])
 
     def run(at: Level, _: int) -> tuple[tuple[Complex, Complex], int]:
-        start = nearby(first) if at.aside else first
+        start = perturb(first) if at.aside else first
         out, total = np.empty((u.size, 8)), 0
         for side in (inside >= 0.0, inside < 0.0):
             index = np.flatnonzero(side)
@@ -684,7 +684,7 @@ def free_motion(
     level = as_level(accuracy)
     begun = time.perf_counter()
     unit, note = unit_vector(gamma)
-    t = checked_times(times)
+    t = as_times(times)
     motion = passage(body, omega)
     of = motion.shape
     with np.errstate(over="ignore"):
@@ -698,7 +698,7 @@ def free_motion(
     start = np.array([*map(float, omega), *unit])
     with np.errstate(over="ignore", invalid="ignore"):
         drift = drift_of(SYSTEM, start, np.hstack([velocity, gammas]), np.array(body.parameters))
-        integral = additional_integral.of_body(body)
+        integral = additional_integral.integral_of(body)
         if integral is not None:
             first = integral(start[:2], start[2:])
             size = max(1.0, abs(float(first)))
@@ -764,7 +764,7 @@ def sample_times(
     motion = passage(body, omega)
     of, length = motion.shape, motion.rate * duration
     if not (math.isfinite(length) and length != 0.0):
-        raise InvalidParameter("The time span must be a finite nonzero number.")
+        raise InvalidParameter(f"The time span is {duration:g}: choose a finite nonzero number.")
     first_u, last_u = sorted((motion.u0, motion.u0 + length))
     knots = np.clip(np.linspace(-_UNIFORM, _UNIFORM, 801), first_u, last_u)
     u = np.unique(np.concatenate([[motion.u0, motion.u0 + length], knots]))

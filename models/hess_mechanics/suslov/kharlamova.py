@@ -27,7 +27,7 @@ from hess_mechanics.dynamics import sampling
 from hess_mechanics.dynamics.orbit import solve
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.accuracy import Accuracy
-from hess_mechanics.numerics.arguments import as_place
+from hess_mechanics.numerics.arguments import as_point
 from hess_mechanics.numerics.results import Array, Orbit, frozen
 from hess_mechanics.suslov.equations import SYSTEM
 from hess_mechanics.suslov.kharlamova_kernels import arcs
@@ -42,7 +42,7 @@ __all__ = [
     "fixed_point_kinds",
     "forbidden",
     "mirror_image",
-    "periods_all_round",
+    "periods_by_direction",
     "rescaled_time",
     "sampled_orbit",
     "state_at",
@@ -141,7 +141,7 @@ def state_at(body: PlaneBody, q: Sequence[float], p: Sequence[float]) -> tuple[f
     InvalidParameter
         If q is outside the ellipse (`Biz1360`), or a number is not finite.
     """
-    q1, q2, p1, p2 = as_place(("q1", "q2", "p1", "p2"), (*q, *p))
+    q1, q2, p1, p2 = as_point(("q1", "q2", "p1", "p2"), (*q, *p))
     r1, r2 = body.axes
     u, omega = np.array([-q2 / r2, q1 / r1]), np.array([p1 / r1, p2 / r2])
     left = 1.0 - u[0] * u[0] - u[1] * u[1]
@@ -309,7 +309,7 @@ def _period(c: Array, low: Array, high: Array, side: Array) -> Array:
     with np.errstate(all="ignore"):
         root = 0.5 * s * np.sqrt(-polyval(low, slope, False) * polyval(high, slope, False))
         x, y = np.sqrt(0.5 * (polyval(m, P, False) + P[4] * s**4 + root)), np.sqrt(root)
-        # After 16 means both are the same, whatever the zeros of P.
+        # 16 steps of the arithmetic–geometric mean converge for all zeros of P.
         for _ in range(16):
             x, y = 0.5 * (x + y), np.sqrt(x * y)
         T = np.where((side == 0.0) & (root > 0.0), 2.0 * math.pi * s / x, math.inf)
@@ -366,7 +366,7 @@ def arc(body: PlaneBody, state: Sequence[float]) -> Arc:
     >>> arc(PlaneBody(1.3, 0.8, 0.5, -0.2), (1.0, -0.5, 0.0, 0.6, 0.8)).kind
     'periodic'
     """
-    w1, w2, g1, g2, g3 = as_place(SYSTEM.variables, state)
+    w1, w2, g1, g2, g3 = as_point(SYSTEM.variables, state)
     u0, v0, a = np.array([g1, g2]), np.array([-w2, w1]), body.acceleration
     rows, (period,), (c,), (rate,) = _solve(u0, v0[None], a, g3)
     low, high, side, before, after = map(float, rows[0])
@@ -379,7 +379,7 @@ def arc(body: PlaneBody, state: Sequence[float]) -> Arc:
     return Arc(kind, *frame, (low, high), touch, (before, after) if before < after else None, float(period), None)
 
 
-def periods_all_round(body: PlaneBody, q: Sequence[float], speed: float) -> Array:
+def periods_by_direction(body: PlaneBody, q: Sequence[float], speed: float) -> Array:
     """Return the periods of the orbits from a point of the plane in all directions.
 
     Parameters
@@ -434,14 +434,14 @@ def fixed_point_kinds(body: PlaneBody, E: float, count: int = 361) -> tuple[Arra
     kinetic = E - u @ np.array([body.b1, body.b2])
     squared = 2.0 * kinetic / (body.I11 * u[:, 0] ** 2 + body.I22 * u[:, 1] ** 2)
     kind = np.where(kinetic < 0.0, 0.0, np.where(squared + u @ body.acceleration > 0.0, 1.0, -1.0))
-    return frozen(body.place(u)), frozen(kind)
+    return frozen(body.q_of(u)), frozen(kind)
 
 
 def _segment(body: PlaneBody, share: float, count: int) -> Array:
     """Return `count` points q of the arc of the ellipse where V exceeds the given share of its maximum."""
     half = math.acos(max(-1.0, share))
     angle = math.atan2(body.b2, body.b1) + np.linspace(-half, half, count)
-    return body.place(np.column_stack([np.cos(angle), np.sin(angle)]))
+    return body.q_of(np.column_stack([np.cos(angle), np.sin(angle)]))
 
 
 def equipotentials(body: PlaneBody, levels: Sequence[float]) -> list[Array]:

@@ -107,7 +107,7 @@ class PlaneProblem(Body):
         """
         return float(self.system.integrals(state, self.parameters)["E"])
 
-    def place(self, u: Array) -> Array:
+    def q_of(self, u: Array) -> Array:
         """Return the point q of the plane for u = (γ1, γ2).
 
         Parameters
@@ -138,7 +138,7 @@ class PlaneProblem(Body):
         p : ndarray of float, shape (m, 2)
             Their momenta.
         """
-        return self.place(states[:, 2:4]), states[:, :2] * np.array(self.axes)
+        return self.q_of(states[:, 2:4]), states[:, :2] * np.array(self.axes)
 
 
 def closure_error(body: Body, start: Sequence[float], period: float, accuracy: Accuracy) -> float:

@@ -148,7 +148,7 @@ def conformal(body: SuslovBody, start: Sequence[float], duration: float, accurac
     if body.I13 != 0.0 or body.I23 != 0.0:
         raise InvalidParameter("The conformally Hamiltonian form needs I13 = I23 = 0: set these to 0.")
     if not (math.isfinite(duration) and duration != 0.0):
-        raise InvalidParameter("The time span must be a finite nonzero number.")
+        raise InvalidParameter(f"The time span is {duration:g}: choose a finite nonzero number.")
     p = body.parameters
     nu = float(SYSTEM.frequency(np.array(start, float), np.array(p)))
     pairs = max(8.0, abs(duration) * nu / (2.0 * _SPACING))

@@ -19,7 +19,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from hess_mechanics import parameters as known
-from hess_mechanics.dynamics.motions import on_section, usual
+from hess_mechanics.dynamics.motions import section_motions, with_default
 from hess_mechanics.dynamics.plane_section import Plane
 from hess_mechanics.dynamics.return_map import PoincareSection
 from hess_mechanics.dynamics.sampling import PIXELS
@@ -152,7 +152,7 @@ class QuarticBody(PlaneProblem):
         scale = radius / (half_width * abs(self.b3))
         return (scale * self.I11, scale * self.I22, radius, radius, radius)
 
-    def inside(self, q: tuple[float, float]) -> tuple[float, float]:
+    def nearest_possible(self, q: tuple[float, float]) -> tuple[float, float]:
         """Return q if the energy allows it, otherwise the nearest allowed point in the same direction.
 
         Parameters
@@ -178,7 +178,7 @@ class QuarticBody(PlaneProblem):
         return share * x * first, share * y * second
 
     @property
-    def across(self) -> int:
+    def minor_axis(self) -> int:
         """The index of the q that is 0 on the section: the one along the minor axis.
 
         For E > |b3| an orbit can stay near one end of the major axis forever, but it always crosses that axis.
@@ -186,9 +186,9 @@ class QuarticBody(PlaneProblem):
         return 0 if self.I11 > self.I22 else 1
 
     @property
-    def longest(self) -> float:
+    def major_semi_axis(self) -> float:
         """The major semi-axis of the ellipse, along which the section lies."""
-        return self.axes[1 - self.across]
+        return self.axes[1 - self.minor_axis]
 
     def ellipse(self, size: float = 1.0) -> Array:
         """Return the ellipse that bounds the motion, or a similar one.
@@ -233,8 +233,8 @@ class QuarticBody(PlaneProblem):
 
     @property
     def plane(self) -> Plane:
-        """The section q_i = 0, i = `across`, crossed while q_i increases, in terms of ω."""
-        rising = self.across == 0
+        """The section q_i = 0, i = `minor_axis`, crossed while q_i increases, in terms of ω."""
+        rising = self.minor_axis == 0
         return Plane((float(not rising), float(rising), 0.0, 0.0, 0.0), sense=1 if rising == (self.b3 > 0.0) else -1)
 
     def height(self, q: Array) -> Array:
@@ -297,7 +297,9 @@ class QuarticBody(PlaneProblem):
         size = abs(self.b3)
         first = math.acos(self.E / size) if size > self.E else 0.0
         angle = np.linspace(first, 2.0 * math.pi - first, 181)
-        right = np.column_stack([self.longest * self._size(math.copysign(1.0, self.b3) * np.cos(angle)), np.sin(angle)])
+        right = np.column_stack(
+            [self.major_semi_axis * self._size(math.copysign(1.0, self.b3) * np.cos(angle)), np.sin(angle)]
+        )
         left = right * np.array([-1.0, 1.0])
         return [np.vstack([right, left[::-1]])] if first else [right, left]
 
@@ -380,7 +382,7 @@ def start_on_section(body: QuarticBody, x: float, y: float) -> tuple[float, floa
         If no motion crosses the section there.
     """
     p = QuarticSection(body).state_at(x, y)[2:4]
-    return (*((x, 0.0) if body.across else (0.0, x)), math.atan2(-p[1], -p[0]))
+    return (*((x, 0.0) if body.minor_axis else (0.0, x)), math.atan2(-p[1], -p[0]))
 
 
 def angular_momentum(body: QuarticBody, states: Array) -> Array:
@@ -421,7 +423,7 @@ class QuarticSection(PoincareSection):
     @property
     def window(self) -> tuple[tuple[float, float], ...]:
         """The rectangle that contains the section."""
-        return (-self.body.longest, self.body.longest), (-1.0, 1.0)
+        return (-self.body.major_semi_axis, self.body.major_semi_axis), (-1.0, 1.0)
 
     @property
     def parameters(self) -> tuple[float, ...]:
@@ -488,7 +490,7 @@ class QuarticSection(PoincareSection):
             True for points with motion, p² + γ3² < 1.
         """
         q, p = np.array(q, float, ndmin=1), np.array(p, float, ndmin=1)
-        along = 1 - self.body.across
+        along = 1 - self.body.minor_axis
         place, momentum = np.zeros((2, q.size)), np.zeros((2, q.size))
         place[along], momentum[along] = q, p
         g3 = self.body.height(place.T)
@@ -497,7 +499,7 @@ class QuarticSection(PoincareSection):
         momentum[1 - along] = -np.sqrt(np.maximum(0.0, left))
         return np.stack([*self.body.omega(place), *momentum, g3], axis=1), left > 0.0
 
-    def places_of(self, states: Array) -> Array:
+    def points_of(self, states: Array) -> Array:
         """Return the points of the section at which given states lie.
 
         Parameters
@@ -511,14 +513,14 @@ class QuarticSection(PoincareSection):
             Coordinates q and p.
         """
         q, p = self.body.to_plane(states)
-        along = 1 - self.body.across
+        along = 1 - self.body.minor_axis
         return np.column_stack([q[:, along], p[:, along]])
 
 
-SECTION = on_section(
+SECTION = section_motions(
     "quartic",
     "Suslov problem with b1 = b2 = 0, a point of a section",
-    (usual(known.I11, 2.0), usual(known.I22, 1.0), usual(known.B3, 1.0), known.H_QUARTIC),
+    (with_default(known.I11, 2.0), with_default(known.I22, 1.0), with_default(known.B3, 1.0), known.H_QUARTIC),
     (
         Parameter("q", "q", "Start: q", 0.8, (-1.5, 1.5), 0.01, (-1e3, 1e3), "Coordinate along the major axis."),
         Parameter("p", "p", "Start: p", 0.0, (-1.0, 1.0), 0.01, (-1.0, 1.0), "Its momentum."),

@@ -146,7 +146,7 @@ def _u_at(of: PassageConstants, distance: float) -> float:
 
 def _check_arc(arc: int) -> None:
     if arc not in (1, -1):
-        raise InvalidParameter("An arc is +1 or −1, the sign of I13ω1 + I23ω2 on it.")
+        raise InvalidParameter(f"arc = {arc}: choose 1 or −1, the sign of I13ω1 + I23ω2 on the arc.")
 
 
 def scattering(body: SuslovBody, accuracy: Accuracy, arc: int = 1, distance: float | None = None) -> Scattering:

@@ -21,8 +21,8 @@ from typing import Any, ClassVar, Self
 import numpy as np
 
 from hess_mechanics import parameters as known
-from hess_mechanics.dynamics.cells import Window, evenly
-from hess_mechanics.dynamics.motions import body_parameters, on_section, usual, whole
+from hess_mechanics.dynamics.cells import Window, even_points
+from hess_mechanics.dynamics.motions import body_parameters, integer, section_motions, with_default
 from hess_mechanics.dynamics.plane_section import Plane
 from hess_mechanics.dynamics.return_map import PoincareSection
 from hess_mechanics.dynamics.system import System
@@ -71,7 +71,9 @@ class AngleSection(PoincareSection):
     def __post_init__(self) -> None:
         require_finite(E=self.E)
         if self.k not in (1, 2, 3):
-            raise InvalidParameter("The section is γ1 = 0, γ2 = 0 or γ3 = 0: choose 1, 2 or 3.")
+            raise InvalidParameter(
+                f"k = {self.k} is no component of γ: choose 1, 2 or 3 for the section γ1 = 0, γ2 = 0 or γ3 = 0."
+            )
 
     @property
     @abstractmethod
@@ -195,7 +197,7 @@ class AngleSection(PoincareSection):
         gamma[self._in_plane, :] = np.cos(psi), np.sin(psi)
         return gamma
 
-    def places_of(self, states: Array) -> Array:
+    def points_of(self, states: Array) -> Array:
         """Return the points of the section at which given states lie.
 
         Parameters
@@ -252,7 +254,7 @@ class AngleSection(PoincareSection):
         arcs = self._arcs(psi0, psi1)
         if not arcs or not count:
             return ()
-        shares = evenly(count, 0.5)
+        shares = even_points(count, 0.5)
         ends = np.cumsum([0.0, *(high - low for low, high in arcs)])
         along = ends[-1] * shares[0]
         arc = np.searchsorted(ends[1:-1], along)
@@ -344,15 +346,15 @@ def _section(values: Mapping[str, float]) -> SuslovSection:
     return section
 
 
-SECTION = on_section(
+SECTION = section_motions(
     "suslov-section",
     "Suslov problem, a point of a section",
     (
         *body_parameters(SYSTEM, 1.5, 1.0, 0.0, 0.0, 0.3, -0.5, 1.0),
-        usual(known.H_SUSLOV, 3.0),
-        whole("k", "k", 3, 1, 3, "The section is γ_k = 0, γ_k growing."),
+        with_default(known.H_SUSLOV, 3.0),
+        integer("k", "k", 3, 1, 3, "The section is γ_k = 0, γ_k growing."),
     ),
-    (usual(known.PSI, 1.5), usual(known.DELTA, 1.2)),
+    (with_default(known.PSI, 1.5), with_default(known.DELTA, 1.2)),
     _section,
     SYSTEM,
 )

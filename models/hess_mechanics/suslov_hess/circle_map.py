@@ -347,7 +347,7 @@ def _rounding(m: Array) -> float:
 
 
 def neighbours(h: Array, f: Array, edge: Array) -> tuple[Array, Array]:
-    """Return tori moved by three units in the last place, as `measured.nearby` moves states.
+    """Return tori moved by three units in the last place, as `measured.perturb` moves states.
 
     f moves into the region, which ends at f_max(h).  h moves into the region near that edge, otherwise away from the
     separatrix.

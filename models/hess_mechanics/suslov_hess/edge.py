@@ -23,7 +23,7 @@ from fractions import Fraction
 from typing import Any
 
 from hess_mechanics.numerics.balls import ArbBall, Enclosure, rational, to_digits
-from hess_mechanics.numerics.labelled import Printed
+from hess_mechanics.numerics.labelled import ShortRepr
 
 __all__ = ["PERIODIC_ORBIT", "TWO_EQUILIBRIA", "EdgeProof", "prove_edge"]
 
@@ -32,7 +32,7 @@ _DIGITS = 30
 
 
 @dataclass(frozen=True)
-class EdgeProof(Printed):
+class EdgeProof(ShortRepr):
     """Proved statement about the circle of states (h, f) on the edge of the region, in units b = 1.
 
     Attributes

@@ -16,7 +16,7 @@ from hess_mechanics.dynamics.cells import centres
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.accuracy import Accuracy, Level
 from hess_mechanics.numerics.arguments import as_integer, as_level
-from hess_mechanics.numerics.parallel import share
+from hess_mechanics.numerics.parallel import run_in_threads
 from hess_mechanics.numerics.results import Array, frozen
 from hess_mechanics.suslov_hess.bifurcation import f_max_each, turning_points
 from hess_mechanics.suslov_hess.circle_map import check_a, matrices, rotation_numbers_of
@@ -269,5 +269,5 @@ def rotation_number_window(
             if points.any():
                 out[points] = rotation_numbers_of(matrices(a, H[points], F[points], chosen))
 
-    share(part, 2)
+    run_in_threads(part, 2)
     return frozen(np.where(fs < 0.0, -1.0, 1.0)[:, None] * out.reshape(magnitudes.size, hs.size)[back])

@@ -44,10 +44,10 @@ from hess_mechanics.numerics.balls import (
     exact,
     rational,
     series_coefficients,
-    working,
+    working_precision,
 )
-from hess_mechanics.numerics.labelled import Printed
-from hess_mechanics.numerics.patience import go_on
+from hess_mechanics.numerics.labelled import ShortRepr
+from hess_mechanics.numerics.patience import check_limit
 from hess_mechanics.suslov_hess.bifurcation import f_max
 from hess_mechanics.suslov_hess.circle_map import MAX_A
 from hess_mechanics.suslov_hess.edge import EdgeProof, prove_edge
@@ -103,7 +103,7 @@ class ProofStep:
 
 
 @dataclass(frozen=True)
-class Proof(Printed):
+class Proof(ShortRepr):
     """Proved statement about the torus (a, h, f), for rational a, h, f in units b = 1; the result of `prove`.
 
     Attributes
@@ -157,7 +157,7 @@ class Proof(Printed):
     @property
     def trace_decimals(self) -> tuple[str, str]:
         """Two decimals that enclose |t| with enough digits for the statement; doubles if these suffice."""
-        low, high = self.trace.outside_doubles()
+        low, high = self.trace.double_decimals()
         digits = 17
         while (self.statement == TWO_CYCLES and Fraction(low) <= 2) or (
             self.statement == NO_CYCLE and Fraction(high) >= 2
@@ -235,11 +235,11 @@ def prove(
     if _discriminant(*at[1:]) == 0:
         return prove_edge(*at)
     if at[2] == 0 and at[1] < 1:
-        with working(FIRST_BITS):
+        with working_precision(FIRST_BITS):
             return _oscillation(*at, begun)
     bits, proof = FIRST_BITS, None
     while True:
-        with working(bits):
+        with working_precision(bits):
             turns = _turns(at[1], at[2], bits)
             plan, work = [], 0.0
             for step in _plan(at[0], at[2], turns, bits):
@@ -318,7 +318,7 @@ def _turns(h: Fraction, f: Fraction, bits: int) -> _Turns:
     """Return the isolated roots W = h + n of 2W(1 − (W − h)²) − f², with enough bits for the gaps between them."""
     precision = 2 * bits + 64
     while True:
-        with working(precision) as library:
+        with working_precision(precision) as library:
             arb, H = library.arb, rational(h)
             cubic = library.fmpq_poly([rational(c) for c in (-f * f, 2 * (1 - h * h), 4 * h, Fraction(-2))])
             W = sorted((root.real for root, _ in cubic.numer().complex_roots()), key=lambda root: root.mid())
@@ -365,7 +365,7 @@ def _proof(
     theta = arb(0)
     steps = []
     for i, (start, radius, terms) in enumerate(plan):
-        go_on()
+        check_limit()
         s = arb(rational(start))
         delta = (arb(rational(plan[i + 1][0])) if i + 1 < len(plan) else arb.pi()) - s
         K, matrix = _step(a, f, turns, s, arb(rational(radius)), delta, terms)

@@ -45,19 +45,19 @@ __all__ = [
     "PeriodicTorus",
     "Torus",
     "TorusValues",
-    "along",
+    "concatenate",
     "lock_curve",
+    "parameter_at",
     "periodic_torus",
     "perturbations_along",
     "perturbed_rotation",
-    "place_of",
     "plateaus",
     "possible_part",
     "return_error",
     "rotation_errors",
     "rows",
     "rows_error",
-    "together",
+    "values_along",
     "values_at",
 ]
 
@@ -149,7 +149,7 @@ class ParameterLine:
         """The two ends of the interval."""
         return self.low, self.high
 
-    def place(self, torus: Torus) -> float:
+    def value_of(self, torus: Torus) -> float:
         """Return the value of the varying parameter for a torus.
 
         Parameters
@@ -164,7 +164,7 @@ class ParameterLine:
         """
         return float(vars(torus)[self.name])
 
-    def places(self, count: int) -> Array:
+    def values(self, count: int) -> Array:
         """Return equidistant values of the varying parameter, both ends included.
 
         Parameters
@@ -300,8 +300,8 @@ def values_at(a: Array | float, h: Array | float, f: Array | float, accuracy: Ac
     a, h, f = _together(a, h, f)
     if a.ndim != 1 or a.size > MAX_POINTS:
         raise WorkLimit(f"At most {MAX_POINTS} tori at a time: choose fewer points.")
-    if not (np.all(np.isfinite(h)) and np.all(np.isfinite(f)) and np.all(np.abs(h) <= 1e12)):
-        raise InvalidParameter("The rotation number needs finite h and f, and |h| ≤ 1e12.")
+    if not (np.all(np.isfinite(f)) and np.all(np.abs(h) <= 1e12)):
+        raise InvalidParameter("An h or f is not finite, or |h| exceeds 1e12: choose finite h and f, and |h| ≤ 1e12.")
     check_a(float(np.max(np.abs(a), initial=0.0)))
     energies, back = np.unique(h, return_inverse=True)
     edge = np.where(energies > -1.0, f_max_each(np.maximum(energies, -1.0)), -1.0)[back]
@@ -446,7 +446,7 @@ def perturbed_rotation(
     return frozen(sign * total / (2.0 * math.pi))
 
 
-def place_of(rho: float, line: ParameterLine, accuracy: Accuracy) -> float | None:
+def parameter_at(rho: float, line: ParameterLine, accuracy: Accuracy) -> float | None:
     """Return a value of the parameter of a line at which ρ has a given value.
 
     Parameters
@@ -470,7 +470,7 @@ def place_of(rho: float, line: ParameterLine, accuracy: Accuracy) -> float | Non
     WorkLimit
         As `values_at`.
     """
-    x, values = line.places(121), along(line, 121, accuracy)
+    x, values = line.values(121), values_along(line, 121, accuracy)
     excess = values.rho - rho
     both = values.possible[1:] & values.possible[:-1]
     # The jump of ρ from −½ to ½ is not a root.
@@ -594,8 +594,8 @@ def rows_error(plane: str, torus: Torus, window: Window, accuracy: Accuracy) -> 
     return float(np.quantile(known, 0.99)) if known.size else 0.0
 
 
-def together(parts: Sequence[TorusValues]) -> TorusValues:
-    """Return the parts of one map as one.
+def concatenate(parts: Sequence[TorusValues]) -> TorusValues:
+    """Concatenate the values of successive rows of a map.
 
     Parameters
     ----------
@@ -615,7 +615,7 @@ def together(parts: Sequence[TorusValues]) -> TorusValues:
     )
 
 
-def along(line: ParameterLine, count: int, accuracy: Accuracy) -> TorusValues:
+def values_along(line: ParameterLine, count: int, accuracy: Accuracy) -> TorusValues:
     """Return the values of equidistant tori of a line.
 
     Parameters
@@ -639,7 +639,7 @@ def along(line: ParameterLine, count: int, accuracy: Accuracy) -> TorusValues:
     WorkLimit
         As `values_at`.
     """
-    return values_at(**line.tori(line.places(count)), accuracy=accuracy)
+    return values_at(**line.tori(line.values(count)), accuracy=accuracy)
 
 
 def perturbations_along(
@@ -672,7 +672,7 @@ def perturbations_along(
     WorkLimit
         As `values_at`.
     """
-    x, possible = line.places(count), along(line, count, accuracy).possible
+    x, possible = line.values(count), values_along(line, count, accuracy).possible
     out = np.full(count, np.nan)
     if possible.any():
         out[possible] = perturbed_rotation(**line.tori(x[possible]), epsilon=epsilon, accuracy=accuracy, count=turns)
@@ -703,10 +703,10 @@ def periodic_torus(rho: Fraction, line: ParameterLine, accuracy: Accuracy) -> Pe
     WorkLimit
         As `values_at`.
     """
-    place = place_of(float(rho), line, accuracy)
-    if place is None:
+    value = parameter_at(float(rho), line, accuracy)
+    if value is None:
         return None
-    torus = Torus(**line.tori(place))
+    torus = Torus(**line.tori(value))
     return PeriodicTorus(torus, return_error(torus, rho.denominator, accuracy))
 
 

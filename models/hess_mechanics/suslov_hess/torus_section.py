@@ -20,7 +20,7 @@ from typing import ClassVar
 import numpy as np
 
 from hess_mechanics import parameters as known
-from hess_mechanics.dynamics.motions import on_section, usual
+from hess_mechanics.dynamics.motions import section_motions, with_default
 from hess_mechanics.dynamics.plane_section import Plane
 from hess_mechanics.dynamics.return_map import PoincareSection
 from hess_mechanics.dynamics.system import System
@@ -143,7 +143,7 @@ class TorusSection(PoincareSection):
         gamma = along * s + across * c, along * c - across * s, np.full(s.size, n3)
         return np.column_stack([rho * s, rho * c, *gamma]), np.isfinite(s)
 
-    def places_of(self, states: Array) -> Array:
+    def points_of(self, states: Array) -> Array:
         """Return the points of the section at which given states lie.
 
         Parameters
@@ -159,11 +159,11 @@ class TorusSection(PoincareSection):
         return np.arctan2(states[:, :1], states[:, 1:2])
 
 
-SECTION = on_section(
+SECTION = section_motions(
     "torus",
     "Suslov–Hess case, a point of a torus",
-    (usual(known.A_HESS, 0.7), usual(known.H_HESS, 0.5), known.F_HESS),
-    (usual(known.CIRCLE_PHASE, 1.0),),
+    (with_default(known.A_HESS, 0.7), with_default(known.H_HESS, 0.5), known.F_HESS),
+    (with_default(known.CIRCLE_PHASE, 1.0),),
     lambda values: TorusSection(values["a"], values["h"], values["f"]),
     SYSTEM,
 )

@@ -56,7 +56,7 @@ def test_a_state_of_the_section_has_its_energy_and_its_coordinates(body):
         # γ̇3 = γ1ω2 − γ2ω1 = |ω| sin δ.
         assert g1 * w2 - g2 * w1 == approx(hypot(w1, w2) * sin(delta), rel=1e-9)
         assert SYSTEM.field(state, body.parameters)[4] > 0.0
-        assert section.places_of(np.array([state]))[0] == approx((psi, delta), abs=1e-9)
+        assert section.points_of(np.array([state]))[0] == approx((psi, delta), abs=1e-9)
 
 
 test_what_is_no_point_of_the_section_is_refused = refused(
@@ -84,7 +84,7 @@ def test_starts_cover_what_the_energy_allows(E):
     section = BallSection(PLAIN, E)
     found = np.array(section.spread(200))
     assert SYSTEM.integrals(found.T, PLAIN.parameters)["E"] == approx(E, abs=1e-13)
-    psi, delta = section.places_of(found).T
+    psi, delta = section.points_of(found).T
     half = 0.0 if section.forbidden is None else section.forbidden[1]
     # PLAIN's b points to ψ = 0: so does the middle of the band.
     gaps = np.diff([half, *np.sort(np.mod(psi, 2.0 * pi)), 2.0 * pi - half])
@@ -115,7 +115,7 @@ def test_mixed_some_orbits_lie_on_curves_and_others_fill_a_sea():
     assert max(points.drift.values()) <= 1e-4
     assert all(len(states) == 1200 for states in points.states)
     # A curve once round passes 32 cells or a few more.  An orbit of the sea may stay beside an island until the end.
-    places = [section.places_of(states[600:]) for states in points.states]
+    places = [section.points_of(states[600:]) for states in points.states]
     counts = np.array([len(occupied(one)) for one in places])
     assert counts.tolist() == [occupied_cells(one, section.window) for one in places]
     curve, sea = counts <= 80, counts >= 120

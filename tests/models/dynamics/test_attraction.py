@@ -47,7 +47,7 @@ class Mapped:
     def states_at(self, x, y):
         return np.column_stack([x, y]), y <= self.top
 
-    def places_of(self, states):
+    def points_of(self, states):
         return np.column_stack([np.mod(states[:, 0] + pi, 2.0 * pi) - pi, states[:, 1]])
 
     def follow(self, starts, crossings):
@@ -115,7 +115,7 @@ def test_the_saddle_between_two_wells_is_the_one_on_their_boundary(sets):
         return int(arrivals(Mapped(), sets, place[:1], place[1:]).number[0])
 
     saddle = saddle_between(WELLS, np.array([0.6, 0.7]), np.array([1.9, 0.7]), number_of)
-    assert saddle.places == approx(np.array([[pi / 3.0, 0.0]]), abs=1e-9)
+    assert saddle.points == approx(np.array([[pi / 3.0, 0.0]]), abs=1e-9)
     assert saddle.multipliers.real == approx([1.75, 0.5], abs=1e-9)
     with pytest.raises(NotConverged, match="No saddle up to period 12"):
         saddle_between(WELLS, np.array([0.1, 0.1]), np.array([0.2, 0.1]), number_of)

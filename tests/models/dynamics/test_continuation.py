@@ -31,10 +31,10 @@ def test_a_branch_goes_through_a_fold_in_parts_and_on_past_where_it_began():
         parts.append(extension(arnold, parts[-1], 1.0, -0.5, points=6, longest=0.05))
     for before, after in pairwise(parts):
         assert after.values[0] == approx(before.values[-1], abs=1e-12)
-        assert after.places[0] == approx(before.places[-1], abs=1e-12)
+        assert after.points[0] == approx(before.points[-1], abs=1e-12)
     values, phi, multipliers = (
         np.concatenate([getattr(one, name).reshape(-1) for one in parts])
-        for name in ("values", "places", "multipliers")
+        for name in ("values", "points", "multipliers")
     )
     assert len(parts) > 5
     assert np.abs(np.sin(phi) - values / 0.8).max() < 1e-12
@@ -44,7 +44,7 @@ def test_a_branch_goes_through_a_fold_in_parts_and_on_past_where_it_began():
     (fold,) = (one for part in parts for one in part.bifurcations)
     assert fold.kind == "fold"
     assert abs(fold.value - 0.8) <= fold.error < 1e-12
-    assert abs(fold.places[0, 0] - pi / 2) < 1e-6
+    assert abs(fold.points[0, 0] - pi / 2) < 1e-6
     assert (values[-1], phi[-1]) == approx((-0.5, pi + asin(0.625)), abs=1e-12)
     assert (parts[0].kinds[0], parts[-1].kinds[-1]) == ("stable node", "unstable node")
 
@@ -73,7 +73,7 @@ def test_an_invariant_curve_is_born():
     assert abs(one.value - 2.0) <= one.error < 1e-7
     assert one.multipliers == approx(np.exp(1j * pi / 3 * np.array([1, -1])), abs=1e-8)
     assert found.values[-1] == 2.5
-    assert np.abs(found.places[:, 0, 0] - (1.0 - 1.0 / found.values)).max() < 1e-13
+    assert np.abs(found.points[:, 0, 0] - (1.0 - 1.0 / found.values)).max() < 1e-13
     assert (found.kinds[0], found.kinds[-1]) == ("stable focus", "unstable focus")
 
 
@@ -92,8 +92,8 @@ def test_a_pitchfork_is_one_only_where_a_symmetry_is_broken():
     other = branch(mirrored, 1.5, (0.7, 0.1), 0.5, points=80)
     (one,) = other.bifurcations
     assert abs(one.value - 1.0) <= one.error < 1e-2
-    assert other.places[-1, 0, 0] == approx(-sqrt(0.5), abs=1e-9)
-    assert np.abs(other.places[:, 0, 0] ** 2 - (other.values - 1.0)).max() < 1e-12
+    assert other.points[-1, 0, 0] == approx(-sqrt(0.5), abs=1e-9)
+    assert np.abs(other.points[:, 0, 0] ** 2 - (other.values - 1.0)).max() < 1e-12
     # x → r x − x³ reflects at r = −1.
     assert the(branch(pitchfork, 0.5, (0.1, 0.1), -1.5), "flip").value == approx(-1.0, abs=1e-12)
 

@@ -38,7 +38,7 @@ def test_an_orbit_has_all_but_two_of_the_digits_of_a_pair_and_shows_the_error_of
     found = double_double_orbit(*motion, times)
     assert away(found, exact) < 1e-29
     orbit = solve(*motion, times, "reference")
-    errors = found.away(orbit.states)
+    errors = found.errors_of(orbit.states)
     assert np.max(errors) == pytest.approx(np.max(oracle.distances(orbit.states, exact)), rel=1e-9)
     # In doubles the truth itself would be off by as much as that.
     assert 0.0 < np.max(errors) < 1e-12

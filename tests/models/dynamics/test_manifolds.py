@@ -67,11 +67,11 @@ def test_homoclinic_points_of_henon_are_homoclinic():
         assert one.angle > 1e-3
         assert one.certain
         # It comes from the saddle and goes there.
-        place = one.place
-        closest = min(float(np.abs((place := m.image(place)) - saddle.places[0]).max()) for _ in range(12))
+        place = one.point
+        closest = min(float(np.abs((place := m.image(place)) - saddle.points[0]).max()) for _ in range(12))
         assert closest < 1e-3
-        back = one.place
-        assert min(float(np.abs((back := m.inverse().image(back)) - saddle.places[0]).max()) for _ in range(14)) < 1e-3
+        back = one.point
+        assert min(float(np.abs((back := m.inverse().image(back)) - saddle.points[0]).max()) for _ in range(14)) < 1e-3
 
 
 @mark.parametrize(("ripple", "there"), [(0.0, False), (0.1, True)])
@@ -82,10 +82,10 @@ def test_curves_that_run_together_do_not_cross_for_certain(ripple, there):
     found = [one for one in crossings_of(unstable, stable) if one.certain]
     assert bool(found) is there
     # (x, y) → (y, x) takes one curve to the other: of a homoclinic point that is its own image the places are equal.
-    own = [one for one in found if abs(one.place[0] - one.place[1]) < 0.02]
+    own = [one for one in found if abs(one.point[0] - one.point[1]) < 0.02]
     assert len(own) == there
     for one in own:
-        assert abs(one.place[0] - one.place[1]) <= 2.0 * one.error < 1e-8
+        assert abs(one.point[0] - one.point[1]) <= 2.0 * one.error < 1e-8
 
 
 def test_separatrices_split_in_proportion_to_a_perturbation(mu=1.5):
@@ -104,13 +104,13 @@ def test_separatrices_split_in_proportion_to_a_perturbation(mu=1.5):
 
 
 def test_what_has_no_manifolds_is_refused():
-    with raises(InvalidParameter, match="Only a saddle"):
+    with raises(InvalidParameter, match="choose a saddle"):
         manifold(henon(0.1), find_periodic(henon(0.1), (0.6, 0.2), 1), 1.0)
     with raises(InvalidParameter, match="the return map of a section with two coordinates"):
         manifold(arnold(0.1), find_periodic(arnold(0.1), (0.3,), 1), 1.0)
     m = bent_saddle()
     saddle = find_periodic(m, (0.1, 0.2), 1)
-    with raises(InvalidParameter, match="The side must be 1"):
+    with raises(InvalidParameter, match="side = 2: choose 1"):
         manifold(m, saddle, 1.0, side=2)
     assert manifold(m, saddle, 1e9, most=40).end_reason == "After 40 points."
     cut = manifold(m, saddle, 12.0, returns=400)

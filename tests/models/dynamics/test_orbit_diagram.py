@@ -26,7 +26,7 @@ def test_the_doublings_of_the_map_of_henon_are_its_own_and_their_ratios_tend_to_
     exact = [0.75 * (1 - B) ** 2, (1 - B) ** 2 + 0.25 * (1 + B) ** 2]
     assert found.periods.tolist() == [1, 2, 4, 8, 16]
     assert np.abs(found.values[:2] - exact).max() < 1e-13
-    for value, places in zip(found.values, found.places, strict=True):
+    for value, places in zip(found.values, found.points, strict=True):
         M = np.eye(2)
         for x in places[:, 0]:
             M = np.array([[-2.0 * value * x, 1.0], [B, 0.0]]) @ M
@@ -49,10 +49,10 @@ def test_a_diagram_of_the_map_of_henon_has_its_periods():
     assert found.periods.tolist() == [1, 0, 2, 2, 4, 4, 8, 0]
     # The fixed point: a x² + (1 − b) x − 1 = 0.
     x = (math.sqrt((1 - B) ** 2 + 4 * 0.2) - (1 - B)) / 0.4
-    assert np.abs(found.places[0] - (x, B * x)).max() < 1e-12
-    assert np.array_equal(found.ends, [one[-1] for one in found.places])
+    assert np.abs(found.points[0] - (x, B * x)).max() < 1e-12
+    assert np.array_equal(found.ends, [one[-1] for one in found.points])
     # Beyond its last attractor places run away: a gap.
-    assert [len(one) for one in diagram_over(henon, "a", [1.4, 3.0, 0.2], (0.5, 0.1)).places] == [64, 0, 64]
+    assert [len(one) for one in diagram_over(henon, "a", [1.4, 3.0, 0.2], (0.5, 0.1)).points] == [64, 0, 64]
 
 
 def test_an_orbit_that_has_not_settled_says_so():

@@ -17,10 +17,10 @@ def test_the_fixed_point_of_the_map_of_henon(a, b=0.3):
     found = find_periodic(henon(a, b), (0.6, 0.2), 1)
     exact = sorted((-a * x + sign * math.sqrt(a * a * x * x + b) for sign in (1, -1)), key=abs, reverse=True)
     assert np.abs(found.multipliers - exact).max() < 1e-13
-    assert np.abs(found.places[0] - (x, b * x)).max() <= found.error_estimate < 1e-14
+    assert np.abs(found.points[0] - (x, b * x)).max() <= found.error_estimate < 1e-14
     assert found.kind == ("stable node" if a < 0.3675 else "saddle with reflection")
     assert found.period == 1
-    assert not found.places.flags.writeable
+    assert not found.points.flags.writeable
 
 
 def test_an_orbit_of_period_two_is_known_too(a=0.8, b=0.3):
@@ -28,7 +28,7 @@ def test_an_orbit_of_period_two_is_known_too(a=0.8, b=0.3):
     found = find_periodic(henon(a, b), (1.0, 0.0), 2)
     s, p = (1.0 - b) / a, ((1.0 - b) ** 2 - a) / a**2
     half = math.sqrt(s * s / 4 - p)
-    assert sorted(found.places[:, 0]) == approx([s / 2 - half, s / 2 + half])
+    assert sorted(found.points[:, 0]) == approx([s / 2 - half, s / 2 + half])
     assert found.multipliers.sum() == approx(4.0 * a * a * p + 2.0 * b, abs=1e-13)
     assert found.multipliers.prod() == approx(b * b, abs=1e-14)
     assert found.period == 2
@@ -39,7 +39,7 @@ def test_the_multipliers_of_a_long_unstable_orbit_keep_the_small_one(a=1.4, b=0.
     assert found.period == 12
     # The product of the multipliers is (−b)^12, beside which the trace is 10⁹ times as large.
     assert abs(found.multipliers.prod() / b**12 - 1.0) < 1e-12
-    x, y = found.places.T
+    x, y = found.points.T
     assert np.abs(np.roll(x, -1) - (1.0 - a * x * x + y)).max() < 1e-13
     assert np.abs(np.roll(y, -1) - b * x).max() < 1e-13
     assert found.kind.startswith("saddle")
@@ -52,7 +52,7 @@ def test_the_period_is_found_where_none_is_given():
         place = henon(0.95).image(place)
     found = find_periodic(henon(0.95), place)
     assert found.period == 4
-    assert np.abs(found.places - place).max(axis=1).min() < 1e-9
+    assert np.abs(found.points - place).max(axis=1).min() < 1e-9
     assert np.all(np.abs(found.multipliers) < 1.0)
 
 
@@ -63,8 +63,8 @@ def test_near_looks_from_the_place_alone():
     assert found.period == 4
     with raises(NotConverged, match="period 1 but none of period 4"):
         find_periodic(m, place, 4, near=True)
-    again = find_periodic(m, found.places[0] + 1e-3, 4, near=True)
-    assert np.abs(again.places - found.places).max() < 1e-12
+    again = find_periodic(m, found.points[0] + 1e-3, 4, near=True)
+    assert np.abs(again.points - found.points).max() < 1e-12
 
 
 @mark.parametrize(

@@ -29,7 +29,7 @@ def test_circles_are_as_far_apart_as_their_radii(r, R):
     found = set_distance(PLANE, circle(r), circle(R))
     assert abs(found.distance - abs(R - r)) <= found.error + 1e-4
     assert abs(found.distance - abs(R - r)) < 1e-3
-    assert found.apart
+    assert found.is_separated
     assert found.overlap == 0.0
 
 
@@ -38,7 +38,7 @@ def test_one_set_twice_is_no_distance_apart_but_its_grain():
     assert found.settled
     assert found.distance <= found.grain + found.error
     assert found.overlap > 0.8
-    assert not found.apart
+    assert not found.is_separated
     # Two sets of n random places on a circle are about 2π/n · ln 20/2 apart, nineteen in twenty.
     assert found.distance == approx(pi * log(20.0) / 4000, rel=0.3)
 
@@ -46,7 +46,7 @@ def test_one_set_twice_is_no_distance_apart_but_its_grain():
 def test_places_of_periodic_orbits_have_no_grain_but_what_is_resolved():
     a, b = np.tile([[0.0, 0.0], [1.0, 0.0]], (8, 1)), np.tile([[0.0, 2.0], [1.0, 2.0]], (8, 1))
     found = set_distance(PLANE, a, b)
-    assert (found.distance, found.error, found.grain, found.apart) == (2.0, 0.0, 1e-6, True)
+    assert (found.distance, found.error, found.grain, found.is_separated) == (2.0, 0.0, 1e-6, True)
     assert distance(PLANE, a, a) == 0.0
     assert found.settled
     # An orbit that leaves one place for another has not settled.

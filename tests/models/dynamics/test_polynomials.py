@@ -4,8 +4,8 @@ from fractions import Fraction
 
 import pytest
 
-from hess_mechanics.dynamics.polynomials import Along, Slope
-from hess_mechanics.numerics.balls import rational, working
+from hess_mechanics.dynamics.polynomials import Slope, TaylorModel
+from hess_mechanics.numerics.balls import rational, working_precision
 
 TERMS = 12
 
@@ -21,10 +21,11 @@ def value(coefficients, s):
 
 def test_a_function_lies_within_the_bound_of_its_polynomial(delta=Fraction(1, 2)):
     x, y = [Fraction(1, 2), Fraction(1), Fraction(-2)], [Fraction(1), Fraction(1, 3), Fraction(1), Fraction(1, 4)]
-    with working(128) as library:
+    with working_precision(128) as library:
         arb = library.arb
         one, two = (
-            Along(library.arb_poly([arb(rational(c)) for c in some]), arb(rational(delta)), TERMS) for some in (x, y)
+            TaylorModel(library.arb_poly([arb(rational(c)) for c in some]), arb(rational(delta)), TERMS)
+            for some in (x, y)
         )
         found = formula(one, two)
         assert found.rest > 0
@@ -41,9 +42,9 @@ def test_a_function_lies_within_the_bound_of_its_polynomial(delta=Fraction(1, 2)
 
 
 def test_a_divisor_that_may_vanish_is_refused():
-    with working(64) as library:
+    with working_precision(64) as library:
         arb = library.arb
-        along = Along(library.arb_poly([arb(1), arb(-2)]), arb(1), TERMS)
+        along = TaylorModel(library.arb_poly([arb(1), arb(-2)]), arb(1), TERMS)
         with pytest.raises(ZeroDivisionError):
             1 / along
         with pytest.raises(ZeroDivisionError):

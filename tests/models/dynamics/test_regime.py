@@ -77,7 +77,7 @@ def test_orbits_on_their_way_tell_nothing_and_the_others_must_agree(apart, touch
         *[SetDistance(0.5, 0.01, 0.01, 0.1, True)] * touching,
         *[SetDistance(1.0, 0.2, 0.9, 0.0, False)] * unsettled,
     )
-    assert Dynamics(shrinks, shrinks.places, shrinks.places, kinds).verdict == verdict
+    assert Dynamics(shrinks, shrinks.points, shrinks.points, kinds).verdict == verdict
 
 
 def test_what_is_not_seen_to_return_does_not_within_the_time_waited():
@@ -86,7 +86,7 @@ def test_what_is_not_seen_to_return_does_not_within_the_time_waited():
     found = regime(P, (1.0, 1.0))
     assert found.kind is MotionKind.NO_RETURN
     # The start lies on the plane, so a crossing at t = 0 is the start itself.
-    start = P.state_at(found.places[-1] if len(found.places) else np.array([1.0, 1.0]))
+    start = P.state_at(found.points[-1] if len(found.points) else np.array([1.0, 1.0]))
     times, _ = scipy_crossings(
         partial(field, REVERSAL), start, lambda y: y[2], found.duration, 1, rtol=1e-10, atol=1e-11
     )

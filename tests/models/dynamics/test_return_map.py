@@ -60,7 +60,7 @@ def test_where_every_orbit_closes_each_place_is_one_of_a_family():
     for near in (False, True):
         orbit = find_periodic(P, (0.5, 1.5), 1, near=near)
         assert orbit.kind == "parabolic"
-        assert orbit.places[0] == approx([0.5, 1.5], abs=1e-8)
+        assert orbit.points[0] == approx([0.5, 1.5], abs=1e-8)
         assert 0.0 < orbit.error_estimate < 1e-9
 
 

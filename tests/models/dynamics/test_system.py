@@ -241,7 +241,7 @@ def test_name_field_and_variables_are_enough_for_a_system_but_not_for_a_body():
         ({"example": (1.0, 2.0)}, "must be finite numbers, 4 of them: x, y, px, py"),
         ({"integrals": lambda y, p: 3}, "`integrals` must return first integrals by name"),
         ({"angular_velocities": 1}, "belong together"),
-        ({"field": lambda y, p: -y[0], "variables": "x"}, "returns a sequence of rates"),
+        ({"field": lambda y, p: -y[0], "variables": "x"}, "not a sequence: return a rate"),
         ({"field": lambda y, p: (p[1] * y[0],), "variables": "x", "parameters": "k"}, "beyond its 1 variables"),
     ],
 )

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from hess_mechanics.dynamics.trade import LevelCost, beyond, enough, measure
+from hess_mechanics.dynamics.trade import LevelCost, first_sufficient, measure, truth_plan
 from hess_mechanics.numerics.accuracy import LEVELS, PLANS, Kind
 
 
@@ -26,7 +26,7 @@ def test_the_error_of_each_level_is_that_against_the_truth():
         assert one.error == pytest.approx(abs(rounded(PLANS[Kind.ORBIT][one.level]) - 1.0 / 3.0), abs=1e-16)
     # Until one is enough: no finer level runs.
     seen.clear()
-    assert enough(measure(Kind.ORBIT, run, lambda result, truth: abs(result - truth)), 1e-7) == "standard"
+    assert first_sufficient(measure(Kind.ORBIT, run, lambda result, truth: abs(result - truth)), 1e-7) == "standard"
     assert seen == ["reference", "draft", "standard"]
     # What leaves something out is not complete.
     complete = {one.level: one.complete for one in measure(Kind.SECTION, lambda plan: None, lambda *_: 0.0)}
@@ -39,19 +39,19 @@ def test_enough_is_the_cheapest_that_shows_all_without_an_error_that_is_seen():
             LevelCost(name, 1.0, error, complete or name != "draft") for name, error in zip(LEVELS, errors, strict=True)
         ]
 
-    assert enough(of(0.4, 0.1, 0.0, 0.0), 0.5) == "draft"
-    assert enough(of(0.4, 0.1, 0.0, 0.0, complete=False), 0.5) == "standard"
-    assert enough(of(4.0, 1.0, 0.5, 0.0), 0.5) == "precise"
-    assert enough(of(np.nan, 9.0, 9.0, 9.0), 0.5) == "reference"
+    assert first_sufficient(of(0.4, 0.1, 0.0, 0.0), 0.5) == "draft"
+    assert first_sufficient(of(0.4, 0.1, 0.0, 0.0, complete=False), 0.5) == "standard"
+    assert first_sufficient(of(4.0, 1.0, 0.5, 0.0), 0.5) == "precise"
+    assert first_sufficient(of(np.nan, 9.0, 9.0, 9.0), 0.5) == "reference"
     # More accuracy cannot be shown to help where there is nothing to compare.
-    assert enough(of(np.nan, np.nan, np.nan, np.nan), 0.5) == "standard"
+    assert first_sufficient(of(np.nan, np.nan, np.nan, np.nan), 0.5) == "standard"
 
 
 def test_a_result_at_other_points_has_a_truth_of_its_own():
     truths = []
 
     def run(plan):
-        if plan.level == beyond(Kind.MAP).level:
+        if plan.level == truth_plan(Kind.MAP).level:
             truths.append(plan.cells)
         return plan.cells
 
@@ -63,7 +63,7 @@ def test_a_result_at_other_points_has_a_truth_of_its_own():
 
 @pytest.mark.parametrize("kind", Kind)
 def test_the_truth_is_more_exact_than_every_level_and_has_other_points_where_these_matter(kind):
-    truth, finest = beyond(kind), PLANS[kind]["reference"]
+    truth, finest = truth_plan(kind), PLANS[kind]["reference"]
     assert truth.level.tolerance < min(plan.level.tolerance for plan in PLANS[kind].values())
     # A mean over returns and a polyline are not compared with as many of them; points of cells lie aside.
     returns = kind in (Kind.ROTATION, Kind.LINE)

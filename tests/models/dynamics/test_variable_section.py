@@ -62,7 +62,7 @@ def test_a_section_has_defaults(returns):
     x, y, px, py = states[0]
     assert (x, y, py) == (0.0, 0.1, 0.05)
     assert px == approx(np.sqrt(2 * E - y**2 - py**2 + 2 * y**3 / 3), rel=1e-14)
-    assert section.places_of(states)[1].tolist() == [0.2, 0.0]
+    assert section.points_of(states)[1].tolist() == [0.2, 0.0]
 
 
 def test_the_image_of_a_place_is_the_next_crossing_by_another_integrator(returns):
@@ -78,11 +78,11 @@ def test_the_image_of_a_place_is_the_next_crossing_by_another_integrator(returns
 def test_a_straight_orbit_is_found_and_continued(returns):
     """On the straight orbits y = ±x/√3 through the origin py² is a quarter of p²: py = √(E/2) there."""
     orbit = periodic_orbit(returns, (0.0, 0.2), 1)
-    assert orbit.places[0] == approx([0.0, np.sqrt(E / 2)], abs=1e-9)
+    assert orbit.points[0] == approx([0.0, np.sqrt(E / 2)], abs=1e-9)
     assert np.prod(orbit.multipliers) == approx(1.0, abs=1e-9)
     branch = continued_orbit(returns, orbit, "E", 0.1, points=4)
     assert branch.values[-1] > E
-    for value, (place,) in zip(branch.values, branch.places, strict=True):
+    for value, (place,) in zip(branch.values, branch.points, strict=True):
         assert place == approx([0.0, np.sqrt(value / 2)], abs=1e-9)
 
 
@@ -155,7 +155,7 @@ def test_a_periodic_orbit_of_a_strobe_is_continued_to_a_branch_point_with_its_ti
     """A symmetry that shifts the phase is not sought, so that it is no pitchfork; the period is that of the drive."""
     strobe = return_map(AROUND.at(), surface=("φ", 0.5))
     orbit = periodic_orbit(strobe, 0.3, 1)
-    assert orbit.places[0] == approx([0.7 * np.sin(0.5)], abs=1e-9)
+    assert orbit.points[0] == approx([0.7 * np.sin(0.5)], abs=1e-9)
     assert orbit.multipliers[0] == approx(np.exp(-0.2 * 2 * np.pi), rel=1e-8)
     assert orbit.time == orbit.to_pandas().attrs["time"] == approx(2.0 * np.pi, rel=1e-12)
     (found,) = continued_orbit(strobe, orbit, "mu", 0.2).bifurcations
@@ -199,7 +199,7 @@ def test_an_orbit_diagram_from_outside_of_the_section_is_refused(returns):
 def test_what_is_no_point_of_a_section_is_refused(returns):
     for use in (returns.state_at, returns.image, returns.with_derivative, returns.time_of, returns.wait):
         for place in (0.1, (0.1, 0.2, 0.3), "x", None, (10**400, 0.1)):
-            with raises(InvalidParameter, match="consists of 2 numbers here: y, py"):
+            with raises(InvalidParameter, match="give 2 numbers, y, py"):
                 use(place)
     for angles, words in (("q", "the angle q must be a variable"), ("v", "v is not an angle: a full turn changes")):
         with raises(InvalidParameter, match=words):
@@ -211,7 +211,7 @@ def test_points_lie_in_a_window_that_crosses_half_a_turn():
     window = [(2.0, 2.0 + 2.0 * np.pi), (-3.0, 3.0)]
     here = return_map(DRIVEN.at(), surface=("phase", 0.0), coordinates="theta v", window=window).section
     states = np.linspace(-20.0, 20.0, 401)[:, None] * [1.0, 0.0, 0.0]
-    places = here.places_of(states)
+    places = here.points_of(states)
     assert (places[:, 0] >= 2.0).all()
     assert (places[:, 0] <= 2.0 + 2.0 * np.pi).all()
     assert np.exp(1j * places[:, 0]) == approx(np.exp(1j * states[:, 0]))
@@ -240,7 +240,7 @@ def test_a_motion_that_escapes_keeps_what_comes_before_and_loses_no_other():
         else:
             start, end = motion, time
     # Exponents and the return map say when and where.
-    place = here.places_of(start[None])[0]
+    place = here.points_of(start[None])[0]
     for ends in (
         lambda: lyapunov_exponent(SYSTEM.at(), start, 100.0),
         lambda: lyapunov_spectrum(SYSTEM.at(), start, 100.0),

@@ -30,7 +30,7 @@ def test_a_closed_curve_that_does_not_go_round_has_no_number():
     assert found.librations == approx([-0.4, -0.3])
     assert found.sea.size == 0
     assert found.numbers == approx([0.3 * GOLDEN], abs=1e-6)
-    assert found.places == approx([-0.2])
+    assert found.points == approx([-0.2])
     # About a centre inside, the same circle has one.
     inside = rotation_along(((0.0, 0.0), (1.0, 0.0)), [0.3], [circle(GOLDEN / 3.0)], about_first=True, count=10)
     assert (inside.librations.size, inside.numbers) == (0, approx([GOLDEN / 3.0], abs=1e-6))

@@ -10,7 +10,7 @@ import sympy
 from pytest import approx, mark
 
 from hess_mechanics import SuslovBody, systems
-from hess_mechanics.suslov.additional_integral import I11_of, additional_integral, coefficients, of_body, order
+from hess_mechanics.suslov.additional_integral import I11_of, additional_integral, coefficients, integral_of, order
 from support.refusals import refused
 from support.thorough import sample
 
@@ -72,7 +72,7 @@ def test_the_field_vanishes_on_the_levels_of_F2_that_the_paper_leaves_out_too(ca
         values.append(float(F2(state[:2], state[2:])))
     assert abs(values[0]) > 0.1
     assert values == approx(values[0] * np.array([1, -1, 1, -1]), rel=1e-12)
-    assert of_body(body).at_fixed_points(h) == approx(values[0], rel=1e-12)
+    assert integral_of(body).at_fixed_points(h) == approx(values[0], rel=1e-12)
 
 
 # ---- which bodies -----------------------------------------------------------------------------------------------
@@ -100,12 +100,12 @@ def test_the_order_is_told_from_doubles(case, k):
 )
 def test_no_order(body):
     assert order(body) is None
-    assert of_body(body) is None
+    assert integral_of(body) is None
 
 
 test_what_has_no_additional_integral_is_refused = refused(
     (lambda: I11_of(2, 1.0, 0.4), "odd k from 1 to 15"),
     (lambda: coefficients(3, Fraction(1), Fraction(0)), "a nonzero I23"),
     (lambda: additional_integral(3, SuslovBody(2.0, 1.0, 0.3, 0.4)), "set one of them to 0"),
-    (lambda: of_body(case_1(3)).at_fixed_points(0.0), "choose h > 0"),
+    (lambda: integral_of(case_1(3)).at_fixed_points(0.0), "choose h > 0"),
 )

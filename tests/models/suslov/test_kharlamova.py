@@ -14,7 +14,7 @@ from hess_mechanics.suslov.kharlamova import (
     arc,
     fixed_point_kinds,
     mirror_image,
-    periods_all_round,
+    periods_by_direction,
     rescaled_time,
     state_at,
 )
@@ -119,5 +119,5 @@ def test_fixed_points_stand_on_the_equator_and_their_stability_is_that_of_the_li
 
 test_what_is_no_start_is_refused = refused(
     (lambda: state_at(PlaneBody(1.5, 1.0, 0.4, 0.7), (1.3, 0.0), (1.0, 0.0)), "outside the ellipse .* a start inside"),
-    (lambda: periods_all_round(PlaneBody(1.5, 1e-10, 1e308, 0.7), (0.0, 0.0), 1.0), "too fast"),
+    (lambda: periods_by_direction(PlaneBody(1.5, 1e-10, 1e308, 0.7), (0.0, 0.0), 1.0), "too fast"),
 )

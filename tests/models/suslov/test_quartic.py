@@ -90,7 +90,7 @@ def test_points_of_the_section_are_what_they_say(body):
         assert q[:, body.across] == approx(np.zeros(len(q)), abs=1e-5)
         # It grows: its rate is −p.
         assert np.all(p[:, body.across] < 0.0)
-        for y, (x, along) in zip(states[:4], section.places_of(states), strict=False):
+        for y, (x, along) in zip(states[:4], section.points_of(states), strict=False):
             assert state_at(body, (start := start_on_section(body, x, along))[:2], start[2]) == approx(y, abs=2e-4)
             count += 1
     assert count > 10
@@ -109,14 +109,14 @@ test_what_is_no_motion_is_refused = refused(
 def test_a_start_that_the_energy_forbids_moves_along_its_ray_to_the_edge(body):
     for share in np.random.default_rng(3).uniform(-1.5, 1.5, (200, 2)):
         q = tuple(np.array(body.axes) * share)
-        moved = body.inside(q)
+        moved = body.nearest_possible(q)
         if abs(float(body.height(np.array(q)))) <= 1.0:
             assert moved == q
             continue
         height = abs(float(body.height(np.array(moved))))
         assert 1.0 - 1e-6 < height <= 1.0
         assert atan2(moved[1], moved[0]) == approx(atan2(q[1], q[0]), abs=1e-12)
-    assert abs(float(body.height(np.array(body.inside((0.0, 0.0)))))) <= 1.0
+    assert abs(float(body.height(np.array(body.nearest_possible((0.0, 0.0)))))) <= 1.0
 
 
 def test_an_orbit_along_the_edge_of_its_section_goes_on():

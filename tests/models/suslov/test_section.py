@@ -40,7 +40,7 @@ def test_states_are_on_the_plane_have_the_energy_and_grow_and_coordinates_bring_
     for state in states[ok]:
         assert energy(BODY, state) == approx(E, abs=1e-13 * max(1.0, E))
         assert field(BODY, state)[k + 1] > 0.0
-    assert SuslovSection(BODY, 0.0, k).places_of(states[ok]) == approx(np.column_stack([psi, delta])[ok], abs=1e-7)
+    assert SuslovSection(BODY, 0.0, k).points_of(states[ok]) == approx(np.column_stack([psi, delta])[ok], abs=1e-7)
 
 
 @mark.parametrize("k", [1, 2, 3])
@@ -84,7 +84,7 @@ def test_seeds_are_as_many_as_asked_for_wherever_the_energy_allows_any(k, above,
         assert len(found) == 0
         return
     assert len(found) == len({tuple(state) for state in found}) == 25
-    psi, delta = SuslovSection(BODY, 0.0, k).places_of(found).T
+    psi, delta = SuslovSection(BODY, 0.0, k).points_of(found).T
     turns = np.abs(psi[:, None] + 2.0 * pi * np.arange(-3, 4) - 0.5 * (psi0 + psi1))
     assert np.all(turns.min(axis=1) <= (psi1 - psi0) / 2 + 1e-9)
     assert np.all((delta > delta0) & (delta < delta1 + 1e-9))

@@ -99,7 +99,7 @@ def test_decimals_enclose_the_ends():
     for _ in range(50):
         low = Fraction(rng.randint(-(10**9), 10**9), rng.randint(1, 10**9)) * Fraction(10) ** rng.randint(-30, 30)
         found = Enclosure(low, low + abs(low) * Fraction(rng.randint(1, 9), 10 ** rng.randint(1, 25)))
-        for pair in (found.decimals(None), found.decimals(3), found.outside_doubles()):
+        for pair in (found.decimals(None), found.decimals(3), found.double_decimals()):
             assert Fraction(pair[0]) <= found.low <= found.high <= Fraction(pair[1])
 
 

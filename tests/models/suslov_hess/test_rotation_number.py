@@ -14,8 +14,8 @@ from hess_mechanics.suslov_hess.rotation_number import (
     ParameterLine,
     Torus,
     lock_curve,
+    parameter_at,
     perturbed_rotation,
-    place_of,
     return_error,
     values_at,
 )
@@ -83,7 +83,7 @@ def test_on_the_lock_curve_the_trace_is_two_and_to_one_side_it_locks(plane):
     ],
 )
 def test_at_a_rational_number_every_orbit_is_periodic_and_not_elsewhere(p, q, name, torus, low, high):
-    place = place_of(p / q, ParameterLine(name, torus, low, high), REFERENCE)
+    place = parameter_at(p / q, ParameterLine(name, torus, low, high), REFERENCE)
     assert low < place < high
     found = torus.at(**{name: place})
     assert iterated(*vars(found).values(), count=1000 * q) == approx(p / q, abs=1e-6)
@@ -103,7 +103,7 @@ def test_at_a_rational_number_every_orbit_is_periodic_and_not_elsewhere(p, q, na
     ],
 )
 def test_where_no_torus_has_the_number_none_is_found(rho, name, torus, low, high):
-    assert place_of(rho, ParameterLine(name, torus, low, high), STANDARD) is None
+    assert parameter_at(rho, ParameterLine(name, torus, low, high), STANDARD) is None
 
 
 # ---- the other family --------------------------------------------------------------------------------------------

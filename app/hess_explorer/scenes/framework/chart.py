@@ -22,10 +22,10 @@ from hess_explorer.scenes.framework.chart_cells import STORED, Cells, Side, char
 from hess_explorer.scenes.framework.charted import Charts, Numbers
 from hess_explorer.scenes.framework.part import Part, part
 from hess_explorer.scenes.framework.sliders import declare, specs_of
-from hess_explorer.scenes.framework.trial import bare
+from hess_explorer.scenes.framework.trial import bare_state
 from hess_explorer.scenes.framework.windows import Window, box_window, tidy_window, window_of
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.layers import CellGrid, Positions, inside
+from hess_explorer.views.layers import CellGrid, Positions, crop
 from hess_explorer.views.picture import Corners
 from hess_explorer.views.text import digits, range_text, with_error
 from hess_mechanics import catalogue
@@ -71,7 +71,7 @@ class _Chart(Part[Any]):
     def key(self) -> Cells:
         """Cache key of the cells, which do not depend on the values of both sides in this state."""
         x, y = self.axes
-        state = y.put(x.put(bare(self.host), x.ends[0]), y.ends[0])
+        state = y.put(x.put(bare_state(self.host), x.ends[0]), y.ends[0])
         return Cells(*self.numbers[self.host.chart], x, y, state, level(self.work.level_name))
 
     @cached_property
@@ -87,7 +87,7 @@ class _Chart(Part[Any]):
         if self.key in STORED:
             cells, window = STORED[self.key]
             return cells, 0, window
-        # The number of this state comes first.
+        # Request the number of this state before those of the cells.
         _ = self.own
         more = self.key.source.computation.many is not None
         counts = [_FIRST * COARSE**stage for stage in range(_STAGES + more)]
@@ -118,7 +118,7 @@ class _Chart(Part[Any]):
 
     def here(self) -> Positions:
         """Return the point of the state if the window contains it."""
-        return inside([self.point], self.window)
+        return crop([self.point], self.window)
 
     def choose(self, x: float, y: float) -> Values:
         """Return the parameters at a point.  Raises `ModelError` if no number is possible there."""
@@ -127,7 +127,7 @@ class _Chart(Part[Any]):
         self.key.source.values(state)
         return {one.name: getattr(state, one.name) for one in (across, up)}
 
-    def look_closer(self, corners: Corners) -> Values:
+    def box_window(self, corners: Corners) -> Values:
         """Return the window of a box."""
         (x0, x1), (y0, y1) = (one.ends for one in self.axes)
         return box_window(corners, ((x0, y0), (x1, y1)), "chart_window")

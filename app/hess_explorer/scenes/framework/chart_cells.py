@@ -90,7 +90,7 @@ def chart_row(cells: Cells, window: Window, count: int, row: int) -> Array:
         except Exception as error:
             found[2, i], _ = failure(error, {cells.x.name: x, cells.y.name: y})
     if known:
-        # By the arguments, which not every parameter of the scene changes.
+        # Compare arguments instead of states: other parameters of the scene do not change the cells.
         found[:, [*known]] = Task(_evaluate_cells, cells.source, cells.number, cells.level, tuple(known.values())).get()
     return frozen(found)
 

@@ -30,7 +30,7 @@ def chart_picture(charts: Charts) -> Plot[Any]:
         first=Axes((0.0, 1.0), (0.0, 1.0)),
         on_click=lambda s, x, y: s.chart_part.choose(x, y),
         on_drag="here",
-        on_box=lambda s, corners: s.chart_part.look_closer(corners),
+        on_box=lambda s, corners: s.chart_part.box_window(corners),
         on_hover=lambda s, x, y: s.chart_part.about(x, y),
         button="Show the chart",
         layers=(

@@ -77,7 +77,7 @@ class Charts:
             evaluate(one.computation, (*one.computation.numbers,), columns, DRAFT)
 
 
-def of_torus(torus: Callable[[Any], tuple[float, float, float]]) -> tuple[ChartSource, ...]:
+def torus_charts(torus: Callable[[Any], tuple[float, float, float]]) -> tuple[ChartSource, ...]:
     """Return the charted computations of a Suslov–Hess torus; `torus(state)` returns (a, h, f)."""
     return (
         ChartSource("circle-map", lambda s: dict(zip("ahf", torus(s), strict=True))),
@@ -95,7 +95,7 @@ def parameters_of(body: Body) -> Arguments:
     return dict(zip(body.system.parameters, body.parameters, strict=True))
 
 
-def of_motion(
+def motion_charts(
     system: System,
     start: Callable[[Any], tuple[float, ...]],
     time: Callable[[Any], float] | None = None,

@@ -10,7 +10,7 @@ from typing import Any, TypeVar
 from hess_explorer.scenes.framework.sliders import ONE_TURN
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.graphs.graph import over_time
+from hess_explorer.views.graphs.graph import time_graph
 from hess_explorer.views.layers import Layer, Sign, levels
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.space.poisson_sphere import Circle, Direction, Sphere, ends
@@ -79,5 +79,5 @@ def Gamma_picture(
         x=lambda s: (0.0, s.span),
         y=(-1.05, 1.05),
         dot=("t", "Gamma"),
-        layers=(levels("levels", limits), *others, over_time("first", orbit, color=theme.ORBIT, tag="orbit")),
+        layers=(levels("levels", limits), *others, time_graph("first", orbit, color=theme.ORBIT, tag="orbit")),
     )

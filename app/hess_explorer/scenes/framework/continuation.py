@@ -13,8 +13,8 @@ from typing import TypeVar
 import numpy as np
 
 from hess_explorer.compute.cache import Task
-from hess_explorer.scenes.framework.families import Begin
-from hess_explorer.scenes.framework.part import Part, Sectioned
+from hess_explorer.scenes.framework.families import BranchStart
+from hess_explorer.scenes.framework.part import HasSection, Part
 from hess_explorer.scenes.framework.periodic_search import ClosedOrbit, NotFound, Point
 from hess_explorer.scenes.framework.windows import Window
 from hess_explorer.views.caption import Caption
@@ -22,10 +22,10 @@ from hess_explorer.views.maps.branch import bifurcations
 from hess_explorer.views.text import conjugates, digits
 from hess_mechanics.dynamics import continuation as mechanics
 from hess_mechanics.dynamics.continuation import Bifurcation, branch_from, extension
-from hess_mechanics.dynamics.periodic import apart, find_periodic
+from hess_mechanics.dynamics.periodic import difference, find_periodic
 from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.errors import ModelError
-from hess_mechanics.numerics.patience import go_on
+from hess_mechanics.numerics.patience import check_limit
 from hess_mechanics.numerics.results import Array
 
 _TOGETHER = 60
@@ -46,7 +46,7 @@ _Nearest = tuple[float, mechanics.Branch, int, float, int]
 """Distance in pixels of a point of a branch, the branch, its segment, the position there, its point on the orbit."""
 
 
-H_co = TypeVar("H_co", bound=Sectioned, covariant=True)
+H_co = TypeVar("H_co", bound=HasSection, covariant=True)
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,7 +55,7 @@ class Continuation(Part[H_co]):
 
     @property
     @abstractmethod
-    def begin(self) -> Begin | None:
+    def begin(self) -> BranchStart | None:
         """The start of the branch; None if no branch is requested."""
 
     @property
@@ -103,8 +103,8 @@ class Continuation(Part[H_co]):
                     whole = whole and one is not None
                     break
                 found.append(one)
-                advance = max(float(np.ptp(one.values)) / (high - low), float(np.ptp(one.places, axis=0).max()))
-                # Pieces hardly advance near a tangency with the section.
+                advance = max(float(np.ptp(one.values)) / (high - low), float(np.ptp(one.points, axis=0).max()))
+                # Stop near a tangency with the section, where further pieces would hardly advance.
                 if one.heading is None or advance < _LEAST_ADVANCE:
                     break
         return found, failed, whole
@@ -119,7 +119,7 @@ class Continuation(Part[H_co]):
     def _pixels(self, values: Array, points: Array, x: float, y: float) -> Array:
         """Return the pixels (n, 2) from (x, y) to points (n, d) at values (n,) of the parameter."""
         (x0, y0), (x1, y1) = self.frame
-        up = apart((self.turn,), points[:, self.side, None], np.array([y]))[:, 0]
+        up = difference((self.turn,), points[:, self.side, None], np.array([y]))[:, 0]
         return np.column_stack([values - x, up]) * (PIXELS / (x1 - x0), PIXELS / (y1 - y0))
 
     def _nearest(self, x: float, y: float) -> _Nearest | None:
@@ -128,7 +128,7 @@ class Continuation(Part[H_co]):
             if len(branch.values) < 2:
                 continue
             for j in range(branch.period):
-                at = self._pixels(branch.values, branch.places[:, j], x, y)
+                at = self._pixels(branch.values, branch.points[:, j], x, y)
                 along = np.diff(at, axis=0)
                 length2 = np.maximum(np.sum(along**2, axis=1), 1e-300)
                 share = np.clip(-np.sum(at[:-1] * along, axis=1) / length2, 0.0, 1.0)
@@ -145,13 +145,13 @@ class Continuation(Part[H_co]):
             return None
         _, branch, i, share, j = near
         turns = self.host.poincare.turns
-        (a, b), (first, second), m = branch.places[i : i + 2], branch.values[i : i + 2], branch.period
-        between = np.roll(a + share * apart(turns, b, a), -j, axis=0)
+        (a, b), (first, second), m = branch.points[i : i + 2], branch.values[i : i + 2], branch.period
+        between = np.roll(a + share * difference(turns, b, a), -j, axis=0)
         value = float(first + share * (second - first))
         try:
-            point = find_periodic(self.begin.family.map_at(value), between, m).places[0]
+            point = find_periodic(self.begin.family.map_at(value), between, m).points[0]
         except ModelError:
-            go_on()
+            check_limit()
             value, point = float(first), a[j]
         # The section has angles between −turn/2 and turn/2.
         return (
@@ -163,10 +163,10 @@ class Continuation(Part[H_co]):
             m,
         )
 
-    def about(self, x: float, y: float) -> str:
+    def tooltip(self, x: float, y: float) -> str:
         """Return a tooltip on the bifurcation or the orbit of the branch at (x, y)."""
         for one in bifurcations(self.branches):
-            if np.hypot(*self._pixels(np.full(len(one.places), one.value), one.places, x, y).T).min() <= _NEAR:
+            if np.hypot(*self._pixels(np.full(len(one.points), one.value), one.points, x, y).T).min() <= _NEAR:
                 return self._bifurcation_text(one)
         near = self._nearest(x, y)
         if near is None:
@@ -183,7 +183,7 @@ class Continuation(Part[H_co]):
 
     def _bifurcation_text(self, one: Bifurcation) -> str:
         value = f"{digits(one.value, 8)} ± {digits(one.error, 1)}"
-        return f"{one.kind} of period {len(one.places)} at {self.branches[0].parameter} = {value}"
+        return f"{one.kind} of period {len(one.points)} at {self.branches[0].parameter} = {value}"
 
     @property
     def caption(self) -> Caption:
@@ -234,7 +234,7 @@ class Continuation(Part[H_co]):
         yield from (f"The branch ends. {why}" for why in ended)
 
 
-def _part(begin: Begin, upwards: bool, k: int) -> mechanics.Branch | NotFound:
+def _part(begin: BranchStart, upwards: bool, k: int) -> mechanics.Branch | NotFound:
     """Return piece k of the branch, towards larger (`upwards`) or smaller values of the parameter."""
     found = begin.search.get()
     if isinstance(found, NotFound):
@@ -248,5 +248,5 @@ def _part(begin: Begin, upwards: bool, k: int) -> mechanics.Branch | NotFound:
         assert not isinstance(before, NotFound), "pieces are continued one after the other"
         return extension(family.map_at, before, end, edge, points, _STEP)
     except ModelError as error:
-        go_on()
+        check_limit()
         return NotFound(str(error))

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.specs import Value
-from hess_explorer.scenes.framework.part import Sectioned
+from hess_explorer.scenes.framework.part import HasSection
 from hess_explorer.scenes.framework.periodic_search import ClosedOrbit, NotFound, Point, find_orbit
 from hess_mechanics.dynamics.return_map import PoincareSection, ReturnMap
 from hess_mechanics.numerics.accuracy import PRECISE
@@ -27,13 +27,13 @@ class Family:
         Names and values of all other parameters of the section.
     """
 
-    state: Callable[..., Sectioned]
+    state: Callable[..., HasSection]
     name: str
     symbol: str
     others: tuple[tuple[str, Value], ...]
 
     @classmethod
-    def of(cls, state: Sectioned, name: str, symbol: str, names: tuple[str, ...]) -> Family:
+    def of(cls, state: HasSection, name: str, symbol: str, names: tuple[str, ...]) -> Family:
         """Return the family that contains a state.
 
         Parameters
@@ -57,7 +57,7 @@ class Family:
 
 
 @dataclass(frozen=True)
-class Begin:
+class BranchStart:
     """Start of a branch.
 
     Attributes

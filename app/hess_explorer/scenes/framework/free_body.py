@@ -50,7 +50,7 @@ def limits_of_k(I22: float, I13: float, I23: float) -> Mapping[str, Slider]:
     return {"k": (max(-2.0, math.ceil(lowest * 19.0) / 20.0), 7.0, 0.05)}
 
 
-def about_I11(k: float, body: SuslovBody) -> Iterator[str]:
+def derived_quantities(k: float, body: SuslovBody) -> Iterator[str]:
     """Yield I11 and k²."""
     yield f"I₁₁ = {digits(body.I11)}"
     yield f"k² = {digits(k * abs(k))}"

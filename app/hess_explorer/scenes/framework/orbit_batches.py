@@ -49,10 +49,10 @@ class OrbitBatch:
 
 def batch_of(section: PoincareSection, points: SectionPoints, first: bool = True) -> OrbitBatch:
     """Return crossings of a section, in its coordinates, as a batch of one kind."""
-    orbits = tuple(frozen(section.places_of(states)) for states in points.states)
+    orbits = tuple(frozen(section.points_of(states)) for states in points.states)
     return OrbitBatch(orbits, (first,) * len(orbits), points.drift, points.cost.steps, points.reasons)
 
 
-def in_batches(items: Sequence[T]) -> Iterator[tuple[T, ...]]:
+def batches(items: Sequence[T]) -> Iterator[tuple[T, ...]]:
     """Yield the items in batches that are computed together."""
     return (tuple(items[i : i + _TOGETHER]) for i in range(0, len(items), _TOGETHER))

@@ -23,7 +23,7 @@ class Host(Protocol):
         """The computation of the current state."""
 
 
-class Sectioned(Host, Protocol):
+class HasSection(Host, Protocol):
     """A host with a section."""
 
     @property
@@ -66,7 +66,7 @@ class Part(Generic[H_co]):
         """Return the parameters without effect in this state, with the values shown by their disabled controls."""
         return {}
 
-    def means(self) -> Mapping[str, str]:
+    def meanings(self) -> Mapping[str, str]:
         """Return the meanings, as `NumberSpec.means`, of the parameters whose meaning depends on a choice."""
         return {}
 

@@ -11,7 +11,7 @@ from hess_mechanics.dynamics.manifolds import Intersection, Manifold, crossings_
 from hess_mechanics.dynamics.periodic import PeriodicOrbit, find_periodic
 from hess_mechanics.dynamics.return_map import ReturnMap
 from hess_mechanics.errors import ModelError
-from hess_mechanics.numerics.patience import go_on
+from hess_mechanics.numerics.patience import check_limit
 
 Point = tuple[float, ...]
 Search = tuple[ReturnMap, Point, int | None, bool]
@@ -73,17 +73,19 @@ class Periodic(Protocol):
 
     @property
     def growth(self) -> tuple[float, float] | None:
-        """ln|μ₁|/T and ln|μ₁μ₂|/T of the orbit; None without one."""
+        """Growth rate ln|μ₁|/T and mean divergence ln|μ₁μ₂|/T of the orbit; None without an orbit."""
 
 
 @dataclass(frozen=True)
 class NotPeriodic:
-    """Stands for a periodic orbit in scenes without a search.
+    """Placeholder for `Periodic` in scenes that do not search for periodic orbits.
 
     Attributes
     ----------
-    looking : bool
-        True while the exponent has to wait for something else.
+    is_searching : bool
+        True while the exponent has to wait, for example for a compilation.
+    closed_orbit, growth : None
+        There is no periodic orbit.
     """
 
     is_searching: bool = False
@@ -95,15 +97,15 @@ def find_orbit(map_: ReturnMap, aim: Point, period: int | None, near: bool) -> C
     """Search for a periodic orbit near a point; return the orbit, or the reason why none was found."""
     try:
         orbit = find_periodic(map_, aim, period, _MOST, near)
-        first = orbit.places[0]
+        first = orbit.points[0]
         return ClosedOrbit(
-            replace(orbit, symmetric=tuple(map_.symmetries_of(orbit.places))),
+            replace(orbit, symmetric=tuple(map_.symmetries_of(orbit.points))),
             tuple(map(float, map_.state_at(first))),
             map_.time_of(first, orbit.period),
         )
     except ModelError as error:
         # A cancelled request or one over its budget must not cache a result.
-        go_on()
+        check_limit()
         return NotFound(str(error))
 
 
@@ -120,14 +122,14 @@ def branch_of(search: Search, branch: BranchChoice, length: float, pixel: float)
                 part * length,
                 stable=stable,
                 side=side,
-                place=index,
+                index=index,
                 sagitta=_SAGITTA * pixel,
                 longest=_CHORD * pixel,
                 most=MOST_POINTS,
                 returns=_RETURNS,
             )
         except ModelError as error:
-            go_on()
+            check_limit()
             return NotFound(str(error))
         if curve.error_estimate < 0.5 * pixel:
             return curve if part == _PARTS[0] else replace(curve, end_reason=_UNKNOWN)

@@ -20,11 +20,11 @@ from hess_explorer.scenes.framework.part import Host, Part, part
 from hess_explorer.scenes.framework.sliders import Slider, specs_of
 from hess_explorer.scenes.framework.swarm import SWARM, Swarm, with_swarm
 from hess_explorer.scenes.framework.swarm_picture import spread_picture
-from hess_explorer.scenes.framework.trial import Trial, bare, orbit_trial, sufficient_level
+from hess_explorer.scenes.framework.trial import Trial, bare_state, orbit_trial, sufficient_level
 from hess_explorer.scenes.framework.work import Work
 from hess_explorer.views.layers import Columns, Sign
 from hess_explorer.views.picture import Picture
-from hess_explorer.views.theme import in_css
+from hess_explorer.views.theme import to_css
 from hess_mechanics.dynamics.system import System
 from hess_mechanics.errors import ModelError
 from hess_mechanics.numerics.accuracy import LEVELS, Kind, Level, Plan
@@ -116,7 +116,7 @@ class State:
     ----------
     work : Work
         Level of accuracy and cache.
-    seen : frozenset of str
+    visible : frozenset of str
         Names of the visible pictures.
     sources : dict of str
         Columns of these pictures by data source.
@@ -182,9 +182,9 @@ class State:
         """
         return {name: value for one in self.parts() for name, value in one.idle().items()}
 
-    def means(self) -> Mapping[str, str]:
+    def meanings(self) -> Mapping[str, str]:
         """Return the meanings, as `NumberSpec.means`, of the parameters whose meaning depends on a choice."""
-        return {name: meaning for one in self.parts() for name, meaning in one.means().items()}
+        return {name: meaning for one in self.parts() for name, meaning in one.meanings().items()}
 
     def adjustments(self, before: Self) -> Values:
         """Return the parameter changes that keep the motion continuous after a different choice.
@@ -339,7 +339,7 @@ class Scene(Generic[S]):
     def legend(self) -> str:
         """The legend of all pictures as an HTML list, one entry per sign."""
         items = (
-            f'<li><span class="{sign.kind}" style="{in_css(sign.style)}"></span>{escape(sign.label)}</li>'
+            f'<li><span class="{sign.kind}" style="{to_css(sign.style)}"></span>{escape(sign.label)}</li>'
             for sign in self.signs
         )
         return f'<ul class="legend" aria-label="Legend">{"".join(items)}</ul>'
@@ -427,7 +427,7 @@ class Scene(Generic[S]):
             if isinstance(spec, NumberSpec | ChoiceSpec)
         }
         idle = self.idle(values)
-        return {name: meaning for name, meaning in {**labels, **self.of(values).means()}.items() if name not in idle}
+        return {name: meaning for name, meaning in {**labels, **self.of(values).meanings()}.items() if name not in idle}
 
     def transfer(self, there: Values, before: Scene[Any], values: Values) -> dict[str, Value]:
         """Transfer changed values from another scene to parameters with the same meaning.
@@ -470,8 +470,8 @@ class Scene(Generic[S]):
         return state
 
     def in_sight(self, state: S) -> Iterator[tuple[Trial[Any], State]]:
-        """Yield the trials of the visible pictures, each with the `bare` state to compute."""
-        plain = bare(state)
+        """Yield the trials of the visible pictures, each with the state to compute, without accuracy and visibility."""
+        plain = bare_state(state)
         return (
             (trial, plain)
             for trial in self.trials

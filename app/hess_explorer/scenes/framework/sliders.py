@@ -50,7 +50,7 @@ def parameter(known: Parameter, default: float | None = None, **changes: Any) ->
     **changes
         Other fields of `Parameter`, such as softbounds, step or doc.  Give a reason for other bounds in a comment.
     """
-    return declare(NumberSpec(**known.changed(default=known.default if default is None else default, **changes)))
+    return declare(NumberSpec(**known.fields(default=known.default if default is None else default, **changes)))
 
 
 def number(
@@ -151,7 +151,7 @@ def time_span(default: float, longest: float, *, step: float = 1.0, most: float 
     )
 
 
-def like(state: type[Any], name: str, default: Value | None = None, **changes: Any) -> Any:
+def redeclare(state: type[Any], name: str, default: Value | None = None, **changes: Any) -> Any:
     """Declare a parameter of another state again, with another default or other arguments of `number` if given."""
     spec: Any = next(one for one in specs_of(state) if one.name == name)
     return declare(replace(spec, default=spec.default if default is None else default, **changes))

@@ -78,7 +78,7 @@ class Solid:
         """Return attitude and times, every second sample if a slider is held; None if nothing is drawn."""
         if not self.is_drawn or self.attitude.defect > _LARGEST_DEFECT:
             return None
-        found = self.attitude.every_second() if held else self.attitude
+        found = self.attitude.thin() if held else self.attitude
         return found, found.times
 
     @property
@@ -165,7 +165,7 @@ def _own(state: Any) -> Any:
     return state.solid
 
 
-def solid_body(
+def body_picture(
     of: Callable[[S], Solid] = _own,
     *,
     name: str = "body",
@@ -220,7 +220,7 @@ def solid_body(
         motion=lambda s: of(s).in_space(s.dragging),
         rods=rods,
         heavy=lambda s: of(s).mass is not None,
-        # Blue belongs to the orbit: to the centre of mass where its trail is drawn.
+        # The trail of the centre of mass has the colour of the orbit, so the wheels are grey beside it.
         wheels=Wheels(_WHEEL, (0.0, 0.0, 1.0), "muted" if section else "orbit") if wheels else None,
         trail=trail,
         mass=mass,

@@ -38,7 +38,7 @@ class Stage(Generic[S]):
         axes = held if hold_axes else {view.name: view.ranges(state, held[view.name]) for view in views}
         drawn = dict(state.sources)
         for view in views:
-            for source, columns in view.framed(state, axes[view.name], drawn).items():
+            for source, columns in view.data_in_axes(state, axes[view.name], drawn).items():
                 drawn[source] = {**drawn.get(source, {}), **columns}
         answer = self.scene.answer(state)
         windowed = " ".join(view.name for view in views if view.is_windowed(state))
@@ -57,7 +57,9 @@ class Stage(Generic[S]):
 
     def _name_signs(self, views: Sequence[Picture[S]], drawn: Mapping[str, Columns]) -> None:
         """Send the visible entries of the legend."""
-        self.wire.say("signs", self.scene.visible_signs({sign for view in views for sign in view.there(drawn)}))
+        self.wire.say(
+            "signs", self.scene.visible_signs({sign for view in views for sign in view.visible_legend(drawn)})
+        )
 
     def fail(self, sentence: str, hold_axes: bool = False) -> None:
         """Clear all pictures and show the sentence in their captions; reset the axes unless `hold_axes`."""
@@ -68,7 +70,7 @@ class Stage(Generic[S]):
             self._put(f"data-{name}", {})
         for name, view in self._views.items():
             self._set_axes(view, None if hold_axes else view.first_axes)
-            for source, columns in view.nothing(sentence, self._axes[name]).items():
+            for source, columns in view.empty_data(sentence, self._axes[name]).items():
                 self._put(source, columns)
             self.wire.caption(name, asdict(Caption(title=sentence)))
 

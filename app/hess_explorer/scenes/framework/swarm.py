@@ -18,11 +18,11 @@ from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.specs import ChoiceSpec, points_of
 from hess_explorer.scenes.framework.part import Part, part
 from hess_explorer.scenes.framework.sliders import declare
-from hess_explorer.scenes.framework.swarm_motions import ERROR, SwarmMotions, swarm_motions, turned
+from hess_explorer.scenes.framework.swarm_motions import ERROR, SwarmMotions, swarm_motions, turned_starts
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import Columns, Range, column
-from hess_explorer.views.space.body import seen_in_space
+from hess_explorer.views.space.body import to_picture_axes
 from hess_explorer.views.text import digits
 from hess_mechanics.dynamics.sampling import MOST_SAMPLES
 from hess_mechanics.numerics.results import Array
@@ -82,7 +82,7 @@ class Swarm(Generic[S]):
 def turned_swarm(
     more: Callable[[S, Array], Columns] = lambda state, states: {}, angles: tuple[str, ...] = ()
 ) -> Swarm[S]:
-    """Return the swarm of `turned` starts, of states (ω1, ω2, γ) or (M, γ).
+    """Return the swarm of `turned_starts` starts, of states (ω1, ω2, γ) or (M, γ).
 
     Parameters
     ----------
@@ -103,7 +103,7 @@ def turned_swarm(
         # Backward in time another exponent is the largest.
         return state.exponent.separation if state.swarm_time == FORWARD and hasattr(state, "exponent") else None
 
-    return Swarm(lambda state, angles: turned(state.motion(), angles), columns, angles, rate=rate)
+    return Swarm(lambda state, angles: turned_starts(state.motion(), angles), columns, angles, rate=rate)
 
 
 @dataclass(frozen=True, eq=False)
@@ -199,11 +199,11 @@ class _SwarmPart(Part[Any]):
         second = second_directions(self._motion.unit * fine, stacked("omega1", "omega2"), verticals)[:, ::2]
         verticals = verticals[:, ::2]
         down, e, f = (one @ mass.along for one in (verticals, second, np.cross(verticals, second)))
-        # A turn about γ is free.
+        # The angle of a body about γ is arbitrary: add the chosen angles to that of the current motion.
         own = self.host.solid.attitude.in_space(mass.along)[0]
         turn = angles + math.atan2(own[2], own[1]) - np.arctan2(f[:, 0], e[:, 0])
         across = np.exp(1j * turn)[:, None] * (e + 1j * f)
-        positions = seen_in_space(np.stack([down, across.real, across.imag], axis=2))
+        positions = to_picture_axes(np.stack([down, across.real, across.imag], axis=2))
         return {f"m{name}": positions[..., i] for i, name in enumerate("xyz")}
 
     @cached_property
@@ -213,11 +213,11 @@ class _SwarmPart(Part[Any]):
         if found is None:
             return None
         apart = np.linalg.norm(np.diff(found.states * np.array(self._motion.weights), axis=0), axis=2)
-        # A distance is known while both motions are, and while it is larger than their errors.
+        # Drop distances after the end of either motion, and those below the errors of the two.
         both = np.arange(found.times.size) <= np.minimum(found.until[1:], found.until[:-1])[:, None]
         known = both & (apart > np.minimum(_ABOVE * (found.errors[1:] + found.errors[:-1]), ERROR)[:, None])
         ratio = np.where(both & (apart[:, :1] > 0.0), apart / np.maximum(apart[:, :1], 1e-300), np.nan)
-        # The graph ends before the tenth of them is lost, so that the others are not a biased sample.
+        # End the graph before 10 % of the distances are lost: the remaining ones would be a biased sample.
         count = int(np.argmin([*(known.mean(axis=0) > 0.9), False]))
         if count < 2:
             return None
@@ -244,7 +244,7 @@ class _SwarmPart(Part[Any]):
     def notes(self) -> Iterator[str]:
         """Yield a note if the starts lie elsewhere than chosen, or the beads are not drawn to the end."""
         if len(self._clicked) == 1:
-            yield "Click a second point in the section: then the bodies start on the line between both."
+            yield "Click a second point in the section to start the bodies on the line between both points."
         if not self.has_result("motions") or self.motions is None:
             return
         ends = self.motions.until * abs(self.motions.times[1])

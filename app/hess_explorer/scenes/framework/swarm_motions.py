@@ -24,7 +24,7 @@ _FEW, _FIRST, _STRIDE, _TRIALS = 12, 64, 50.0, 6
 pixels, and the number of trials."""
 
 
-def turned(motion: Motion, angles: Array) -> Array:
+def turned_starts(motion: Motion, angles: Array) -> Array:
     """Return states whose velocity is turned, with the energy of the motion's initial state.
 
     The angular velocity (ω1, ω2) of states (ω1, ω2, γ) is turned in its plane.  The angular momentum M of states (M, γ)
@@ -59,7 +59,7 @@ def turned(motion: Motion, angles: Array) -> Array:
     def energy(states: Array) -> Array:
         return np.asarray(next(iter(motion.system.integrals([*states.T], motion.parameters).values())))
 
-    # Three values determine the quadratic function.
+    # The energy is a quadratic function of the scale of the velocity: E(s) = as² + bs + E(0).
     zero, plus, minus = (energy(scaled(scale)) for scale in (0.0, 1.0, -1.0))
     a, b = 0.5 * (plus + minus) - zero, 0.5 * (plus - minus)
     goal = energy(state)
@@ -150,7 +150,7 @@ def swarm_motions(
     errors = np.repeat(found.errors[:, None] * weights.max(), 2 * m - 2, axis=1)
     loose = np.flatnonzero(~(errors[:, 0] <= 0.1 * ERROR))
     if loose.size:
-        # Even the smallest tolerance was too large: only round-off is left, which grows as from starts beside these.
+        # Truncation errors exceed the bound even at the finest level: estimate the error by perturbed starts.
         others = ensemble(body, np.array(starts)[loose] * (1.0 + _ASIDE), found.times, STANDARD)
         errors[loose] = _SAFETY * (np.abs(others.states - found.states[loose]) * weights).max(axis=2)[:, 1:]
     errors += np.repeat(_interpolation_errors(found.states, weights), 2, axis=1)

@@ -14,8 +14,8 @@ from hess_explorer.scenes.framework.work import Work
 from hess_explorer.views.layers import Axes
 from hess_mechanics.dynamics.orbit import solve
 from hess_mechanics.dynamics.sampling import PIXELS
-from hess_mechanics.dynamics.shadowing import HALF_A_PIXEL, away_from, errors_in_pixels, torn_away
-from hess_mechanics.dynamics.trade import Alike, LevelCost, enough, measure
+from hess_mechanics.dynamics.shadowing import HALF_A_PIXEL, away_from, errors_in_pixels, has_diverged
+from hess_mechanics.dynamics.trade import Alike, LevelCost, first_sufficient, measure
 from hess_mechanics.dynamics.work_precision import longest_duration
 from hess_mechanics.dynamics.work_precision import truth as exactly
 from hess_mechanics.errors import ModelError
@@ -73,7 +73,7 @@ class Trial(Generic[S]):
     applies: Callable[[S], bool] = _always
     most: tuple[tuple[str, float], ...] = ()
 
-    def small(self, state: S) -> S:
+    def small_state(self, state: S) -> S:
         """Return the state with parameters limited to `most`, so that it is computed in about a second."""
         less = {name: min(float(getattr(state, name)), most) for name, most in self.most}
         return state.with_values(less) if less else state
@@ -86,7 +86,7 @@ class Refusal:
     reason: str
 
 
-def bare(state: S) -> S:
+def bare_state(state: S) -> S:
     """Return the state without its accuracy and pictures in sight, as a cache key."""
     typed: Any = state
     accuracy = {"accuracy": STANDARD.name} if hasattr(state, "accuracy") else {}
@@ -95,7 +95,7 @@ def bare(state: S) -> S:
 
 
 def level_costs(trial: Trial[S], state: S) -> tuple[LevelCost, ...] | Refusal:
-    """Measure the time and error of each level for a `bare` state.  Raises `OverBudget`."""
+    """Measure the time and error of each level for a state from `bare_state`.  Raises `OverBudget`."""
     try:
         return tuple(measure(*_of(trial, state), alike=trial.alike))
     except OverBudget:
@@ -108,7 +108,7 @@ def level_costs(trial: Trial[S], state: S) -> tuple[LevelCost, ...] | Refusal:
 def sufficient_level(trial: Trial[S], state: S) -> str:
     """Return the cheapest level with an invisible error; `standard` if none can be measured.  Raises `OverBudget`."""
     try:
-        return enough(measure(*_of(trial, state), alike=trial.alike), trial.tolerance)
+        return first_sufficient(measure(*_of(trial, state), alike=trial.alike), trial.tolerance)
     except OverBudget:
         raise
     except ModelError:
@@ -117,7 +117,7 @@ def sufficient_level(trial: Trial[S], state: S) -> str:
 
 def _of(trial: Trial[S], state: S) -> tuple[Kind, Callable[[Plan], Any], Callable[[Any, Any], float]]:
     """Return kind, run and error of a trial as arguments of `measure`."""
-    less = trial.small(state)
+    less = trial.small_state(state)
     return trial.kind, lambda plan: trial.run(less, plan), lambda *both: trial.error(less, *both)
 
 
@@ -135,9 +135,9 @@ def _orbit(state: State, plan: Plan) -> Array:
 def _orbit_error(state: State, states: Array, truth: object) -> float:
     motion = state.motion()
     assert motion is not None
-    # The reference has more digits than any level.
+    # Compare with an orbit of 31 digits, because no level is more accurate than `reference`.
     exact = exactly(*motion.arguments[:3], _measured_span(motion), _SAMPLES)
-    away, first = exact.away(states) * np.asarray(motion.weights), motion.system.angular_velocities
+    away, first = exact.errors_of(states) * np.asarray(motion.weights), motion.system.angular_velocities
     return float(max(np.linalg.norm(part, axis=1).max() for part in (away[:, :first], away[:, first:])))
 
 
@@ -188,4 +188,4 @@ def section_error(
     NaN if all orbits are chaotic.
     """
     aways = [errors_in_pixels(one, other, pixels, periods) for one, other in zip(orbits, truth, strict=True)]
-    return max((float(away.max()) for away in aways if away.size and not torn_away(away)), default=math.nan)
+    return max((float(away.max()) for away in aways if away.size and not has_diverged(away)), default=math.nan)

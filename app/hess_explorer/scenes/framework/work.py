@@ -171,7 +171,7 @@ def accuracy_status(accurate: tuple[int, int | None] | None, crossings: int) -> 
             for count in accurate
         )
         median = "" if accurate[1] is None else f", others {others} (median)"
-        yield f"right to ½ pixel: the chosen orbit {own}{median}"
+        yield f"error below ½ pixel: chosen orbit {own}{median}"
 
 
 def drift_status(drifts: Iterable[Mapping[str, float]]) -> Iterator[str]:

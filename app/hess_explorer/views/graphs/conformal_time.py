@@ -9,7 +9,7 @@ import numpy as np
 
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.graphs.graph import about_0, over_time, pieces, thin
+from hess_explorer.views.graphs.graph import axis_about_0, pieces, thin, time_graph
 from hess_explorer.views.layers import Axes, Layers, compose, curves, levels
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits
@@ -23,7 +23,7 @@ _LEAST = 2.5
 """Half height of the axis at least, so that the brackets, of order 1 away from γ3 = 0, are visible."""
 
 
-def about(motion: Conformal) -> Caption:
+def caption(motion: Conformal) -> Caption:
     """Return the caption of a motion in both times."""
     turned = {0: "never", 1: "once"}.get(motion.turns, f"{motion.turns} times")
     return Caption(
@@ -49,9 +49,9 @@ def _bracket(motion_of: Transform[S], i: int) -> Callable[[S, Axes], list[Array]
 def picture(motion_of: Transform[S], reason: Callable[[S], str], span: Callable[[S], float]) -> Plot[S]:
     """Return the plot of τ, {ω1, γ3} and {ω2, γ3} against t, or of the reason for their absence."""
 
-    def caption(state: S) -> Caption:
+    def state_caption(state: S) -> Caption:
         motion = motion_of(state)
-        return Caption(numbers=reason(state)) if motion is None else about(motion)
+        return Caption(numbers=reason(state)) if motion is None else caption(motion)
 
     layers: Layers[S] = (
         levels("levels", lambda s: [] if motion_of(s) is None else [0.0]),
@@ -64,7 +64,7 @@ def picture(motion_of: Transform[S], reason: Callable[[S], str], span: Callable[
             dash="dashed",
             label="{ω₂, γ₃} = −γ₁/(I₂₂γ₃)",
         ),
-        over_time(
+        time_graph(
             "tau",
             compose(motion_of, lambda motion: thin(motion.orbit.times, motion.tau)),
             color=theme.ORBIT,
@@ -75,11 +75,11 @@ def picture(motion_of: Transform[S], reason: Callable[[S], str], span: Callable[
     return Plot(
         name="conformal",
         title="Conformal time and brackets",
-        caption=caption,
+        caption=state_caption,
         axes=("t", "τ"),
         first=Axes((0.0, 60.0), (-3.0, 3.0)),
         x=lambda s: (0.0, span(s)),
-        y=compose(motion_of, lambda motion: about_0(motion.tau, _LEAST)),
+        y=compose(motion_of, lambda motion: axis_about_0(motion.tau, _LEAST)),
         layers=layers,
         button="Show the conformal time",
     )

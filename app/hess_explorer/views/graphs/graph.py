@@ -9,7 +9,7 @@ from typing import TypeVar
 import numpy as np
 
 from hess_explorer.views.layers import Layer, Range, compose, curves
-from hess_explorer.views.plane.velocity_plane import centred, nice_above
+from hess_explorer.views.plane.velocity_plane import round_up, symmetric_range
 from hess_mechanics.numerics.results import Array, Mask
 
 S = TypeVar("S")
@@ -21,7 +21,7 @@ _POINTS = 600
 """Number of points of a curve over a long time that a picture resolves."""
 
 
-def over_time(
+def time_graph(
     name: str,
     data: Callable[[S], tuple[Array, Array] | None],
     *,
@@ -44,12 +44,12 @@ def settled_range(curves: Sequence[Array]) -> Range:
     return min(0.0, low) - room, max(0.0, high) + room
 
 
-def about_0(values: Array, least: float) -> Range:
+def axis_about_0(values: Array, least: float) -> Range:
     """Return an axis about 0 with a round limit that contains the values and ±`least`."""
-    return centred(nice_above(1.2 * max(float(np.abs(values).max()), least)))
+    return symmetric_range(round_up(1.2 * max(float(np.abs(values).max()), least)))
 
 
-def with_room(values: Array, share: float, least: float = 0.0) -> Range:
+def with_margin(values: Array, share: float, least: float = 0.0) -> Range:
     """Return an axis for values with a margin on both sides: a share of their range, at least `least`."""
     low, high = float(values.min()), float(values.max())
     room = max(least, share * (high - low))

@@ -7,7 +7,7 @@ from typing import TypeVar
 
 from hess_explorer.views import theme
 from hess_explorer.views.graphs.chart import lg
-from hess_explorer.views.graphs.graph import over_time
+from hess_explorer.views.graphs.graph import time_graph
 from hess_explorer.views.layers import Layers
 from hess_mechanics.euler_poisson.hess_manifold import Leak
 from hess_mechanics.numerics.results import Array
@@ -23,12 +23,12 @@ def distances(leaks: Callable[[S], Mapping[str, Leak]], distance: Callable[[Leak
         return leak.run.times, lg(distance(leak))
 
     return (
-        over_time(
+        time_graph(
             "reference",
             lambda s: curve(s, "reference"),
             color=theme.LEVELS["reference"],
             dash="dotdash",
             label="orbit at reference accuracy",
         ),
-        over_time("own", lambda s: curve(s, "own"), color=theme.MAP, label="orbit that leaks, at the chosen accuracy"),
+        time_graph("own", lambda s: curve(s, "own"), color=theme.MAP, label="orbit that leaks, at the chosen accuracy"),
     )

@@ -10,7 +10,7 @@ import numpy as np
 
 from hess_explorer.views import theme
 from hess_explorer.views.layers import Axes, Layers, Range, curves, ring
-from hess_explorer.views.plane.velocity_plane import nice_above
+from hess_explorer.views.plane.velocity_plane import round_up
 from hess_mechanics.numerics.results import Array
 
 S = TypeVar("S")
@@ -26,7 +26,7 @@ def period_axis(periods: Array, here: float = 0.0) -> Range:
     finite = periods[np.isfinite(periods[:, 1]), 1]
     if not finite.size:
         return 0.0, 20.0
-    return 0.0, nice_above(max(1.5 * float(np.median(finite)), 1.1 * here if math.isfinite(here) else 0.0))
+    return 0.0, round_up(max(1.5 * float(np.median(finite)), 1.1 * here if math.isfinite(here) else 0.0))
 
 
 def layers(periods: Callable[[S], Array], here: Callable[[S], tuple[float, float] | None]) -> Layers[S]:

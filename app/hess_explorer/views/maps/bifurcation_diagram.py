@@ -123,7 +123,7 @@ REACH: Layer[Any] = points(
 """The moving point of the diagram; (h, f) is the ring, which does not move in time."""
 
 
-def about(h: float, f: float, theta: CircleMap | None) -> Caption:
+def caption(h: float, f: float, theta: CircleMap | None) -> Caption:
     """Return the caption on a torus from its circle map, which is None on the separatrix."""
     zone = (
         "On the separatrix."
@@ -136,7 +136,7 @@ def about(h: float, f: float, theta: CircleMap | None) -> Caption:
     return Caption(zone, f"h = {digits(h)}, f = {digits(f)}{rho}.")
 
 
-def about_torus(a: float, h: float, f: float) -> str:
+def torus_tooltip(a: float, h: float, f: float) -> str:
     """Return the tooltip on the torus (a, h, f).  Raises `Separatrix`."""
     if h <= -1.0 or abs(f) > f_max(h):
         return f"h = {digits(h)}, f = {digits(f)}: impossible"

@@ -9,7 +9,7 @@ import numpy as np
 
 from hess_explorer.views import theme
 from hess_explorer.views.layers import Axes, Layers, curves, names, points
-from hess_explorer.views.plane.periodic import sign_of, visible_points, within
+from hess_explorer.views.plane.periodic import sign_of, visible_parts, visible_points
 from hess_mechanics.dynamics.continuation import Bifurcation, Branch
 from hess_mechanics.numerics.results import Array
 
@@ -32,13 +32,13 @@ def _strands(branch: Branch, side: int, sign: str) -> list[Array]:
     runs: list[list[tuple[float, float]]] = []
     for j in range(branch.period):
         run: list[tuple[float, float]] = []
-        for i, (value, orbit) in enumerate(zip(branch.values, branch.places, strict=True)):
+        for i, (value, orbit) in enumerate(zip(branch.values, branch.points, strict=True)):
             between = sorted(
                 (one for one in branch.bifurcations if one.after == i - 1),
-                key=lambda one: float(np.abs(one.places - branch.places[max(0, i - 1)]).max()),
+                key=lambda one: float(np.abs(one.points - branch.points[max(0, i - 1)]).max()),
             )
             for one in between:
-                met = (one.value, float(one.places[j, side]))
+                met = (one.value, float(one.points[j, side]))
                 runs.append([*run, met] if run else [])
                 run = [met] if signs[i] == sign else []
             # Without a bifurcation between them, a point of neither sign belongs to the previous part.
@@ -51,7 +51,7 @@ def _strands(branch: Branch, side: int, sign: str) -> list[Array]:
     return [np.array(run) for run in runs if len(run) > 1]
 
 
-class Branched(Protocol):
+class HasBranches(Protocol):
     """Branches over a parameter."""
 
     @property
@@ -64,10 +64,10 @@ class Branched(Protocol):
 
     @property
     def turn(self) -> float:
-        """Its period, ∞ for none."""
+        """Period of this coordinate, ∞ if it is not an angle."""
 
 
-def layers(of: Callable[[S], Branched]) -> Layers[S]:
+def layers(of: Callable[[S], HasBranches]) -> Layers[S]:
     """Return the layers of branches over a parameter: one coordinate of all points, and the bifurcations."""
 
     def parts(sign: str) -> Callable[[S, Axes], list[Array]]:
@@ -77,7 +77,7 @@ def layers(of: Callable[[S], Branched]) -> Layers[S]:
                 part[:, ::-1]
                 for one in shown.branches
                 for strand in _strands(one, shown.side, sign)
-                for part in within(strand[:, ::-1], shown.turn, up)
+                for part in visible_parts(strand[:, ::-1], shown.turn, up)
             ]
 
         return drawn
@@ -85,7 +85,7 @@ def layers(of: Callable[[S], Branched]) -> Layers[S]:
     def marked(state: S, axes: Axes) -> list[tuple[float, float, str]]:
         shown, up, found = of(state), Axes(axes.y, axes.x), []
         for one in bifurcations(shown.branches):
-            y = one.places[:, shown.side]
+            y = one.points[:, shown.side]
             there = visible_points(np.column_stack([y, np.full(len(y), one.value)]), shown.turn, up)
             inside = [(float(x), float(height)) for height, x in there if axes.x[0] <= x <= axes.x[1]]
             # Only the highest point has a label, because labels at all points would overlap.

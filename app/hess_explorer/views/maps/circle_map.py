@@ -129,7 +129,7 @@ def cycles(theta: CircleMap) -> str:
     return "two limit cycles" if theta.kind == "hyperbolic" else "no cycle"
 
 
-def about(theta: CircleMap | None, proof: str = "") -> Caption:
+def caption(theta: CircleMap | None, proof: str = "") -> Caption:
     """Return the caption of a circle map: kind, trace, rotation number and multipliers.
 
     Parameters

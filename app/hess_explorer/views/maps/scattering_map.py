@@ -13,7 +13,7 @@ from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.graphs.graph import ANGLE, ANGLE_TICKS
 from hess_explorer.views.layers import CellGrid, Layers, Range, Sign, curves, image, line, ring, target
-from hess_explorer.views.plane.velocity_plane import nice_above
+from hess_explorer.views.plane.velocity_plane import round_up
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits
 from hess_mechanics.numerics.results import Array
@@ -24,7 +24,7 @@ POLAR: Range = (0.0, math.pi)
 POLAR_TICKS = ((0.0, "0"), (math.pi / 4, "π/4"), (math.pi / 2, "π/2"), (3 * math.pi / 4, "3π/4"), (math.pi, "π"))
 
 
-def over_square(
+def square_plot(
     caption: Callable[[S], Caption], theta_plus: Callable[[S], Array], here: Callable[[S], tuple[float, float]]
 ) -> Plot[S]:
     """Return the plot of θ⁺ over (φ, θ⁻); a click or drag sets both parameters."""
@@ -55,7 +55,7 @@ def over_square(
     )
 
 
-def over_phases(
+def phase_plot(
     caption: Callable[[S], Caption], layers: Layers[S], message: Callable[[S], str] | None = None
 ) -> Plot[S]:
     """Return the plot of curves θ⁺(φ); a click or drag sets the phase."""
@@ -75,13 +75,13 @@ def over_phases(
     )
 
 
-def spread(theta_plus: Array) -> str:
+def range_text(theta_plus: Array) -> str:
     """Return the range of a curve θ⁺(φ) in words."""
     low, high = float(np.min(theta_plus)), float(np.max(theta_plus))
     return f"θ⁺ = {digits(low)} for every φ" if high - low < 1e-4 else f"θ⁺ from {digits(low)} to {digits(high)}"
 
 
-def over_orders(
+def order_plot(
     ends: Callable[[S], Range],
     orders: Callable[[S], Array],
     here: Callable[[S], tuple[float, float]],
@@ -128,5 +128,5 @@ def over_orders(
 
 def cosine_axis(largest: float) -> Range:
     """Return an axis from −1 to slightly above the largest cosine."""
-    reach = nice_above(max(1e-3, 1.0 + float(largest)))
+    reach = round_up(max(1e-3, 1.0 + float(largest)))
     return -1.0 - 0.05 * reach, -1.0 + 1.05 * reach

@@ -54,7 +54,7 @@ def picture(
     )
 
 
-def between(
+def middle_layers(
     elsewhere: Callable[[S], Array],
     curve: Callable[[S], tuple[Array, Array]],
     across: Callable[[S], Positions],

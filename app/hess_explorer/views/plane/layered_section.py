@@ -8,8 +8,8 @@ from typing import TypeVar
 import numpy as np
 
 from hess_explorer.views import theme
-from hess_explorer.views.layers import Layer, Layers, Positions, Sign, compose, dots, image, in_window, inside, ring
-from hess_explorer.views.plane.section_plane import joined
+from hess_explorer.views.layers import Layer, Layers, Positions, Sign, compose, crop, dots, image, in_window, ring
+from hess_explorer.views.plane.section_plane import concatenate
 from hess_mechanics.dynamics.attraction import LOST, Arrivals
 from hess_mechanics.dynamics.cells import Window
 from hess_mechanics.numerics.results import Array
@@ -29,7 +29,7 @@ _BASINS = (
 _CLEAR = theme.FORBIDDEN + "00"
 
 
-def apart(points: Array, window: Window) -> Array:
+def thin_out(points: Array, window: Window) -> Array:
     """Thin points (n, 2) to one per cell of the window if there are very many."""
     if len(points) <= _MANY:
         return points
@@ -73,7 +73,7 @@ def basins(arrivals: Callable[[S], Arrivals | None], window: Callable[[S], Windo
 
     def values(arrivals: Arrivals) -> Array:
         number, crossings = arrivals.number, arrivals.crossings
-        # Many arrive soon, few late: the logarithm gives each a shade of its own.
+        # Shade by the logarithm of the arrival time, because most orbits arrive early.
         late = np.log1p(crossings)
         there = late[number >= 0]
         first, longest = np.quantile(there, (0.002, 0.998)) if there.size else (0.0, 1.0)
@@ -140,10 +140,10 @@ def layers(
 
     def of_colour(i: int, color: str) -> Layer[S]:
         label = "" if i else "chosen orbit, from its ring"
-        return _points(f"own{i or ''}", lambda s: joined(own(s)[i :: len(theme.CHOSEN)]), window, 10, color, label)
+        return _points(f"own{i or ''}", lambda s: concatenate(own(s)[i :: len(theme.CHOSEN)]), window, 10, color, label)
 
     def ring_of(i: int, color: str) -> Layer[S]:
-        return ring(f"chosen{i or ''}", lambda s: inside(chosen(s)[i :: len(theme.CHOSEN)], window(s)), color=color)
+        return ring(f"chosen{i or ''}", lambda s: crop(chosen(s)[i :: len(theme.CHOSEN)], window(s)), color=color)
 
     return (
         image(
@@ -167,4 +167,4 @@ def layers(
 def _points(
     name: str, of: Callable[[S], Array], window: Callable[[S], Window], size: float, color: str, label: str
 ) -> Layer[S]:
-    return dots(name, lambda s: apart(of(s), window(s)).T, color=color, size=size, label=label)
+    return dots(name, lambda s: thin_out(of(s), window(s)).T, color=color, size=size, label=label)

@@ -17,7 +17,7 @@ from hess_mechanics.numerics.results import Array
 S = TypeVar("S")
 
 
-def within(curve: Array, turn: float, axes: Axes) -> list[Array]:
+def visible_parts(curve: Array, turn: float, axes: Axes) -> list[Array]:
     """Return the visible parts of a curve (n, 2) over an angle of period `turn` (∞ for other coordinates).
 
     A part extends one point beyond the frame, which clips it.
@@ -56,11 +56,14 @@ def layers(
 
     def parts(stable: bool) -> Callable[[S, Axes], list[Array]]:
         return lambda s, axes: [
-            part for one in manifolds(s) if one.stable is stable for part in within(one.points, one.turns[0], axes)
+            part
+            for one in manifolds(s)
+            if one.stable is stable
+            for part in visible_parts(one.points, one.turns[0], axes)
         ]
 
     def crossed(state: S, axes: Axes) -> Array | None:
-        found = [one.place for one in homoclinic(state)]
+        found = [one.point for one in homoclinic(state)]
         return visible_points(np.array(found), manifolds(state)[0].turns[0], axes).T if found else None
 
     return (
@@ -91,7 +94,7 @@ def orbit_points(orbits: Callable[[S], Sequence[PeriodicOrbit]]) -> Layers[S]:
 
     def of_sign(sign: str) -> Callable[[S], Array | None]:
         def of(state: S) -> Array | None:
-            found = [one.places for one in orbits(state) if sign_of(one.kind) == sign]
+            found = [one.points for one in orbits(state) if sign_of(one.kind) == sign]
             return np.concatenate(found).T if found else None
 
         return of

@@ -9,9 +9,9 @@ import numpy as np
 
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.graphs.graph import about_0, over_time
+from hess_explorer.views.graphs.graph import axis_about_0, time_graph
 from hess_explorer.views.layers import Axes, Columns, Layers, Regions, column, curves, line, region, ring
-from hess_explorer.views.plane.velocity_plane import about_origin, square
+from hess_explorer.views.plane.velocity_plane import axis_about_origin, square
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.space.poisson_sphere import gamma_columns
 from hess_explorer.views.text import digits, variation_text
@@ -45,8 +45,8 @@ def picture(
         title=title,
         caption=caption,
         axes=("q₁", "q₂"),
-        x=about_origin(half_width),
-        y=about_origin(half_width),
+        x=axis_about_origin(half_width),
+        y=axis_about_origin(half_width),
         dot=("q1", "q2"),
         dots=dots,
         layers=layers,
@@ -55,7 +55,7 @@ def picture(
     )
 
 
-def ground(
+def background_layers(
     edge: Callable[[S], Array], forbidden: Callable[[S], Sequence[Array]], levels: Callable[[S], Sequence[Array]]
 ) -> Layers[S]:
     """Return the layers below the orbit: grey outside the edge and inside forbidden curves, and equipotentials."""
@@ -112,6 +112,6 @@ def momentum_picture(
         button="Show q₁p₂ − q₂p₁ against time",
         x=lambda s: (0.0, float(momentum(s)[0][-1])),
         dot=("t", "momentum"),
-        y=lambda s: about_0(momentum(s)[1], least(s)),
-        layers=(over_time("G", momentum, color=theme.ORBIT),),
+        y=lambda s: axis_about_0(momentum(s)[1], least(s)),
+        layers=(time_graph("G", momentum, color=theme.ORBIT),),
     )

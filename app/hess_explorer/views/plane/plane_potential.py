@@ -10,8 +10,8 @@ import numpy as np
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import curves, line, ring
-from hess_explorer.views.plane.plane_domain import ground
-from hess_explorer.views.plane.velocity_plane import about_origin
+from hess_explorer.views.plane.plane_domain import background_layers
+from hess_explorer.views.plane.velocity_plane import axis_about_origin
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits
 from hess_mechanics.numerics.results import Array
@@ -28,7 +28,7 @@ _LEVELS = (0.1, 0.25, 0.5, 0.75, 0.95)
 """Levels of the equipotentials, in units of the largest U on the edge."""
 
 
-def about(body: PotentialBody, motion: PlaneMotion) -> Caption:
+def caption(body: PotentialBody, motion: PlaneMotion) -> Caption:
     """Return the caption of a motion: whether it is periodic, and whether a further integral exists."""
     if motion.fixed:
         return Caption("A fixed point: nothing changes.")
@@ -64,17 +64,17 @@ def picture(
 
     def edge(state: S) -> Array:
         angle = np.linspace(0.0, 2.0 * np.pi, 241)
-        return body(state).place(np.stack([np.cos(angle), np.sin(angle)], axis=-1))
+        return body(state).q_of(np.stack([np.cos(angle), np.sin(angle)], axis=-1))
 
     def levels(state: S) -> list[Array]:
         top = _largest(body(state))
-        return [body(state).place(part) for share in _LEVELS for part in level_curve(body(state), share * top)]
+        return [body(state).q_of(part) for share in _LEVELS for part in level_curve(body(state), share * top)]
 
     def too_high(state: S) -> list[Array]:
-        return [body(state).place(part) for part in forbidden(body(state), motion(state).energy)]
+        return [body(state).q_of(part) for part in forbidden(body(state), motion(state).energy)]
 
     def orbit(state: S) -> tuple[Array, Array]:
-        q = body(state).place(motion(state).orbit.states[:, 2:4])
+        q = body(state).q_of(motion(state).orbit.states[:, 2:4])
         return q[:, 0], q[:, 1]
 
     def start(state: S) -> list[tuple[float, float]]:
@@ -84,13 +84,13 @@ def picture(
     return Plot(
         name="potential",
         title=lambda s: f"Potential: {name(s)}",
-        caption=lambda s: about(body(s), motion(s)),
+        caption=lambda s: caption(body(s), motion(s)),
         axes=("q₁", "q₂"),
-        x=about_origin(half_width),
-        y=about_origin(half_width),
+        x=axis_about_origin(half_width),
+        y=axis_about_origin(half_width),
         button="Show another potential",
         layers=(
-            *ground(edge, too_high, levels),
+            *background_layers(edge, too_high, levels),
             curves("border", lambda s: [edge(s)], color=theme.MUTED, width=1),
             line("orbit", orbit, color=theme.ORBIT, width=1.3),
             ring("start", start),

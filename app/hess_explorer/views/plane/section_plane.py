@@ -77,7 +77,7 @@ def _few(crossings: Array | None) -> Array | None:
     return points.T if len(points) <= _CLOSES else None
 
 
-def joined(parts: Iterable[Array]) -> Array:
+def concatenate(parts: Iterable[Array]) -> Array:
     """Concatenate the points (n, 2) of some orbits."""
     return np.concatenate([np.empty((0, 2)), *parts])
 
@@ -88,6 +88,6 @@ def band(middle: float, half: float, period: float, axes: Axes) -> list[list[Arr
     return [[part + np.array([middle + turn, 0.0])] for turn in (-period, 0.0, period)]
 
 
-def outside(curves: Sequence[Array], x: float, y: float) -> list[list[Array]]:
+def exterior(curves: Sequence[Array], x: float, y: float) -> list[list[Array]]:
     """Return the rectangle ±x, ±y without the interior of closed curves (n, 2), as a region."""
     return [[rectangle((-x, x), (-y, y)), *curves]]

@@ -45,7 +45,7 @@ def reason_for_no_density(theta: CircleMap | None, turning_points: TurningPoints
     return "At f = 0 the angle φ jumps where w = 0: choose another f." if theta.f == 0.0 else ""
 
 
-def about(density: Array) -> Caption:
+def caption(density: Array) -> Caption:
     """Return the caption of a density relative to the uniform one."""
     low, high = digits(float(density.min()), 3), digits(float(density.max()), 3)
     if low == high:
@@ -56,9 +56,9 @@ def about(density: Array) -> Caption:
 def picture(density: Callable[[S], tuple[Array | None, str]]) -> Plot[S]:
     """Return the plot of the density (n, m) relative to the uniform one, or of the reason for None, and the orbit."""
 
-    def caption(state: S) -> Caption:
+    def state_caption(state: S) -> Caption:
         found, reason = density(state)
-        return Caption("No density is drawn.", reason) if found is None else about(found)
+        return Caption("No density is drawn.", reason) if found is None else caption(found)
 
     def shares(state: S) -> CellGrid | None:
         found, _ = density(state)
@@ -78,7 +78,7 @@ def picture(density: Callable[[S], tuple[Array | None, str]]) -> Plot[S]:
     return Plot(
         name="torus",
         title="Density on the torus",
-        caption=caption,
+        caption=state_caption,
         axes=("σ", "φ"),
         x=ANGLE,
         y=ANGLE,

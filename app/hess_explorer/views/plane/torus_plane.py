@@ -83,7 +83,7 @@ def is_circle(turning_points: TurningPoints | None) -> bool:
     return turning_points is not None and turning_points.roots[2] - turning_points.roots[1] < 1e-6
 
 
-def about(theta: CircleMap | None, turning_points: TurningPoints | None) -> Caption:
+def caption(theta: CircleMap | None, turning_points: TurningPoints | None) -> Caption:
     """Return the caption on the behaviour of the orbit; the arguments are None on the separatrix."""
     if theta is None or turning_points is None:
         return Caption("The orbit comes to rest in infinite time.")
@@ -96,7 +96,7 @@ def about(theta: CircleMap | None, turning_points: TurningPoints | None) -> Capt
     return Caption(orbit, f"|w| {range_text(turning_points.initial_rho, turning_points.final_rho)}.")
 
 
-def about_heights(turning_points: TurningPoints | None) -> Caption:
+def heights_caption(turning_points: TurningPoints | None) -> Caption:
     """Return the caption on the heights of the vertical; the argument is None on the separatrix."""
     if turning_points is None:
         return Caption("The vertical tends to n₃ = −1.", "The upper equilibrium.")

@@ -71,8 +71,8 @@ def picture(
         title=title,
         caption=caption,
         axes=("ω₁", "ω₂"),
-        x=about_origin(half_width),
-        y=about_origin(half_width),
+        x=axis_about_origin(half_width),
+        y=axis_about_origin(half_width),
         dot=("omega1", "omega2"),
         on_click=on_click,
         starts=on_click is not None,
@@ -115,44 +115,44 @@ def orbit_alone(
     )
 
 
-def nice_above(value: float) -> float:
+def round_up(value: float) -> float:
     """Round up to 1, 1.5, 2, 3, 4, 5, 6 or 8 times a power of ten."""
     power = 10.0 ** np.floor(np.log10(value))
     return float(power * next(step for step in (1, 1.5, 2, 3, 4, 5, 6, 8, 10) if step * power >= value * (1 - 1e-12)))
 
 
-def room_for(speed: float) -> float:
+def half_width_for(speed: float) -> float:
     """Return the half width of a plane with room for |ω| = `speed`."""
-    return nice_above(1.05 * max(1e-9, speed))
+    return round_up(1.05 * max(1e-9, speed))
 
 
-def centred(half_width: float) -> Range:
+def symmetric_range(half_width: float) -> Range:
     """Return the range ±half_width."""
     return -half_width, half_width
 
 
-def about_origin(half_width: Callable[[S], float]) -> Callable[[S], Range]:
+def axis_about_origin(half_width: Callable[[S], float]) -> Callable[[S], Range]:
     """Return the range of an axis about 0 as a function of the state."""
-    return lambda state: centred(half_width(state))
+    return lambda state: symmetric_range(half_width(state))
 
 
 def square(half_width: float) -> Array:
     """Return a square (4, 2) about 0."""
-    return rectangle(centred(half_width), centred(half_width))
+    return rectangle(symmetric_range(half_width), symmetric_range(half_width))
 
 
-def outside(curve: Array, half_width: float) -> list[Array]:
+def exterior(curve: Array, half_width: float) -> list[Array]:
     """Return the exterior of a closed curve (m, 2) as a part of a region."""
     return [square(half_width), curve]
 
 
 def ring_outside(inner: Array, outer: Array, half_width: float) -> Regions:
     """Return the complement of the ring between two closed curves (m, 2) as a region larger than any axes."""
-    return [outside(outer, 4.0 * half_width), [inner]]
+    return [exterior(outer, 4.0 * half_width), [inner]]
 
 
-def beside(inner: Array, outer: Array, half_width: float) -> Array:
-    """Return places (2, 2) of labels: inside a point (2,) of the inner curve and outside a point of the outer one."""
+def label_points(inner: Array, outer: Array, half_width: float) -> Array:
+    """Return points (2, 2) for two labels: inside a point (2,) of the inner curve, outside one of the outer curve."""
     gap = 0.09 * half_width
     lengths = np.linalg.norm([inner, outer], axis=1)
     return np.array([inner * (1.0 - min(1.0, gap / lengths[0])), outer * (1.0 + gap / lengths[1])])
@@ -187,7 +187,7 @@ def halves(
     )
 
 
-def to_the_edge(point: Array, half_width: float, axes: Axes) -> Array:
+def half_line(point: Array, half_width: float, axes: Axes) -> Array:
     """Return the half line (2, 2) from 0 through a point (2,) to beyond the frame."""
     far = max(half_width, axes.x[1]) / max(float(np.max(np.abs(point))), 1e-300)
     return np.array([np.zeros(2), far * np.asarray(point)])

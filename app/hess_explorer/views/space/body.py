@@ -139,7 +139,7 @@ class Curve:
     weight: float = 0.0
 
 
-def seen_in_space(points: Array) -> Array:
+def to_picture_axes(points: Array) -> Array:
     """Convert components along (γ, e, γ × e) to the axes of the picture: e, −γ × e and −γ (upwards)."""
     return np.stack([points[..., 1], -points[..., 2], -points[..., 0]], axis=-1)
 
@@ -258,7 +258,9 @@ class BodyInSpace(Picture[S]):
             self.name: {
                 **columns,
                 "rods": [[*map(float, one.along), one.look, one.label] for one in self.rods(state)],
-                "curves": [[one.look, one.weight, *column(seen_in_space(one.points).T)] for one in self.curves(state)],
+                "curves": [
+                    [one.look, one.weight, *column(to_picture_axes(one.points).T)] for one in self.curves(state)
+                ],
                 **shape_columns(Direction((0.0, 0.0, -1.0), label), self.circles, self.marks),
             }
         }

@@ -11,10 +11,10 @@ import numpy as np
 
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.graphs.graph import over_time
+from hess_explorer.views.graphs.graph import time_graph
 from hess_explorer.views.layers import Axes, Layer, Layers, Sign, Sources, column, levels, line, points
 from hess_explorer.views.picture import Picture
-from hess_explorer.views.plane.velocity_plane import centred, nice_above
+from hess_explorer.views.plane.velocity_plane import round_up, symmetric_range
 from hess_explorer.views.text import digits, range_text
 from hess_mechanics.chaplygin_ball.energy_surface import Strip, line_of_rest
 from hess_mechanics.chaplygin_ball.phase_cloud_density import BIN, SMALLEST, Clouds, Density
@@ -32,12 +32,12 @@ def _frames(columns: Sequence[Array]) -> np.ndarray:
     return np.stack([one.T for one in columns], axis=1).astype(np.float32).ravel()
 
 
-def room(clouds: Clouds) -> float:
+def half_width(clouds: Clouds) -> float:
     """Return the half width of a plane with room for all ω of the clouds."""
-    return nice_above(1.1 * clouds.fastest)
+    return round_up(1.1 * clouds.largest_speed)
 
 
-def about_ends(clouds: Clouds) -> Caption:
+def ends_caption(clouds: Clouds) -> Caption:
     """Return the caption with the median distance of the points from s = 0 at the start and the end."""
     before, after = (digits(math.exp(float(np.median(clouds.cloud.log_s[:, i]))), 3) for i in (0, -1))
     return Caption(
@@ -53,10 +53,10 @@ def status_of(clouds: Clouds) -> Iterator[str]:
         f"error of ω/ν, γ and ln|s| ≤ {cloud.error_estimate:.1e} ({cloud.status})"
     )
     if other is not None:
-        yield f"beside ≤ {other.errors.max():.1e}"
+        yield f"error of the second cloud ≤ {other.errors.max():.1e}"
 
 
-def about_history(clouds: Clouds, of_patch: bool) -> Caption:
+def history_caption(clouds: Clouds, of_patch: bool) -> Caption:
     """Return the caption on the change of small volumes, or of the volume of the patch (`of_patch`)."""
     course = clouds.history
     if of_patch:
@@ -71,7 +71,7 @@ def about_history(clouds: Clouds, of_patch: bool) -> Caption:
 
 def largest_distance(clouds: Clouds, exact: Clouds) -> float:
     """Return the largest distance in pixels, in the plane and on the sphere, from the points of `exact`."""
-    to_pixels = 0.5 * PIXELS * np.array([1.0 / room(exact)] * 2 + [1.0] * 3)
+    to_pixels = 0.5 * PIXELS * np.array([1.0 / half_width(exact)] * 2 + [1.0] * 3)
     away = to_pixels * (_points(clouds) - _points(exact))
     return max(float(np.linalg.norm(part, axis=-1).max()) for part in (away[..., :2], away[..., 2:]))
 
@@ -111,7 +111,7 @@ class CloudPlane(Picture[S]):
     @property
     def first_axes(self) -> Axes:
         """The axes before the first state."""
-        return Axes(centred(1.0), centred(1.0))
+        return Axes(symmetric_range(1.0), symmetric_range(1.0))
 
     @property
     def legend(self) -> tuple[Sign, ...]:
@@ -128,7 +128,7 @@ class CloudPlane(Picture[S]):
 
     def ranges(self, state: S, held: Axes | None) -> Axes:
         """Return the axes that fit a state."""
-        axis = centred(self.half_width(state))
+        axis = symmetric_range(self.half_width(state))
         return Axes(axis, axis)
 
     def data(self, state: S) -> Sources:
@@ -155,7 +155,7 @@ class CloudPlane(Picture[S]):
             }
         }
 
-    def framed(self, state: S, axes: Axes | None, drawn: Sources) -> Sources:
+    def data_in_axes(self, state: S, axes: Axes | None, drawn: Sources) -> Sources:
         """Return σ1, σ2 and the line of equilibria, extended beyond the frame."""
         assert axes is not None
         strip, half = self.strip(state), axes.x[1]
@@ -238,7 +238,7 @@ def history_layers(
     """
 
     def extreme(name: str, i: int) -> Layer[S]:
-        return over_time(name, lambda s: (times(s), history(s)[i]), color=theme.MUTED, dash="dashed")
+        return time_graph(name, lambda s: (times(s), history(s)[i]), color=theme.MUTED, dash="dashed")
 
     return (
         levels("levels", lambda s: [0.0]),

@@ -128,7 +128,7 @@ class Sphere(Picture[S]):
         return {self.name: {**shape_columns(self.axis(state), self.circles(state), self.marks(state)), **look}}
 
 
-def along_the_orbit(
+def orbit_sphere(
     axis: Callable[[S], Direction | None],
     circles: Callable[[S], Sequence[Circle]],
     colour: Callable[[S], int] | None = None,

@@ -77,7 +77,7 @@ class TorusInSpace(Picture[S]):
             **{self._source(look): _columns(curves.get(look)) for look in _LOOKS},
         }
 
-    def nothing(self, sentence: str, axes: Axes | None) -> Sources:
+    def empty_data(self, sentence: str, axes: Axes | None) -> Sources:
         """Return empty columns; the caption contains the reason."""
         return {self.name: {}, **{self._source(look): {} for look in _LOOKS}}
 
@@ -89,7 +89,7 @@ def _columns(curve: SurfaceCurve | None) -> Columns:
     return {**times, **{name: column(curve.points[:, i]) for i, name in enumerate("xyz")}}
 
 
-def about(theta: CircleMap | None, turning_points: TurningPoints | None, *more: str) -> Caption:
+def caption(theta: CircleMap | None, turning_points: TurningPoints | None, *more: str) -> Caption:
     """Return the caption: kind of surface and `more` sentences; the other arguments are None on the separatrix."""
     return Caption(_kind(theta, turning_points), " ".join(filter(None, more)))
 

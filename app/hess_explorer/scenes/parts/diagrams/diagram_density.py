@@ -59,12 +59,12 @@ class DiagramDensity(Part[OrbitDiagram]):
         return {
             way: np.concatenate([one.ends for one in parts])[:: -1 if way == FALLING else 1]
             for way, parts in self.host.pieces.items()
-            if self.host.progress[way] == self.host.along_values.size
+            if self.host.progress[way] == self.host.parameter_values.size
         }
 
     @property
     def _columns(self) -> int:
-        return _COLUMNS * self.host.along_values.size
+        return _COLUMNS * self.host.parameter_values.size
 
     def _chains(self, way: str) -> list[list[Task[Visits]]]:
         """Return the stages of each group of columns of a way."""
@@ -126,7 +126,7 @@ class DiagramDensity(Part[OrbitDiagram]):
         from scipy.ndimage import maximum_filter1d
 
         near = maximum_filter1d(there, 2 * _NEAR + 1, axis=0) > 0
-        # Where both ways agree they have one colour.
+        # Draw falling points near rising ones in the colour of the latter, so that only hysteresis stands out.
         return view.tones((backward, np.where(near, 0, back), there + np.where(near, back, 0)))
 
     @property

@@ -12,7 +12,7 @@ import numpy as np
 from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.specs import Values, points_of, points_text
 from hess_explorer.scenes.framework.continuation import Continuation
-from hess_explorer.scenes.framework.families import Begin, Family
+from hess_explorer.scenes.framework.families import BranchStart, Family
 from hess_explorer.scenes.framework.part import Part, Start
 from hess_explorer.scenes.framework.periodic_search import NONE, PERIODS
 from hess_explorer.scenes.framework.windows import Window, tidy_window, window_of
@@ -29,7 +29,7 @@ from hess_explorer.scenes.parts.diagrams.controls import (
 from hess_explorer.scenes.parts.diagrams.ramps import Ramp, doublings, piece, visible_range
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import Range
-from hess_explorer.views.plane.section_plane import joined
+from hess_explorer.views.plane.section_plane import concatenate
 from hess_explorer.views.text import digits
 from hess_mechanics.chaplygin_ball.ball_section import BallSection
 from hess_mechanics.dynamics.orbit_diagram import Cascade, Diagram, first_doubling
@@ -80,7 +80,7 @@ class OrbitDiagram(Part[DiagramControls]):
         others = self.poincare.spread(1)
         if not others:
             raise OutsideRegion("No motion of this energy crosses γ₃ = 0: choose a larger h.")
-        x, y = self.poincare.places_of(np.array(others))[0]
+        x, y = self.poincare.points_of(np.array(others))[0]
         return float(x), float(y)
 
     @property
@@ -117,7 +117,7 @@ class OrbitDiagram(Part[DiagramControls]):
         return self.host.symbols[self.host.along]
 
     @property
-    def at(self) -> float:
+    def value(self) -> float:
         """The current value of the parameter."""
         return float(getattr(self.host, self.name))
 
@@ -132,7 +132,7 @@ class OrbitDiagram(Part[DiagramControls]):
         return COORDINATES.index(self.host.shown)
 
     @cached_property
-    def along_values(self) -> Array:
+    def parameter_values(self) -> Array:
         """The values of the parameter (n,), increasing."""
         share = self.work.plan(Kind.SECTION).share
         steps = min(int(self.host.steps), _FEW) if self.work.dragging else max(2, round(share * self.host.steps))
@@ -143,7 +143,7 @@ class OrbitDiagram(Part[DiagramControls]):
         """The ramp of each requested way."""
         level = self.work.plan(Kind.SECTION).level
         left, shown = (40, 20) if self.work.dragging else (int(self.host.transient), int(self.host.count))
-        values = tuple(self.along_values.tolist())
+        values = tuple(self.parameter_values.tolist())
         rising = Ramp(self.family, values, self.point, left, shown, self.host.begins == FOLLOWED, level)
         ramps = {
             RISING: rising,
@@ -156,7 +156,7 @@ class OrbitDiagram(Part[DiagramControls]):
     def pieces(self) -> dict[str, list[Diagram]]:
         """The known pieces of each way, in order."""
         found: dict[str, list[Diagram]] = {way: [] for way in self._ramps}
-        # The way back comes last, because it starts where the way there ends.
+        # Compute the falling ramp last, because it starts at the end of the rising one.
         numbers = product(self._ramps, self._ramps[RISING].pieces)
         for way, i in sorted(numbers, key=lambda one: (one[0] == FALLING, one[1])):
             task = Task(piece, self._ramps[way], i)
@@ -174,10 +174,10 @@ class OrbitDiagram(Part[DiagramControls]):
         parts = [
             np.column_stack([np.full(len(some), value), some[:, self.side]])
             for one in self.pieces.get(way, ())
-            for value, some in zip(one.values, one.places, strict=True)
+            for value, some in zip(one.values, one.points, strict=True)
             if len(some)
         ]
-        return joined(parts).T
+        return concatenate(parts).T
 
     @property
     def _locates(self) -> bool:
@@ -187,7 +187,7 @@ class OrbitDiagram(Part[DiagramControls]):
     @cached_property
     def doubling(self) -> tuple[float, Array, float] | None:
         """The first visible period doubling, see `first_doubling`; None if unknown or none is visible."""
-        whole = self._locates and self.progress[RISING] == self.along_values.size
+        whole = self._locates and self.progress[RISING] == self.parameter_values.size
         return first_doubling(self.pieces[RISING]) if whole else None
 
     @cached_property
@@ -202,13 +202,13 @@ class OrbitDiagram(Part[DiagramControls]):
 
     def choose(self, x: float, y: float) -> Values:
         """Return the parameter value and the point that a click at (x, y) selects, at the nearest value with points."""
-        # The values of there and back are the same but for round-off.
+        # Round the distances, because the values of the two ramps differ by round-off.
         near = min(
             (
                 (round(abs(value - x), 12), abs(point[self.side] - y), value, tuple(point))
                 for some in self.pieces.values()
                 for one in some
-                for value, points in zip(one.values.tolist(), one.places, strict=True)
+                for value, points in zip(one.values.tolist(), one.points, strict=True)
                 for point in points.tolist()
             ),
             default=None,
@@ -217,7 +217,7 @@ class OrbitDiagram(Part[DiagramControls]):
 
     def caption(self, points: str = "") -> Caption:
         """Return the caption: progress, period doublings or periods; `points` is a sentence on their number."""
-        known, asked = sum(self.progress.values()), self.along_values.size * len(self._ramps)
+        known, asked = sum(self.progress.values()), self.parameter_values.size * len(self._ramps)
         if known < asked:
             return Caption(self.work.pending_caption(), f"{known} of {asked} values computed.")
         if all(one.conservative.all() for one in self.pieces[RISING]):
@@ -248,7 +248,7 @@ class OrbitDiagram(Part[DiagramControls]):
     def notes(self) -> Iterator[str]:
         """Yield the reason why a doubling could not be located."""
         if self.has_result("cascade") and isinstance(self.cascade, str):
-            yield f"A visible doubling was not located:  {self.cascade}"
+            yield f"A visible doubling was not located: {self.cascade}"
 
 
 @dataclass(frozen=True, eq=False)
@@ -266,17 +266,17 @@ class DiagramBranch(Continuation[OrbitDiagram]):
     period: str
 
     @property
-    def begin(self) -> Begin | None:
+    def begin(self) -> BranchStart | None:
         """The start of the branch; None if no orbit is requested and no period doubling is visible."""
         host = self.host
-        at, point, period = host.at, host.point, PERIODS.get(self.period)
+        at, point, period = host.value, host.point, PERIODS.get(self.period)
         if self.period == NONE:
             if host.doubling is None:
                 return None
             at, points, _ = host.doubling
             point, period = tuple(points[0].tolist()), len(points)
         (low, _), (high, _) = host.frame
-        return Begin(host.family, at, point, period, (min(low, at), max(high, at)))
+        return BranchStart(host.family, at, point, period, (min(low, at), max(high, at)))
 
     @property
     def side(self) -> int:

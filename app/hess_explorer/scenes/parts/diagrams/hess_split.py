@@ -13,14 +13,14 @@ from hess_explorer.scenes.framework.part import Host, Part
 from hess_explorer.scenes.framework.periodic_search import NotFound
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.graphs.graph import about_0
+from hess_explorer.views.graphs.graph import axis_about_0
 from hess_explorer.views.layers import Axes, compose, curves, levels, points, ring
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits, with_error
 from hess_mechanics.errors import ModelError
 from hess_mechanics.euler_poisson.hess_split import HessTorus, Split, slope_of, split_at
 from hess_mechanics.numerics.accuracy import PRECISE
-from hess_mechanics.numerics.patience import go_on
+from hess_mechanics.numerics.patience import check_limit
 from hess_mechanics.numerics.results import Array
 
 _QUARTERS = np.arange(-4, 5) / 4.0
@@ -121,7 +121,7 @@ def _split(torus: HessTorus, away: float) -> Split | NotFound:
     try:
         return split_at(torus, away, PRECISE)
     except ModelError as error:
-        go_on()
+        check_limit()
         return NotFound(str(error))
 
 
@@ -143,7 +143,7 @@ split_picture = Plot[HessSplit](
     message=lambda s: s.message,
     on_click=lambda s, x, y: {"away": x},
     x=lambda s: (-1.1 * s.reach, 1.1 * s.reach),
-    y=compose(_values, lambda found: about_0(found[1], 1e-12)),
+    y=compose(_values, lambda found: axis_about_0(found[1], 1e-12)),
     layers=(
         levels("levels", lambda s: [0.0] if s.splits else []),
         curves("slope", within=_line, color=theme.MUTED, dash="dashed", label="linear, with the slope at ε = 0"),

@@ -68,7 +68,7 @@ class Ramp:
         """The indices of the pieces."""
         return range(-(-len(self.values) // _TOGETHER))
 
-    def over(self, values: Sequence[float], start: Point) -> Diagram:
+    def diagram(self, values: Sequence[float], start: Point) -> Diagram:
         """Return the orbit diagram over some values, starting at a point."""
         return diagram_over(
             lambda value: ReturnMap(self.family(value), self.level, self.backward),
@@ -84,7 +84,7 @@ class Ramp:
 
 def piece(ramp: Ramp, number: int) -> Diagram:
     """Return a piece of a ramp; computes the previous pieces first."""
-    return ramp.over(ramp.values[number * _TOGETHER : (number + 1) * _TOGETHER], _reached(ramp, number))
+    return ramp.diagram(ramp.values[number * _TOGETHER : (number + 1) * _TOGETHER], _reached(ramp, number))
 
 
 def _reached(ramp: Ramp, number: int) -> Point:
@@ -115,7 +115,7 @@ def doublings(ramp: Ramp) -> Cascade | str:
 def visible_range(ramp: Ramp, side: int, whole: Range) -> Range:
     """Return the range of a coordinate that contains the attractor, and the repeller if it is near."""
     attractor, repeller = (
-        [some[:, side] for some in way.over(way.values, way.point).places]
+        [some[:, side] for some in way.diagram(way.values, way.point).points]
         for way in (ramp, replace(ramp, backward=True))
     )
     if not any(map(len, attractor)):

@@ -23,9 +23,9 @@ from hess_explorer.views.layers import (
     Range,
     Regions,
     Sign,
+    crop,
     curves,
     image,
-    inside,
     rectangle,
     region,
     target,
@@ -40,7 +40,7 @@ from hess_mechanics.suslov_hess.bifurcation import f_max_each
 from hess_mechanics.suslov_hess.rotation_number import Torus, TorusValues
 
 _COARSE, _FINE = (75, 50), (300, 200)
-_ROWS = 25  # of the fine map in one task
+_ROWS = 25  # rows of the fine map per task
 _ON_CURVE = 48  # points of the boundary of the Arnold tongue
 _ON_EDGE = 300
 FULL = {"h": (-1.0, 4.0), "f": (-3.0, 3.0), "a": (0.0, 2.0)}
@@ -104,7 +104,7 @@ class RotationMap(Part[Host]):
 
     @cached_property
     def grid(self) -> tuple[TorusValues, tuple[int, int]]:
-        """The map and its cells (m, n), coarse first."""
+        """Values of the map and its size (m, n) in cells; a coarse map until the fine one is known."""
         plan = self.work.plan(Kind.GRID)
         fine = plan.grid(_FINE)
         if not self.work.dragging:
@@ -114,7 +114,7 @@ class RotationMap(Part[Host]):
             ]
             known = [part for part in parts if part is not None]
             if len(known) == len(parts):
-                return mechanics.together(known), fine
+                return mechanics.concatenate(known), fine
         coarse = Task(mechanics.rows, self.plane, self._beside, self.window, _COARSE, 0, _COARSE[1], plan.level)
         return self.work.need(coarse), _COARSE
 
@@ -124,7 +124,7 @@ class RotationMap(Part[Host]):
 
         Cells without a torus repeat the nearest one, so that both can be interpolated up to the edge.
         """
-        from scipy.ndimage import distance_transform_edt  # slow import
+        from scipy.ndimage import distance_transform_edt  # imported here because it is slow
 
         values, (m, n) = self.grid
         outside = ~values.possible.reshape(n, m)
@@ -137,14 +137,16 @@ class RotationMap(Part[Host]):
         )
         return rho, zones
 
-    def lock(self, plan: Plan) -> Task[Array]:
-        """Return the task of the curve |t| = 2 in the map, with points (n, 2)."""
+    def tongue_boundary(self, plan: Plan) -> Task[Array]:
+        """Return the task of the boundary |t| = 2 of the Arnold tongue in the map, points (n, 2)."""
         window = *self.window[0], *self.window[1]
         return Task(mechanics.lock_curve, self.plane, self._beside, window, plan.level, plan.side(_ON_CURVE))
 
     def _boundary(self) -> list[Array]:
         """Return the curve |t| = 2 in the map; empty until known."""
-        found = None if self.work.dragging else self.work.need(self.lock(self.work.plan(Kind.CURVE)), preview=None)
+        if self.work.dragging:
+            return []
+        found = self.work.need(self.tongue_boundary(self.work.plan(Kind.CURVE)), preview=None)
         if found is None or not len(found):
             return []
         return [found, found * np.array([1.0, -1.0])] if self.sides[1] == "f" else [found]
@@ -158,7 +160,7 @@ class RotationMap(Part[Host]):
     def _here(self) -> list[tuple[float, float]]:
         """Return the point of the current torus if the window contains it."""
         (x0, x1), (y0, y1) = self.window
-        return inside([self._point], ((x0, y0), (x1, y1)))
+        return crop([self._point], ((x0, y0), (x1, y1)))
 
     def _across(self) -> list[Array]:
         """Return the part of the line in the window, if it lies in the plane."""
@@ -206,7 +208,7 @@ class RotationMap(Part[Host]):
             m, n = self.grid[1]
             task = Task(mechanics.rows_error, self.plane, self._beside, self.window, self.work.plan(Kind.GRID).level)
             error = None if self.work.dragging else self.work.need(task, preview=None)
-            yield f"map {m} × {n}" + (f", ρ to {error:.1e} (99 of 100 cells)" if error is not None else "")
+            yield f"map {m} × {n}" + (f", error of ρ ≤ {error:.1e} in 99 % of the cells" if error is not None else "")
 
 
 rotation_map = Plot[RotationMap](

@@ -18,7 +18,7 @@ from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import Layer, line, points, ring
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits
-from hess_mechanics.dynamics.trade import LevelCost, enough
+from hess_mechanics.dynamics.trade import LevelCost, first_sufficient
 from hess_mechanics.numerics.accuracy import LEVELS
 from hess_mechanics.numerics.results import Array
 
@@ -61,9 +61,9 @@ class Costs:
         }
 
     @cached_property
-    def enough(self) -> dict[Trial[Any], str]:
+    def sufficient_levels(self) -> dict[Trial[Any], str]:
         """The first level of each trial whose error is invisible."""
-        return {trial: enough(samples, trial.tolerance) for trial, samples in self.samples.items()}
+        return {trial: first_sufficient(samples, trial.tolerance) for trial, samples in self.samples.items()}
 
     @cached_property
     def curves(self) -> dict[Trial[Any], tuple[Array, Array]]:
@@ -91,9 +91,9 @@ class Costs:
 
     def rings(self) -> list[tuple[float, float]]:
         """Return the point of each curve beyond which additional accuracy is invisible."""
-        return self._at(self.enough)
+        return self._at(self.sufficient_levels)
 
-    def about(self) -> Caption:
+    def caption(self) -> Caption:
         """Return the caption: the cheapest sufficient level for each trial that has been measured."""
         if self.work.dragging:
             return Caption("Measured when a slider is released.")
@@ -106,8 +106,8 @@ class Costs:
                 sentences.append(f"{trial.kind} cannot be measured: {found.reason}")
             elif trial not in self.samples:
                 sentences.append(f"{trial.kind} has no error to measure: everything is chaotic, or nothing is drawn.")
-        if self.enough:
-            least = ", ".join(f"{trial.kind} {name}" for trial, name in self.enough.items())
+        if self.sufficient_levels:
+            least = ", ".join(f"{trial.kind} {name}" for trial, name in self.sufficient_levels.items())
             sentences.insert(0, f"Cheapest levels without a visible error: {least}.")
         sentence = " ".join(sentences)
         return Caption(numbers=sentence[:1].upper() + sentence[1:])
@@ -137,7 +137,7 @@ def costs_picture(trials: Sequence[Trial[Any]], folded: bool) -> Plot[Costs]:
     return Plot(
         name="trade",
         title="Cost of all computations",
-        caption=Costs.about,
+        caption=Costs.caption,
         log="xy",
         axes=("error / largest invisible error", "milliseconds"),
         x=_ERRORS,

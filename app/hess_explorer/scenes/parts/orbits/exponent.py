@@ -15,9 +15,9 @@ from hess_explorer.scenes.framework.periodic_search import NotFound, Periodic
 from hess_explorer.scenes.framework.trial import Trial
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.graphs.graph import over_time, thin, with_room
+from hess_explorer.views.graphs.graph import thin, time_graph, with_margin
 from hess_explorer.views.layers import Axes, Range
-from hess_explorer.views.plane.velocity_plane import nice_above
+from hess_explorer.views.plane.velocity_plane import round_up
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits, with_error
 from hess_mechanics.dynamics import spectrum
@@ -54,17 +54,17 @@ class OrbitExponent(Part[_Host]):
 
     @property
     def growth(self) -> tuple[float, float] | None:
-        """ln|μ₁|/T and ln|μ₁μ₂|/T of the current periodic orbit; None without one."""
+        """Growth rate ln|μ₁|/T and mean divergence ln|μ₁μ₂|/T of the periodic orbit; None without one."""
         return self.host.periodic_orbit.growth
 
     @property
-    def later(self) -> bool:
+    def must_wait(self) -> bool:
         """True if the exponent has to wait: during a drag, or if a periodic orbit is shown or searched for."""
         return self.work.dragging or self.host.periodic_orbit.is_searching or self.growth is not None
 
     @cached_property
     def _answer(self) -> spectrum.Exponent | NotFound | None:
-        if self.later:
+        if self.must_wait:
             return None
         plan = self.work.plan(Kind.EXPONENT)
         return self.work.need(
@@ -91,11 +91,11 @@ class OrbitExponent(Part[_Host]):
     def axis(self) -> Range | None:
         """The vertical range of the picture; None until the exponent is known."""
         if self.growth is not None:
-            return with_room(np.array([0.0, self.growth[0]]), 0.1, 1e-6)
+            return with_margin(np.array([0.0, self.growth[0]]), 0.1, 1e-6)
         if self.result is None:
             return None
         later = self.result.rates[len(self.result.rates) // 10 :]
-        return min(0.0, 1.05 * float(later.min())), nice_above(1.05 * max(1e-6, float(later.max())))
+        return min(0.0, 1.05 * float(later.min())), round_up(1.05 * max(1e-6, float(later.max())))
 
     @property
     def caption(self) -> Caption:
@@ -147,7 +147,7 @@ def exponent_picture(button: str = "") -> Plot[Any]:
         first=Axes((0.0, 200.0), (0.0, 1.0)),
         x=lambda s: (0.0, s.exponent.host.long),
         y=lambda s: s.exponent.axis,
-        layers=(over_time("lambda", lambda s: s.exponent.rates, color=theme.ORBIT),),
+        layers=(time_graph("lambda", lambda s: s.exponent.rates, color=theme.ORBIT),),
     )
 
 

@@ -14,7 +14,7 @@ from hess_explorer.scenes.framework.part import Host, Part
 from hess_explorer.scenes.framework.sliders import choice
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.plane import torus_density
-from hess_explorer.views.space.torus_in_space import FORMULA, POINTS, SurfaceCurve, TorusInSpace, about
+from hess_explorer.views.space.torus_in_space import FORMULA, POINTS, SurfaceCurve, TorusInSpace, caption
 from hess_mechanics.errors import InvalidParameter, ModelError, Separatrix
 from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.results import Array, Complex
@@ -36,7 +36,7 @@ def shading() -> Any:
     )
 
 
-class OnTorus(Host, Protocol):
+class HasTorus(Host, Protocol):
     """A host with a torus of the Hess case, in units b = 1."""
 
     @property
@@ -100,7 +100,7 @@ class HeavyTorus(Part[Host]):
 
 
 @dataclass(frozen=True, eq=False)
-class HessSurface(Part[OnTorus]):
+class HessSurface(Part[HasTorus]):
     """The torus as a surface, and the curves on it.
 
     Attributes
@@ -131,7 +131,7 @@ class HessSurface(Part[OnTorus]):
         if not self.shaded or self.section is None:
             return None, ""
         map_ = self.host.map
-        # The verdict says why.
+        # The caption of the torus states the reason.
         if map_ is None or torus_density.reason_for_no_density(map_, self.host.turning_points):
             return None, "No density."
         try:
@@ -153,7 +153,7 @@ class HessSurface(Part[OnTorus]):
         """Return the caption: kind and formula of the surface, or the reason why it has no density."""
         if self.section is None:
             return Caption("No torus.", "The Hess manifold has no motion with these h and f.")
-        return about(self.host.map, self.host.turning_points, self.says(), self.density[1])
+        return caption(self.host.map, self.host.turning_points, self.says(), self.density[1])
 
 
 surface_picture = TorusInSpace[HessSurface](

@@ -163,7 +163,7 @@ def _band(omega: Array, errors: Array, sizes: Array) -> list[Array]:
 
 def hull(points: Array) -> Array:
     """Return the closed convex hull (m, 2) of points (n, 2)."""
-    from scipy.spatial import ConvexHull  # slow import, and few states draw a band
+    from scipy.spatial import ConvexHull  # imported here because it is slow and few states draw a band
 
     # QJ joggles the last digits, so that collinear points raise no error.
     corners = ConvexHull(points, qhull_options="QJ").vertices

@@ -9,7 +9,7 @@ from typing import Protocol
 import numpy as np
 
 from hess_explorer.compute.cache import Task
-from hess_explorer.scenes.framework.part import Part, Sectioned
+from hess_explorer.scenes.framework.part import HasSection, Part
 from hess_explorer.scenes.framework.periodic_search import Point
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.text import digits
@@ -26,7 +26,7 @@ _MANY = 24
 """Largest number of points drawn as large marks: so few dots would be hard to see."""
 
 
-class _Host(Sectioned, Protocol):
+class _Host(HasSection, Protocol):
     @property
     def point(self) -> tuple[float, float]:
         """The start of the motion.  Raises `ModelError`."""
@@ -62,7 +62,7 @@ class OrbitRegime(Part[_Host]):
             return None
         duration = self.work.plan(Kind.EXPONENT).share * self.long
         task = Task(_dynamics, self._map, self.host.point, *_LONG, duration)
-        # It takes as long as the diagram, whose orbits and doublings come first.
+        # Compute it after the orbits and doublings of the diagram, because it takes as long as all of these.
         return self.work.newest([[task]], last=True)[0]
 
     @property
@@ -85,7 +85,7 @@ class OrbitRegime(Part[_Host]):
             return Caption(f"{kind}. Conservative: mean div = 0.", f"{motion.measure[0].upper()}{motion.measure[1:]}.")
         div = f"div = {digits(motion.divergence, 2)} ± {digits(motion.divergence_error, 1)}"
         away = f"{digits(found.distance, 2)} ± {digits(found.distance_error, 1)} away"
-        # Short enough for four lines in a small cell.
+        # Keep the caption short: a small cell has room for four lines.
         return Caption(f"{kind}. Looks {found.verdict}.", f"{div}; repeller {away}.")
 
 
@@ -106,10 +106,10 @@ def _dynamics(map_: ReturnMap, start: Point, transient: int, crossings: int, dur
     try:
         return comparison(map_, motion, start, transient, crossings)
     except NoReturn:
-        return Dynamics(motion, motion.places[:0], motion.places[:0], ())
+        return Dynamics(motion, motion.points[:0], motion.points[:0], ())
 
 
-def few(points: Array) -> Array | None:
+def distinct_points(points: Array) -> Array | None:
     """Return the distinct points (2, m) if there are few of them, to be drawn as large marks; otherwise None."""
     _, first = np.unique(np.round(points, 4), axis=0, return_index=True)
     return points[first].T if 0 < len(first) <= _MANY else None

@@ -12,9 +12,9 @@ from hess_explorer.scenes.parts.sections.indicator import MEGNO, Indicator, colo
 from hess_explorer.scenes.parts.sections.orbit import BodyOrbit, orbit_picture
 from hess_explorer.scenes.parts.sections.periodic_orbit import (
     SectionPeriodicOrbit,
+    choice_of_orbit,
     length_of_manifolds,
     periodic_layers,
-    which,
 )
 from hess_explorer.scenes.parts.sections.pictures import filled_picture, section_layers, section_picture, section_trials
 from hess_explorer.scenes.parts.sections.section import (
@@ -37,6 +37,7 @@ __all__ = [
     "SectionPeriodicOrbit",
     "SectionState",
     "branch_picture",
+    "choice_of_orbit",
     "colouring",
     "coordinate_of_branch",
     "crossings_of_each",
@@ -54,5 +55,4 @@ __all__ = [
     "section_picture",
     "section_trials",
     "start_on",
-    "which",
 ]

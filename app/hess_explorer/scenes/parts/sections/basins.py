@@ -18,16 +18,16 @@ from hess_explorer.scenes.parts.sections.section import Section
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.text import digits
 from hess_mechanics.dynamics.attraction import CROSSINGS, LOST, NOWHERE, Arrivals, arrivals
-from hess_mechanics.dynamics.basin_boundary import arrivals_of_cells, cells_to_compute, coarsest_cells, merge, unsure
+from hess_mechanics.dynamics.basin_boundary import ambiguity, arrivals_of_cells, cells_to_compute, coarsest_cells, merge
 from hess_mechanics.dynamics.basins import Attractors, SectionOrbits, attractors
-from hess_mechanics.dynamics.cells import centres, evenly
+from hess_mechanics.dynamics.cells import centres, even_points
 from hess_mechanics.dynamics.edge import saddle_between
 from hess_mechanics.dynamics.manifolds import Manifold
 from hess_mechanics.dynamics.periodic import PeriodicOrbit
 from hess_mechanics.dynamics.return_map import ReturnMap
 from hess_mechanics.errors import NotConverged
 from hess_mechanics.numerics.accuracy import PRECISE, Accuracy, Kind, Plan
-from hess_mechanics.numerics.patience import go_on
+from hess_mechanics.numerics.patience import check_limit
 from hess_mechanics.numerics.results import Array, Mask
 from hess_mechanics.suslov.suslov_section import SuslovSection
 
@@ -40,7 +40,7 @@ _PARTS = 2
 """Tasks of each stage, for two cores."""
 _MOST = 20_000
 """Most orbits of a later stage: a boundary in so many cells is no curve, and its cells are left as they are."""
-_SPREAD = evenly(20_000).T
+_SPREAD = even_points(20_000).T
 """Points of the unit square at which cells are measured."""
 _SEARCHES = 8
 """Number of boundary points at which the search for saddles starts."""
@@ -199,7 +199,7 @@ class SectionBasins(Part[_Host]):
         late = f" {digits(lost, 2)} % reach no attractor in {CROSSINGS} crossings." if lost else ""
         if count == 1:
             words = "One attractor for all orbits." if not lost else "One attractor."
-            return Caption(words, f"{div}.{late}{said}" if self.attractors.alone else f"{late}{said}".strip())
+            return Caption(words, f"{div}.{late}{said}" if self.attractors.all_attract else f"{late}{said}".strip())
         *parts, last = (f"{digits(100.0 * float(np.mean(there == one)), 2)} %" for one in range(count))
         return Caption(
             f"{_NUMBERS.get(count, count)} attractors.",
@@ -211,8 +211,8 @@ class SectionBasins(Part[_Host]):
         if self.has_result("arrivals") and self.arrivals is not None and self.is_complete:
             cells = coarsest_cells(self.arrivals.number)
             n, m = cells.shape
-            change = digits(100.0 * unsure(cells), 2)
-            yield f"basins {m} × {n}, twice as many cells would change {change} % of it"
+            change = digits(100.0 * ambiguity(cells), 2)
+            yield f"basins {m} × {n} cells, a finer grid would change {change} % of the area"
         if self.has_result("manifolds") and self.manifolds:
             yield (
                 f"stable manifolds {sum(len(one.points) for one in self.manifolds)} points, error across ≤ "
@@ -276,13 +276,13 @@ def _saddles(what: _BasinGrid) -> tuple[Search, ...]:
 
     found: dict[tuple[float, ...], Search] = {}
     for row, column in pairs[np.linspace(0, len(pairs) - 1, min(_SEARCHES, len(pairs))).astype(int)].tolist():
-        go_on()
+        check_limit()
         try:
             left_end, right_end = (np.array([x[i], y[row]]) for i in (column, column + 1))
             orbit = saddle_between(map_, left_end, right_end, arrives)
         except NotConverged:
             continue
-        points = [tuple(map(float, point)) for point in orbit.places]
+        points = [tuple(map(float, point)) for point in orbit.points]
         first = min(points)
         found.setdefault(tuple(np.round(first, 6).tolist()), (map_, first, orbit.period, True))
     return tuple(found.values())

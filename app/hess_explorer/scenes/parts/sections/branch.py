@@ -11,8 +11,8 @@ import numpy as np
 
 from hess_explorer.protocol.specs import NumberSpec, Values
 from hess_explorer.scenes.framework.continuation import Continuation
-from hess_explorer.scenes.framework.families import Begin, Family
-from hess_explorer.scenes.framework.part import Sectioned
+from hess_explorer.scenes.framework.families import BranchStart, Family
+from hess_explorer.scenes.framework.part import HasSection
 from hess_explorer.scenes.framework.periodic_search import PERIODS
 from hess_explorer.scenes.framework.sliders import Slider, choice, number, specs_of
 from hess_explorer.scenes.framework.windows import Window
@@ -68,7 +68,7 @@ def coordinate_of_branch(names: tuple[str, str]) -> Any:
     )
 
 
-class _Section(Sectioned, Protocol):
+class _Section(HasSection, Protocol):
     @property
     def over(self) -> str: ...
 
@@ -113,7 +113,7 @@ class SectionBranch(Continuation[_Section]):
         return self.along[self.host.over]
 
     @property
-    def at(self) -> float:
+    def value(self) -> float:
         """The current value of the parameter."""
         return float(getattr(self.host, self.name))
 
@@ -131,28 +131,32 @@ class SectionBranch(Continuation[_Section]):
         first, last, _ = self.host.limits().get(self.name, (*spec.softbounds, spec.step))
         low, high = (min(max(one, least), most) for one in sorted((self.host.low, self.host.high)))
         if low == high:
-            away, at = _AROUND * (last - first), self.at
+            away, at = _AROUND * (last - first), self.value
             # Below the slider's range there may be no motion.
             low, high = (max(at - away, first) if at > first else at - away), at + away
             low, high = max(low, least), min(high, most)
         return low, high
 
     @cached_property
-    def begin(self) -> Begin | None:
+    def begin(self) -> BranchStart | None:
         """The start of the branch; None without a periodic orbit."""
         if self.orbit.host.aim is None or self.orbit.closed_orbit is None:
             return None
         low, high = self.ends
         family = Family.of(self.host, self.name, self.host.over, (*self.along.values(), *self.besides))
-        return Begin(
-            family, self.at, self.orbit.host.aim, PERIODS[self.orbit.period], (min(low, self.at), max(high, self.at))
+        return BranchStart(
+            family,
+            self.value,
+            self.orbit.host.aim,
+            PERIODS[self.orbit.period],
+            (min(low, self.value), max(high, self.value)),
         )
 
     @property
-    def here(self) -> Array | None:
+    def orbit_points(self) -> Array | None:
         """The points (2, m) of the periodic orbit in the picture; None without one."""
         closed = self.orbit.closed_orbit
-        return None if closed is None else np.array([(self.at, point[self.side]) for point in closed.orbit.places]).T
+        return None if closed is None else np.array([(self.value, point[self.side]) for point in closed.orbit.points]).T
 
     @property
     def _whole(self) -> Range:
@@ -160,13 +164,13 @@ class SectionBranch(Continuation[_Section]):
         return self.host.poincare.window[self.side]
 
     @cached_property
-    def upwards_range(self) -> Range | None:
+    def vertical_range(self) -> Range | None:
         """The vertical range of the known branch; None until a piece is known, the full range without a branch."""
         if self.message:
             return self._whole
         if not self.branches:
             return None
-        found = np.concatenate([one.places[:, :, self.side].ravel() for one in self.branches])
+        found = np.concatenate([one.points[:, :, self.side].ravel() for one in self.branches])
         low, high = self._whole
         if found.max() - found.min() >= self.turn:
             return low, high
@@ -177,7 +181,7 @@ class SectionBranch(Continuation[_Section]):
     @property
     def frame(self) -> Window:
         """The visible window."""
-        low, high = self.upwards_range or self._whole
+        low, high = self.vertical_range or self._whole
         return (self.ends[0], low), (self.ends[1], high)
 
     def choose(self, x: float, y: float) -> Values:
@@ -222,7 +226,7 @@ class SectionBranch(Continuation[_Section]):
         found = self.orbit.is_searching or self.orbit.closed_orbit is not None
         return "" if found else "No periodic orbit found near this point"
 
-    def means(self) -> Mapping[str, str]:
+    def meanings(self) -> Mapping[str, str]:
         """Return the meanings of the choices of the branch, which differ between scenes."""
         return dict.fromkeys(("over", "low", "high", "upwards"), f"branch of {type(self.host).__name__}")
 
@@ -242,10 +246,10 @@ def branch_picture() -> Picture[Any]:
         return s
 
     def at_the_value(s: SectionBranch, axes: Axes) -> list[Array]:
-        return [np.array([[s.at, y] for y in axes.y])] if s.branches else []
+        return [np.array([[s.value, y] for y in axes.y])] if s.branches else []
 
     def shown(s: SectionBranch, axes: Axes) -> Array | None:
-        here = s.here
+        here = s.orbit_points
         return None if here is None else visible_points(here[::-1].T, s.turn, Axes(axes.y, axes.x))[:, ::-1].T
 
     return Plot[SectionBranch](
@@ -257,9 +261,9 @@ def branch_picture() -> Picture[Any]:
         message=lambda s: s.message,
         on_click=SectionBranch.choose,
         on_box=SectionBranch.box_window,
-        on_hover=SectionBranch.about,
+        on_hover=SectionBranch.tooltip,
         x=lambda s: s.ends,
-        y=lambda s: s.upwards_range,
+        y=lambda s: s.vertical_range,
         layers=(
             curves(
                 "value", within=at_the_value, color=theme.INK, width=1.5, label="current state", tag="current state"

@@ -11,7 +11,7 @@ import numpy as np
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.specs import Points, Values, points_of, points_text
-from hess_explorer.scenes.framework.orbit_batches import in_batches
+from hess_explorer.scenes.framework.orbit_batches import batches
 from hess_explorer.scenes.framework.part import Host, Part, Start
 from hess_explorer.scenes.framework.periodic_search import ClosedOrbit
 from hess_explorer.scenes.framework.sliders import number, specs_of
@@ -117,7 +117,7 @@ class Clicks(Part[_Host]):
         return next(one for one in specs_of(type(self.host)) if isinstance(one, Points) and one.name == "starts")
 
     def corrections(self, notes: list[str]) -> Values:
-        """Return at least one start."""
+        """Return the starts, at least one, as a change of the parameter."""
         return {"starts": self.host.starts or self._spec.default}
 
     @cached_property
@@ -137,7 +137,7 @@ class Clicks(Part[_Host]):
             raise InvalidParameter(
                 f"In this window {self.excuse}: choose {self.remedy}, or More → Remove clicks and boxes."
             )
-        return _Chosen([_point(self.host.poincare.places_of(np.array(others))[0])], [others[0]], chosen[-1])
+        return _Chosen([_point(self.host.poincare.points_of(np.array(others))[0])], [others[0]], chosen[-1])
 
     @property
     def rings(self) -> list[Point]:
@@ -146,7 +146,7 @@ class Clicks(Part[_Host]):
         return (
             [*self.selection.points]
             if closed is None
-            else [*self.selection.points[:-1], _point(closed.orbit.places[0])]
+            else [*self.selection.points[:-1], _point(closed.orbit.points[0])]
         )
 
     @property
@@ -167,7 +167,7 @@ class Clicks(Part[_Host]):
         """Return the starts with the current orbit moved to (x, y)."""
         return {"starts": points_text([*points_of(self.host.starts)[:-1], self._inside(x, y)])}
 
-    def look_closer(self, corners: tuple[float, float, float, float]) -> Values:
+    def box_window(self, corners: tuple[float, float, float, float]) -> Values:
         """Return the window that a box selects."""
         return box_window(corners, (self._spec.low, self._spec.high))
 
@@ -207,7 +207,7 @@ def filled_section(state: Any, held: int, **more: Any) -> Section:
 
     def seeds(section: Section) -> list[tuple[Start, ...]]:
         count = int(state.orbits)
-        return [*in_batches(_spread(state, min(count, held) if section.work.dragging else count))]
+        return [*batches(_spread(state, min(count, held) if section.work.dragging else count))]
 
     return Section(
         state,

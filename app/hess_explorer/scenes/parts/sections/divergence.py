@@ -12,7 +12,7 @@ from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.parts.orbits.exponent import OrbitExponent, exponent_picture
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.graphs.graph import over_time, settled_range, thin
+from hess_explorer.views.graphs.graph import settled_range, thin, time_graph
 from hess_explorer.views.layers import Axes, Range, levels
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits, with_error
@@ -28,13 +28,13 @@ class Divergence(OrbitExponent):
     @cached_property
     def divergence(self) -> MeanDivergence | None:
         """The mean divergence over time; None until known, during a drag, and for a periodic orbit."""
-        if self.later:
+        if self.must_wait:
             return None
         duration = self.work.plan(Kind.EXPONENT).share * self.host.long
         return self.work.need(Task(mean_divergence, self.host.body, self.host.start, duration), preview=None)
 
     @property
-    def both(self) -> tuple[tuple[Array, Array], ...]:
+    def curves(self) -> tuple[tuple[Array, Array], ...]:
         """Times and values of the exponent and of the mean divergence; empty until both are known."""
         if self.growth is not None:
             return tuple((np.array([0.0, self.host.long]), np.full(2, rate)) for rate in self.growth)
@@ -43,12 +43,12 @@ class Divergence(OrbitExponent):
 
     def rate(self, i: int) -> tuple[Array, Array] | None:
         """Return the curve of the exponent (0), or of the mean divergence (1)."""
-        return thin(*self.both[i]) if self.both else None
+        return thin(*self.curves[i]) if self.curves else None
 
     @property
     def axis(self) -> Range | None:
         """The vertical range of the picture; None until both are known."""
-        return settled_range([y for _, y in self.both]) if self.both else None
+        return settled_range([y for _, y in self.curves]) if self.curves else None
 
     @property
     def caption(self) -> Caption:
@@ -74,8 +74,8 @@ def divergence_picture() -> Plot[Any]:
         title="Lyapunov exponent and divergence",
         first=Axes((0.0, 1000.0), (-0.2, 0.2)),
         layers=(
-            levels("levels", lambda s: [0.0] if s.exponent.both else []),
-            over_time(
+            levels("levels", lambda s: [0.0] if s.exponent.curves else []),
+            time_graph(
                 "divergence",
                 lambda s: s.exponent.rate(1),
                 color=theme.MAP,
@@ -83,6 +83,6 @@ def divergence_picture() -> Plot[Any]:
                 label="mean divergence",
                 tag="divergence",
             ),
-            over_time("lambda", lambda s: s.exponent.rate(0), color=theme.ORBIT, label="exponent λ", tag="λ"),
+            time_graph("lambda", lambda s: s.exponent.rate(0), color=theme.ORBIT, label="exponent λ", tag="λ"),
         ),
     )

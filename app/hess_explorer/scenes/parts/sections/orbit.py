@@ -13,7 +13,7 @@ from hess_explorer.scenes.framework.scene import Motion
 from hess_explorer.scenes.framework.work import orbit_status
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.graphs.graph import with_room
+from hess_explorer.views.graphs.graph import with_margin
 from hess_explorer.views.layers import Columns, Range, column, line
 from hess_explorer.views.picture import Picture
 from hess_explorer.views.plot import Plot
@@ -105,7 +105,7 @@ def orbit_picture(x: str, y: str, title: str = "The orbit", name: str = "orbit")
     """Return the picture of the orbit in the plane of two variables; the scene needs `columns` as track "orbit"."""
 
     def room_for(name: str) -> Callable[[Any], Range]:
-        return lambda s: with_room(s.orbit.columns[name], 0.06, 1e-3)
+        return lambda s: with_margin(s.orbit.columns[name], 0.06, 1e-3)
 
     return Plot(
         name=name,

@@ -44,7 +44,7 @@ _WHOLE = 3
 """Largest period for which the manifolds of all points are drawn: they are images of one another."""
 
 
-def which() -> Any:
+def choice_of_orbit() -> Any:
     """Declare the choice of a periodic orbit, by its period, in place of the chosen orbit."""
     return choice(
         "Periodic orbit",

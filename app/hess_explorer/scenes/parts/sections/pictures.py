@@ -11,7 +11,7 @@ from hess_explorer.scenes.framework.trial import Trial, section_error
 from hess_explorer.scenes.framework.windows import Window, pixels_in
 from hess_explorer.scenes.parts.sections.indicator import indicator_layer, indicator_trial
 from hess_explorer.scenes.parts.sections.periodic_orbit import periodic_layers
-from hess_explorer.scenes.parts.sections.section import about_section
+from hess_explorer.scenes.parts.sections.section import section_caption
 from hess_explorer.views import theme
 from hess_explorer.views.layers import Axes, Layers
 from hess_explorer.views.plane import density, layered_section, section_plane
@@ -45,7 +45,7 @@ def section_layers(*parts: str, **more: Any) -> Layers[Any]:
     return (
         *((indicator_layer(),) if "megno" in parts else ()),
         *(_density(("few to many crossings of other orbits",), (theme.INK,)) if "density" in parts else ()),
-        *section_plane.layers(lambda s: s.section.own, others=others, **more),
+        *section_plane.layers(lambda s: s.section.chosen_points, others=others, **more),
         *(periodic_layers() if "periodic_orbit" in parts else ()),
     )
 
@@ -58,7 +58,7 @@ def section_picture(**more: Any) -> Plot[Any]:
 
     usual: dict[str, Any] = {
         "title": "Poincaré section",
-        "caption": lambda s: s.special or about_section(s.section),
+        "caption": lambda s: s.section_caption or section_caption(s.section),
         "axes": lambda s: s.section.poincare.names,
         "x": side(0),
         "y": side(1),
@@ -72,7 +72,7 @@ def section_picture(**more: Any) -> Plot[Any]:
 def _unseen(s: Any) -> str:
     """Return the message for a window without points when all are computed; otherwise an empty string."""
     low, high = np.array(s.section.frame)
-    drawn = s.section.own, s.section.points(), s.section.points(False)
+    drawn = s.section.chosen_points, s.section.points(), s.section.points(False)
     if (
         s.dragging
         or s.work.todo
@@ -118,7 +118,7 @@ def filled_picture(
         message=lambda s: s.section.known_orbits.reason or _unseen(s),
         first=Axes((x0, x1), (y0, y1)),
         on_click=lambda s, x, y: s.clicks.add(x, y),
-        on_box=lambda s, corners: s.clicks.look_closer(corners),
+        on_box=lambda s, corners: s.clicks.box_window(corners),
         layers=(
             *under,
             indicator_layer(),
@@ -126,7 +126,7 @@ def filled_picture(
             *layered_section.layers(
                 points(True),
                 points(False),
-                lambda s: s.section.own_of_each,
+                lambda s: s.section.points_of_each_chosen,
                 chosen=lambda s: s.clicks.rings,
                 impossible=lambda s: s.clicks.impossible,
                 window=lambda s: s.section.frame,

@@ -10,20 +10,20 @@ from typing import Any, Protocol
 import numpy as np
 
 from hess_explorer.compute.cache import Task
-from hess_explorer.scenes.framework.orbit_batches import OrbitBatch, in_batches
+from hess_explorer.scenes.framework.orbit_batches import OrbitBatch, batches
 from hess_explorer.scenes.framework.part import Host, Part
 from hess_explorer.scenes.framework.trial import Trial
 from hess_explorer.scenes.framework.windows import Window
 from hess_explorer.scenes.parts.sections.section import Section
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.graphs.graph import with_room
+from hess_explorer.views.graphs.graph import with_margin
 from hess_explorer.views.layers import Axes, Range, curves, points, region
 from hess_explorer.views.picture import Picture
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits
 from hess_mechanics.euler_poisson.andoyer import AndoyerSection
-from hess_mechanics.euler_poisson.rotation import RESOLUTION, RotationProfile, on_line, rotation_along
+from hess_mechanics.euler_poisson.rotation import RESOLUTION, RotationProfile, rotation_along, states_on_line
 from hess_mechanics.numerics.accuracy import Kind, Plan
 from hess_mechanics.numerics.results import Array
 
@@ -82,7 +82,7 @@ class RotationAcross(Part[_Host]):
     def _pieces(self, plan: Plan) -> list[tuple[list[float], Task[OrbitBatch]]]:
         """Return groups of starts along the line, each with the task of its orbits."""
         crossings = max(self.work.plan(Kind.SECTION).part(self.host.count), plan.part(_ON_LINE))
-        starts = self.work.need(Task(on_line, self.host.poincare, self.ends, self._count(plan)))
+        starts = self.work.need(Task(states_on_line, self.host.poincare, self.ends, self._count(plan)))
         return [
             (
                 [share for share, _ in some],
@@ -93,7 +93,7 @@ class RotationAcross(Part[_Host]):
                     plan.level,
                 ),
             )
-            for some in in_batches(starts)
+            for some in batches(starts)
         ]
 
     def _count(self, plan: Plan) -> int:
@@ -130,7 +130,7 @@ class RotationAcross(Part[_Host]):
 
     def at(self, plan: Plan) -> RotationProfile:
         """Return the rotation numbers along the line, computed at once."""
-        return self._profile([(shares, task.now()) for shares, task in self._pieces(plan)], plan)
+        return self._profile([(shares, task.compute()) for shares, task in self._pieces(plan)], plan)
 
     def message(self) -> str:
         """Return the reason why the picture is empty; an empty string if it is not, or until all orbits are known."""
@@ -139,7 +139,7 @@ class RotationAcross(Part[_Host]):
         return "No closed curve on the line rotates" if self.profile.librations.size else "No closed curve on the line"
 
     @property
-    def along(self) -> Range:
+    def line_range(self) -> Range:
         """The range of the coordinate along the line."""
         return self.ends[0][self.axis], self.ends[1][self.axis]
 
@@ -148,7 +148,7 @@ class RotationAcross(Part[_Host]):
         """The names of the axes of its picture."""
         return ("L/G" if self.axis else "l"), "ρ"
 
-    def parts_at_sea(self, axes: Axes) -> list[list[Array]]:
+    def chaotic_parts(self, axes: Axes) -> list[list[Array]]:
         """Return rectangles over the chaotic parts of the line."""
         low, high = axes.y
         return [[np.array([[a, low], [b, low], [b, high], [a, high]])] for a, b in self.profile.sea]
@@ -158,7 +158,7 @@ class RotationAcross(Part[_Host]):
         if not self.profile.numbers.size:
             return Caption(self.message() + "." if self._complete else self.work.pending_caption())
         rho = self.profile.numbers
-        # A line across the whole section meets orbits of many kinds: ρ is no single function of the point.
+        # Across the whole section ρ is not a continuous function of the point, so an extremum has no meaning.
         turning = self.profile.extremum if self.about_middle else None
         still = self.profile.librations.size
         standing = f"; {still} do not rotate" if still else ""
@@ -179,7 +179,7 @@ class RotationAcross(Part[_Host]):
 
 def _axis_of(profile: RotationProfile) -> Range:
     shown = np.concatenate([profile.numbers, np.zeros(min(1, profile.librations.size))])
-    return with_room(shown, 0.06, 1e-4) if profile.numbers.size else (-0.56, 0.56)
+    return with_margin(shown, 0.06, 1e-4) if profile.numbers.size else (-0.56, 0.56)
 
 
 def rotation_trial() -> Trial[Any]:
@@ -207,12 +207,12 @@ def rotation_picture() -> Picture[Any]:
         axes=lambda s: s.rotation.names,
         first=Axes((-1.0, 1.0), (-0.5, 0.5)),
         message=lambda s: s.rotation.message(),
-        x=lambda s: s.rotation.along,
+        x=lambda s: s.rotation.line_range,
         y=lambda s: _axis_of(s.rotation.profile),
         layers=(
             region(
                 "sea",
-                within=lambda s, axes: s.rotation.parts_at_sea(axes),
+                within=lambda s, axes: s.rotation.chaotic_parts(axes),
                 color=theme.MUTED + "38",
                 moving=True,
                 label="ρ does not settle",
@@ -227,9 +227,9 @@ def rotation_picture() -> Picture[Any]:
                 label="no rotation: 0 turns",
             ),
             curves("rho", lambda s: _branches(s.rotation.profile), color=theme.ORBIT),
-            # An orbit between two gaps is a curve of one point, which only a mark shows.
+            # A curve of one point, between two gaps, is visible only as a marker.
             points(
-                "orbits", lambda s: (s.rotation.profile.places, s.rotation.profile.numbers), size=4, color=theme.ORBIT
+                "orbits", lambda s: (s.rotation.profile.points, s.rotation.profile.numbers), size=4, color=theme.ORBIT
             ),
         ),
     )

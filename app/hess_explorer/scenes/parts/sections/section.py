@@ -12,15 +12,15 @@ import numpy as np
 from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.specs import Values, points_of
 from hess_explorer.scenes.framework.orbit_batches import OrbitBatch, batch_of
-from hess_explorer.scenes.framework.part import Part, Sectioned, Start
+from hess_explorer.scenes.framework.part import HasSection, Part, Start
 from hess_explorer.scenes.framework.periodic_search import Periodic, Point
 from hess_explorer.scenes.framework.sliders import number
 from hess_explorer.scenes.framework.windows import Window, pixels_in, tidy_window, window_of
 from hess_explorer.scenes.framework.work import accuracy_status, drift_status
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.plane.section_plane import joined
+from hess_explorer.views.plane.section_plane import concatenate
 from hess_mechanics.dynamics.return_map import PoincareSection, section_crossings
-from hess_mechanics.dynamics.shadowing import right_crossings, typical
+from hess_mechanics.dynamics.shadowing import lower_median, right_crossings
 from hess_mechanics.errors import OutsideRegion, WorkLimit
 from hess_mechanics.numerics.accuracy import STANDARD, Kind, Level, Plan
 from hess_mechanics.numerics.results import Array
@@ -81,7 +81,7 @@ Seeds = Callable[["Section"], list[tuple[Start, ...]]]
 """The starts of the other orbits of a section, those of a batch together."""
 
 
-class _Host(Sectioned, Protocol):
+class _Host(HasSection, Protocol):
     @property
     def count(self) -> float:
         """The number of crossings of each orbit."""
@@ -121,7 +121,7 @@ class KnownOrbits:
     reason: str = ""
 
     @property
-    def chosen(self) -> list[OrbitBatch]:
+    def chosen_batches(self) -> list[OrbitBatch]:
         """The known batches of the chosen orbits."""
         return [batch for batch in self.own if batch is not None]
 
@@ -237,15 +237,18 @@ class Section(Part[_Host]):
         return known
 
     @cached_property
-    def own(self) -> Array:
+    def chosen_points(self) -> Array:
         """The drawn points (n, 2) of the chosen orbits."""
-        return joined(self._visible_part(orbit) for batch in self.known_orbits.chosen for orbit in batch.orbits)
+        return concatenate(
+            self._visible_part(orbit) for batch in self.known_orbits.chosen_batches for orbit in batch.orbits
+        )
 
     @property
-    def own_of_each(self) -> list[Array]:
-        """The drawn points (n, 2) of each chosen orbit; none of an unknown one."""
+    def points_of_each_chosen(self) -> list[Array]:
+        """The drawn points (n, 2) of each chosen orbit; no points for an orbit that is not known yet."""
         return [
-            joined(map(self._visible_part, () if batch is None else batch.orbits)) for batch in self.known_orbits.own
+            concatenate(map(self._visible_part, () if batch is None else batch.orbits))
+            for batch in self.known_orbits.own
         ]
 
     def _visible_part(self, orbit: Array, later: bool = False) -> Array:
@@ -264,7 +267,7 @@ class Section(Part[_Host]):
             True for only the second half of the crossings, even if all are drawn.
         """
         if (first, ends, later) not in self._points:
-            self._points[first, ends, later] = joined(
+            self._points[first, ends, later] = concatenate(
                 self._visible_part(orbit, later)
                 for batch in self.known_orbits.batches
                 for orbit, is_first, reason in zip(batch.orbits, batch.firsts, batch.reasons, strict=True)
@@ -280,7 +283,7 @@ class Section(Part[_Host]):
         """Compute all orbits (n, 2) of the section at once; the chosen ones come first."""
         how = plan.part(self.host.count, _LEAST), plan.level
         tasks = [*(self.batch((state,), True, *how) for state in self.starts), *self._other_tasks(*how)]
-        return [orbit for task in tasks for orbit in task.now().orbits]
+        return [orbit for task in tasks for orbit in task.compute().orbits]
 
     @cached_property
     def _right(self) -> tuple[int, int | None] | None:
@@ -301,15 +304,15 @@ class Section(Part[_Host]):
         ]
         if len(counts) < len(fine):
             return None
-        return counts[0][0], typical([count for each in counts[1:] for count in each])
+        return counts[0][0], lower_median([count for each in counts[1:] for count in each])
 
     # ---- words --------------------------------------------------------------------------------------------------
 
     def status(self) -> Iterator[str]:
         """Yield the size, cost and drift of the section, and the accuracy of the current orbit."""
         if self.has_result("known_orbits") and not self.known_orbits.reason:
-            known = [*self.known_orbits.chosen, *self.known_orbits.batches]
-            points = len(self.own) + len(self.points()) + len(self.points(False))
+            known = [*self.known_orbits.chosen_batches, *self.known_orbits.batches]
+            points = len(self.chosen_points) + len(self.points()) + len(self.points(False))
             yield f"section {points} points, {sum(batch.steps for batch in known)} Taylor steps"
             yield from drift_status(batch.drift for batch in known)
             yield from accuracy_status(self._right, self._count)
@@ -317,11 +320,11 @@ class Section(Part[_Host]):
     def notes(self) -> Iterator[str]:
         """Yield the reason why the section is omitted, or why a chosen orbit ends early."""
         if self.has_result("known_orbits"):
-            reasons = (reason for batch in self.known_orbits.chosen for reason in batch.reasons)
+            reasons = (reason for batch in self.known_orbits.chosen_batches for reason in batch.reasons)
             yield from filter(None, (self.known_orbits.reason, *reasons))
 
 
-def about_section(section: Section) -> Caption:
+def section_caption(section: Section) -> Caption:
     """Return the caption of a section: the number of crossings, or the reason why it is omitted."""
     if section.known_orbits.reason:
         return Caption(numbers=section.known_orbits.reason)
@@ -330,16 +333,16 @@ def about_section(section: Section) -> Caption:
     ends = f" {count} of {len(reasons)} others end early." if count else ""
     return Caption(
         "The chosen orbit ends early."
-        if any(reason for one in section.known_orbits.chosen for reason in one.reasons)
+        if any(reason for one in section.known_orbits.chosen_batches for reason in one.reasons)
         else "",
-        f"{len(section.own)} crossings of the chosen orbit, {len(section.points())} of others.{ends}",
+        f"{len(section.chosen_points)} crossings of the chosen orbit, {len(section.points())} of others.{ends}",
     )
 
 
 def _first_point(section: PoincareSection, state: Start, crossed: Callable[[], OrbitBatch]) -> Point | None:
     """Return the point of a state in the section, or of its first crossing; None without one."""
     start = np.array([state])
-    point = section.places_of(start)
+    point = section.points_of(start)
     states, there = section.states_at(*point.T)
     if not (there[0] and np.abs(states - start).max() < _ON * max(1.0, float(np.abs(start).max()))):
         (point,) = crossed().orbits

@@ -19,7 +19,11 @@ from hess_explorer.scenes.parts.sections.clicks import orbits_spread, points_of_
 from hess_explorer.scenes.parts.sections.density import SectionDensity
 from hess_explorer.scenes.parts.sections.indicator import MEGNO, Indicator, colouring
 from hess_explorer.scenes.parts.sections.orbit import BodyOrbit
-from hess_explorer.scenes.parts.sections.periodic_orbit import SectionPeriodicOrbit, length_of_manifolds, which
+from hess_explorer.scenes.parts.sections.periodic_orbit import (
+    SectionPeriodicOrbit,
+    choice_of_orbit,
+    length_of_manifolds,
+)
 from hess_explorer.scenes.parts.sections.section import Section, crossings_of_each, start_on
 from hess_explorer.views.caption import Caption
 from hess_mechanics.dynamics.return_map import PoincareSection
@@ -37,7 +41,7 @@ class SectionState(State, ABC):
     variable.  The orbit starts at the parameter `place`, or at another state `chosen_start`.
     """
 
-    periodic: str = which()
+    periodic: str = choice_of_orbit()
     indicator: str = colouring()
     count: float = crossings_of_each()
     reach: float = length_of_manifolds()
@@ -63,14 +67,14 @@ class SectionState(State, ABC):
         return start_on(self.poincare, self.place)
 
     section = part(Section)
-    density = part(lambda s: SectionDensity(s.section, s.dense))
+    density = part(lambda s: SectionDensity(s.section, s.shows_density))
     megno = part(lambda s: Indicator(s.section, s.indicator == MEGNO and s.section.alone))
     periodic_orbit = part(lambda s: SectionPeriodicOrbit(s.section, s.periodic, s.reach))
     orbit = part(BodyOrbit)
     proof = part(lambda s: OrbitProof(s.orbit, s.certain))
 
     @property
-    def dense(self) -> bool:
+    def shows_density(self) -> bool:
         """True if the density is shown."""
         return self.indicator == DENSITY and self.section.alone
 
@@ -103,7 +107,7 @@ class SectionState(State, ABC):
         return {"place": points_text([(x, y)])}
 
     @property
-    def special(self) -> Caption | None:
+    def section_caption(self) -> Caption | None:
         """The caption of a section with a periodic orbit or MEGNO; None without them."""
         return self.periodic_orbit.caption or self.megno.caption
 
