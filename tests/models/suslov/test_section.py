@@ -53,7 +53,7 @@ def test_below_the_lowest_energy_nothing_is_possible_and_above_it_something(k):
     below, above = (SuslovSection(BODY, lowest + away, k) for away in (-1e-9, 1e-6))
     assert (below.possible(psi).any(), above.possible(psi).any()) == (False, True)
     assert below.spread(5) == ()
-    with raises(OutsideRegion, match="choose another place, or a larger energy"):
+    with raises(OutsideRegion, match="choose another point, or a larger energy"):
         below.state_at(0.0, 1.0)
 
 
