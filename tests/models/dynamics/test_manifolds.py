@@ -106,7 +106,7 @@ def test_separatrices_split_in_proportion_to_a_perturbation(mu=1.5):
 def test_what_has_no_manifolds_is_refused():
     with raises(InvalidParameter, match="choose a saddle"):
         manifold(henon(0.1), find_periodic(henon(0.1), (0.6, 0.2), 1), 1.0)
-    with raises(InvalidParameter, match="the return map of a section with two coordinates"):
+    with raises(InvalidParameter, match="does not have two coordinates"):
         manifold(arnold(0.1), find_periodic(arnold(0.1), (0.3,), 1), 1.0)
     m = bent_saddle()
     saddle = find_periodic(m, (0.1, 0.2), 1)

@@ -73,5 +73,5 @@ def test_where_volume_shrinks_cells_are_attracted():
 def test_what_cannot_be_is_refused(asked, said):
     with raises(InvalidParameter, match=said):
         megno_map(return_map(STRANGE, E=2.0), **asked)
-    with raises(InvalidParameter, match="the single coordinate φ"):
+    with raises(InvalidParameter, match="only the coordinate φ"):
         megno_map(return_map(HessBody(1.0, 0.5, -1.0), h=1.5, f=0.6))

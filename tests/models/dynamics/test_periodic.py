@@ -92,5 +92,5 @@ def test_what_is_not_there_is_refused_with_what_to_do():
         find_periodic(henon(0.1), (0.6, 0.2), 2)
     with raises(NotConverged, match="start closer"):
         find_periodic(arnold(1.5), (0.3,), 1)
-    with raises(InvalidParameter, match="2 finite coordinates here: x, y"):
+    with raises(InvalidParameter, match="give 2 finite numbers, x, y"):
         find_periodic(henon(0.1), (0.6, math.nan))

@@ -85,7 +85,7 @@ def test_what_a_body_does_not_have_is_refused():
         (lambda: return_map(body, E=1.8, h=1.0), InvalidParameter, "takes h and no E"),
         (lambda: return_map(QuarticBody(2.0, 1.0, 1.0, 0.8), h=1.0), InvalidParameter, "its own energy and no h"),
         (lambda: return_map(body, E=-5.0), OutsideRegion, "choose E above"),
-        (lambda: continued_orbit(P, orbit, "mass", 2.0), InvalidParameter, "There is no mass"),
+        (lambda: continued_orbit(P, orbit, "mass", 2.0), InvalidParameter, "mass is not a constant here"),
         (lambda: continued_orbit(P, orbit, "E", 2.0, points=10**6), InvalidParameter, "from 2 to 2000"),
         (lambda: P.image((0.3, 4.0)), OutsideRegion, r"ψ = 0\.3, δ = 4"),
         (lambda: periodic_orbit(P, (0.3, 1.2), 65), InvalidParameter, "from 1 to 64"),

@@ -184,9 +184,9 @@ def test_what_cannot_be_computed_raises_a_sentence(system):
         (state, parameters[:-1], [1.0], InvalidParameter, others),
         ([1e155, *state[1:]], parameters, [1.0], ModelError, r"choose (less extreme parameters|a shorter one)"),
         (state, parameters, [], InvalidParameter, "one or more finite numbers"),
-        (state, parameters, [2.0, 1.0], InvalidParameter, "monotonic and start at 0"),
+        (state, parameters, [2.0, 1.0], InvalidParameter, "increasing times from 0 on"),
         # Beyond double range apart.
-        (state, parameters, [1e308, -1e308], InvalidParameter, "monotonic and start at 0"),
+        (state, parameters, [1e308, -1e308], InvalidParameter, "increasing times from 0 on"),
         (state, parameters, [1e9], WorkLimit, "choose a shorter time span"),
         (state, parameters, np.zeros(MAX_SAMPLES + 1), WorkLimit, "at most 200000"),
     ):
@@ -236,7 +236,7 @@ def test_name_field_and_variables_are_enough_for_a_system_but_not_for_a_body():
     [
         ({"name": ""}, "not the name of a system"),
         ({"variables": ""}, "`variables` must be names"),
-        ({"parameters": "x"}, "each name may occur once"),
+        ({"parameters": "x"}, "a name occurs twice"),
         ({"parameters": {"k": np.nan}}, "the parameters must be finite numbers, 1 of them: k"),
         ({"example": (1.0, 2.0)}, "must be finite numbers, 4 of them: x, y, px, py"),
         ({"integrals": lambda y, p: 3}, "`integrals` must return first integrals by name"),

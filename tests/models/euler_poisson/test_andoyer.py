@@ -196,11 +196,11 @@ def test_points_of_a_picture_are_the_crossings_of_the_orbit_one_after_the_other(
 
 
 test_a_request_that_means_nothing_is_refused_in_a_sentence = refused(
-    (lambda: AndoyerSection(GESS1, -9.9, 5.0).state_at(0.0, 0.2), "choose another place", OutsideRegion),
+    (lambda: AndoyerSection(GESS1, -9.9, 5.0).state_at(0.0, 0.2), "choose another point", OutsideRegion),
     (lambda: AndoyerSection(GESS1, 50.0, 5.0, sheet=3).state_at(0.0, 0.2), "no sheet 3: choose one from 0 to 2"),
-    (lambda: AndoyerSection(GESS1, 50.0, 5.0).state_at(0.0, 1.5), "lies between −1 and 1"),
+    (lambda: AndoyerSection(GESS1, 50.0, 5.0).state_at(0.0, 1.5), "−1 ≤ L/G ≤ 1"),
     (
         lambda: section(*systems()["suslov"].example_motion, AndoyerPlane(1.0), 1.0, STANDARD),
-        "only for the Euler–Poisson equations",
+        "no Andoyer–Deprit variables: give a HeavyBody",
     ),
 )

@@ -75,7 +75,7 @@ def test_the_region_is_bounded_by_heights_of_one(body):
     else:
         assert abs(body.height(np.zeros(2))) < 1.0
     x, p = body.section_boundaries()[0].T
-    q = np.column_stack([x, 0.0 * x] if body.across else [0.0 * x, x])
+    q = np.column_stack([x, 0.0 * x] if body.minor_axis else [0.0 * x, x])
     assert p**2 + body.height(q) ** 2 == approx(np.ones(len(x)), abs=1e-12)
 
 
@@ -87,9 +87,9 @@ def test_points_of_the_section_are_what_they_say(body):
     count = 0
     for states in points.states:
         q, p = body.to_plane(states)
-        assert q[:, body.across] == approx(np.zeros(len(q)), abs=1e-5)
+        assert q[:, body.minor_axis] == approx(np.zeros(len(q)), abs=1e-5)
         # It grows: its rate is −p.
-        assert np.all(p[:, body.across] < 0.0)
+        assert np.all(p[:, body.minor_axis] < 0.0)
         for y, (x, along) in zip(states[:4], section.points_of(states), strict=False):
             assert state_at(body, (start := start_on_section(body, x, along))[:2], start[2]) == approx(y, abs=2e-4)
             count += 1

@@ -53,7 +53,7 @@ def test_below_the_lowest_energy_nothing_is_possible_and_above_it_something(k):
     below, above = (SuslovSection(BODY, lowest + away, k) for away in (-1e-9, 1e-6))
     assert (below.possible(psi).any(), above.possible(psi).any()) == (False, True)
     assert below.spread(5) == ()
-    with raises(OutsideRegion, match="choose another place, or a larger energy"):
+    with raises(OutsideRegion, match="choose another point, or a larger energy"):
         below.state_at(0.0, 1.0)
 
 
@@ -61,7 +61,7 @@ test_what_is_no_point_or_too_much_is_refused = refused(
     (lambda: SEEN.state_at(0.5, pi), "at ψ = 0.5, δ = ", OutsideRegion),
     (lambda: SuslovSection(BODY, 1.0, 4), "choose 1, 2 or 3"),
     (lambda: section_crossings(SEEN, SEEN.spread(2), 1000, PRECISE, max_steps=500), "a shorter", WorkLimit),
-    (lambda: section_crossings(SEEN, SEEN.spread(2), 10**7, PRECISE), "number of crossings", WorkLimit),
+    (lambda: section_crossings(SEEN, SEEN.spread(2), 10**7, PRECISE), "choose a number between", WorkLimit),
 )
 
 
