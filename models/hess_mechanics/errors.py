@@ -54,7 +54,7 @@ class MotionEnds(WorkLimit):
 
 
 class NoReturn(ModelError):
-    """A motion that does not return to its section within the time limit."""
+    """A motion that does not return to its sheet of the section within the time limit."""
 
 
 class NotConverged(ModelError):

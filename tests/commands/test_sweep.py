@@ -49,7 +49,7 @@ def test_a_function_of_a_file_is_swept_and_written_as_a_table(answer, refusal, t
     assert (found["sum"], found["product"], found["x"]) == ([5.0, 7.0], [4.0, 12.0], [1.0, 3.0])
     assert (found["computation"], found["parameters"]) == ("both", {"y": 4.0})
     assert "defines no function 'neither'" in refusal("sweep", f"{file}:neither", "--over", "x=1,3")
-    assert "no parameter 'store' that --set can give" in refusal(*replaced(words, "--set", "store=1"))
+    assert "--set cannot set 'store'" in refusal(*replaced(words, "--set", "store=1"))
     file.write_text("1 / 0")
     assert "failed with ZeroDivisionError" in refusal(*words)
 

@@ -55,7 +55,10 @@ def _swept(options: Options) -> xr.Dataset:
 
     name, fixed = " ".join(options.computation), dict(options.set)
     if wrong := fixed.keys() & inspect.signature(sweep).parameters:
-        raise CommandError(f"{name} has no parameter {min(wrong)!r} that --set can give: rename it.")
+        raise CommandError(
+            f"--set cannot set {min(wrong)!r}, an argument of sweep: use the option of that name if there is one, "
+            f"or rename the parameter of {name}."
+        )
     try:
         return sweep(
             user_object(name, "function", callable) if ":" in name else name,

@@ -31,14 +31,14 @@ class Explorer(JSComponent):
         doc="URL keys that the browser keeps: t, speed, az, el, large, present, "
         "embed, pictures, controls, lesson, step.",
     )
-    lesson = param.String(default="", doc="The lesson of the link, the introduction for a bare address: JSON.")
+    lesson = param.String(default="", doc="JSON of the lesson in the URL, or of the introduction without a query.")
     lessons = param.List(default=[], doc="{name, title, minutes} of each lesson.")
     scenes = param.List(default=[], doc="{name, title, summary, picture, examples, origin, group} of each scene.")
     files = param.Dict(
         default={},
         doc="formats: [kind, words, category] of each export format; width, seconds: [minimum, maximum, default].",
     )
-    sheets = param.Dict(default={}, doc="The result of `styles()`.")
+    sheets = param.Dict(default={}, doc="Style sheets by path, see `styles`.")
 
     # "page/start.js" renders it.
     _esm = """

@@ -9,7 +9,7 @@ from hess_explorer.compute.pool import RequestQueue
 from hess_explorer.lessons.lesson import Lesson
 from hess_explorer.page.opening import opening
 from hess_explorer.page.session import Session
-from hess_explorer.protocol.messages import Answer, Request, parse
+from hess_explorer.protocol.messages import Request, Response, parse
 
 
 class Connection:
@@ -62,7 +62,7 @@ class Connection:
         if not self._session.is_new:
             self._session.start_tasks()
 
-    def _tell(self, answer: Answer) -> None:
+    def _tell(self, answer: Response) -> None:
         if answer.state is not None and self._follow is not None:
             self._follow(answer.state.query)
         frame = answer.encode()

@@ -18,7 +18,7 @@ from hess_explorer.page.description import describe
 from hess_explorer.page.lesson_description import describe_lesson
 from hess_explorer.page.requested import RequestedState
 from hess_explorer.protocol.expressions import NotANumber, evaluate
-from hess_explorer.protocol.messages import Answer, PictureBox, PicturePoint, Request, StateAnswer, StepChoice
+from hess_explorer.protocol.messages import PictureBox, PicturePoint, Request, Response, StateResponse, StepChoice
 from hess_explorer.protocol.specs import Formula, NumberSpec, Points, Values, encode
 from hess_explorer.protocol.wire import Wire
 from hess_explorer.scenes import scenes
@@ -97,7 +97,7 @@ class Session:
         """The background work of the current state."""
         return self._tasks.background
 
-    def answer(self, request: Request) -> Answer:
+    def answer(self, request: Request) -> Response:
         """Process a request and return the response; a requested state always gets one."""
         scene = self.scene
         try:
@@ -122,10 +122,10 @@ class Session:
         lesson = self._lessons.get(request.lesson or "")
         lesson_text = describe_lesson(lesson) if lesson else ""
         if request.requested is None:
-            return Answer(lesson=lesson_text)
+            return Response(lesson=lesson_text)
         self._number += 1
         tree, block = self.wire.pack()
-        state = StateAnswer(
+        state = StateResponse(
             self._number,
             request.requested,
             encode(self.scene.name, self.values),
@@ -135,7 +135,7 @@ class Session:
         )
         # Describe a scene that may be chosen next only if the scene did not change now.
         near = request.near if self.scene is scene else None
-        return Answer(self._description(near), lesson_text, state, block)
+        return Response(self._description(near), lesson_text, state, block)
 
     def start_tasks(self) -> None:
         """Start the background work of the state; call it after the response has been sent."""

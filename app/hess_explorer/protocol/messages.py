@@ -1,4 +1,4 @@
-"""Messages of a page's websocket: `parse` reads requests from untrusted JSON, `Answer.encode` writes responses.
+"""Messages of a page's websocket: `parse` reads requests from untrusted JSON, `Response.encode` writes responses.
 
 A request is a text frame of JSON.  The key "requested": n asks for the state after the user's n-th change.  Other keys:
 
@@ -15,7 +15,7 @@ A request is a text frame of JSON.  The key "requested": n asks for the state af
 The request `ALIVE` is answered with an empty text frame, even while a state is being computed.
 
 Any other response is one binary frame: the lengths of head and block (32 bits each, little endian), the head, the
-block.  The head is the JSON of an `Answer`.  "page/websocket.js" decodes the frame.
+block.  The head is the JSON of an `Response`.  "page/websocket.js" decodes the frame.
 """
 
 from __future__ import annotations
@@ -144,7 +144,7 @@ def number(value: Any) -> float:
 
 
 @dataclass(frozen=True)
-class StateAnswer:
+class StateResponse:
     """A state of the page.
 
     Attributes
@@ -172,14 +172,14 @@ class StateAnswer:
 
 
 @dataclass(frozen=True)
-class Answer:
+class Response:
     """A response to the page.
 
     Attributes
     ----------
     scene, lesson : str
         Descriptions as JSON; empty for none.
-    state : StateAnswer or None
+    state : StateResponse or None
         The state.
     block : bytes
         Arrays of the state.
@@ -189,7 +189,7 @@ class Answer:
 
     scene: str = ""
     lesson: str = ""
-    state: StateAnswer | None = None
+    state: StateResponse | None = None
     block: bytes = b""
     show: str = ""
 

@@ -39,7 +39,7 @@ _RANGE = (LG_OF_0, 0.5)
 PRESETS = (
     Preset("Figure 11: h = 50, f = 5"),
     Preset("No cycles: stable to first order", h=5.0, f=0.8, returns=60.0),
-    Preset("f = 0: loxodromic pendulum, e^(2πa)", h=20.0, f=0.0),
+    Preset("f = 0: loxodromic pendulum, multiplier e^(2πa)", h=20.0, f=0.0),
     Preset("From the unstable cycle", phi0=-1.7044856772778523, returns=30.0),
     Preset("Body of figure 14, f = 1, h = 2", **RIS, h=2.0, f=1.0, returns=30.0),
     Preset("Body of figure 14, f = 1, h = 0.3", **RIS, h=0.3, f=1.0, returns=60.0),

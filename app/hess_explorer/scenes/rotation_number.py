@@ -138,14 +138,14 @@ class RotationNumber(State):
         return -rho if self.line != "f" and self.f < 0.0 else rho
 
     @cached_property
+    def _search(self) -> tuple[PeriodicTorus | None] | None:
+        task = Task(_periodic, self.target, self.parameter_line)
+        return None if self.work.dragging else self.work.need(task, preview=None)
+
+    @property
     def periodic(self) -> PeriodicTorus | None:
         """The torus on the line with the rational ρ; None if there is none or until known."""
-        found = (
-            None
-            if self.work.dragging
-            else self.work.need(Task(_periodic, self.target, self.parameter_line), preview=None)
-        )
-        return None if found is None else found[0]
+        return None if self._search is None else self._search[0]
 
     @cached_property
     def map(self) -> CircleMap | None:
@@ -164,7 +164,7 @@ class RotationNumber(State):
                 "All orbits of this torus are periodic.",
                 f"ρ = {rho} at {self.line} = {value}: {difference} ≤ {defect}.",
             )
-        return Caption("ρ locks at 0 only." if self.other_family is None else f"No torus with ρ = {rho} found here.")
+        return Caption("ρ locks at 0 only." if self._search is None else f"No torus with ρ = {rho} found here.")
 
     def _about_circle(self) -> Caption:
         if self.map is None:

@@ -90,7 +90,7 @@ class SuslovHess(State):
         bounds=(0.01, 1e5),
         group="Computation",
         label="Time span",
-        doc="Duration of the orbit, in the time of the body (at most 100 returns).",
+        doc="Duration of the orbit in the body's unit of time; at most 100 returns are computed.",
     )
     certain: str = show_proved_error()
     shade: str = shading()

@@ -57,8 +57,9 @@ def policy(nonce: str, embedders: tuple[str, ...]) -> str:
             "img-src 'self' data: blob:",
             "font-src 'self' data:",
             "media-src 'self' blob:",
-            # The websocket and that component.  The comparison of two states embeds the page itself twice.
+            # 'self' for the websocket, blob: for Panel's component.
             "connect-src 'self' blob:",
+            # A comparison of two states shows the page in two frames.
             "frame-src 'self'",
             "base-uri 'self'",
             "form-action 'none'",

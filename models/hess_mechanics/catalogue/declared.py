@@ -68,17 +68,17 @@ class Number:
     categories: Mapping[int, str] = field(default_factory=dict)
 
     def read(self, result: Any) -> float:
-        """Return the number.
+        """Return the value of this number for a result.
 
         Parameters
         ----------
         result : object
-            The result.
+            Result of the computation.
 
         Returns
         -------
         float
-            Its value.
+            The value, in `unit`.
 
         Raises
         ------

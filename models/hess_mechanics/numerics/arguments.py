@@ -312,7 +312,7 @@ def check_arguments(function: Callable[P, T]) -> Callable[P, T]:
             raise InvalidParameter(f"{function.__name__}: {error}. It takes {takes}.") from None
         for name, value in given.arguments.items():
             given.arguments[name] = _fitted(name, kinds[name], value)
-        # Results are checked for overflow, as in the commands.
+        # Results are checked for overflow, so NumPy's warnings would be noise.
         with np.errstate(all="ignore"):
             return function(*given.args, **given.kwargs)
 

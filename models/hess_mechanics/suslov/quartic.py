@@ -254,7 +254,7 @@ class QuarticBody(PlaneProblem):
         return np.asarray(self.E / self.b3 - 0.5 * self.b3 * (q[..., 0] ** 2 / self.I22 + q[..., 1] ** 2 / self.I11))
 
     def to_plane(self, states: Array) -> tuple[Array, Array]:
-        """Return q and p of states.
+        """Return the plane coordinates q and momenta p of states.
 
         Parameters
         ----------

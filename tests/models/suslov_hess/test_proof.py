@@ -123,6 +123,7 @@ def test_the_edge_is_told_exactly_from_both_sides():
     on_it = prove("0.5", h, f)
     assert on_it.statement == "two equilibria"
     assert "no torus and no limit cycle" in claim(on_it)
+    assert "exactly two equilibria" in claim(on_it)
 
 
 @mark.parametrize(("a", "statement"), [("0", "undecided"), ("-2", "two cycles"), ("100", "two cycles")])

@@ -113,12 +113,12 @@ def accuracy_level() -> Any:
 
 
 def show_proved_error() -> Any:
-    """Declare the choice whether the proved error of the orbit is computed."""
+    """Declare the choice whether a rigorous bound on the orbit's error is computed."""
     return choice(
-        "Proved error",
+        "Rigorous error bound",
         (HIDDEN, SHOWN),
         HIDDEN,
-        doc="Proved upper bound on the orbit's error, on the status line. Where it exceeds a pixel, a band and "
+        doc="Rigorous upper bound on the orbit's error, on the status line. Where it exceeds a pixel, a band and "
         "circles enclose the true orbit at the times of the samples.",
     )
 

@@ -26,7 +26,7 @@ def curves_of_levels(curve: Callable[[S, str], Curve]) -> Layers[S]:
     return tuple(map(of, LEVELS))
 
 
-def integrals(curve: Callable[[S, int], Curve | None]) -> Layers[S]:
+def curves_of_integrals(curve: Callable[[S, int], Curve | None]) -> Layers[S]:
     """Return the curve of each integral; `curve(state, i)` returns its data, or None if there is no integral i."""
 
     def of(i: int, color: str, dash: str) -> Layer[S]:

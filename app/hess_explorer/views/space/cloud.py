@@ -234,7 +234,7 @@ def history_layers(
     history : callable
         `history(state)` returns mean, minimum and maximum (3, m) over the cloud.
     beside : callable
-        `beside(state)` returns whether there is a cloud on a principal axis, whose values are 0.
+        `beside(state)` returns whether there is a second cloud, of a body with e on a principal axis; its values are 0.
     """
 
     def extreme(name: str, i: int) -> Layer[S]:
@@ -249,7 +249,7 @@ def history_layers(
             lambda s: ((0.0, times(s)[-1]), (0.0, 0.0)) if beside(s) else None,
             color=theme.MAP,
             dash="dotdash",
-            label="cloud on a principal axis",
+            label="cloud of a body with e on a principal axis",
         ),
         line("mean", track="orbit", columns=("t", "mean"), color=theme.ORBIT),
     )

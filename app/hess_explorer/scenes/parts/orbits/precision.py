@@ -14,7 +14,7 @@ from hess_explorer.scenes.framework.scene import Motion
 from hess_explorer.scenes.framework.work import Work
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.graphs.chart import POWERS, clip, limit
-from hess_explorer.views.graphs.levels import curves_of_levels, integrals, methods
+from hess_explorer.views.graphs.levels import curves_of_integrals, curves_of_levels, methods
 from hess_explorer.views.layers import Columns, Range, column, ring
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits
@@ -215,7 +215,7 @@ PRECISION_PICTURES: tuple[Plot[Precision], ...] = (
         axes=("t", "relative drift"),
         y_tick_count=5,
         dot=("t", "drift"),
-        layers=integrals(Precision._drift),
+        layers=curves_of_integrals(Precision._drift),
     ),
     Plot(
         name="pixels",

@@ -1,4 +1,4 @@
-"""Proved error bounds on the orbit: its distance from the true orbit at each sample."""
+"""Rigorous error bounds on the orbit: its distance from the true orbit at each sample."""
 
 from __future__ import annotations
 

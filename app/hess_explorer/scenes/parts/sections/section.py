@@ -44,7 +44,7 @@ def crossings_of_each() -> Any:
         10.0,
         bounds=(1.0, 1e3),
         label="Crossings of each orbit",
-        doc="Points for each orbit.",
+        doc="Number of crossings to compute for each orbit.",
         group="Computation",
     )
 
