@@ -13,6 +13,7 @@ from hess_mechanics.suslov.quartic import (
     QuarticBody,
     QuarticSection,
     angular_momentum,
+    level_error,
     start_on_section,
     state_at,
 )
@@ -40,6 +41,15 @@ def starts(body, count=12, seed=0):
         if abs(body.height(q)) < 1.0:
             found.append(np.array(state_at(body, q, rng.uniform(-3.1, 3.1))))
     return found
+
+
+@every_body
+def test_the_error_of_the_level_is_that_of_the_kinetic_part_of_a_motion_that_is_too_fast(body):
+    states = np.array(starts(body))
+    assert level_error(body, states) < 1e-13
+    _, p = body.to_plane(states)
+    faster = states * np.array([1.1, 1.1, 1.0, 1.0, 1.0])
+    assert level_error(body, faster) == approx(0.21 * np.sum(p * p, axis=1).max() / 2)
 
 
 @every_body
