@@ -8,11 +8,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from hess_explorer.protocol.messages import (
-    Answer,
     PictureBox,
     PicturePoint,
     Request,
-    StateAnswer,
+    Response,
+    StateResponse,
     StepChoice,
     parse,
 )
@@ -81,8 +81,8 @@ def test_each_field_of_a_request_is_read():
 
 @given(st.binary(), st.booleans())
 def test_a_frame_holds_what_is_told_and_nothing_else(block, has_state):
-    state = StateAnswer(2, 1, "h=1", {"texts": {"status": "é"}}, "suslov", (1, 3)) if has_state else None
-    told, read_block = read_frame(Answer('{"name": "suslov"}', "", state, block).encode())
+    state = StateResponse(2, 1, "h=1", {"texts": {"status": "é"}}, "suslov", (1, 3)) if has_state else None
+    told, read_block = read_frame(Response('{"name": "suslov"}', "", state, block).encode())
     assert read_block == block
     assert told["scene"] == {"name": "suslov"}
     assert told.keys() == {"scene", *(["state"] if state else [])}

@@ -16,7 +16,7 @@ from hess_explorer.page.description import describe, without_gestures
 from hess_explorer.page.lesson_description import describe_lesson
 from hess_explorer.page.opening import opening
 from hess_explorer.page.session import Session
-from hess_explorer.protocol.messages import Answer, Request
+from hess_explorer.protocol.messages import Request, Response
 from hess_explorer.rooms.messages import Show
 from hess_explorer.scenes.framework.scene import Scene
 
@@ -117,8 +117,8 @@ class RoomDrawing:
         name = f"{scene.name}/{picture}"
         state = dataclasses.replace(state, scene=name)
         return Frames(
-            Answer(scene=_describe(scene.name, picture)).encode(),
-            Answer(state=state, block=answer.block, show=self._texts(scene, picture, step, show)).encode(),
+            Response(scene=_describe(scene.name, picture)).encode(),
+            Response(state=state, block=answer.block, show=self._texts(scene, picture, step, show)).encode(),
         )
 
     def _texts(self, scene: Scene[Any], picture: str, step: LessonStep | None, show: Show) -> str:
