@@ -35,7 +35,7 @@ SHOWN = {
     "suslov": {"A chaotic": "Each dot", "Two attractors": "Each colour", "On a principal": "On a principal axis"},
     "kharlamova": {
         "Periodic": "Nearly every",
-        "Fixed point": "Nothing",
+        "Fixed point": "A fixed point",
         "Asymptotic": "In this direction",
         "Near the asymptotic orbit": "Nearly every",
     },
@@ -45,7 +45,9 @@ SHOWN = {
     "loxodrome": {"High": "The body turns", "Low": "Gravity swings", "Separatrix": "The body climbs"},
 }
 
-BESIDE = {"rotation-number": ({"h": 1.0, "f": 0.0},)}
+BESIDE = {
+    "rotation-number": ({"h": 1.0, "f": 0.0}, {"a": 0.5, "h": 0.5, "f": 1.01563456028796105}),
+}
 
 
 @pytest.mark.parametrize("name", SHOWN)

@@ -273,7 +273,7 @@ SCENE = Scene(
     group="Ball",
     essential=("D", "h", "theta", "phi"),
     handle="phi",
-    answers=(Answer("Every motion leaves the dashed line and ends on the solid one, in a uniform rotation."),),
+    answers=(Answer("Every other motion leaves the dashed line and tends to a uniform rotation on the solid one."),),
     lead=("curve",),
     title="Chaplygin ball",
     summary="A ball rolls inside the body: every orbit crosses a strip between two ellipses, from Nᵘ to Nˢ.",
@@ -282,7 +282,7 @@ SCENE = Scene(
     views=(
         body_picture(ball=True, field=False),
         plane.picture(
-            lambda s: Caption("From Nᵘ to Nˢ.", "Every orbit crosses the strip between σ₂ and σ₁."),
+            lambda s: Caption("From Nᵘ to Nˢ.", "Every orbit lies in the strip between σ₂ and σ₁."),
             lambda s: s.half_width,
             layers=(
                 region(

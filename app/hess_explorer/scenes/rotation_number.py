@@ -257,6 +257,10 @@ SCENE = Scene(
             "Locked: two loops exist, and the rotation number stays an integer.",
             lambda s: s.map is not None and s.map.kind == "hyperbolic",
         ),
+        Answer(
+            "The two loops have just met: here they appear or vanish.",
+            lambda s: s.map is not None and s.map.kind == "parabolic" and bool(s.map.fixed_points),
+        ),
         Answer("Not locked: the body winds on, and its rotation number changes smoothly."),
     ),
     title="Rotation number",
