@@ -276,7 +276,7 @@ SCENE = Scene(
     answers=(Answer("Every other motion leaves the dashed line and tends to a uniform rotation on the solid one."),),
     lead=("curve",),
     title="Chaplygin ball",
-    summary="A ball rolls inside the body: every orbit crosses a strip between two ellipses, from Nᵘ to Nˢ.",
+    summary="A ball rolls inside the body: orbits go from Nᵘ to Nˢ in a strip between two ellipses.",
     swarm=turned_swarm(),
     tracks={"orbit": lambda s: plane.orbit_columns(s.orbit.path, Gamma=s.Gamma)},
     views=(
