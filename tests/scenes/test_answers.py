@@ -90,3 +90,8 @@ def test_reversal_is_complete_where_it_says_so_and_nowhere_else(k):
     body = scene.of({**scene.defaults(), "k": k}).body
     is_complete = said("scattering", {"k": k}).startswith("A complete reversal")
     assert is_complete == (abs(cos_chi(body.I11, body.I22, body.I13, body.I23) + 1.0) < 1e-9)
+
+
+def test_orbits_of_a_ball_close_by_symmetry_only_on_a_principal_axis():
+    assert said("ball-section", {"b3": 0.0}).startswith("Here a symmetry")
+    assert said("ball-section", {"b3": 0.0, "I13": 0.2}).startswith("Each dot")
