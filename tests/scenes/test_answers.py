@@ -35,7 +35,7 @@ SHOWN = {
     "suslov": {"A chaotic": "Each dot", "Two attractors": "Each colour", "On a principal": "On a principal axis"},
     "kharlamova": {
         "Periodic": "Nearly every",
-        "Fixed point": "Nothing",
+        "Fixed point": "A fixed point",
         "Asymptotic": "In this direction",
         "Near the asymptotic orbit": "Nearly every",
     },
@@ -45,7 +45,9 @@ SHOWN = {
     "loxodrome": {"High": "The body turns", "Low": "Gravity swings", "Separatrix": "The body climbs"},
 }
 
-BESIDE = {"rotation-number": ({"h": 1.0, "f": 0.0},)}
+BESIDE = {
+    "rotation-number": ({"h": 1.0, "f": 0.0}, {"a": 0.5, "h": 0.5, "f": 1.01563456028796105}),
+}
 
 
 @pytest.mark.parametrize("name", SHOWN)
@@ -88,3 +90,8 @@ def test_reversal_is_complete_where_it_says_so_and_nowhere_else(k):
     body = scene.of({**scene.defaults(), "k": k}).body
     is_complete = said("scattering", {"k": k}).startswith("A complete reversal")
     assert is_complete == (abs(cos_chi(body.I11, body.I22, body.I13, body.I23) + 1.0) < 1e-9)
+
+
+def test_orbits_of_a_ball_close_by_symmetry_only_on_a_principal_axis():
+    assert said("ball-section", {"b3": 0.0}).startswith("Here a symmetry")
+    assert said("ball-section", {"b3": 0.0, "I13": 0.2}).startswith("Each dot")

@@ -87,6 +87,6 @@ ROWS = {
     "$I_{23}$ = 0.1402": end,
     "doubles from 2 to 4, 8 and 16, and": lambda s: cascade_of_the_ball().periods,
     "The factors here are 5.032 and 4.676": lambda s: cascade_of_the_ball().ratios,
-    "The number 4.669 again": lambda s: (FEIGENBAUM,),
+    "About 4.669 again": lambda s: (FEIGENBAUM,),
 }
 """A phrase of the lesson → the numbers in it, computed from the step."""

@@ -123,7 +123,7 @@ ROWS = {
         ),
     },
     "two-chaotic-layers-that-never-mix": {
-        "beyond 2 there are two limit cycles. Here the number $|a|$ is 0.5 and the trace is 4.904": lambda s: (
+        "exceeds 2, there are two limit cycles. Here $|a|$ is 0.5 and |trace| is 4.904": lambda s: (
             *threshold(s),
             len(on_the_wall(s).fixed_points),
             abs(on_the_wall(s).a),

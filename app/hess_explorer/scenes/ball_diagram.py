@@ -90,7 +90,7 @@ SCENE = diagram_scene(
     group="Ball",
     essential=("D", "first", "last", "I13"),
     handle="D",
-    answers=(Answer("Each column shows where orbits return after a long time: a few dots are a periodic motion."),),
+    answers=(Answer("Each column shows where orbits return after a long time: a few dots look periodic."),),
     title="Orbit diagram of the ball",
     summary="The ball in a field over a parameter: doublings along 𝒟, a strange attractor and its repeller, reversal.",
 )

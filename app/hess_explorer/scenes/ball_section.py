@@ -246,8 +246,8 @@ SCENE = Scene(
     essential=("h", "I13", "D", "psi"),
     handle="psi",
     answers=(
-        Answer("Here a symmetry closes every orbit that returns.", lambda s: s.b3 == 0.0),
-        Answer("Each dot is one return: dots on a curve are a regular motion, a cloud of dots is chaos."),
+        Answer("Here a symmetry closes every orbit that returns.", lambda s: is_reversible(s.body)),
+        Answer("Each dot is one return: dots on a curve look regular, a cloud of dots looks chaotic."),
     ),
     lead=("section",),
     title="Ball with a field",

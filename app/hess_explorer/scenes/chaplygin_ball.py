@@ -273,16 +273,16 @@ SCENE = Scene(
     group="Ball",
     essential=("D", "h", "theta", "phi"),
     handle="phi",
-    answers=(Answer("Every motion leaves the dashed line and ends on the solid one, in a uniform rotation."),),
+    answers=(Answer("Off both lines, motions go from the dashed one to a uniform rotation on the solid one."),),
     lead=("curve",),
     title="Chaplygin ball",
-    summary="A ball rolls inside the body: every orbit crosses a strip between two ellipses, from Nᵘ to Nˢ.",
+    summary="A ball rolls inside the body: orbits go from Nᵘ to Nˢ in a strip between two ellipses.",
     swarm=turned_swarm(),
     tracks={"orbit": lambda s: plane.orbit_columns(s.orbit.path, Gamma=s.Gamma)},
     views=(
         body_picture(ball=True, field=False),
         plane.picture(
-            lambda s: Caption("From Nᵘ to Nˢ.", "Every orbit crosses the strip between σ₂ and σ₁."),
+            lambda s: Caption("From Nᵘ to Nˢ.", "Every orbit lies in the strip between σ₂ and σ₁."),
             lambda s: s.half_width,
             layers=(
                 region(

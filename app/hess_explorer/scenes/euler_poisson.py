@@ -335,7 +335,7 @@ SCENE = Scene(
     essential=("away", "h", "f"),
     answers=(
         Answer("In the Hess case no orbit crosses the curve of the Hess relation.", lambda s: s.away == 0.0),
-        Answer("Each dot is one return: dots on a curve are a regular motion, a cloud of dots is chaos."),
+        Answer("Each dot is one return: dots on a curve look regular, a cloud of dots looks chaotic."),
     ),
     title="Euler–Poisson: sections",
     summary="A heavy body near the Hess case: two stochastic layers with a barrier between them, a meandering torus.",

@@ -303,7 +303,7 @@ SCENE = Scene(
     essential=("k", "I23", "Gamma", "phi"),
     answers=(
         Answer("A complete reversal: γ leaves one circle and ends on its mirror image.", lambda s: s.F2 is not None),
-        Answer("No friction, and yet every start but the orange one ends in the same rotation: the green point."),
+        Answer("No friction, yet at this energy every start but the orange one ends at the green point."),
     ),
     title="Free Suslov problem",
     summary="No field: ω passes from an unstable to a stable state; γ leaves one circle and joins another.",

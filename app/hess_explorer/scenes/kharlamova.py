@@ -351,7 +351,7 @@ SCENE = Scene(
     essential=("q1", "q2", "p", "alpha"),
     handle="alpha",
     answers=(
-        Answer("Nothing happens here: this is a fixed point.", lambda s: s.arc.kind == "fixed"),
+        Answer("A fixed point: the body turns evenly about the vertical, or rests.", lambda s: s.arc.kind == "fixed"),
         Answer(
             "In this direction the motion takes forever: it tends to an unstable fixed point.",
             lambda s: s.arc.kind == "asymptotic",

@@ -116,7 +116,7 @@ SCENE = diagram_scene(
     group="Heavy body",
     essential=("h", "first", "last", "I13"),
     handle="h",
-    answers=(Answer("Each column shows where orbits return after a long time: a few dots are a periodic motion."),),
+    answers=(Answer("Each column shows where orbits return after a long time: a few dots look periodic."),),
     title="Orbit diagram",
     summary="Attractors and repellers over a parameter: doublings, hysteresis, reversal.",
 )

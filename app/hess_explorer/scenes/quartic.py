@@ -236,7 +236,7 @@ SCENE = Scene(
     charts=Charts(motion_charts(SYSTEM, lambda s: s.chosen_start), over=("h", "beta")),
     group="Heavy body",
     essential=("ratio", "h", "Q1", "Q2"),
-    answers=(Answer("Each dot is one return: dots on a curve are a regular motion, a cloud of dots is chaos."),),
+    answers=(Answer("Each dot is one return: dots on a curve look regular, a cloud of dots looks chaotic."),),
     lead=("section",),
     title="Principal axis, b₁ = b₂ = 0",
     summary="The body as a point in a quartic potential: integrable for I₁₁ = I₂₂, else curves and seas in a section.",

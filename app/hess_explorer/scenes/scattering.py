@@ -239,7 +239,7 @@ SCENE = Scene(
             "A complete reversal: for this body the phase φ does not matter.",
             lambda s: model.cos_chi(s.body) < -1.0 + 1e-12,
         ),
-        Answer("The same approach with another phase leaves at another angle: θ⁺ depends on φ."),
+        Answer("The same approach with another phase can leave at another angle: θ⁺ depends on φ."),
     ),
     lead=("curve",),
     title="Scattering",

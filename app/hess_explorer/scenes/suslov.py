@@ -234,7 +234,7 @@ SCENE = Scene(
             "On a principal axis volume is preserved: nothing attracts, in either direction of time.",
             lambda s: s.I13 == s.I23 == 0.0,
         ),
-        Answer("Each dot is one return: dots on a curve are a regular motion, a cloud of dots is chaos."),
+        Answer("Each dot is one return: dots on a curve look regular, a cloud of dots looks chaotic."),
     ),
     title="Suslov problem with gravity",
     summary="Regular orbits, seas, strange attractors: sections forward and backward in time.",

@@ -198,7 +198,7 @@ class SectionBasins(Part[_Host]):
         lost = 100.0 * float(np.mean(there == LOST))
         late = f" {digits(lost, 2)} % reach no attractor in {CROSSINGS} crossings." if lost else ""
         if count == 1:
-            words = "One attractor for all orbits." if not lost else "One attractor."
+            words = "One attractor for all cells." if not lost else "One attractor."
             return Caption(words, f"{div}.{late}{said}" if self.attractors.all_attract else f"{late}{said}".strip())
         *parts, last = (f"{digits(100.0 * float(np.mean(there == one)), 2)} %" for one in range(count))
         return Caption(
