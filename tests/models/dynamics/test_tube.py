@@ -135,5 +135,5 @@ def test_what_has_no_tube_is_refused():
             tube(*system.example_motion, *words)
     other = systems()["suslov"]
     orbit = solve(*other.example_motion, [0.1], "draft")
-    with raises(InvalidParameter, match="same system"):
+    with raises(InvalidParameter, match="differ in their system"):
         ProvedOrbit(orbit, tube(*system.example_motion, [0.1]))

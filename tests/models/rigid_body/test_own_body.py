@@ -92,5 +92,5 @@ test_what_is_no_body_is_refused = refused(
     (lambda: OwnBody((1.0, 1.0, 1.0, 2.0, 0.0, 0.0)), "not positive definite: choose larger", NotPositiveDefinite),
     (lambda: OwnBody(TENSOR, constraint=(0.0, 0.0, 0.0)), "a of the constraint is 0"),
     (lambda: OwnBody(TENSOR).start((1.0, 0.0, 0.0), (0.0, 0.0, 0.0)), "vertical γ is 0"),
-    (lambda: Polynomial(((4, 3, 0),), (1.0,)), "at most 6"),
+    (lambda: Polynomial(((4, 3, 0),), (1.0,)), "more than 6"),
 )
