@@ -148,7 +148,7 @@ def coefficients(k: int, I22: Fraction | float, I23: Fraction | float) -> Coeffi
     _check_order(k)
     if not (I22 > 0 and I23 != 0):
         raise InvalidParameter(
-            f"I22 = {float(I22):g}, I23 = {float(I23):g}: choose I22 > 0, and a nonzero I23, without which ω is constant."
+            f"I22 = {float(I22):g}, I23 = {float(I23):g}: choose I22 > 0, and a nonzero I23 (otherwise ω is constant)."
         )
     I22, I23 = Fraction(I22), Fraction(I23)
     I11 = I22 + k * k * I23**2 / I22
