@@ -16,7 +16,7 @@ const FACTORS = { "+": 0.8, "=": 0.8, "-": 1.25 }
  * Let the keyboard choose in a plot.
  * @param {HTMLElement} host holds the plot
  * @param {PlotView} plot
- * @param {{picks: string[], points: (() => number[][]) | null, zoom: {by: (factor: number, place: number[]) => void, restore: () => void}}} what
+ * @param {{picks: string[], points: (() => number[][]) | null, zoom: {by: (factor: number, point: number[]) => void, restore: () => void}}} what
  *   the events of the plot, see "picks.js", the points of its handle in pixels, and its zoom
  */
 export function connectKeys(host, plot, { picks, points, zoom }) {

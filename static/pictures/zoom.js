@@ -170,8 +170,8 @@ export function connectZoom(host, zoom, { name, isComputed, frame, axes, invert,
       clearTimeout(clicked)
       clicked = setTimeout(act, DOUBLE)
     },
-    /** Multiply the extent of the axes; a place stays where it is. @param {number} factor @param {number[]} place */
-    by: (factor, place) => zoomTo(partOf(frame(), [place], [place], factor)),
+    /** Multiply the extent of the axes; a point stays where it is. @param {number} factor @param {number[]} point */
+    by: (factor, point) => zoomTo(partOf(frame(), [point], [point], factor)),
     restore,
   }
 }

@@ -126,6 +126,7 @@ def computed(name, words="", **values):
     return part
 
 
+@pytest.mark.chaotic
 def test_the_graph_has_the_exponent_of_the_chosen_orbit_if_that_is_chaotic_and_time_runs_forward():
     part = computed("suslov", "A chaotic")
     times, growth = part.expected

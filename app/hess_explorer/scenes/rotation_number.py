@@ -13,7 +13,7 @@ import numpy as np
 from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.answers import Answer
 from hess_explorer.scenes.framework.charted import Charts, torus_charts
-from hess_explorer.scenes.framework.hess_case import map_or_none, possible_f
+from hess_explorer.scenes.framework.hess_case import LOOPS_MEET, map_or_none, possible_f
 from hess_explorer.scenes.framework.part import part
 from hess_explorer.scenes.framework.scene import Preset, Scene, State
 from hess_explorer.scenes.framework.sliders import accuracy_level, choice, number, parameter
@@ -257,10 +257,7 @@ SCENE = Scene(
             "Locked: two loops exist, and the rotation number stays an integer.",
             lambda s: s.map is not None and s.map.kind == "hyperbolic",
         ),
-        Answer(
-            "The two loops have just met: here they appear or vanish.",
-            lambda s: s.map is not None and s.map.kind == "parabolic" and bool(s.map.fixed_points),
-        ),
+        LOOPS_MEET,
         Answer("Not locked: the body winds on, and its rotation number changes smoothly."),
     ),
     title="Rotation number",

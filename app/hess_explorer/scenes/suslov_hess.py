@@ -330,10 +330,7 @@ SCENE = Scene(
             "Two loops: every start ends on the green one, except the dashed loop itself.",
             lambda s: s.kind == "hyperbolic",
         ),
-        Answer(
-            "The two loops have just met: here they appear or vanish.",
-            lambda s: s.map is not None and s.map.kind == "parabolic" and bool(s.map.fixed_points),
-        ),
+        hess_case.LOOPS_MEET,
         Answer("No loop attracts: every orbit winds around the torus forever."),
     ),
     lead=("bifurcation", "omega", "sphere", "circle"),

@@ -14,6 +14,7 @@ import numpy as np
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.specs import Values
+from hess_explorer.scenes.framework.answers import Answer
 from hess_explorer.scenes.framework.inertia import limits_of_moments
 from hess_explorer.scenes.framework.scene import Motion
 from hess_explorer.scenes.framework.sliders import ONE_TURN, Slider, slider_within
@@ -51,6 +52,12 @@ CYCLE_TRACKS: Mapping[str, Callable[[Any], Columns | None]] = {
     "unstable": lambda s: cycle_columns(s.cycles, 1),
 }
 """The tracks of the limit cycles of a state, see `limit_cycles`."""
+
+LOOPS_MEET: Answer[Any] = Answer(
+    "The two loops have just met: here they appear or vanish.",
+    lambda s: s.map is not None and s.map.kind == "parabolic" and bool(s.map.fixed_points),
+)
+"""The sentence on a state with one limit cycle, not on the identity, whose map is parabolic, too."""
 
 UNSURE = 1e-9
 BY_THE_UNSTABLE_CYCLE = "This motion starts next to the unstable cycle: there round-off grows even on the torus."

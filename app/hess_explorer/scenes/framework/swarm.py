@@ -82,7 +82,7 @@ class Swarm(Generic[S]):
 def turned_swarm(
     more: Callable[[S, Array], Columns] = lambda state, states: {}, angles: tuple[str, ...] = ()
 ) -> Swarm[S]:
-    """Return the swarm of `turned_starts` starts, of states (ω1, ω2, γ) or (M, γ).
+    """Return the swarm of `turned_starts`, for states (ω1, ω2, γ) or (M, γ).
 
     Parameters
     ----------
@@ -251,7 +251,7 @@ class _SwarmPart(Part[Any]):
         if ends.max() < 0.99 * abs(self._motion.duration):
             yield f"The {ends.size} bodies are shown up to t = {digits(float(ends.max()) * self._motion.unit)}."
         elif ends.min() < 0.99 * abs(self._motion.duration):
-            yield "Dots fade out before their error exceeds half a pixel."
+            yield "Beads fade out before their error exceeds half a pixel."
 
     @property
     def reason(self) -> str:
@@ -281,14 +281,13 @@ def _choice(name: str, label: str, options: tuple[str, ...], doc: str) -> Choice
 
 def with_swarm(state: type[Any], swarm: Swarm[Any]) -> type[Any]:
     """Return a class of states with the additional choices of a swarm, which do not change other results."""
-    has_clicks = any(one.name == "starts" for one in fields(state))
-    from_where = (SPREAD, NEAR, LINE) if has_clicks else (SPREAD, NEAR)
+    origins: tuple[str, ...] = (SPREAD, NEAR)
     about = "All around, or within 2 % of a turn of the chosen start."
-    if has_clicks:
-        about += " A line joins the last two points clicked in the section."
+    if any(one.name == "starts" for one in fields(state)):
+        origins, about = (*origins, LINE), f"{about} A line joins the last two points clicked in the section."
     specs = (
         _choice("swarm", "Bodies", _COUNTS, "How many bodies move at once, each from its own start."),
-        _choice("swarm_from", "Starts", from_where, about),
+        _choice("swarm_from", "Starts", origins, about),
         _choice("swarm_time", "Time of the swarm", (FORWARD, BACKWARD), "Backward: where the motions came from."),
     )
     return make_dataclass(
