@@ -5,37 +5,35 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
-
-from hess_mechanics.numerics.jit import inner, kernel
+from hess_mechanics.numerics.jit import kernel, part
 
 __all__ = ["carry", "rotate"]
 
 
-@inner
+@part
 def _cross(a, b):
     return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
 
 
-@inner
+@part
 def _dot(a, b):
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
-@inner
+@part
 def _unit(a):
     length = math.sqrt(_dot(a, a))
     return a[0] / length, a[1] / length, a[2] / length
 
 
-@inner
+@part
 def _across(a, g):
     """Return the unit vector along the part of a that is orthogonal to the unit vector g."""
     along = _dot(a, g)
     return _unit((a[0] - along * g[0], a[1] - along * g[1], a[2] - along * g[2]))
 
 
-@inner
+@part
 def _rotated(u, v):
     """Return exp(−v×) u."""
     angle = math.sqrt(_dot(v, v))
@@ -51,7 +49,12 @@ def _rotated(u, v):
     )
 
 
-@inner
+@part
+def _row(a, k):
+    return a[k, 0], a[k, 1], a[k, 2]
+
+
+@part
 def _slope(times, w, k):
     """Return ẇ at sample k, from the parabola through three samples, or at the ends from the chord."""
     left, right = max(k - 1, 0), min(k + 1, times.size - 1)
@@ -69,17 +72,15 @@ def _slope(times, w, k):
     )
 
 
-@inner
-def _turn(times, w, k):
-    """Return the rotation vector of the step after sample k, of fourth order."""
-    step = times[k + 1] - times[k]
-    s, t = _slope(times, w, k), _slope(times, w, k + 1)
-    c = _cross(w[k], w[k + 1])
+@part
+def _turn(step, w0, w1, s0, s1):
+    """Return the rotation vector of a step from ω and ω̇ at its ends, of fourth order."""
+    c = _cross(w0, w1)
     h, q = 0.5 * step, step * step / 12.0
     return (
-        h * (w[k, 0] + w[k + 1, 0]) + q * (s[0] - t[0] + c[0]),
-        h * (w[k, 1] + w[k + 1, 1]) + q * (s[1] - t[1] + c[1]),
-        h * (w[k, 2] + w[k + 1, 2]) + q * (s[2] - t[2] + c[2]),
+        h * (w0[0] + w1[0]) + q * (s0[0] - s1[0] + c[0]),
+        h * (w0[1] + w1[1]) + q * (s0[1] - s1[1] + c[1]),
+        h * (w0[2] + w1[2]) + q * (s0[2] - s1[2] + c[2]),
     )
 
 
@@ -92,18 +93,23 @@ def carry(times, omega, gamma, e, v, moved):
     """
     n, m, _ = gamma.shape
     for i in range(n):
-        g = _unit(gamma[i, 0])
-        smallest = np.zeros(3)
-        smallest[np.argmin(np.abs(gamma[i, 0]))] = 1.0
-        there = _across(smallest, g)
+        w0 = s0 = g = (0.0, 0.0, 0.0)
+        # The axis of the smallest component of γ.
+        x, y, z = abs(gamma[i, 0, 0]), abs(gamma[i, 0, 1]), abs(gamma[i, 0, 2])
+        there = (
+            1.0 if x <= y and x <= z else 0.0,
+            1.0 if y < x and y <= z else 0.0,
+            1.0 if z < x and z < y else 0.0,
+        )
         for k in range(m):
+            w1, s1 = _row(omega[i], k), _slope(times, omega[i], k)
             if k > 0:
-                turn = _turn(times, omega[i], k - 1)
+                turn = _turn(times[k] - times[k - 1], w0, w1, s0, s1)
                 v[i, k - 1, 0], v[i, k - 1, 1], v[i, k - 1, 2] = turn
-                rotated = _rotated(g, turn)
-                moved[i, k - 1, 0], moved[i, k - 1, 1], moved[i, k - 1, 2] = rotated
-                g = _unit(gamma[i, k])
-                there = _across(_rotated(there, turn), g)
+                moved[i, k - 1, 0], moved[i, k - 1, 1], moved[i, k - 1, 2] = _rotated(g, turn)
+                there = _rotated(there, turn)
+            w0, s0, g = w1, s1, _unit(_row(gamma[i], k))
+            there = _across(there, g)
             e[i, k, 0], e[i, k, 1], e[i, k, 2] = there
 
 
@@ -111,4 +117,4 @@ def carry(times, omega, gamma, e, v, moved):
 def rotate(u, v, out):
     """Store exp(−v×) u for rows of u and v (n, 3) in out (n, 3)."""
     for i in range(len(u)):
-        out[i, 0], out[i, 1], out[i, 2] = _rotated(u[i], v[i])
+        out[i, 0], out[i, 1], out[i, 2] = _rotated(_row(u, i), _row(v, i))
