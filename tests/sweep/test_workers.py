@@ -5,7 +5,7 @@ import re
 import signal
 import subprocess
 import sys
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 
 import psutil
 import pytest
@@ -100,24 +100,30 @@ def alone():
     return motions()
 
 
-def workers():
-    """Return the worker processes of this process."""
-    running = (one for one in psutil.Process().children() if one.status() != psutil.STATUS_ZOMBIE)
-    return [one for one in running if "spawn_main" in " ".join(one.cmdline())]
+def workers(parent):
+    """Return the worker processes of a process that are still alive."""
+    found = []
+    for one in parent.children():
+        # A child of another kind may have ended since, as may a worker.
+        with suppress(psutil.NoSuchProcess):
+            if "spawn_main" in " ".join(one.cmdline()):
+                found.append(one)
+    return found
 
 
 def test_processes_find_the_same_one_that_is_killed_is_no_loss_and_none_is_left(pairs, alone, tmp_path):
-    before, seen = workers(), []
+    this, seen = psutil.Process(), []
+    before = {*workers(this)}
 
     def kill_one(now):
-        seen.append({*workers()} - {*before})
+        seen.append({*workers(this)} - before)
         if now.done and len(seen) == 2:
             next(iter(seen[0])).kill()
 
     found = motions(workers=2, progress=kill_one, store=tmp_path / "lambda.zarr")
     assert found.identical(alone)
     assert len(seen[0]) == 2
-    assert not {*workers()} - {*before}
+    assert not {*workers(this)} - before
 
 
 def test_a_cluster_finds_the_same_and_its_client_stays_open(client, pairs, alone):
@@ -140,7 +146,7 @@ def test_no_process_is_left_whatever_they_compute(end):
 
     def have_begun():
         """Whether both workers have used more of a processor than their start takes, on whatever machine."""
-        own = [one for one in process.children() if "spawn_main" in " ".join(one.cmdline())]
+        own = workers(process)
         return len(own) == 2 and all(sum(one.cpu_times()[:2]) > 6.0 for one in own)
 
     # Workers that have not started yet would say more.
