@@ -20,3 +20,14 @@ def test_the_energy_of_a_driven_body_changes_by_the_work_of_its_drive():
     assert abs(np.asarray(work["y"])[-1]) > 1e-3
     energies = [w @ inertia @ w / 2 for w in (np.array(own.start[:3]), omega)]
     assert np.asarray(change["y"])[-1] == approx(energies[1] - energies[0], abs=1e-5)
+
+
+def test_parameters_without_effect_are_named():
+    scene = scenes()["own-body"]
+
+    def idle(**changes):
+        return dict(scene.idle({**scene.defaults(), **changes}))
+
+    assert idle() == {"frequency": scene.defaults()["frequency"]}
+    assert idle(d2=0.1) == {}
+    assert idle(constraint="none", d3=1.0) == {"a1": 0.0, "a2": 0.0, "a3": 0.0}

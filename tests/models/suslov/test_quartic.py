@@ -53,6 +53,15 @@ def test_the_error_of_the_level_is_that_of_momenta_that_are_too_large(body):
 
 
 @every_body
+def test_pixels_of_a_velocity_are_those_by_which_it_moves_the_point(body):
+    state, half_width = np.array(starts(body, 1)[0]), 0.7
+    pixels = body.pixels_per_unit(half_width)
+    for i in (0, 1):
+        (q, moved), _ = body.to_plane(np.array([state, state + 1e-3 * np.eye(5)[i]]))
+        assert 1e-3 * pixels[i] == approx(np.linalg.norm(moved - q) / half_width * pixels[2])
+
+
+@every_body
 def test_a_start_has_its_energy_and_place_and_moves_by_the_hamiltonian(body):
     """H = (p² + γ3(q)²)/2 on the level ½, {p_i, q_k} = δ_ik: q̇ = −p, ṗ = γ3 ∂γ3/∂q; h/b3 in γ3, not h/(2 b3)."""
     for y in starts(body):
