@@ -1,13 +1,15 @@
 """The scene of orbit diagrams: attractors and repellers, the density, clicks, the way back."""
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from math import log
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from pytest import approx
 
 from hess_explorer.scenes import scenes
+from hess_explorer.scenes.parts.diagrams.ramps import visible_range
 from hess_explorer.views.text import digits
 from hess_mechanics import check_body, lyapunov_spectrum
 from hess_mechanics.dynamics.point_sets import set_distance
@@ -33,6 +35,25 @@ def test_all_examples_are_rigid_bodies_from_one_edge_of_their_diagram_to_the_oth
             for value in (state.first, state.diagram.value, state.last):
                 b = replace(state, **{state.diagram.name: value})
                 assert check_body(b.I11, b.I22, b.I13, b.I23).I33 is not None, (b, value)
+
+
+@dataclass(frozen=True)
+class TwoSets:
+    """Instead of a ramp: an attractor from 0 to 1, and a repeller as large at some distance."""
+
+    distance: float
+    backward: bool = False
+    values: tuple = ()
+    point: tuple = ()
+
+    def diagram(self, *_):
+        return SimpleNamespace(points=[np.array([[0.0], [1.0]]) + self.backward * self.distance])
+
+
+@pytest.mark.parametrize("distance, highest", [(1.0, 2.0), (5.0, 1.0)])
+def test_a_repeller_is_in_sight_only_near_the_attractor(distance, highest):
+    # A twentieth of the values need not be in sight.
+    assert visible_range(TwoSets(distance), 0, (-10.0, 10.0)) == approx((-0.2, highest + 0.2), abs=0.06)
 
 
 @pytest.mark.chaotic
