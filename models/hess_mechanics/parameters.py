@@ -73,9 +73,9 @@ class Parameter:
         Group to which the parameter belongs.
     unit : str, default "1"
         Unit; "1" for a number in the units of the problem.
-    means : str, optional
+    meaning : str, optional
         Distinguishes parameters with the same label.  A scene takes over a value from another scene only if both agree.
-    whole : bool, default False
+    is_integer : bool, default False
         True for integers.
     """
 
@@ -89,8 +89,8 @@ class Parameter:
     doc: str = ""
     group: Group = "State"
     unit: str = "1"
-    means: str = ""
-    whole: bool = False
+    meaning: str = ""
+    is_integer: bool = False
 
     @property
     def range(self) -> str:
@@ -117,8 +117,8 @@ class Parameter:
             If it is not finite, outside the bounds, or not an integer where one is required.
         """
         low, high = self.bounds
-        if not (low <= value <= high and (not self.whole or value == round(value))):
-            kind = "is not a whole number" if self.whole else "is not"
+        if not (low <= value <= high and (not self.is_integer or value == round(value))):
+            kind = "is not a whole number" if self.is_integer else "is not"
             raise InvalidParameter(f"{self.name} = {plain(value)} {kind} {self.range}: choose a value in this range.")
         return value
 
@@ -260,7 +260,7 @@ H_HESS = Parameter(
     0.01,
     (-1.0 + 1e-9, 1e6),
     "Energy integral in units b = 1: h > −1; separatrix at h = 1, f = 0.",
-    means=_UNITS_OF_B,
+    meaning=_UNITS_OF_B,
 )
 H_PLANE = replace(H_HESS, bounds=(-1e6, 1e6))
 """h for sweeps and commands, which report h ≤ −1 themselves."""
@@ -273,7 +273,7 @@ F_HESS = Parameter(
     0.01,
     (-1e4, 1e4),
     "Area integral in units b = 1. Its range follows h.",
-    means=_UNITS_OF_B,
+    meaning=_UNITS_OF_B,
 )
 PHI0 = Parameter(
     "phi0",
@@ -362,9 +362,9 @@ MOMENTUM = _vector(
     (-1e3, 1e3),
     "Component of the angular momentum at t = 0.",
 )
-H_HEAVY = Parameter("h", "h", "Energy h", 50.0, (-9.0, 100.0), 0.05, (-1e3, 1e5), "H = h; above −μ|r|.", means=_HEAVY)
+H_HEAVY = Parameter("h", "h", "Energy h", 50.0, (-9.0, 100.0), 0.05, (-1e3, 1e5), "H = h; above −μ|r|.", meaning=_HEAVY)
 F_HEAVY = Parameter(
-    "f", "f", "Area integral f", 5.0, (-8.0, 8.0), 0.05, (-1e3, 1e3), "(M, γ) = f. Its range follows h.", means=_HEAVY
+    "f", "f", "Area integral f", 5.0, (-8.0, 8.0), 0.05, (-1e3, 1e3), "(M, γ) = f. Its range follows h.", meaning=_HEAVY
 )
 L = Parameter(
     "l", "l", "Angle l", 0.0, _TURN, 0.01, _ANGLES, "Andoyer–Deprit angle of M about axis 3, at t = 0.", unit="rad"
@@ -379,7 +379,7 @@ SHEET = Parameter(
     1,
     (0, 2),
     "Number of the momentum G of this energy; 0 is the largest.",
-    whole=True,
+    is_integer=True,
 )
 H_PENDULUM = Parameter(
     "energy",

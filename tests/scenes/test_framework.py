@@ -75,12 +75,12 @@ def test_no_name_of_a_scene_hides_one_of_the_scene_that_looks_into_it():
     assert shown.has_motion
     assert not looking.has_motion
     values = {**looking.defaults(), "first": 1.5, "accuracy": "precise"}
-    state = looking.of(values, visible=["a"], dragging=True)
+    state = looking.of(values, visible=["a"], is_preview=True)
     assert [*state.status()] == ["precise chosen"]
     assert state.precision.motion.duration == 1.5
     assert (state.base.chosen, state.base.quantities()) == ("mine", ["mine"])
     assert state.work is state.base.work
-    assert (state.dragging, state.visible) == (True, frozenset({"a"}))
+    assert (state.is_preview, state.visible) == (True, frozenset({"a"}))
     assert looking.admit({**values, "first": 20.0}) == shown.admit({**values, "first": 20.0})
 
 

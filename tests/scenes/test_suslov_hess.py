@@ -117,7 +117,7 @@ def test_the_caption_of_the_circle_map_says_what_is_proved_when_it_is_found(I23,
             assert low - 1e-12 * low <= number <= high + 1e-12 * high
             assert high - low <= share * high
     # While a slider is held nothing is proved.
-    held = View(SCENE, values, seen={"circle"}, dragging=True)
+    held = View(SCENE, values, seen={"circle"}, is_preview=True)
     assert not any(task.function is proved_statement for task in held.report.todo)
     assert "Proved" not in held.text["circle"]
 

@@ -59,7 +59,7 @@ class Background:
         with self._lock:
             job.tasks.extend(tasks)
         for _ in range(min(POOL.cores, len(tasks))):
-            POOL.fill(lambda: self._step(job))
+            POOL.add_task(lambda: self._step(job))
 
     def stop(self) -> None:
         """Discard all tasks; running ones end at the next check of their budget."""
@@ -95,7 +95,7 @@ class Background:
         with self._lock:
             job.running -= 1
             self._running.remove(begun)
-        POOL.fill(lambda: self._step(job))
+        POOL.add_task(lambda: self._step(job))
 
     @property
     def backlog(self) -> int:

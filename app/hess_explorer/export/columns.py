@@ -16,7 +16,7 @@ from hess_explorer.views.layers import Columns, Sources
 from hess_explorer.views.plot import Plot
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.labelled import Labels, Result
-from hess_mechanics.numerics.results import angle_convention, frozen
+from hess_mechanics.numerics.results import angle_convention, as_read_only
 
 __all__ = ["Table", "columns_of"]
 
@@ -191,7 +191,9 @@ def columns_of(data: PictureData) -> Table:
     ]
     known = dict.fromkeys(name for block in blocks for name in block)
     names = dict.fromkeys(["layer", *(name for name in INDICES if name in known), *known])
-    return Table({name: frozen(_column(name, blocks)) for name in names}, {**data.facts, **angles_of(data)}, data.names)
+    return Table(
+        {name: as_read_only(_column(name, blocks)) for name in names}, {**data.facts, **angles_of(data)}, data.names
+    )
 
 
 def angles_of(data: PictureData) -> dict[str, dict[str, str]]:

@@ -140,7 +140,7 @@ def _facts(text: str) -> tuple[str, float]:
     return title.strip(), float(minutes)
 
 
-def read_tries(scene: Scene[Any]) -> Lesson | None:
+def read_suggestions(scene: Scene[Any]) -> Lesson | None:
     """Return the section "Try this" of a scene as a lesson, or None if it has none.  Raises `LessonError`."""
     lines = scene.words.split("\n")
     begin, end = _section(lines)
@@ -155,7 +155,7 @@ def read_tries(scene: Scene[Any]) -> Lesson | None:
     return Lesson(scene.name, f"{TRY_THIS}: {scene.title}", 0.0, steps)
 
 
-def without_tries(words: str) -> str:
+def without_suggestions(words: str) -> str:
     """Return the text of a scene without the section "Try this"."""
     lines = words.split("\n")
     begin, end = _section(lines)
@@ -281,7 +281,7 @@ def _steps(
             break
         if step is not None:
             steps.append(step)
-            place = step.at if step.prediction is None else step.prediction.then
+            place = step.state if step.prediction is None else step.prediction.outcome
     if not parts:
         mistakes.append(LessonError(f"there is no step: begin one with a heading, {'#' * level} Its title.", 1))
     if len(parts) > MAX_STEPS:

@@ -99,12 +99,12 @@ def corrections(steps: Iterable[LessonStep]) -> Iterator[LessonError]:
 
 def _places(step: LessonStep) -> Iterator[tuple[str, StateLink]]:
     """Yield the states that a step shows, with their names."""
-    yield "the state of this step", step.at
+    yield "the state of this step", step.state
     if step.prediction:
-        yield "the state of predict", step.prediction.then
+        yield "the state of predict", step.prediction.outcome
     if step.animation and step.animation.name != TIME:
         for end in (step.animation.start, step.animation.end):
-            yield "an end of animate", StateLink(step.at.scene, {**step.at.values, step.animation.name: end})
+            yield "an end of animate", StateLink(step.state.scene, {**step.state.values, step.animation.name: end})
 
 
 # ---- what is shown --------------------------------------------------------------------------------------------------

@@ -34,7 +34,7 @@ _CLICKS = ("tap", "pan")
 
 def _constants(one: StateFamily) -> str:
     """Return the constant numbers of a file as text."""
-    idle = one.scene.idle(one.base)
+    idle = one.scene.idle_values(one.base)
     specs = [spec for spec in one.scene.specs if isinstance(spec, NumberSpec) and spec.name not in {*one.names, *idle}]
     return ", ".join(f"{spec.symbol} = {one.base[spec.name]:g}".replace("-", "−") for spec in specs)
 
@@ -132,7 +132,7 @@ class Recording:
             wire.put_ranges(plot.name, ranges.x, ranges.y)
         # A file computes no windows.
         for key, text in {**texts, "windowed": ""}.items():
-            wire.say(key, text)
+            wire.set_text(key, text)
         show_controls(scene, values, wire)
         tree, block = wire.pack()
         # In an order that does not depend on the process.

@@ -42,7 +42,7 @@ class BackgroundTasks:
         self._next = None
         self.background.stop()
 
-    def end_running(self) -> None:
+    def cancel_running(self) -> None:
         """End the running tasks, which would slow down another state, and allow tasks again."""
         self._stopped = False
         self.background.stop()

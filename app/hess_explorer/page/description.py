@@ -11,8 +11,8 @@ from typing import Any
 from markdown_it import MarkdownIt
 from markdown_it.token import Token
 
-from hess_explorer.lessons import tries
-from hess_explorer.lessons.reading import without_tries
+from hess_explorer.lessons import suggestions
+from hess_explorer.lessons.reading import without_suggestions
 from hess_explorer.page.glossary import explainer
 from hess_explorer.page.lesson_description import steps
 from hess_explorer.protocol.specs import ChoiceSpec, Controlled, NumberSpec
@@ -48,7 +48,7 @@ def describe(name: str) -> str:
             "presets": [preset.name for preset in scene.presets],
             "legend": scene.legend,
             "words": _html(scene),
-            "tries": steps(tries().get(scene.name)),
+            "tries": steps(suggestions().get(scene.name)),
             "tracks": [f"data-{name}" for name in scene.tracks],
             "dots": {source: list(columns) for source, columns in scene.dots.items()},
             "angles": list(scene.angles),
@@ -80,7 +80,7 @@ def _html(scene: Scene[Any]) -> str:
     markdown.add_render_rule("image", drawing)
     explain = explainer()
     markdown.add_render_rule("text", lambda _, tokens, i, *rest: explain(tokens[i].content))
-    html: str = markdown.render(with_formulas(scene.words if scene.origin else without_tries(scene.words)))
+    html: str = markdown.render(with_formulas(scene.words if scene.origin else without_suggestions(scene.words)))
     return html
 
 

@@ -87,7 +87,7 @@ def opening(query: str, own: Sequence[Lesson] = (), *, lenient: bool = True) -> 
     at = int(float(link.value(NumberSpec("step", "step", "Step", 1.0, (1.0, most), 1.0, (1.0, most)))))
     if reading and "scene" not in link.texts:
         # A link with only a step opens the state of that step.
-        place = reading.steps[at - 1].at
+        place = reading.steps[at - 1].state
         scene, state = scenes()[place.scene], dict(place.values)
     else:
         scene, state = scene_and_values(link, next(iter(scenes())))

@@ -26,7 +26,7 @@ logger = logging.getLogger("hess_explorer")
 
 _FILES = {
     "program": f"hess-explorer {version('hess-explorer')}",
-    "formats": [[kind, one.words, one.holds] for kind, one in FORMATS.items() if one.words],
+    "formats": [[kind, one.words, one.content] for kind, one in FORMATS.items() if one.words],
     "width": [*WIDTHS, FileRequest.width],
     "seconds": [*SERVED_SECONDS, FileRequest.seconds],
 }

@@ -10,7 +10,7 @@ import numpy as np
 
 from hess_explorer.compute.background import Background
 from hess_explorer.compute.budget import ClientGone
-from hess_explorer.lessons import tries
+from hess_explorer.lessons import suggestions
 from hess_explorer.lessons.lesson import Lesson
 from hess_explorer.page.background_tasks import BackgroundTasks
 from hess_explorer.page.controls import show_controls
@@ -175,7 +175,7 @@ class Session:
         if request.step is not None:
             self._go(request.step)
         if self._drawn is None or (self.scene.name, wanted.values) != self._drawn[:2]:
-            self._tasks.end_running()
+            self._tasks.cancel_running()
         if request.stop:
             self._tasks.stop()
 
@@ -183,7 +183,7 @@ class Session:
         self.requested.change(values)
         for name, spec in self.requested.specs.items():
             if isinstance(spec, Formula) and name in values and (note := spec.read(values[name])[1]):
-                self.wire.say(f"error-{name}", note)
+                self.wire.set_text(f"error-{name}", note)
         # The control must be corrected even if the state does not change.
         self._mistaken |= any(self.values.get(name) != value for name, value in values.items())
 
@@ -196,7 +196,7 @@ class Session:
                     # The input field must show the number, even if it is unchanged.
                     self._mistaken = True
                 except NotANumber as refusal:
-                    self.wire.say(f"error-{name}", str(refusal))
+                    self.wire.set_text(f"error-{name}", str(refusal))
 
     def _pick(self, picked: PicturePoint | PictureBox) -> None:
         """Set the values that a click or a box selects, or append the reason why it selects none."""
@@ -218,14 +218,14 @@ class Session:
                 text = self.stage.hover(point.picture, point.x, point.y)
             except ModelError as error:
                 text = str(error)
-            self.wire.say(f"hover-{point.picture}", text)
+            self.wire.set_text(f"hover-{point.picture}", text)
 
     def _go(self, step: StepChoice) -> None:
         """Go to the state of a step of a lesson, or of a suggestion of the scene."""
-        lesson = self._lessons.get(step.lesson) or tries().get(step.lesson)
+        lesson = self._lessons.get(step.lesson) or suggestions().get(step.lesson)
         if lesson is not None and 0 <= step.number < len(lesson.steps):
             found = lesson.steps[step.number]
-            self.requested.go(found.prediction.then if step.revealed and found.prediction else found.at)
+            self.requested.go_to(found.prediction.outcome if step.revealed and found.prediction else found.state)
 
     def _update(self, held: bool) -> None:
         """Draw the requested state unless it is already drawn."""
@@ -278,14 +278,14 @@ class Session:
     def _say_limits(self, limited: set[str], notes: list[str]) -> None:
         """Say beside the controls of limited values why they are limited."""
         for name in limited | self._limited:
-            self.wire.say(f"limit-{name}", "\n".join(notes) if name in limited else "")
+            self.wire.set_text(f"limit-{name}", "\n".join(notes) if name in limited else "")
         self._limited = limited
 
     def _say(self, report: Report, notes: list[str]) -> None:
-        self.wire.say("summary", report.summary)
-        self.wire.say("status", report.status)
-        self.wire.say("notes", "\n".join([*self.requested.notes, *notes, *report.notes]))
-        self.wire.say("derived", "\n".join(report.quantities))
+        self.wire.set_text("summary", report.summary)
+        self.wire.set_text("status", report.status)
+        self.wire.set_text("notes", "\n".join([*self.requested.notes, *notes, *report.notes]))
+        self.wire.set_text("derived", "\n".join(report.quantities))
 
     def _refuse(self, sentence: str) -> Report:
         """Clear the pictures and show the reason."""

@@ -16,7 +16,7 @@ from typing import Any
 
 from simpleeval import InvalidExpression, SimpleEval
 
-MOST = 100
+MAX_LENGTH = 100
 """Maximum length of an expression, in characters."""
 
 FUNCTIONS: Mapping[str, Callable[..., float]] = {
@@ -94,8 +94,8 @@ def evaluate(text: str) -> float:
         If the text is too long, cannot be parsed, or has no finite value.
     """
     text = to_python(text)
-    if len(text) > MOST:
-        raise NotANumber(f"The expression is longer than {MOST} characters: shorten it.")
+    if len(text) > MAX_LENGTH:
+        raise NotANumber(f"The expression is longer than {MAX_LENGTH} characters: shorten it.")
     if not _TEXT.fullmatch(text):
         raise NotANumber("This is not a number: type one like 1.5, 1e-8, pi/3, sqrt(2) or 1/7.")
     try:

@@ -130,14 +130,14 @@ class RoomDrawing:
             told["step"] = {**json.loads(describe_lesson(lesson))["steps"][show.step - 1], "answer": ""}
             told["lesson"] = lesson.title
             # The lecturer may have left the scene of the step.
-            if step.prediction is None or (scene.name, picture) != (step.at.scene, step.prediction.picture):
+            if step.prediction is None or (scene.name, picture) != (step.state.scene, step.prediction.picture):
                 told["step"].pop("prediction", None)
         return json.dumps(told)
 
 
 def _picture(scene: Scene[Any], step: LessonStep | None, enlarged: str) -> str:
     """Return the picture for followers: that of a prediction, the enlarged one, or the first one."""
-    look = step.look if step is not None else ""
+    look = step.enlarged_picture if step is not None else ""
     guess = step.prediction.picture if step is not None and step.prediction else ""
     return next(name for name in (guess, enlarged, look, *scene.open_pictures) if name in scene.pictures)
 

@@ -21,7 +21,7 @@ GRACE = 60.0
 """Seconds that a room waits for a lecturer whose page was closed or reloaded."""
 LONGEST = 3 * 3600.0
 """Maximum age of a room in seconds."""
-MOST_FOLLOWERS = 500
+MAX_FOLLOWERS = 500
 AT_ONCE, PAUSE = 10, 0.005
 """Number of followers that a state is sent to at once, and the seconds before the next ones.
 
@@ -85,7 +85,7 @@ class Room:
 
     def follow(self, member: Member, name: str) -> bool:
         """Add a follower and send it the last state; return False if the room is full."""
-        if len(self._followers) >= MOST_FOLLOWERS:
+        if len(self._followers) >= MAX_FOLLOWERS:
             return False
         self._followers[member] = name
         if self._frames is not None:
@@ -117,7 +117,7 @@ class Room:
         name, asked, show = self._followers.get(member), self._prediction, self._show
         if name is None or asked is None or show is None or show.revealed or guess.step != show.step:
             return
-        if name in self._guesses or len(self._guesses) < MOST_FOLLOWERS:
+        if name in self._guesses or len(self._guesses) < MAX_FOLLOWERS:
             self._guesses[name] = guess.points[-1:] if asked.what == "point" else guess.points
             self._news.set()
 

@@ -166,7 +166,7 @@ class BallSectionState(SectionState):
         lambda s: Section(
             s,
             max_steps=_MOST_STEPS,
-            later=s.drop == _LATE,
+            second_half_only=s.drop == _LATE,
         )
     )
     branch = part(lambda s: SectionBranch(s, s.periodic_orbit, ball.PARAMETERS))
@@ -240,7 +240,7 @@ SCENE = Scene(
     __file__,
     place=10,
     presets=PRESETS,
-    measures=section_trials(),
+    level_trials=section_trials(),
     charts=Charts(motion_charts(SYSTEM, lambda s: s.chosen_start), over=("psi", "delta")),
     group="Ball",
     essential=("h", "I13", "D", "psi"),

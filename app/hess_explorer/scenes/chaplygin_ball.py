@@ -240,16 +240,18 @@ _MEASURES: tuple[Trial[ChaplyginBall], ...] = (
     Trial(
         Kind.MAP,
         ("curve",),
-        lambda s, plan: s.phases(plan.side(_PHASES), _EXACT if plan.level.aside else plan.level).compute().theta_plus,
+        lambda s, plan: (
+            s.phases(plan.side(_PHASES), _EXACT if plan.level.is_perturbed else plan.level).compute().theta_plus
+        ),
         lambda s, found, truth: curve_error(found, truth, math.pi),
-        alike="cells",
+        shared_setting="cells",
     ),
     Trial(
         Kind.CURVE,
         ("omega",),
         lambda s, plan: s.strip_orbits(plan.side(_ORBITS), plan.level).compute(),
         lambda s, found, truth: math.sqrt(s.h) * 0.5 * PIXELS / s.half_width * largest_distance(found, truth),
-        alike="cells",
+        shared_setting="cells",
     ),
 )
 
@@ -259,7 +261,7 @@ SCENE = Scene(
     __file__,
     place=9,
     presets=PRESETS,
-    measures=_MEASURES,
+    level_trials=_MEASURES,
     charts=Charts(
         (
             ChartSource(
@@ -291,11 +293,11 @@ SCENE = Scene(
                     edge=theme.MUTED,
                     label="impossible",
                     tag="impossible",
-                    moving=True,
+                    is_overlay=True,
                 ),
                 names("names", ChaplyginBall.ellipse_names),
                 plane.arcs(lambda s: [track for track, _ in s.all_orbits if len(track) > 1]),
-                *plane.halves(
+                *plane.half_lines(
                     lambda s, _: s.strip.stable, lambda s, _: s.strip.unstable, ("Nˢ, circle joined", "Nᵘ, circle left")
                 ),
                 plane.band(lambda s: s.proof.band),
@@ -319,7 +321,7 @@ SCENE = Scene(
                 curves("ball", lambda s: [] if s.map is None else [s.map.curve], color=theme.ORBIT, tag="θ⁺"),
                 ring(
                     "chosen",
-                    lambda s: [] if s.map is None else [(s.phi, s.map.at(s.phi))],
+                    lambda s: [] if s.map is None else [(s.phi, s.map.theta_plus_at(s.phi))],
                     size=18.0,
                     tag="chosen orbit",
                 ),

@@ -69,7 +69,7 @@ from hess_mechanics.euler_poisson.andoyer import AndoyerSection, hess_curve, rel
 from hess_mechanics.euler_poisson.equations import SYSTEM, HeavyBody
 from hess_mechanics.euler_poisson.hess_split import HessTorus
 from hess_mechanics.numerics.accuracy import Level
-from hess_mechanics.numerics.results import Array, frozen
+from hess_mechanics.numerics.results import Array, as_read_only
 from hess_mechanics.parameters import F_HEAVY, H_HEAVY, I1, I2, I3, MU_R
 
 _NAMES = ("l", "L/G")
@@ -275,7 +275,7 @@ class EulerPoisson(FilledState):
     def other_sheets(self) -> Array:
         """The points (n, 2) of all orbits on other sheets of the energy surface."""
         known = *self.section.known_orbits.chosen_batches, *self.section.known_orbits.batches
-        return concatenate(batch.elsewhere for batch in known if batch.elsewhere is not None)
+        return concatenate(batch.other_sheets for batch in known if batch.other_sheets is not None)
 
     def hess_curve(self) -> tuple[Array, Array]:
         """Return the curve of the Hess manifold in the window, as x and y."""
@@ -316,7 +316,7 @@ def _crossings(
         batch_of(section, found),
         firsts=tuple(bool(sign > 0.0) for sign in signs),
         same_side=tuple(kept),
-        elsewhere=frozen(concatenate(other)),
+        other_sheets=as_read_only(concatenate(other)),
     )
 
 
@@ -325,7 +325,7 @@ SCENE = Scene(
     __file__,
     place=11,
     presets=PRESETS,
-    measures=(*section_trials(orbits=40.0), exponent_trial(), rotation_trial()),
+    level_trials=(*section_trials(orbits=40.0), exponent_trial(), rotation_trial()),
     charts=Charts(
         motion_charts(SYSTEM, lambda s: start_on(s.poincare, s.starts), time=lambda s: s.long),
         over=_NAMES,
@@ -351,7 +351,7 @@ SCENE = Scene(
             labels=("r·M > 0", "r·M < 0"),
             dot=("l", "x"),
             between=andoyer.middle_layers(
-                elsewhere=lambda s: s.other_sheets,
+                other_sheets=lambda s: s.other_sheets,
                 curve=EulerPoisson.hess_curve,
                 across=lambda s: crop(s.rotation.ends, s.section.frame),
             ),

@@ -321,7 +321,7 @@ SCENE = Scene(
             layers=(
                 *plane.energy_levels(FreeSuslov.ellipses, lambda s: s.half_width, "energy levels; level of F₂"),
                 plane.arcs(lambda s: s.arcs),
-                *plane.halves(
+                *plane.half_lines(
                     lambda s, axes: plane.half_line(s.points.stable, s.half_width, axes),
                     lambda s, axes: plane.half_line(s.points.unstable, s.half_width, axes),
                     ("stable half, circle joined", "unstable half, circle left"),

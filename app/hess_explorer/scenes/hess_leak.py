@@ -170,7 +170,7 @@ class HessLeak(State):
         l, x = self.run.andoyer.T
         return {
             **self.run_columns(),
-            "lg": column(lg(np.abs(self.run.off))),
+            "lg": column(lg(np.abs(self.run.offset))),
             "l": column(l),
             "x": column(x),
             **gamma_columns(self.states[:, 3:]),
@@ -186,7 +186,7 @@ class HessLeak(State):
     def _about_leak(self) -> Caption:
         exact, growth = digits(mechanics.exact_growth(self.map)), self.leaks["own"].growth
         if self.map.kind != "hyperbolic":
-            merged, largest = self.map.fixed_points, digits(float(np.max(np.abs(self.run.off))), 2)
+            merged, largest = self.map.fixed_points, digits(float(np.max(np.abs(self.run.offset))), 2)
             return Caption(
                 "Lock boundary: |r·M| grows like t²." if merged else "No cycles: no growth to first order.",
                 f"In {self._periods} periods |r·M| ≤ {largest}.",
@@ -276,7 +276,7 @@ SCENE = Scene(
             y=_RANGE,
             dot=("t", "lg"),
             layers=(
-                *distances(lambda s: s.leaks, lambda leak: np.abs(leak.run.off)),
+                *distances(lambda s: s.leaks, lambda leak: np.abs(leak.run.offset)),
                 curves(
                     "slope",
                     lambda s: s.leaks["own"].straight_line(mechanics.exact_growth(s.map), _RANGE),

@@ -151,7 +151,7 @@ class Quartic(SectionState):
         lambda s: Section(
             s,
             max_steps=40_000,
-            whole=s.section_window,
+            default_window=s.section_window,
         )
     )
     branch = part(lambda s: SectionBranch(s, s.periodic_orbit, _ALONG, ("I22",)))
@@ -175,7 +175,7 @@ class Quartic(SectionState):
         (q,), _ = self.body.to_plane(np.array([self.start]))
         return float(q[0]), float(q[1])
 
-    def impossible(self, axes: Axes) -> list[list[Array]]:
+    def forbidden(self, axes: Axes) -> list[list[Array]]:
         """Return the forbidden region of the section."""
         reach = 4.0 * max(axes.x[1], self.body.major_semi_axis)
         return (
@@ -232,7 +232,7 @@ SCENE = Scene(
     __file__,
     place=7,
     presets=PRESETS,
-    measures=section_trials(),
+    level_trials=section_trials(),
     charts=Charts(motion_charts(SYSTEM, lambda s: s.chosen_start), over=("h", "beta")),
     group="Heavy body",
     essential=("ratio", "h", "Q1", "Q2"),
@@ -265,7 +265,7 @@ SCENE = Scene(
             caption=Quartic._about_section,
             axes=_NAMES,
             y=_P_AXIS,
-            layers=section_layers(forbidden=Quartic.impossible),
+            layers=section_layers(forbidden=Quartic.forbidden),
         ),
         Sphere(
             caption=Quartic._about_sphere,

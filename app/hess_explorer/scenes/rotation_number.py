@@ -114,12 +114,12 @@ class RotationNumber(State):
         """The tori on the line, within the window of the map if the line lies in its plane."""
         low, high = dict(zip(self.rho.sides, self.rho.window, strict=True)).get(self.line, FULL[self.line])
         # The line's own parameter is set to 0, so the cache key is constant along the line.
-        return possible_part(ParameterLine(self.line, self.torus.at(**{self.line: 0.0}), low, high))
+        return possible_part(ParameterLine(self.line, self.torus.with_values(**{self.line: 0.0}), low, high))
 
     @cached_property
     def tori(self) -> rotation_line.Tori:
         """ρ and trace of tori on the line."""
-        count = _ON_LINE // 4 if self.dragging else self.plan(Kind.LINE).side(_ON_LINE)
+        count = _ON_LINE // 4 if self.is_preview else self.plan(Kind.LINE).side(_ON_LINE)
         values = self.work.need(Task(mechanics.values_along, self.parameter_line, count, self.plan(Kind.LINE).level))
         return rotation_line.Tori(self.parameter_line.values(count), values, self.parameter_line.value_of(self.torus))
 
@@ -129,7 +129,7 @@ class RotationNumber(State):
         plan, count = self.plan(Kind.LINE), self.tori.x.size
         turns = plan.part(mechanics.TURNS)
         task = Task(mechanics.perturbations_along, self.parameter_line, count, self.epsilon, plan.level, turns)
-        return None if self.dragging else self.work.need(task, preview=None)
+        return None if self.is_preview else self.work.need(task, preview=None)
 
     @property
     def target(self) -> Fraction:
@@ -140,7 +140,7 @@ class RotationNumber(State):
     @cached_property
     def _search(self) -> tuple[PeriodicTorus | None] | None:
         task = Task(_periodic, self.target, self.parameter_line)
-        return None if self.work.dragging else self.work.need(task, preview=None)
+        return None if self.work.is_preview else self.work.need(task, preview=None)
 
     @property
     def periodic(self) -> PeriodicTorus | None:
@@ -232,7 +232,7 @@ _MEASURES: tuple[Trial[RotationNumber], ...] = (
         ("line", "trace"),
         _line,
         _line_error,
-        alike="cells",
+        shared_setting="cells",
     ),
     Trial(
         Kind.CURVE,
@@ -247,7 +247,7 @@ SCENE = Scene(
     __file__,
     place=8,
     presets=PRESETS,
-    measures=_MEASURES,
+    level_trials=_MEASURES,
     charts=Charts(torus_charts(lambda s: (s.a, s.h, s.f)), over=("h", "f")),
     group="Heavy body",
     essential=("a", "h", "f"),

@@ -159,7 +159,7 @@ class ScatteringState(State):
 
     def grid(self) -> Array:
         """Return θ⁺ over all circles and phases."""
-        cells = _FEW_CELLS if self.dragging else self.plan(Kind.MAP).grid(_CELLS)
+        cells = _FEW_CELLS if self.is_preview else self.plan(Kind.MAP).grid(_CELLS)
         return self.work.need(Task(model.theta_plus_grid, self.map, *cells))
 
     # ---- words --------------------------------------------------------------------------------------------------
@@ -223,7 +223,7 @@ SCENE = Scene(
     __file__,
     place=4,
     presets=PRESETS,
-    measures=(_MAP,),
+    level_trials=(_MAP,),
     charts=Charts(
         (
             ChartSource("scattering", lambda s: {**tensor_of(s.body), "theta": s.theta, "phi": s.phi}),

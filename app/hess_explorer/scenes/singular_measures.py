@@ -126,7 +126,7 @@ class SingularMeasures(State):
     points: str = choice("Points", ("1000", "10000"), "10000", doc="Number of points of both clouds together.")
     accuracy: str = accuracy_level()
 
-    def idle(self) -> Mapping[str, float]:
+    def idle_values(self) -> Mapping[str, float]:
         """Return the parameters of the patch or of the second cloud, if it is absent."""
         return {
             **({} if self.start == "small patch" else {"angle": self.angle}),
@@ -222,7 +222,7 @@ _CLOUD: Trial[SingularMeasures] = Trial(
     (),
     lambda s, plan: s.task(plan.part(int(s.points), _FEW), plan.level).compute(),
     lambda s, found, truth: cloud.largest_distance(found, truth),
-    alike="share",
+    shared_setting="share",
 )
 
 SCENE = Scene(
@@ -230,7 +230,7 @@ SCENE = Scene(
     __file__,
     place=16,
     presets=PRESETS,
-    measures=(_CLOUD,),
+    level_trials=(_CLOUD,),
     group="Free body",
     essential=("h", "I23", "D", "spread"),
     answers=(Answer("The cloud leaves one half of a line and gathers at the other, though no energy is lost."),),
@@ -260,7 +260,7 @@ SCENE = Scene(
             log="xy",
             axes=("|s| = |I₁₃ω₁ + I₂₃ω₂|", "share of points per |s|"),
             y_tick_count=5,
-            drawn_from=("omega",),
+            source_pictures=("omega",),
             x=lambda s: cloud.density_axes(s.clouds).x,
             y=lambda s: cloud.density_axes(s.clouds).y,
             layers=cloud.density_layers(lambda s: s.clouds.density),

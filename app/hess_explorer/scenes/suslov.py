@@ -167,7 +167,9 @@ class Suslov(FilledState):
     def section(self) -> Section:
         """The section."""
         ways = (True, False) if self.colours == _BOTH else (True,)
-        return filled_section(self, 12, ways=ways, later=self.drop == _LATE, alone=self.colours != "basins")
+        return filled_section(
+            self, 12, directions=ways, second_half_only=self.drop == _LATE, is_exclusive=self.colours != "basins"
+        )
 
     clicks = part(lambda s: Clicks(s, "no motion has this energy"))
     orbit = part(lambda s: BodyOrbit(s, s.orbit_level))
@@ -196,7 +198,7 @@ class Suslov(FilledState):
             return Caption(numbers=f"{len(self.section.chosen_points)} points of chosen orbits.")
         backward = f", {len(second)} backward" if len(second) else ""
         # The later halves of the forward orbits show the attractors.
-        later = self.section.points(later=True)
+        later = self.section.points(second_half_only=True)
         counted = self.density.phrase or f"{len(first)} points forward{backward}; "
         cells = occupied_cells(later, self.poincare.window, _CELLS)
         return Caption(numbers=f"{counted}late forward points occupy {cells} of {_CELLS**2} cells.")
@@ -213,7 +215,7 @@ SCENE = Scene(
     __file__,
     place=5,
     presets=PRESETS,
-    measures=(*section_trials(orbits=40.0), exponent_trial(), basins_trial()),
+    level_trials=(*section_trials(orbits=40.0), exponent_trial(), basins_trial()),
     charts=Charts(
         (
             *motion_charts(SYSTEM, lambda s: start_on(s.poincare, s.starts), time=lambda s: s.long),

@@ -52,7 +52,7 @@ from hess_mechanics.suslov_hess.bifurcation import TurningPoints, curve, curve_p
 from hess_mechanics.suslov_hess.circle_map import CircleMap, circle_map
 from hess_mechanics.suslov_hess.equations import SYSTEM, HessBody
 from hess_mechanics.suslov_hess.invariant_measure import density_on_torus, invariant_measure
-from hess_mechanics.suslov_hess.mode_locking import CELLS, affordable_cells, lock_boundary, rotation_number_window
+from hess_mechanics.suslov_hess.mode_locking import CELLS, affordable_cells, rotation_number_window, tongue_boundary
 from hess_mechanics.suslov_hess.torus import MAX_RETURNS, Track, annulus, pixels_per_unit, start_of_track, track
 
 _ON_BOUNDARY = 48
@@ -128,10 +128,10 @@ class SuslovHess(State):
         return "" if self.map is None else self.map.kind
 
     @cached_property
-    def lock_boundary(self) -> Array:
+    def tongue_boundary(self) -> Array:
         """The boundary |t| = 2 of the Arnold tongue, with points (n, 2)."""
         plan = self.plan(Kind.CURVE, steady=True)
-        return self.work.need(Task(lock_boundary, self.body.a, plan.level, plan.side(_ON_BOUNDARY)))
+        return self.work.need(Task(tongue_boundary, self.body.a, plan.level, plan.side(_ON_BOUNDARY)))
 
     @cached_property
     def edge(self) -> Array:
@@ -205,7 +205,7 @@ class SuslovHess(State):
     @cached_property
     def proof(self) -> ProvedStatement | None:
         """The proved statement on this torus; None until known and during a drag."""
-        if self.dragging or self.map is None:
+        if self.is_preview or self.map is None:
             return None
         if not has_flint():
             return ProvedStatement("", "Proofs need python-flint: pip install 'hess-explorer[prove]'")
@@ -304,7 +304,7 @@ _MEASURES: tuple[Trial[SuslovHess], ...] = (
     Trial(
         Kind.CURVE,
         ("bifurcation",),
-        lambda s, plan: lock_boundary(s.body.a, plan.level, plan.side(_ON_BOUNDARY)),
+        lambda s, plan: tongue_boundary(s.body.a, plan.level, plan.side(_ON_BOUNDARY)),
         lambda s, found, truth: boundary_error(found, truth, diagram.window(s.h)),
     ),
 )
@@ -314,7 +314,7 @@ SCENE = Scene(
     __file__,
     place=1,
     presets=PRESETS,
-    measures=_MEASURES,
+    level_trials=_MEASURES,
     charts=Charts(torus_charts(lambda s: (s.body.a, s.h, s.f)), over=("h", "f")),
     swarm=hess_case.torus_swarm(lambda s: (s.body, s.h, s.f, s.phi0, s.map)),
     group="Heavy body",
@@ -369,7 +369,7 @@ SCENE = Scene(
             on_hover=lambda s, h, f: diagram.torus_tooltip(s.body.a, h, f),
             layers=diagram.layers(
                 rotation=lambda s: s.rotation,
-                boundary=lambda s: s.lock_boundary,
+                boundary=lambda s: s.tongue_boundary,
                 curve=lambda s: s.edge,
                 here=lambda s: [(s.h, s.f)],
                 axes=lambda s: diagram.window(s.h),

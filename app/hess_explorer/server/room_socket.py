@@ -83,7 +83,7 @@ class RoomSocket(WebSocketHandler):
 
     def on_message(self, message: str | bytes) -> None:
         """Process a message within the limits."""
-        if not self._limit.takes(self, message):
+        if not self._limit.accepts(self, message):
             return
         try:
             told = json.loads(message)

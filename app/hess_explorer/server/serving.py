@@ -88,7 +88,7 @@ def _prepare(address: str, port: int, ready: Callable[[], None]) -> None:
 
 def _page(lessons: Sequence[Lesson], capacity: Capacity) -> Any:
     """Return the page with the style sheets of this server, or a message if the server is full."""
-    if not capacity.take():
+    if not capacity.reserve():
         return pn.pane.Str(capacity.sentence)
     document = pn.state.curdoc
     if document is not None:
@@ -220,8 +220,8 @@ def serve(
     if together is not None:
         # Only one worker reports that the explorer is ready, and all end with the parent process.
         ready = ready if task_id() == 0 else lambda: None
-        together.end_together(server.io_loop)
-        POOL.use(POOL.cores // workers)
+        together.end_with_parent(server.io_loop)
+        POOL.set_cores(POOL.cores // workers)
     # Compile kernels while the browser loads the page.
     threading.Thread(target=_prepare, args=(address, port, ready), name="warm", daemon=True).start()
     server.start()

@@ -50,7 +50,7 @@ class PanelSocket(WSHandler):
 
     async def on_message(self, fragment: str | bytes) -> None:
         """Process a frame within the limits."""
-        if self._limit.takes(self, fragment):
+        if self._limit.accepts(self, fragment):
             await super().on_message(fragment)
 
 
@@ -92,7 +92,7 @@ class StateSocket(WebSocketHandler):
 
     async def on_message(self, message: str | bytes) -> None:
         """Process a request within the limits."""
-        if self._connection is None or not self._limit.takes(self, message):
+        if self._connection is None or not self._limit.accepts(self, message):
             return
         # Back pressure: wait until the client has received the last response.
         if self._sent is not None:

@@ -49,7 +49,7 @@ def compute(piece: SweepPlan) -> PieceResult:
             arrays[f"{own}_error"] = found.errors[name]
     arrays["status"] = found.status
     failed = np.flatnonzero(found.status == Outcome.FAILED).tolist()
-    failures = {cell_name({name: columns[name][i] for name in piece.axes}): found.why[i] for i in failed}
+    failures = {cell_name({name: columns[name][i] for name in piece.axes}): found.reasons[i] for i in failed}
     return {name: values.reshape(piece.shape) for name, values in arrays.items()}, failures
 
 
@@ -93,7 +93,7 @@ def compute_sent(content: bytes, release: str, axes: Mapping[str, Array]) -> Pie
     return compute(replace(_plan_of(content), axes=axes))
 
 
-def cells_of_a_piece(plan: SweepPlan, workers: int) -> float:
+def piece_size(plan: SweepPlan, workers: int) -> float:
     """Return the maximum number of cells of a piece, from the measured cost of random cells."""
     cost = _seconds_of_a_cell(plan)
     seconds = min(_LONGEST, max(_SHORTEST, cost * plan.cells / (_PIECES * workers)))

@@ -20,14 +20,14 @@ class Progress(NamedTuple):
         Total number of cells.
     seconds : float
         Wall time so far, in seconds.
-    left : float or None
+    remaining : float or None
         Estimated remaining time in seconds; None until a cell is finished.
     """
 
     done: int
     cells: int
     seconds: float
-    left: float | None
+    remaining: float | None
 
 
 _EVERY = 30.0

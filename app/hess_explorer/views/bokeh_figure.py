@@ -87,7 +87,7 @@ def build(plot: Plot[Any]) -> figure:
             for column in layer.columns:
                 source.data.setdefault(column, [])
             look = {**dict(zip(positions, layer.columns, strict=False)), **layer.style}
-            root.add_glyph(source, glyph(**look), name=layer.name, level="overlay" if layer.moving else "glyph")
+            root.add_glyph(source, glyph(**look), name=layer.name, level="overlay" if layer.is_overlay else "glyph")
     return root
 
 

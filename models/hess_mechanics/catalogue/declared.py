@@ -324,7 +324,7 @@ class Computation:
         values: dict[str, Value] = {}
         for one in self.parameters:
             value = one.check(as_number(one.name, arguments.get(one.name, one.default)))
-            values[one.name] = int(value) if one.whole else value
+            values[one.name] = int(value) if one.is_integer else value
         for choice in self.choices:
             word = str(arguments.get(choice.name, choice.default))
             if word not in choice.names:

@@ -202,10 +202,10 @@ def computations(system: System) -> Iterator[Computation]:
         "proved-orbit",
         "Orbit with a proved error",
         proved_orbit,
-        (*_TUBE_PARAMETERS, real("right_to", "ε", 1e-6, 1e-300, 1e3, "Largest error of an orbit that is right.")),
+        (*_TUBE_PARAMETERS, real("threshold", "ε", 1e-6, 1e-300, 1e3, "Largest error of an orbit that is right.")),
         {
             "error": Number("ε", "upper end of the proved largest error", "largest"),
-            "right-until": Number("t", "last time at which the orbit is right", "right_until", "time"),
+            "right-until": Number("t", "last time at which the orbit is right", "valid_until", "time"),
         },
         Kind.ORBIT,
         lambda r, exact: r.largest,

@@ -29,7 +29,7 @@ from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import REFERENCE, STANDARD, Accuracy, Level, Status
 from hess_mechanics.numerics.arguments import as_level
 from hess_mechanics.numerics.labelled import Labels, Result
-from hess_mechanics.numerics.results import Array, Complex, Cost, frozen
+from hess_mechanics.numerics.results import Array, Complex, Cost, as_read_only
 from hess_mechanics.rigid_body.inertia import require_finite
 from hess_mechanics.suslov.equations import SuslovBody
 from hess_mechanics.suslov.free import vertical
@@ -37,7 +37,7 @@ from hess_mechanics.suslov.scattering import scattering
 
 __all__ = ["BallScattering", "all_phases", "ball_scattering", "free_theta_plus", "start", "starts"]
 
-MOST_STEPS = 20_000_000
+MAX_STEPS = 20_000_000
 _MOST_SWING = 300.0
 _MOST_TURN = 0.3
 """Largest angle from the circle up to which the first order in the distance is used."""
@@ -97,7 +97,7 @@ class BallScattering(Result):
         """The points (φ, θ⁺) in rows (n, 2)."""
         return np.column_stack([self.phis, self.theta_plus])
 
-    def at(self, phi: float) -> float:
+    def theta_plus_at(self, phi: float) -> float:
         """Return θ⁺ at a phase by linear interpolation.
 
         Parameters
@@ -251,7 +251,7 @@ def free_theta_plus(body: BallBody, theta: float, distance: float, phis: tuple[f
         If γ rotates too often during the passage.
     """
     free = SuslovBody(body.I11, body.I22, body.I13, body.I23)
-    return frozen(scattering(free, STANDARD, 1, distance).theta_plus(theta, np.array(phis)))
+    return as_read_only(scattering(free, STANDARD, 1, distance).theta_plus(theta, np.array(phis)))
 
 
 def _rates(strip: Strip, theta: Array) -> Array:
@@ -267,7 +267,7 @@ def ball_scattering(
     h: float,
     distance: float,
     accuracy: Accuracy,
-    max_steps: float = MOST_STEPS,
+    max_steps: float = MAX_STEPS,
 ) -> BallScattering:
     """Return the circles that motions from one circle of N^u approach, over the phase at the start.
 
@@ -357,9 +357,9 @@ def ball_scattering(
     wall_ms = (time.perf_counter() - start) * 1e3
     return BallScattering(
         float(theta_minus),
-        frozen(phis),
-        frozen(theta_plus),
-        frozen(errors),
+        as_read_only(phis),
+        as_read_only(theta_plus),
+        as_read_only(errors),
         level.name,
         level.status(float(errors.max())),
         Cost(orbits.cost.steps, wall_ms),

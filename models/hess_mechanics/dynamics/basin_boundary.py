@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from hess_mechanics.dynamics.attraction import Arrivals, Orbits, RecurrentSets, arrivals
 from hess_mechanics.dynamics.cells import Window, centres
-from hess_mechanics.numerics.results import Mask, frozen
+from hess_mechanics.numerics.results import Mask, as_read_only
 
 __all__ = ["ambiguity", "arrivals_of_cells", "cells_to_compute", "coarsest_cells", "merge"]
 
@@ -107,7 +107,7 @@ def merge(before: Arrivals | None, mask: Mask, parts: Sequence[tuple[slice, Arri
     for part, one in parts:
         at = rows[part], columns[part]
         number[at], crossings[at] = one.number, one.crossings
-    return Arrivals(frozen(number), frozen(crossings))
+    return Arrivals(as_read_only(number), as_read_only(crossings))
 
 
 def coarsest_cells(cells: NDArray[Any]) -> NDArray[Any]:

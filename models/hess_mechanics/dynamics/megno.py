@@ -21,13 +21,13 @@ from hess_mechanics.dynamics.birkhoff import batch_error, volume_sign, window_ra
 from hess_mechanics.dynamics.orbit import as_duration, require_finite_rates
 from hess_mechanics.dynamics.spectrum import no_chaos
 from hess_mechanics.dynamics.system import Body, Problem
-from hess_mechanics.dynamics.variation import LONGEST, one_direction, tangent
+from hess_mechanics.dynamics.variation import LONGEST, generic_direction, tangent
 from hess_mechanics.errors import InvalidParameter, MotionEnds, WorkLimit
 from hess_mechanics.numerics.accuracy import STANDARD, Accuracy
 from hess_mechanics.numerics.arguments import as_level
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.parallel import THREADS, run_in_threads
-from hess_mechanics.numerics.results import Array, Cost, Mask, frozen
+from hess_mechanics.numerics.results import Array, Cost, Mask, as_read_only
 from hess_mechanics.parameters import plain
 
 __all__ = ["CHAOTIC", "REGULAR", "Megno", "longest_duration", "megno"]
@@ -202,7 +202,7 @@ def megno(
     samples = 60 * max(4, math.ceil(abs(duration) * problem.nu / 60))
     t = duration * problem.nu * np.arange(1, samples + 1) / samples
     first = samples // 5
-    direction = one_direction(size)
+    direction = generic_direction(size)
     numbers, steps, no_chaos_because = np.empty((6, count)), np.zeros(count, int), [""] * count
     ends, reasons = np.full(count, abs(duration)), [""] * count
 
@@ -237,12 +237,12 @@ def megno(
     run_in_threads(one, count, threads, _SHARE)
     return Megno(
         abs(duration),
-        frozen(numbers[0].copy()),
-        frozen(numbers[1].copy()),
-        frozen(numbers[5].copy()),
-        frozen(numbers[1:5].T.copy()),
+        as_read_only(numbers[0].copy()),
+        as_read_only(numbers[1].copy()),
+        as_read_only(numbers[5].copy()),
+        as_read_only(numbers[1:5].T.copy()),
         tuple(no_chaos_because),
-        frozen(ends),
+        as_read_only(ends),
         tuple(reasons),
         level.name,
         Cost(int(steps.sum()), (time.perf_counter() - begun) * 1e3),

@@ -13,7 +13,7 @@ from hess_mechanics.numerics.accuracy import PRECISE, Accuracy, Level
 from hess_mechanics.numerics.arguments import as_integer, as_level
 from hess_mechanics.numerics.field_values import Undefined
 from hess_mechanics.numerics.measured import measured
-from hess_mechanics.numerics.results import Array, Orbit, frozen
+from hess_mechanics.numerics.results import Array, Orbit, as_read_only
 from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED, STOPPED
 from hess_mechanics.parameters import plain
 
@@ -477,7 +477,7 @@ def solve(
     problems = [problem, nearby]
 
     def run(at: Level, spent: int) -> tuple[Array, int]:
-        own = problems[at.aside]
+        own = problems[at.is_perturbed]
         out = np.empty((times.size, problem.scale.size))
         steps, end = own.system.orbit(
             own.states[0],
@@ -493,7 +493,7 @@ def solve(
             reached = np.count_nonzero(np.abs(scaled_times) <= abs(end))
             raise end_error(problem, steps, end, out[reached], most_steps)
         require_finite_states(out)
-        if not at.aside:
+        if not at.is_perturbed:
             problems[1] = nearby.with_rounding(out)
         return out, steps
 
@@ -506,8 +506,8 @@ def solve(
     return Orbit(
         body.system.name,
         level.name,
-        frozen(times),
-        frozen(states),
+        as_read_only(times),
+        as_read_only(states),
         result.status,
         absolute,
         drift,

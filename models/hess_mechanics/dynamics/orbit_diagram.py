@@ -22,7 +22,7 @@ from hess_mechanics.dynamics.periodic import MAX_PERIOD, Map, PeriodicOrbit, dif
 from hess_mechanics.errors import InvalidParameter, ModelError, NotConverged, OutsideRegion, WorkLimit
 from hess_mechanics.numerics.labelled import Labels, Result, components
 from hess_mechanics.numerics.patience import check_limit
-from hess_mechanics.numerics.results import Array, Mask, frozen
+from hess_mechanics.numerics.results import Array, Mask, as_read_only
 
 __all__ = [
     "MAX_VALUES",
@@ -266,7 +266,7 @@ def diagram_over(
         except ModelError:
             # At this value there is no such body, or no motion: the diagram has a gap.
             pass
-        shown.append(frozen(points.copy()))
+        shown.append(as_read_only(points.copy()))
         if len(points):
             periods[i], _ = period_of(map_.turns, points, map_.promise)
             ends[i] = point = points[-1]
@@ -275,11 +275,11 @@ def diagram_over(
     return Diagram(
         parameter,
         names,
-        frozen(along),
+        as_read_only(along),
         tuple(shown),
-        frozen(periods),
-        frozen(ends),
-        frozen(conservative),
+        as_read_only(periods),
+        as_read_only(ends),
+        as_read_only(conservative),
         level,
     )
 
@@ -488,9 +488,9 @@ def cascade(
     return Cascade(
         parameter,
         orbit.names,
-        frozen(np.array([one.value for one in flips])),
-        frozen(np.array([one.error for one in flips])),
-        frozen(np.array([len(one.points) for one in flips], np.int64)),
+        as_read_only(np.array([one.value for one in flips])),
+        as_read_only(np.array([one.error for one in flips])),
+        as_read_only(np.array([len(one.points) for one in flips], np.int64)),
         tuple(one.points for one in flips),
         ended,
         orbit.level,

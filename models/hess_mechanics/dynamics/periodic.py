@@ -19,7 +19,7 @@ from hess_mechanics.numerics.accuracy import Status
 from hess_mechanics.numerics.labelled import Labels, Result, components
 from hess_mechanics.numerics.measured import SAFETY
 from hess_mechanics.numerics.patience import check_limit
-from hess_mechanics.numerics.results import Array, Complex, frozen
+from hess_mechanics.numerics.results import Array, Complex, as_read_only
 
 __all__ = [
     "MAX_PERIOD",
@@ -86,7 +86,7 @@ class Map(Protocol):
             Their images.
         """
 
-    def after(self, point: Array, count: int) -> Array:
+    def iterate(self, point: Array, count: int) -> Array:
         """Return the images after several iterations.
 
         Parameters
@@ -650,8 +650,8 @@ def _measured(map_: Map, shot: Shot, iterations: int) -> PeriodicOrbit:
     status = Status.OK if error <= map_.promise else Status.FLOOR if map_.is_floor else Status.PROMISE_NOT_MET
     return PeriodicOrbit(
         map_.names,
-        frozen(points),
-        frozen(multipliers),
+        as_read_only(points),
+        as_read_only(multipliers),
         kind_of(multipliers, off),
         error,
         off,

@@ -28,7 +28,7 @@ from hess_mechanics.numerics.labelled import Labels, Result, components
 from hess_mechanics.numerics.measured import measured
 from hess_mechanics.numerics.parallel import THREADS, run_in_threads
 from hess_mechanics.numerics.patience import check_limit
-from hess_mechanics.numerics.results import Array, Cost, SectionCrossings, angle_facts, frozen, unit_of
+from hess_mechanics.numerics.results import Array, Cost, SectionCrossings, angle_facts, as_read_only, unit_of
 
 __all__ = [
     "MAX_CROSSINGS",
@@ -134,7 +134,7 @@ class Plane:
         offset = self.offset / largest / length
         if not math.isfinite(offset):
             raise InvalidParameter("The offset of the plane is too large for its normal: choose a smaller one.")
-        return system.cross, normal / length, offset
+        return system.crossing, normal / length, offset
 
 
 @dataclass(frozen=True)
@@ -217,7 +217,7 @@ class AnglePlane:
             raise InvalidParameter(
                 f"{system.title} has no variable {self.index}: choose 0 to {len(system.variables) - 1}."
             )
-        return system.cross_angle, np.array([self.index, problem.scale[self.index], self.value]), 0.0
+        return system.angle_crossing, np.array([self.index, problem.scale[self.index], self.value]), 0.0
 
 
 class Surface(Protocol):
@@ -356,11 +356,11 @@ class _Search:
         problems = [self.problem, nearby]
 
         def run(level: Level, spent: int) -> tuple[tuple[Array, Array], int]:
-            own = problems[level.aside]
+            own = problems[level.is_perturbed]
             crossings, steps, ended = self.run(own, own.states[0], self.end, level, spent)
             if ended is not None:
                 raise ended
-            if not level.aside:
+            if not level.is_perturbed:
                 problems[1] = nearby.with_rounding(np.vstack((self.problem.states, crossings[1])))
             return crossings, steps
 
@@ -374,8 +374,8 @@ class _Search:
         return SectionCrossings(
             system.name,
             self.level.name,
-            frozen(times / nu),
-            frozen(states),
+            as_read_only(times / nu),
+            as_read_only(states),
             result.status,
             float((difference * scale).max(initial=0.0)) + 2e-16 * max(1.0, nu),
             drift_of(system, self.starts[0], states, p),
@@ -617,7 +617,7 @@ def section_points(
     count = len(search.starts)
     parts = max(1, min(_PARTS, crossings // 10))
     one_part = replace(search, crossings=-(-crossings // parts))
-    problem = search.problem.perturb() if level.aside else search.problem
+    problem = search.problem.perturb() if level.is_perturbed else search.problem
     results: dict[int, tuple[Array, int]] = {}
     reasons = [""] * count
 
@@ -658,7 +658,7 @@ def section_points(
     drift = {name: max(one[name] for one in drifts) for name in (drifts[0] if drifts else ())}
     wall_ms = (time.perf_counter() - begun) * 1e3
     return SectionPoints(
-        [frozen(results[i][0]) for i in range(count)],
+        [as_read_only(results[i][0]) for i in range(count)],
         drift,
         Cost(sum(steps for _, steps in results.values()), wall_ms),
         body.system.variables,

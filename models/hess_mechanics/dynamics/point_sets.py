@@ -89,7 +89,7 @@ class SetDistance:
     overlap : float
         Fraction of the points of one set that are as close to the other set as the halves of one set are to each other,
         the smaller of the two, 0 to 1.
-    settled : bool
+    has_settled : bool
         True if the halves of each set are closer to each other than a fifth of its size.  Otherwise the orbit was too
         short or had not settled.
     """
@@ -98,12 +98,12 @@ class SetDistance:
     error: float
     grain: float
     overlap: float
-    settled: bool
+    has_settled: bool
 
     @property
     def is_separated(self) -> bool:
         """True if no point of one set is close to the other set, as far as the grain resolves this."""
-        return self.settled and self.overlap < 0.005 and self.distance > self.grain + self.error
+        return self.has_settled and self.overlap < 0.005 and self.distance > self.grain + self.error
 
 
 def set_distance(turns: Sequence[float], a: Array, b: Array) -> SetDistance:

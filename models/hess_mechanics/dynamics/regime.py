@@ -39,7 +39,7 @@ from hess_mechanics.numerics.accuracy import Status
 from hess_mechanics.numerics.arguments import as_integer, as_point
 from hess_mechanics.numerics.labelled import Labels, Result, components
 from hess_mechanics.numerics.patience import check_limit
-from hess_mechanics.numerics.results import Array, frozen
+from hess_mechanics.numerics.results import Array, as_read_only
 
 __all__ = ["Dynamics", "MotionKind", "Regime", "comparison", "dynamics_of", "regime"]
 
@@ -201,7 +201,7 @@ class _Evidence:
 
     crossings: int
     period: int
-    settled: bool
+    has_settled: bool
     early: float
     late: float
     k: float
@@ -235,7 +235,7 @@ class _Evidence:
             return MotionKind.CHAOTIC
         if not (self.late < max(REGULAR, self.early) or self.regular):
             return MotionKind.UNDECIDED
-        if not self.settled:
+        if not self.has_settled:
             return MotionKind.SETTLING
         if self.crossings >= (_MANY if self.dissipative else _FEWEST) and self.smooth:
             return MotionKind.QUASI_PERIODIC
@@ -314,14 +314,14 @@ def regime(
         kind = MotionKind.NO_PERIOD
     divergence = (0.0, 0.0) if measure else (evidence.divergence, evidence.divergence_error)
     return Regime(
-        map_, kind, frozen(points.copy()), span, evidence.period, evidence.late, evidence.k, *divergence, measure
+        map_, kind, as_read_only(points.copy()), span, evidence.period, evidence.late, evidence.k, *divergence, measure
     )
 
 
 def _not_seen(map_: ReturnMap, points: Array, start: Sequence[float] | Array) -> Regime:
     last = points[-1] if len(points) else np.array(start, float)
     measure = map_.section.measure
-    return Regime(map_, MotionKind.NO_RETURN, frozen(points.copy()), map_.wait(last), measure=measure)
+    return Regime(map_, MotionKind.NO_RETURN, as_read_only(points.copy()), map_.wait(last), measure=measure)
 
 
 def _evidence(map_: ReturnMap, points: Array, duration: float) -> _Evidence:
@@ -469,7 +469,7 @@ class Dynamics(Result):
     @property
     def settled_comparisons(self) -> tuple[SetDistance, ...]:
         """Comparisons of the orbits that have settled; all comparisons if there is no such orbit."""
-        return tuple(one for one in self.comparisons if one.settled) or self.comparisons
+        return tuple(one for one in self.comparisons if one.has_settled) or self.comparisons
 
     @property
     def distance(self) -> float:
@@ -491,7 +491,7 @@ class Dynamics(Result):
         """The verdict: "conservative", "dissipative", "mixed" or "not told apart"."""
         if self.motion.map_.preserves_volume or self.motion.measure:
             return "conservative"
-        if sum(one.settled for one in self.comparisons) >= _ENOUGH and self.motion.volume < 0:
+        if sum(one.has_settled for one in self.comparisons) >= _ENOUGH and self.motion.volume < 0:
             if all(one.is_separated for one in self.settled_comparisons):
                 return "dissipative"
             if all(one.overlap >= _TOUCHING for one in self.settled_comparisons):
@@ -618,6 +618,6 @@ def comparison(
                 raise NoReturn(
                     f"Followed {way} in time, the motion returned only {len(orbit)} times: choose another point."
                 )
-            pair.append(frozen(orbit[transient:].copy()))
+            pair.append(as_read_only(orbit[transient:].copy()))
         pairs.append((pair[0], pair[1]))
     return Dynamics(motion, *pairs[0], tuple(set_distance(map_.turns, a, b) for a, b in pairs))

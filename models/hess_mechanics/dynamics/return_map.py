@@ -27,7 +27,7 @@ from hess_mechanics.dynamics.periodic import difference
 from hess_mechanics.dynamics.plane_section import SectionPoints, Surface, section_points
 from hess_mechanics.dynamics.symmetry import Mirror, sign_symmetries
 from hess_mechanics.dynamics.system import Problem, System
-from hess_mechanics.dynamics.variation import onto_surface
+from hess_mechanics.dynamics.variation import return_derivative
 from hess_mechanics.errors import InvalidParameter, NoReturn, OutsideRegion, WorkLimit
 from hess_mechanics.numerics.accuracy import Accuracy, Level
 from hess_mechanics.numerics.arguments import as_integer, as_number
@@ -427,9 +427,9 @@ class ReturnMap:
         WorkLimit
             If the return needs too many steps.
         """
-        return self.after(point, 1)
+        return self.iterate(point, 1)
 
-    def after(self, point: Array, count: int) -> Array:
+    def iterate(self, point: Array, count: int) -> Array:
         """Return the image of a point after several returns.
 
         Parameters
@@ -595,7 +595,7 @@ class ReturnMap:
         section, scale = self.section, problem.scale
         states = ends * scale
         flow, frame = self._flow(problem, times)
-        onto = onto_surface(
+        onto = return_derivative(
             scale[:, None] * flow,
             scale * problem.nu * section.system.rates(ends, problem.parameters),
             np.array([section.surface.gradient(state) for state in states]),
@@ -633,7 +633,7 @@ class ReturnMap:
         derivatives = np.empty((m, d, d - 1))
         state, growth, volume = np.empty((1, d)), np.empty((1, d - 1)), np.empty(1)
         for i in range(m):
-            steps = system.vary_others(
+            steps = system.transverse_variation(
                 problem.states[i],
                 np.ascontiguousarray(frames[i]),
                 problem.parameters,
@@ -659,7 +659,7 @@ class ReturnMap:
         """
         section, accuracy = self.section, self.accuracy
         problem = Problem.of(section, starts)
-        problem = problem.perturb() if accuracy.aside else problem
+        problem = problem.perturb() if accuracy.is_perturbed else problem
         surface = section.surface
         cross, normal, offset = surface.crossing_kernel(section.system, problem)
         direction = section.slowness * (-1.0 if self.backward else 1.0)

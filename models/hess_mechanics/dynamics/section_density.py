@@ -14,7 +14,7 @@ from hess_mechanics.dynamics.ensemble import complete
 from hess_mechanics.dynamics.return_map import PoincareSection, section_crossings
 from hess_mechanics.errors import ModelError, WorkLimit
 from hess_mechanics.numerics.accuracy import Accuracy
-from hess_mechanics.numerics.results import Array, frozen
+from hess_mechanics.numerics.results import Array, as_read_only
 
 __all__ = ["Visits", "visits", "visits_over"]
 
@@ -43,7 +43,7 @@ class Visits:
     points: int
     drift: Mapping[str, float]
 
-    def after(self, before: Visits) -> Visits:
+    def combine(self, before: Visits) -> Visits:
         """Return these visits added to earlier ones of the same orbits.
 
         Parameters
@@ -58,7 +58,7 @@ class Visits:
         """
         drift = _larger(before.drift, self.drift)
         return replace(
-            self, counts=frozen(self.counts + before.counts), points=self.points + before.points, drift=drift
+            self, counts=as_read_only(self.counts + before.counts), points=self.points + before.points, drift=drift
         )
 
 
@@ -121,7 +121,10 @@ def visits(
             ends.extend(states[-1:])
         drift = _larger(drift, orbits.drift)
     return Visits(
-        frozen(counts.reshape(cells[::-1])), frozen(np.array(ends).reshape(-1, starts.shape[1])), points, drift
+        as_read_only(counts.reshape(cells[::-1])),
+        as_read_only(np.array(ends).reshape(-1, starts.shape[1])),
+        points,
+        drift,
     )
 
 
@@ -201,7 +204,7 @@ def visits_over(
         np.add.at(counts[:, j], ((within - low) * (rows / (high - low))).astype(int), 1)
         points += len(within)
         drift = _larger(drift, orbits.drift)
-    return Visits(frozen(counts), frozen(ends), points, drift)
+    return Visits(as_read_only(counts), as_read_only(ends), points, drift)
 
 
 def _larger(one: Mapping[str, float], other: Mapping[str, float]) -> dict[str, float]:

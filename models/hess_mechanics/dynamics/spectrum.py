@@ -22,13 +22,13 @@ import numpy as np
 from hess_mechanics.dynamics.birkhoff import ERRORS, STRETCHES, batch_error
 from hess_mechanics.dynamics.orbit import MAX_SAMPLES, MAX_STEPS, as_duration, end_of, require_finite_rates
 from hess_mechanics.dynamics.system import Body, Problem
-from hess_mechanics.dynamics.variation import LONGEST, flow_frame, one_direction, tangent
+from hess_mechanics.dynamics.variation import LONGEST, flow_frame, generic_direction, tangent
 from hess_mechanics.errors import WorkLimit
 from hess_mechanics.numerics.accuracy import PLANS, STANDARD, Accuracy, Kind, Level, Status, plan
 from hess_mechanics.numerics.arguments import as_level
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.patience import check_limit
-from hess_mechanics.numerics.results import Array, Cost, frozen
+from hess_mechanics.numerics.results import Array, Cost, as_read_only
 from hess_mechanics.parameters import plain
 
 __all__ = ["LIMIT", "Exponent", "Spectrum", "kaplan_yorke", "lyapunov_exponent", "lyapunov_spectrum", "no_chaos"]
@@ -288,7 +288,7 @@ def no_chaos(problem: Problem, start: Array, states: Array, duration: float, lev
         times, returns = np.empty(_RETURNS), np.empty((_RETURNS, start.size))
         longest = system.longest_step(level, duration)
         plane = across, float(across @ start), 0, duration
-        number, _ = system.cross(start, p, *plane, level.order, level.tolerance, longest, MAX_STEPS, times, returns)
+        number, _ = system.crossing(start, p, *plane, level.order, level.tolerance, longest, MAX_STEPS, times, returns)
         # The first crossing may be the start itself.
         away = np.abs(returns[: max(number, 0)] - start).max(axis=1)
         if np.any(away[np.abs(times[: max(number, 0)]) > _RESTS] < _RESTS):
@@ -346,12 +346,12 @@ def lyapunov_exponent(body: Body, start: Sequence[float], duration: float, accur
     count = max(1, math.ceil(samples))
     times = span * np.arange(1, count + 1) / count
     state = problem.states[0]
-    motion = tangent(problem, state, one_direction(state.size), problem.times(times), level, LONGEST)
+    motion = tangent(problem, state, generic_direction(state.size), problem.times(times), level, LONGEST)
     rates = motion.lengths[:, 0] / np.abs(times)
     require_finite_rates(rates)
     later = rates[count // 2 :]
     reason = no_chaos(problem, state, motion.states, span * problem.nu, level, True)
-    return Exponent(frozen(np.abs(times)), frozen(rates), float(later.max() - later.min()), reason)
+    return Exponent(as_read_only(np.abs(times)), as_read_only(rates), float(later.max() - later.min()), reason)
 
 
 def lyapunov_spectrum(
@@ -444,10 +444,10 @@ def lyapunov_spectrum(
     return Spectrum(
         system.name,
         level.name,
-        frozen(times[1:]),
-        frozen(rates),
-        frozen(mean[order]),
-        frozen(error[order] + floor),
+        as_read_only(times[1:]),
+        as_read_only(rates),
+        as_read_only(mean[order]),
+        as_read_only(error[order] + floor),
         float(mean[-1]),
         float(error[-1]) + floor,
         number,

@@ -46,10 +46,10 @@ class VariableSection(PoincareSection):
         The value.
     coordinates : tuple of str
         One or two other variables.
-    solved : tuple of str
+    dependent_variables : tuple of str
         The variables that follow from the integrals.
     integrals : tuple of (str, float)
-        Names and values of the integrals, as many as `solved`.
+        Names and values of the integrals, as many as `dependent_variables`.
     ranges : tuple of (float, float)
         Range of each coordinate.
     sense : int, default 1
@@ -60,7 +60,7 @@ class VariableSection(PoincareSection):
     variable: str
     value: float
     coordinates: tuple[str, ...]
-    solved: tuple[str, ...]
+    dependent_variables: tuple[str, ...]
     integrals: tuple[tuple[str, float], ...]
     ranges: tuple[tuple[float, float], ...]
     sense: int = 1
@@ -168,7 +168,7 @@ class VariableSection(PoincareSection):
         y[self._index(self.variable)] = self.value
         for name, point in zip(self.names, points, strict=True):
             y[self._index(name)] = point
-        unknown, here = [self._index(name) for name in self.solved], self._index(self.variable)
+        unknown, here = [self._index(name) for name in self.dependent_variables], self._index(self.variable)
         example = np.array(self.system.example[0])
         size = max(1.0, float(np.abs(example).max()))
         states = y.copy()

@@ -23,7 +23,7 @@ from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.euler_poisson.hess_isomorphism import Bridge
 from hess_mechanics.numerics.accuracy import REFERENCE, Accuracy
 from hess_mechanics.numerics.arguments import as_level
-from hess_mechanics.numerics.results import Array, frozen
+from hess_mechanics.numerics.results import Array, as_read_only
 from hess_mechanics.suslov_hess.bifurcation import turning_points
 from hess_mechanics.suslov_hess.circle_map import circle_map
 
@@ -237,7 +237,7 @@ def _towards(map_: ReturnMap, points: Array, l: float, stable: bool) -> Manifold
     branch = manifold(map_, orbit, length + _ROOM, stable=stable, side=side, sagitta=_SAGITTA, longest=_CHORD)
     # The angles continue without jumps; shift them to the turn of l.
     shift = (l - from_) - way
-    return replace(branch, points=frozen(branch.points + np.array([shift, 0.0])))
+    return replace(branch, points=as_read_only(branch.points + np.array([shift, 0.0])))
 
 
 def slope_of(close: Sequence[Split]) -> tuple[float, float]:

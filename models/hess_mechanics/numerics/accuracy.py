@@ -66,7 +66,7 @@ class Level:
         Local error of a Taylor step in the first run, positive, in the same units.
     order : int
         Order of the Taylor series, at least 2.
-    aside : bool, default False
+    is_perturbed : bool, default False
         Start a few units in the last place beside the given state, see `measured.perturb`.
     """
 
@@ -74,7 +74,7 @@ class Level:
     promise: float
     tolerance: float
     order: int
-    aside: bool = False
+    is_perturbed: bool = False
 
     @property
     def is_floor(self) -> bool:
@@ -113,7 +113,7 @@ class Level:
         float
             The longest step, in the unit of the limit.
         """
-        return abs(limit) * (_OTHER_STEP if self.aside else 1.0)
+        return abs(limit) * (_OTHER_STEP if self.is_perturbed else 1.0)
 
     def tighter(self) -> Level:
         """Return the same level with a hundredth of the tolerance, to measure the error of this one.
@@ -127,11 +127,11 @@ class Level:
             The more accurate level.
         """
         if self.is_floor:
-            return Level(self.name, self.promise, self.tolerance / 30.0, self.order - 3, not self.aside)
+            return Level(self.name, self.promise, self.tolerance / 30.0, self.order - 3, not self.is_perturbed)
         order = self.order + 4 if self.tolerance > 1e-11 else REFERENCE.order
         # A hundredth of 1e-15 is a little more than 1e-17: the floor would be compared with itself.
         tolerance = self.tolerance * 1e-2 if self.tolerance > 200.0 * FLOOR_TOLERANCE else FLOOR_TOLERANCE
-        return Level(self.name, self.promise, tolerance, order, not self.aside)
+        return Level(self.name, self.promise, tolerance, order, not self.is_perturbed)
 
     def variant(self) -> Level:
         """Return a level as accurate as this one, whose runs make other roundings.

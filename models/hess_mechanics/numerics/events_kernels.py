@@ -158,16 +158,16 @@ class SurfaceKernels:
     along(c, normal, e, scratch) : writes the Taylor coefficients of e, from those of the state c[k, variable], to
         e (n,); scratch is (n,).
     height(y, normal) : returns e(y).
-    counted(y, normal) : returns True if a crossing at y counts.
-    curved : True if e is nonlinear, so that its truncated series is less accurate than those of the state.
-    shorter(e, h) : returns the largest step up to h on which e is its series.
+    is_crossing(y, normal) : returns True if a crossing at y counts.
+    is_nonlinear : True if e is nonlinear, so that its truncated series is less accurate than those of the state.
+    step_limit(e, h) : returns the largest step up to h on which e is its series.
     """
 
     along: Callable[..., Any]
     height: Callable[..., Any]
-    counted: Callable[..., Any]
-    curved: bool
-    shorter: Callable[..., Any] = _as_it_is
+    is_crossing: Callable[..., Any]
+    is_nonlinear: bool
+    step_limit: Callable[..., Any] = _as_it_is
 
 
 def plane(n: int) -> SurfaceKernels:
@@ -188,7 +188,7 @@ def height(y, normal):
 def counted(y, normal):
     return True
 """),
-        curved=False,
+        is_nonlinear=False,
     )
 
 
@@ -243,10 +243,10 @@ def crossing_finder(recursion: Recursion, surface: SurfaceKernels | None = None)
     """
     n, columns = recursion.variables, columns_of(recursion)
     expand, evaluate, check = expansion(recursion), evaluation(n), step_check(recursion)
-    suspects, watched = step_condition(recursion), recursion.seen
+    suspects, watched = step_condition(recursion), recursion.outputs
     surface = surface or plane(n)
-    along, height, counted, curved = surface.along, surface.height, surface.counted, surface.curved
-    shorter = surface.shorter
+    along, height, is_crossing, curved = surface.along, surface.height, surface.is_crossing, surface.is_nonlinear
+    step_limit = surface.step_limit
 
     @part
     def cross(state, parameters, normal, offset, sense, end, order, tolerance, longest, max_steps, times, states):
@@ -294,7 +294,7 @@ def crossing_finder(recursion: Recursion, surface: SurfaceKernels | None = None)
             h = min(step_of(c, n, tolerance), most)
             if suspects(seen, h, before):
                 h = check(c, seen, h, most, direction, parameters, tolerance)
-            h = before = shorter(e, h)
+            h = before = step_limit(e, h)
             last = h >= remaining
             steps += 1
             if steps % PATIENCE == 1:
@@ -322,7 +322,7 @@ def crossing_finder(recursion: Recursion, surface: SurfaceKernels | None = None)
                         evaluate(c, s, increments)
                 for i in range(n):
                     point[i] = c[0, i] + increments[i]
-                if counted(point, normal):
+                if is_crossing(point, normal):
                     times[crossings] = t + (t_low + s)
                     states[crossings] = point
                     crossings += 1

@@ -85,7 +85,7 @@ class Node:
     arguments: tuple[Node, ...]
     value: Any
     moves: bool
-    started: bool
+    uses_start: bool
 
 
 class Tape:
@@ -147,13 +147,15 @@ class Tape:
             return a.arguments[0]
         if a is one and operation == "*":
             return b
-        return self._node(operation, (a, b), None, a.moves or b.moves, a.started or b.started)
+        return self._node(operation, (a, b), None, a.moves or b.moves, a.uses_start or b.uses_start)
 
     def negative(self, a: Node) -> Node:
         """Return −a."""
         if a.operation == "number":
             return self.number(-a.value)
-        return a.arguments[0] if a.operation == "negative" else self._node("negative", (a,), None, a.moves, a.started)
+        return (
+            a.arguments[0] if a.operation == "negative" else self._node("negative", (a,), None, a.moves, a.uses_start)
+        )
 
     def power(self, a: Node, exponent: Node) -> Node:
         """Return a to the power of a number or another expression."""
@@ -182,7 +184,7 @@ class Tape:
             return arguments[0]
         moves = any(argument.moves for argument in arguments)
         # One of parameters only is computed once in each step.
-        return self._node(function, arguments, None, moves, not moves or any(one.started for one in arguments))
+        return self._node(function, arguments, None, moves, not moves or any(one.uses_start for one in arguments))
 
     def functions(self, results: Sequence[Node], variables: int) -> dict[Node, Node]:
         """Return the functions of the state in a field that returns these results, with their rates."""

@@ -31,14 +31,14 @@ from hess_mechanics.numerics.patience import check_limit
 
 __all__ = [
     "CACHE_FOLDER",
-    "announced",
+    "compile_seconds",
     "derived_kernel",
     "inner",
     "kernel",
     "part",
-    "seconds_compiling",
     "source_hash",
-    "unfused",
+    "with_compile_notice",
+    "without_fma",
 ]
 
 _OPTIONS: dict[str, Any] = {
@@ -222,7 +222,7 @@ _CLOCK = _Clock()
 event.register("numba:compiler_lock", _CLOCK)
 
 
-def seconds_compiling() -> float:
+def compile_seconds() -> float:
     """Return the time that this thread has spent on compiling kernels or loading them from disk, in seconds."""
     return float(getattr(_CLOCK.of, "seconds", 0.0))
 
@@ -248,7 +248,7 @@ def kernel(function: Callable[..., Any]) -> Callable[..., Any]:
         _CONFIG.CACHE_DIR = before
 
 
-def announced(function: Callable[..., Any], name: str, seconds: float) -> Callable[..., Any]:
+def with_compile_notice(function: Callable[..., Any], name: str, seconds: float) -> Callable[..., Any]:
     """Return a kernel whose compilation, expected to take so many seconds, is announced if that is long.
 
     A long compilation ends between two passes of the compiler if the request is cancelled.
@@ -339,7 +339,7 @@ def part(function: Callable[..., Any]) -> Callable[..., Any]:
     return _compiled(function, _ONLY_INLINED)
 
 
-def unfused(function: Callable[..., Any]) -> Callable[..., Any]:
+def without_fma(function: Callable[..., Any]) -> Callable[..., Any]:
     """Compile like `inner`, without fused operations, for arithmetic that depends on its roundings."""
     return _compiled(function, {**_INLINED, "fastmath": False})
 

@@ -63,7 +63,7 @@ def parts(recursion: Recursion) -> dict[str, Callable[..., Any]]:
 @cache
 def step_condition(recursion: Recursion) -> Callable[..., Any]:
     """Return the compiled suspects(seen, h, before): True if a step h after the step `before` must be checked."""
-    divisors = range(recursion.observed, recursion.seen)
+    divisors = range(recursion.observables, recursion.outputs)
     # Three orders are enough: if a divisor changes by higher ones alone, the first step has been checked.
     changes = [
         f"((abs(seen[3, {i}]) * h + abs(seen[2, {i}])) * h + abs(seen[1, {i}])) * h > {_RESOLVED!r} * abs(seen[0, {i}])"
@@ -203,10 +203,10 @@ def step_check(recursion: Recursion) -> Callable[..., Any]:
     seen : the series that are observed and watched, see `taylor_kernels.expansion`.
     """
     each = range(recursion.variables)
-    watched = [(recursion.observed + j, kind) for j, kind in enumerate(recursion.watched)]
+    watched = [(recursion.observables + j, kind) for j, kind in enumerate(recursion.monitors)]
     extended = "y + started(y, p)" if recursion.functions else "y"
     # In a polynomial field p′ − f(p) is s^order times a polynomial, which no inner point shows better than the end.
-    points = 2 if recursion.functions or recursion.watched else 1
+    points = 2 if recursion.functions or recursion.monitors else 1
     compare = compile_source(
         f"""
 def compare(c, h, parameters):

@@ -13,7 +13,7 @@ import numpy as np
 
 from hess_mechanics.errors import InvalidParameter, NotPositiveDefinite
 from hess_mechanics.numerics.arguments import as_number
-from hess_mechanics.numerics.results import Array, frozen
+from hess_mechanics.numerics.results import Array, as_read_only
 from hess_mechanics.parameters import plain
 
 __all__ = [
@@ -225,4 +225,4 @@ def paired_weights(moments: Array, arms: Array, centre: Array | None = None) -> 
     # The lighter weight of a pair keeps at least half of the mean.
     used = np.abs(unequal) > 1e-9 * np.max(np.abs(unequal))
     share = 0.5 * float(np.min(mean[used] / np.abs(unequal[used]), initial=math.inf)) if used.any() else 0.0
-    return frozen(np.stack([mean + share * unequal, mean - share * unequal], axis=1))
+    return as_read_only(np.stack([mean + share * unequal, mean - share * unequal], axis=1))

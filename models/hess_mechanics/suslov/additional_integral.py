@@ -175,7 +175,7 @@ class AdditionalIntegral:
     ----------
     k : int
         Degree in ω.
-    permuted : bool
+    swaps_axes : bool
         True for case 2 of `eq834` (I23 = 0).
     a : ndarray of float, shape ((k + 1)/2,)
         Coefficients of V1, in case 2 those of the permuted body.
@@ -188,7 +188,7 @@ class AdditionalIntegral:
     """
 
     k: int
-    permuted: bool
+    swaps_axes: bool
     a: Array
     b: Array
     c: Array
@@ -208,12 +208,12 @@ class AdditionalIntegral:
             The vectors V.
         """
         omega = np.asarray(omega, float)
-        w1, w2 = (omega[..., 1], omega[..., 0]) if self.permuted else (omega[..., 0], omega[..., 1])
+        w1, w2 = (omega[..., 1], omega[..., 0]) if self.swaps_axes else (omega[..., 0], omega[..., 1])
         j = np.arange(self.a.size)
         odd = w1[..., None] ** (self.k - 2 * j) * w2[..., None] ** (2 * j)
         even = w1[..., None] ** (self.k - 1 - 2 * j) * w2[..., None] ** (2 * j + 1)
         v1, v2, v3 = odd @ self.a, even @ self.b, even @ self.c
-        return np.stack([v2, v1, -v3] if self.permuted else [v1, v2, v3], axis=-1)
+        return np.stack([v2, v1, -v3] if self.swaps_axes else [v1, v2, v3], axis=-1)
 
     def circle(self, omega: Array, level: float) -> tuple[Array, float]:
         """Return the circle of all γ with F2 = level at one ω.

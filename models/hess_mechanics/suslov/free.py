@@ -36,7 +36,7 @@ from hess_mechanics.numerics.accuracy import Accuracy, Level, Status
 from hess_mechanics.numerics.arguments import as_level, as_point, unit_vector
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.measured import measured, perturb
-from hess_mechanics.numerics.results import Array, Complex, Cost, facts_of, frozen, unit_of
+from hess_mechanics.numerics.results import Array, Complex, Cost, as_read_only, facts_of, unit_of
 from hess_mechanics.parameters import plain
 from hess_mechanics.rigid_body.inertia import require_finite
 from hess_mechanics.suslov import additional_integral
@@ -176,7 +176,9 @@ def shape(body: SuslovBody) -> PassageConstants:
             f"γ turns too often while ω passes from the unstable to the stable point ({about} radians; at most "
             f"{_MAX_SHAPE:g} are computed): choose larger I13, I23, or more similar I11 and I22."
         )
-    return PassageConstants(frozen(np.array([n2, -n1, 0.0])), frozen(np.array([n1, n2, 0.0])), J, w, K, kappa, c)
+    return PassageConstants(
+        as_read_only(np.array([n2, -n1, 0.0])), as_read_only(np.array([n1, n2, 0.0])), J, w, K, kappa, c
+    )
 
 
 @dataclass(frozen=True)
@@ -278,7 +280,7 @@ def equilibria(body: SuslovBody, h: float) -> Equilibria:
     of, r = shape(body), _radius(h)
     speed = r / math.sqrt(of.w)
     point = speed * of.xi[:2]
-    return Equilibria(frozen(-point), frozen(point), of.xi, speed, _rate(body, of, r), h)
+    return Equilibria(as_read_only(-point), as_read_only(point), of.xi, speed, _rate(body, of, r), h)
 
 
 def _radius(h: float) -> float:
@@ -339,7 +341,7 @@ def arcs(body: SuslovBody, h: float, count: int = 91) -> tuple[Array, Array]:
     of, r = shape(body), _radius(h)
     beta = np.linspace(-0.5 * math.pi, 0.5 * math.pi, count)
     rate, sin, cos = _rate(body, of, r), np.sin(beta), np.cos(beta)
-    return frozen(rate * _omega(of, 1, sin, cos)), frozen(rate * _omega(of, -1, sin, cos))
+    return as_read_only(rate * _omega(of, 1, sin, cos)), as_read_only(rate * _omega(of, -1, sin, cos))
 
 
 def _omega(of: PassageConstants, arc: int, tanh: Array, sech: Array) -> Array:
@@ -484,7 +486,7 @@ def transfer(of: PassageConstants, arc: int, u: Array, accuracy: Accuracy) -> tu
     first, p = np.array([0.0, 1.0, arc * of.kappa, 0.0, 1.0, 0.0, 0.0, 0.0]), np.array([of.K, arc * of.c])
 
     def run(at: Level, _: int) -> tuple[tuple[Complex, Complex], int]:
-        start = perturb(first) if at.aside else first
+        start = perturb(first) if at.is_perturbed else first
         out, total = np.empty((u.size, 8)), 0
         for side in (inside >= 0.0, inside < 0.0):
             index = np.flatnonzero(side)
@@ -707,11 +709,11 @@ def free_motion(
         raise InvalidParameter("The energy exceeds the range of double precision: choose a less extreme ω.")
     left, joined = np.clip(limits @ np.array(unit), -1.0, 1.0).tolist()
     return FreeMotion(
-        frozen(t),
-        frozen(velocity),
-        frozen(gammas),
-        frozen(gammas @ of.xi),
-        frozen(np.arctan2(gammas[:, 2], gammas @ of.eta)),
+        as_read_only(t),
+        as_read_only(velocity),
+        as_read_only(gammas),
+        as_read_only(gammas @ of.xi),
+        as_read_only(np.arctan2(gammas[:, 2], gammas @ of.eta)),
         (left, joined),
         level.name,
         level.status(error),

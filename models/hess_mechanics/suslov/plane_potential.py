@@ -31,7 +31,7 @@ from hess_mechanics.dynamics.plane_section import Plane, section
 from hess_mechanics.dynamics.sampling import PIXELS, sampled_orbit
 from hess_mechanics.dynamics.system import Body, System, in_units_of_time
 from hess_mechanics.numerics.accuracy import Accuracy
-from hess_mechanics.numerics.results import Array, Orbit, frozen
+from hess_mechanics.numerics.results import Array, Orbit, as_read_only
 from hess_mechanics.rigid_body.inertia import require_comparable, require_finite, require_positive_definite
 from hess_mechanics.suslov import equations
 
@@ -498,7 +498,7 @@ def level_curve(body: PotentialBody, value: float) -> list[Array]:
     radius = _radius(body, value)
     cuts = np.flatnonzero(np.diff(radius < _EDGE)) + 1
     parts = np.split(radius[:, None] * _ALL_ROUND, cuts)
-    return [frozen(part) for part in parts if len(part) > 1 and math.hypot(*part[0]) < _EDGE]
+    return [as_read_only(part) for part in parts if len(part) > 1 and math.hypot(*part[0]) < _EDGE]
 
 
 def forbidden(body: PotentialBody, energy: float) -> list[Array]:
@@ -518,5 +518,7 @@ def forbidden(body: PotentialBody, energy: float) -> list[Array]:
     """
     radius = _radius(body, energy)
     return (
-        [] if np.all(radius >= _EDGE) else [frozen(np.concatenate([_ALL_ROUND, (radius[:, None] * _ALL_ROUND)[::-1]]))]
+        []
+        if np.all(radius >= _EDGE)
+        else [as_read_only(np.concatenate([_ALL_ROUND, (radius[:, None] * _ALL_ROUND)[::-1]]))]
     )

@@ -133,7 +133,7 @@ def certificate(proof: Proof | EdgeProof) -> dict[str, Any]:
         "rotation_number": None if proof.rotation_number is None else _pair(proof.rotation_number),
         "multipliers": _pairs(proof.multipliers),
         "roots": _pairs(proof.roots),
-        "half": _pairs(proof.half),
+        "half": _pairs(proof.half_turn),
         "steps": [
             {
                 "start": str(step.start),

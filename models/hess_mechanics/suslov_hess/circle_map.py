@@ -29,9 +29,9 @@ from hess_mechanics.numerics.accuracy import Accuracy, Level, Status
 from hess_mechanics.numerics.arguments import as_level, as_number
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.measured import measured
-from hess_mechanics.numerics.results import Array, Cost, facts_of, frozen
+from hess_mechanics.numerics.results import Array, Cost, as_read_only, facts_of
 from hess_mechanics.rigid_body.inertia import require_finite
-from hess_mechanics.suslov_hess.bifurcation import f_max_each, turning_points
+from hess_mechanics.suslov_hess.bifurcation import f_max_of_energies, turning_points
 from hess_mechanics.suslov_hess.circle_map_kernels import matrices_into, theta_of
 
 __all__ = [
@@ -256,7 +256,7 @@ class CircleMap(Result):
         orbit[0] = math.remainder(phi, 2 * math.pi)
         for i in range(count):
             orbit[i + 1 : i + 2] = self.theta(orbit[i : i + 1])
-        return frozen(orbit)
+        return as_read_only(orbit)
 
     def labels(self) -> Labels:
         """Return the graph of Θ with names, units and coordinates.
@@ -297,7 +297,7 @@ class CircleMap(Result):
         Θ⁻¹(ψ) = −Θ(−ψ).
         """
         phi = np.unique(np.concatenate([_EVEN, -self.theta(-_EVEN)]))
-        return frozen(phi), frozen(np.unwrap(self.theta(phi)))
+        return as_read_only(phi), as_read_only(np.unwrap(self.theta(phi)))
 
 
 def _theta(matrix: tuple[float, float, float], phi: Array) -> Array:
@@ -424,10 +424,10 @@ def circle_map(a: float, h: float, f: float, accuracy: Accuracy) -> CircleMap:
     check_a(a)
     turning = turning_points(h, f)
     here = np.array([h]), np.array([f])
-    tori = here, neighbours(*here, f_max_each(np.array([h])))
+    tori = here, neighbours(*here, f_max_of_energies(np.array([h])))
 
     def run(at: Level, _: int) -> tuple[Array, int]:
-        energies, fs = tori[at.aside]
+        energies, fs = tori[at.is_perturbed]
         row: Array = matrices(a, energies, fs, at)[0]
         return row, int(row[5])
 

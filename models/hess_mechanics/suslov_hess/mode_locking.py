@@ -17,17 +17,17 @@ from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.accuracy import Accuracy, Level
 from hess_mechanics.numerics.arguments import as_integer, as_level
 from hess_mechanics.numerics.parallel import run_in_threads
-from hess_mechanics.numerics.results import Array, frozen
-from hess_mechanics.suslov_hess.bifurcation import f_max_each, turning_points
+from hess_mechanics.numerics.results import Array, as_read_only
+from hess_mechanics.suslov_hess.bifurcation import f_max_of_energies, turning_points
 from hess_mechanics.suslov_hess.circle_map import check_a, matrices, rotation_numbers_of
 
 __all__ = [
     "CELLS",
     "affordable_cells",
     "critical_a",
-    "critical_each",
-    "lock_boundary",
+    "critical_a_of_tori",
     "rotation_number_window",
+    "tongue_boundary",
 ]
 
 _MAX_A_OF_BOUNDARY = 1e5
@@ -59,7 +59,7 @@ def _rising_roots(function: Callable[[Array], Array], low: Array, high: Array) -
     return x
 
 
-def lock_boundary(a: float, accuracy: Accuracy, points: int = 48) -> Array:
+def tongue_boundary(a: float, accuracy: Accuracy, points: int = 48) -> Array:
     """Return the boundary |t| = 2 of the Arnold tongue of ρ = 0, for f ≥ 0.
 
     Parameters
@@ -84,8 +84,8 @@ def lock_boundary(a: float, accuracy: Accuracy, points: int = 48) -> Array:
 
     Examples
     --------
-    >>> from hess_mechanics import circle_map, level, lock_boundary
-    >>> h, f = lock_boundary(0.5, level("precise"))[20]
+    >>> from hess_mechanics import circle_map, level, tongue_boundary
+    >>> h, f = tongue_boundary(0.5, level("precise"))[20]
     >>> abs(circle_map(0.5, h, f, level("precise")).trace - 2.0) < 1e-6
     True
     """
@@ -97,20 +97,20 @@ def lock_boundary(a: float, accuracy: Accuracy, points: int = 48) -> Array:
     # h*, the end of the boundary on the bifurcation curve.
     end = (1 - 2 * a * a) / (2 * abs(a) * math.hypot(1.0, a)) if a else math.inf
     if end > 1e6:
-        return frozen(np.empty((0, 2)))
+        return as_read_only(np.empty((0, 2)))
     s = np.cos(np.linspace(0.0, 0.5 * math.pi, points))[1:-1]
 
     def locked(e: Array) -> Array:
-        return _lock_function(abs(float(a)), e - 1.0, s * f_max_each(e - 1.0), level)
+        return _lock_function(abs(float(a)), e - 1.0, s * f_max_of_energies(e - 1.0), level)
 
     # In e = h + 1 the boundary lies between half the smaller and twice the larger of its end values.
     ends = (end + 1.0, 2.0)
     e = _rising_roots(locked, np.full(s.size, 0.5 * min(ends)), np.full(s.size, 2.0 * max(ends)))
-    inside = np.column_stack([e - 1.0, s * f_max_each(e - 1.0)])
-    return frozen(np.vstack([[end, f_max_each(np.array([end]))[0]], inside, [1.0, 0.0]]))
+    inside = np.column_stack([e - 1.0, s * f_max_of_energies(e - 1.0)])
+    return as_read_only(np.vstack([[end, f_max_of_energies(np.array([end]))[0]], inside, [1.0, 0.0]]))
 
 
-def critical_each(h: Array, f: Array, accuracy: Accuracy, high: float) -> Array:
+def critical_a_of_tori(h: Array, f: Array, accuracy: Accuracy, high: float) -> Array:
     """Return `critical_a` of possible tori.
 
     Parameters
@@ -183,7 +183,7 @@ def critical_a(h: float, f: float, accuracy: Accuracy, high: float = 10.0) -> fl
     """
     check_a(high)
     turning_points(h, f)
-    a = float(critical_each(np.array([h], float), np.array([f], float), accuracy, high)[0])
+    a = float(critical_a_of_tori(np.array([h], float), np.array([f], float), accuracy, high)[0])
     if math.isnan(a):
         raise InvalidParameter(f"No lock boundary crosses this h and f between a = 0 and a = {high:g}.")
     return a
@@ -254,7 +254,7 @@ def rotation_number_window(
     mantissas, exponents = np.frexp(np.abs(fs))
     magnitudes, back = np.unique(np.ldexp(np.round(mantissas, 13), exponents), return_inverse=True)
     H, F = (x.ravel() for x in np.meshgrid(hs, magnitudes))
-    F = np.minimum(F, f_max_each(H))
+    F = np.minimum(F, f_max_of_energies(H))
     F[(F == 0.0) & (H == 1.0)] = 1e-12
     out = np.empty(H.size)
 
@@ -270,4 +270,4 @@ def rotation_number_window(
                 out[points] = rotation_numbers_of(matrices(a, H[points], F[points], chosen))
 
     run_in_threads(part, 2)
-    return frozen(np.where(fs < 0.0, -1.0, 1.0)[:, None] * out.reshape(magnitudes.size, hs.size)[back])
+    return as_read_only(np.where(fs < 0.0, -1.0, 1.0)[:, None] * out.reshape(magnitudes.size, hs.size)[back])

@@ -54,8 +54,8 @@ from hess_mechanics.suslov_hess.edge import EdgeProof, prove_edge
 
 __all__ = [
     "FIRST_BITS",
-    "MOST_BITS",
-    "MOST_WORK",
+    "MAX_BITS",
+    "MAX_WORK",
     "NO_CYCLE",
     "TWO_CYCLES",
     "UNDECIDED",
@@ -65,8 +65,8 @@ __all__ = [
 ]
 
 TWO_CYCLES, NO_CYCLE, UNDECIDED = "two cycles", "no cycle", "undecided"
-FIRST_BITS, MOST_BITS = 64, 512
-MOST_WORK = 2e7
+FIRST_BITS, MAX_BITS = 64, 512
+MAX_WORK = 2e7
 """Limit on the number of steps times the square of their terms, in one proof at one precision: about 15 s."""
 _SHARE = 0.8
 _GROWTH = 8
@@ -126,7 +126,7 @@ class Proof(ShortRepr):
         Multipliers of the stable and of the unstable limit cycle; empty without limit cycles.
     roots : tuple of Enclosure or None
         n0 < n1 < n2; None for f = 0, h < 1, where the map is a limit in closed form.
-    half : tuple of Enclosure or None
+    half_turn : tuple of Enclosure or None
         A, B, C, D of the half map.
     steps : tuple of ProofStep
         The Taylor steps.
@@ -149,7 +149,7 @@ class Proof(ShortRepr):
     fixed_points: tuple[Enclosure, ...]
     multipliers: tuple[Enclosure, ...]
     roots: tuple[Enclosure, ...] | None
-    half: tuple[Enclosure, ...] | None
+    half_turn: tuple[Enclosure, ...] | None
     steps: tuple[ProofStep, ...]
     bits: int
     seconds: float
@@ -171,8 +171,8 @@ def prove(
     a: ExactNumber,
     h: ExactNumber,
     f: ExactNumber,
-    most_bits: int = MOST_BITS,
-    most_work: float = MOST_WORK,
+    most_bits: int = MAX_BITS,
+    most_work: float = MAX_WORK,
     digits: int = 6,
 ) -> Proof | EdgeProof:
     """Prove that the torus (a, h, f) has exactly two limit cycles, or none.

@@ -8,7 +8,7 @@ from typing import TypeVar
 
 from hess_mechanics.dynamics.plane_section import SectionPoints
 from hess_mechanics.dynamics.return_map import PoincareSection
-from hess_mechanics.numerics.results import Array, frozen
+from hess_mechanics.numerics.results import Array, as_read_only
 
 _TOGETHER = 4
 """Orbits computed together: few enough that points arrive soon."""
@@ -34,7 +34,7 @@ class OrbitBatch:
         Reason why each orbit ends early; empty for a complete orbit.
     same_side : tuple of bool
         True if all points of an orbit lie on one side of the curve that separates both kinds.
-    elsewhere : array (m, 2) or None
+    other_sheets : array (m, 2) or None
         Points that are drawn separately.
     """
 
@@ -44,12 +44,12 @@ class OrbitBatch:
     steps: int
     reasons: tuple[str, ...]
     same_side: tuple[bool, ...] = ()
-    elsewhere: Array | None = None
+    other_sheets: Array | None = None
 
 
 def batch_of(section: PoincareSection, points: SectionPoints, first: bool = True) -> OrbitBatch:
     """Return crossings of a section, in its coordinates, as a batch of one kind."""
-    orbits = tuple(frozen(section.points_of(states)) for states in points.states)
+    orbits = tuple(as_read_only(section.points_of(states)) for states in points.states)
     return OrbitBatch(orbits, (first,) * len(orbits), points.drift, points.cost.steps, points.reasons)
 
 

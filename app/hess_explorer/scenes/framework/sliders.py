@@ -63,10 +63,10 @@ def number(
     label: str,
     doc: str,
     group: Group = "State",
-    means: str = "",
+    meaning: str = "",
 ) -> Any:
     """Declare a number: its slider covers `softbounds` in steps; typed values and links are limited to `bounds`."""
-    return declare(NumberSpec("", symbol, label, default, softbounds, step, bounds, doc, group, means=means))
+    return declare(NumberSpec("", symbol, label, default, softbounds, step, bounds, doc, group, meaning=meaning))
 
 
 def choice(label: str, options: tuple[str, ...], default: str, *, doc: str, group: Group = "Computation") -> Any:

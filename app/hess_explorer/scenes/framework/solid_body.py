@@ -213,11 +213,11 @@ def body_picture(
     return BodyInSpace(
         name=name,
         title="The ball in space" if ball else title,
-        bare=True,
+        without_grid=True,
         hollow=ball,
         caption=caption,
         shape=lambda s: of(s).shape,
-        motion=lambda s: of(s).in_space(s.dragging),
+        motion=lambda s: of(s).in_space(s.is_preview),
         rods=rods,
         heavy=lambda s: of(s).mass is not None,
         # The trail of the centre of mass has the colour of the orbit, so the wheels are grey beside it.

@@ -55,10 +55,10 @@ def picture(motion_of: Transform[S], reason: Callable[[S], str], span: Callable[
 
     layers: Layers[S] = (
         levels("levels", lambda s: [] if motion_of(s) is None else [0.0]),
-        curves("first", within=_bracket(motion_of, 0), color=theme.MAP, width=1.5, label="{ω₁, γ₃} = γ₂/(I₁₁γ₃)"),
+        curves("first", data_in_axes=_bracket(motion_of, 0), color=theme.MAP, width=1.5, label="{ω₁, γ₃} = γ₂/(I₁₁γ₃)"),
         curves(
             "second",
-            within=_bracket(motion_of, 1),
+            data_in_axes=_bracket(motion_of, 1),
             color=theme.MUTED,
             width=1.5,
             dash="dashed",

@@ -95,9 +95,9 @@ def layers(
     return (
         image("rotation", rotation, palette=theme.TURN_MAP, low=-0.5, high=0.5, cyclic=True, legend=(TURNS,)),
         region("locked", lambda s: _tongue(boundary(s), axes(s)), color=theme.LOCKED, label="locked", tag="locked"),
-        curves("boundary", lock, moving=False, color=theme.INK),
+        curves("boundary", lock, is_overlay=False, color=theme.INK),
         region("forbidden", lambda s: impossible(curve(s), axes(s)), label="impossible", tag="impossible"),
-        curves("curve", lambda s: _with_mirror_image(curve(s)), moving=False, color=theme.INK),
+        curves("curve", lambda s: _with_mirror_image(curve(s)), is_overlay=False, color=theme.INK),
         points(
             "special",
             lambda s: ((1.0, -1.0), (0.0, 0.0)),

@@ -34,7 +34,7 @@ def _strands(branch: Branch, side: int, sign: str) -> list[Array]:
         run: list[tuple[float, float]] = []
         for i, (value, orbit) in enumerate(zip(branch.values, branch.points, strict=True)):
             between = sorted(
-                (one for one in branch.bifurcations if one.after == i - 1),
+                (one for one in branch.bifurcations if one.index == i - 1),
                 key=lambda one: float(np.abs(one.points - branch.points[max(0, i - 1)]).max()),
             )
             for one in between:
@@ -101,19 +101,19 @@ def layers(of: Callable[[S], HasBranches]) -> Layers[S]:
 
     return (
         *(
-            curves(f"branch-{sign}", within=parts(sign), color=color, width=3.0, dash=dash, label=label, tag=tag)
+            curves(f"branch-{sign}", data_in_axes=parts(sign), color=color, width=3.0, dash=dash, label=label, tag=tag)
             for sign, color, dash, label, tag in _LOOKS
         ),
         points(
             "bifurcations",
-            within=marks,
+            data_in_axes=marks,
             size=10,
             color=theme.LOCKED,
             edge=theme.INK,
             edge_width=1.5,
             label="bifurcation",
         ),
-        names("bifurcation-names", within=marked, size=13, above=7),
+        names("bifurcation-names", data_in_axes=marked, size=13, above=7),
     )
 
 

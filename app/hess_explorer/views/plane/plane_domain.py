@@ -67,7 +67,7 @@ def background_layers(
         return [[frame, outer], *([part] for part in forbidden(state))]
 
     return (
-        region("forbidden", within=grey, label="impossible", tag="impossible"),
+        region("forbidden", data_in_axes=grey, label="impossible", tag="impossible"),
         curves("levels", levels, color=theme.MUTED, width=1, label="equipotentials"),
     )
 

@@ -36,7 +36,7 @@ def layers(
             edge=theme.MUTED,
             label="impossible",
             tag="impossible",
-            moving=True,
+            is_overlay=True,
         ),
         band(proved),
         line("orbit", track="orbit", columns=_PLANE, color=theme.ORBIT, width=1.3, label="orbit", tag="orbit"),

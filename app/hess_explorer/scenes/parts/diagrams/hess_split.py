@@ -146,7 +146,7 @@ split_picture = Plot[HessSplit](
     y=compose(_values, lambda found: axis_about_0(found[1], 1e-12)),
     layers=(
         levels("levels", lambda s: [0.0] if s.splits else []),
-        curves("slope", within=_line, color=theme.MUTED, dash="dashed", label="linear, with the slope at ε = 0"),
+        curves("slope", data_in_axes=_line, color=theme.MUTED, dash="dashed", label="linear, with the slope at ε = 0"),
         points(
             "splits",
             _values,

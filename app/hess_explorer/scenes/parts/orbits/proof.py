@@ -74,7 +74,7 @@ class OrbitProof(Part[_Host]):
     @cached_property
     def error(self) -> ProvedError | None:
         """The proved error; None until known, if it is hidden, and during a drag."""
-        if self.work.dragging or self.certain != SHOWN:
+        if self.work.is_preview or self.certain != SHOWN:
             return None
         if not has_flint():
             return ProvedError("proofs need python-flint: pip install 'hess-explorer[prove]'")

@@ -138,16 +138,16 @@ class SectionBranch(Continuation[_Section]):
         return low, high
 
     @cached_property
-    def begin(self) -> BranchStart | None:
+    def branch_start(self) -> BranchStart | None:
         """The start of the branch; None without a periodic orbit."""
-        if self.orbit.host.aim is None or self.orbit.closed_orbit is None:
+        if self.orbit.host.start_point is None or self.orbit.closed_orbit is None:
             return None
         low, high = self.ends
         family = Family.of(self.host, self.name, self.host.over, (*self.along.values(), *self.besides))
         return BranchStart(
             family,
             self.value,
-            self.orbit.host.aim,
+            self.orbit.host.start_point,
             PERIODS[self.orbit.period],
             (min(low, self.value), max(high, self.value)),
         )
@@ -230,7 +230,7 @@ class SectionBranch(Continuation[_Section]):
         """Return the meanings of the choices of the branch, which differ between scenes."""
         return dict.fromkeys(("over", "low", "high", "upwards"), f"branch of {type(self.host).__name__}")
 
-    def idle(self) -> Mapping[str, float]:
+    def idle_values(self) -> Mapping[str, float]:
         """Return the ends of the range if there is no branch, because they have no effect."""
         return {} if self.orbit.is_on else {"low": self.host.low, "high": self.host.high}
 
@@ -266,12 +266,17 @@ def branch_picture() -> Picture[Any]:
         y=lambda s: s.vertical_range,
         layers=(
             curves(
-                "value", within=at_the_value, color=theme.INK, width=1.5, label="current state", tag="current state"
+                "value",
+                data_in_axes=at_the_value,
+                color=theme.INK,
+                width=1.5,
+                label="current state",
+                tag="current state",
             ),
             *view.layers(itself),
             points(
                 "shown",
-                within=shown,
+                data_in_axes=shown,
                 size=15,
                 color=theme.INK,
                 hollow=True,

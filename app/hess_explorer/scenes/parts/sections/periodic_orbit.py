@@ -14,8 +14,8 @@ from hess_explorer.scenes.framework.part import Part
 from hess_explorer.scenes.framework.periodic_search import (
     ANY,
     AT_ITS_LENGTH,
-    MOST_CROSSINGS,
-    MOST_POINTS,
+    MAX_CROSSINGS,
+    MAX_POINTS,
     NONE,
     PERIODS,
     BranchChoice,
@@ -66,7 +66,7 @@ def length_of_manifolds() -> Any:
         bounds=(0.0, 100.0),
         label="Length of manifolds",
         group="Computation",
-        doc=f"Of each branch, in units of the axes of the section; at most {MOST_POINTS} points.",
+        doc=f"Of each branch, in units of the axes of the section; at most {MAX_POINTS} points.",
     )
 
 
@@ -93,19 +93,19 @@ class SectionPeriodicOrbit(Part[Section]):
     @property
     def _search(self) -> Search | None:
         """The arguments of `find_orbit`; None if there is nothing to search for."""
-        if not self.is_on or self.host.aim is None:
+        if not self.is_on or self.host.start_point is None:
             return None
         # The error of an unstable orbit grows along it.
-        level, held = self.work.level, self.work.dragging
+        level, held = self.work.level, self.work.is_preview
         level = level if held else max(level, PRECISE, key=lambda rung: rung.order)
-        return ReturnMap(self.host.poincare, level), self.host.aim, PERIODS[self.period], held
+        return ReturnMap(self.host.poincare, level), self.host.start_point, PERIODS[self.period], held
 
     @cached_property
     def _result(self) -> ClosedOrbit | NotFound | None:
         if self._search is None:
             return None
         task = Task(find_orbit, *self._search)
-        return self.work.need(task, preview=task if self.work.dragging else None)
+        return self.work.need(task, preview=task if self.work.is_preview else None)
 
     @property
     def is_searching(self) -> bool:
@@ -135,7 +135,7 @@ class SectionPeriodicOrbit(Part[Section]):
         """The branches of a saddle's manifolds, empty for any other orbit; None until all are known."""
         if self._manifold_key is None:
             return []
-        if self.work.dragging:
+        if self.work.is_preview:
             return None
         search, branches, pixel = self._manifold_key
         found = [self.work.need(Task(branch_of, search, one, self.reach, pixel), preview=None) for one in branches]
@@ -187,14 +187,14 @@ class SectionPeriodicOrbit(Part[Section]):
 
     # ---- words --------------------------------------------------------------------------------------------------
 
-    def idle(self) -> Mapping[str, float]:
+    def idle_values(self) -> Mapping[str, float]:
         """Return the length of the manifolds if it has no effect."""
-        return {} if self.is_on or not self.host.alone else {"reach": self.reach}
+        return {} if self.is_on or not self.host.is_exclusive else {"reach": self.reach}
 
     @property
     def caption(self) -> Caption | None:
         """The caption of the section if a periodic orbit is requested; otherwise None."""
-        if not self.is_on or self.host.aim is None:
+        if not self.is_on or self.host.start_point is None:
             return None
         if self.is_searching:
             return Caption("Searching for a periodic orbit.")
@@ -269,7 +269,7 @@ class SectionPeriodicOrbit(Part[Section]):
         found = self.homoclinic
         if not found:
             return "No homoclinic point is visible on the drawn parts of the manifolds"
-        least = "at least " if any(len(some) == MOST_CROSSINGS for some in self._intersections) else ""
+        least = "at least " if any(len(some) == MAX_CROSSINGS for some in self._intersections) else ""
         return (
             f"{least}{len(found)} homoclinic point{'s' * (len(found) > 1)} on the drawn parts of the manifolds, error "
             f"{digits(max(one.error for one in found), 1)}; longer manifolds cross more often"

@@ -68,7 +68,7 @@ class SectionState(State, ABC):
 
     section = part(Section)
     density = part(lambda s: SectionDensity(s.section, s.shows_density))
-    megno = part(lambda s: Indicator(s.section, s.indicator == MEGNO and s.section.alone))
+    megno = part(lambda s: Indicator(s.section, s.indicator == MEGNO and s.section.is_exclusive))
     periodic_orbit = part(lambda s: SectionPeriodicOrbit(s.section, s.periodic, s.reach))
     orbit = part(BodyOrbit)
     proof = part(lambda s: OrbitProof(s.orbit, s.certain))
@@ -76,7 +76,7 @@ class SectionState(State, ABC):
     @property
     def shows_density(self) -> bool:
         """True if the density is shown."""
-        return self.indicator == DENSITY and self.section.alone
+        return self.indicator == DENSITY and self.section.is_exclusive
 
     @property
     def closed_orbit(self) -> ClosedOrbit | None:
