@@ -406,7 +406,7 @@ def orbit_diagram(
         )
     diagram = diagram_over(partial(map_.at_constant, parameter), parameter, values, point, transient, crossings, follow)
     if not any(map(len, diagram.points)):
-        # No value has a motion: raise the error of the first one.
+        # No value has a motion: raise the error of the first value.
         map_.at_constant(parameter, float(diagram.values[0])).state_at(np.array(point))
     return diagram
 

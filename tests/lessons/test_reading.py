@@ -80,9 +80,9 @@ MISTAKES = [
     ("scene=suslov-hess&h=1.5&f=0.6", "scene=scattering&k=1", 12, "the same scene"),
     ("### Question", "### Quiz", 16, "Question and Answer"),
     ("$a<b$", "a\n$$\n\\omgea\n$$", 15, "\\omgea is not a known command"),
-    ("It stays.", "It\nstays $5", 22, "a dollar stands alone"),
+    ("It stays.", "It\nstays $5", 22, "a dollar sign has no counterpart"),
     ("It stays.", "It\n<b>stays</b>.", 22, "'<b>' is HTML"),
-    ("It stays.", "[It](javascript:stays)", 21, "'javascript:stays' leads nowhere"),
+    ("It stays.", "[It](javascript:stays)", 21, "'javascript:stays' has an unknown target"),
     ("It stays.", "[It](circel/stable)", 21, "picture of 'circel/stable' must be one of omega, bifurcation, circle"),
     ("It stays.", "It\n[stays](circle/stabel)", 22, "layer of 'circle/stabel' must be one of"),
     ("It stays.", "It [stays](drag:circle)", 21, "a number to drag must be one of I22"),
@@ -211,7 +211,7 @@ def test_other_images_are_refused_with_their_reason(tmp_path):
         "https://there/y.png": "a file beside the lesson",
         "large.png": "more than 300 kB",
         "drawing.png": "is an SVG: png, jpeg and webp are allowed",
-        "text.png": "none of these: png",
+        "text.png": "in an unknown format: png",
         "none.png": "no such file",
     }.items():
         with pytest.raises(LessonError, match=f"line 21: .*({why})"):

@@ -44,7 +44,7 @@ class Background:
     def __init__(self) -> None:
         self._lock = threading.Lock()
         self._job = _Job()
-        # The running tasks, including those of earlier states, each with the event that cancels it.
+        # Maps each running task, including those of earlier states, to the event that cancels it.
         self._running: list[tuple[Task[Any], threading.Event]] = []
 
     def follow(self, tasks: Collection[Task[Any]]) -> None:

@@ -145,7 +145,7 @@ def _at_once(
     try:
         known, missing = what.many(level, **every)
     except ModelError:
-        # One by one tells which cells are wrong.
+        # The caller then computes the cells one by one, which shows where the error is.
         return None
     if not {*numbers} <= known.keys():
         return None
@@ -191,7 +191,7 @@ def _one_by_one(
                 continue
             if not math.isfinite(values[name][i]):
                 outcomes.append(Outcome.BEYOND_RANGE)
-        # A cell with at least one number has a value.
+        # A cell with at least one finite number counts as computed.
         if len(outcomes) == len(numbers):
             status[i] = outcomes[0]
     return CellResults(values, errors, status, reasons)

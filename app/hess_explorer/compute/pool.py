@@ -26,7 +26,7 @@ class Pool:
     """Runs the requests of all sessions in rotation, and background tasks when a core is free."""
 
     def __init__(self, cores: int) -> None:
-        # One thread more than cores, so that a slow request does not block the others.  Many more threads would delay
+        # One more thread than cores, so that a slow request does not block the others.  Many more threads would delay
         # the event loop, which competes with them for the interpreter lock.
         self._requests = ThreadPoolExecutor(cores + 1, thread_name_prefix="request")
         self._waiting: list[RequestQueue] = []
@@ -71,7 +71,7 @@ class Pool:
             self._changed.notify_all()
 
     def _submit(self, threads: ThreadPoolExecutor, run: Callable[[], None]) -> None:
-        # `submit` raises this while the interpreter shuts down.
+        # `submit` raises a RuntimeError while the interpreter shuts down.
         with suppress(RuntimeError):
             threads.submit(run)
 

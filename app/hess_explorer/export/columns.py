@@ -157,7 +157,7 @@ class _Layer(Result):
     def labels(self) -> Labels:
         columns = {name: column for name, column in self.table.columns.items() if name != "layer"}
         axes = dict(zip("xy", self.table.axes, strict=False))
-        # The axes of the plot name columns x and y.
+        # A plot calls its columns x and y; the labels name the quantities on its axes.
         symbols = {name: axes.get(name, name) for name, column in columns.items() if column.dtype.kind == "f"}
         units = {name: _UNITS.get(symbol, "1") for name, symbol in symbols.items()}
         facts = {**self.table.facts, **{f"{name}_axis": symbol for name, symbol in axes.items()}}
@@ -220,7 +220,7 @@ def layers_of(data: PictureData) -> Sources:
     own = f"{data.picture.name}-"
     for source, columns in sorted(data.columns.items()):
         layer = source.removeprefix(own).removeprefix("data-")
-        # Labels belong to the look of a picture, not to its numbers.
+        # A label belongs to the appearance of a picture, not to its numbers.
         if layer.endswith("-label"):
             continue
         if layer == SWARM:

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 VARIABLE = "HESS_EXPLORER_BROWSER"
 _COMMANDS = ("chromium", "chromium-headless-shell", "google-chrome")
 _POLLING_MS = 10
-# Prevent third-party requests by the browser itself, independently of Playwright's defaults.
+# Prevent third-party requests of the browser, whatever the defaults of Playwright.
 _QUIET = ("--disable-background-networking", "--disable-component-update", "--disable-domain-reliability", "--no-pings")
 
 

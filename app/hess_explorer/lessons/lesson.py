@@ -118,7 +118,7 @@ class LessonStep:
     line: int = field(default=0, compare=False)
 
 
-# Compared by identity, because the values of states are mappings, which are not hashable.
+# Lessons compare by identity, because the values of their states are mappings, which are not hashable.
 @dataclass(frozen=True, eq=False)
 class Lesson:
     """A lesson.

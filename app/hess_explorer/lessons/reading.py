@@ -63,7 +63,7 @@ TRY_THIS = "Try this"
 KEYS = ("state", "example", "look", "pictures", "animate", "controls", "hide", "predict")
 """Names of the settings of a step."""
 _MOST_MINUTES = 600.0
-# The parser in C takes a tenth of the time of that in Python.
+# The C parser is ten times as fast as the Python parser.
 _Loader: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 
 
@@ -146,7 +146,7 @@ def read_suggestions(scene: Scene[Any]) -> Lesson | None:
     begin, end = _section(lines)
     if begin == end:
         return None
-    # Keep the line numbers of the file, for error messages.
+    # Keep the line numbers of the file for error messages.
     text = "\n" * (begin + 1) + "\n".join(lines[begin + 1 : end])
     mistakes: list[LessonError] = []
     steps = _steps(text, 4, StateLink(scene.name, scene.defaults()), Images(None), mistakes)
@@ -249,7 +249,7 @@ def _yaml(text: str, line: int) -> Any:
             line + (mark.line if mark else 0),
         ) from error
     except RecursionError as error:
-        raise LessonError("this YAML is nested too deeply.", line) from error
+        raise LessonError("this YAML is nested too deeply: write it with fewer levels.", line) from error
     return {} if found is None else found
 
 
@@ -276,7 +276,7 @@ def _steps(
         scene = None if place is None else scenes()[place.scene]
         mistakes += problems_in(part.title, part.line - 1, images, scene)
         mistakes += problems_in(part.text, part.line, images, scene)
-        # Without a first state, the other steps would only say that theirs is missing.
+        # Without a first state, every other step would only report that its own state is missing.
         if place is None:
             break
         if step is not None:

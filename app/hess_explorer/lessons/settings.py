@@ -28,7 +28,7 @@ from hess_explorer.views.text import digits
 
 _MOST_SECONDS, _MOST_TIME = 600.0, 1e6
 _MOST_NAMES = 6
-# Layers on canvases of the page, which are always shown.
+# These layers lie on canvases of the page, which are always shown.
 _FILLS = ("image", "dots")
 _CURVES, _POINTS = ("multi_line", "line"), ("scatter",)
 
@@ -107,7 +107,7 @@ def _places(step: LessonStep) -> Iterator[tuple[str, StateLink]]:
             yield "an end of animate", StateLink(step.state.scene, {**step.state.values, step.animation.name: end})
 
 
-# ---- what is shown --------------------------------------------------------------------------------------------------
+# ---- visible elements -----------------------------------------------------------------------------------------------
 
 
 def enlarged_picture_of(value: object, scene: Scene[Any], line: int) -> str:

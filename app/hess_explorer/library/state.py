@@ -285,7 +285,7 @@ class SceneState:
             raise InvalidParameter(
                 f"The file format {path.suffix!r} is not supported: choose one of .{', .'.join(_ENDINGS)}."
             )
-        # Imported here, because drawing needs libraries that data do not.
+        # Imported here, because numerical data need no drawing libraries.
         from hess_explorer.headless.file import content
 
         write_atomically(path, content(self._picture_data(picture), FileRequest(kind, width, black, seconds)))

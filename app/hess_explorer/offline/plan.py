@@ -158,7 +158,7 @@ def family(
     if count > MAX_STATES:
         raise InvalidParameter(f"These are {count} states; a file holds at most {MAX_STATES}: choose fewer values.")
     if grid:
-        # There and back, so that consecutive states are neighbours.
+        # Run through each row in alternating directions, so that consecutive states are neighbours.
         points = _snake(sides)
     else:
         points = [(*first[:i], value, *first[i + 1 :]) for i, side in enumerate(sides) for value in side]

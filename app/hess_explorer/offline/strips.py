@@ -100,7 +100,7 @@ class OfflineStrip:
         self._starts: list[int] = []
         self._wholes: list[np.ndarray] = []
         self._residuals: list[np.ndarray] = []
-        # Place in the tree → number of its array in the last state.
+        # Maps a position in the tree to the number of its array in the last state.
         self._last: dict[str, int] = {}
         self.size = 0
 

@@ -70,7 +70,7 @@ class BackgroundTasks:
         left = len(report.todo)
         if not more:
             self._followed = set()
-        # Results may add tasks.
+        # A result may create further tasks.
         fresh = [task for task in report.todo if task not in self._followed]
         # After a stop, a picture that enters the viewport does not start tasks again.
         if not self._stopped and (not more or (fresh and not self.background.error)):

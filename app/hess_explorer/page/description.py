@@ -55,7 +55,7 @@ def describe(name: str) -> str:
             "shades": SHADES,
         }
     )
-    # Bokeh counts its models in each process, and the page has descriptions of several.
+    # Model ids count up in each process, and a page may hold the descriptions of several processes.
     return re.sub(r'"p(\d+)"', rf'"{name}-\1"', text)
 
 

@@ -86,7 +86,7 @@ def opening(query: str, own: Sequence[Lesson] = (), *, lenient: bool = True) -> 
     most = len(reading.steps) if reading else 1
     at = int(float(link.value(NumberSpec("step", "step", "Step", 1.0, (1.0, most), 1.0, (1.0, most)))))
     if reading and "scene" not in link.texts:
-        # A link with only a step opens the state of that step.
+        # A link that names only a step opens the state of that step.
         place = reading.steps[at - 1].state
         scene, state = scenes()[place.scene], dict(place.values)
     else:
@@ -102,10 +102,10 @@ def opening(query: str, own: Sequence[Lesson] = (), *, lenient: bool = True) -> 
         "step": str(at) if reading else "",
     }
     theme = str(link.value(THEME))
-    # An empty text is left out of the URL.
+    # The URL has no parameter for an empty text.
     client["theme"] = "" if theme == THEME.default else theme
     client |= {spec.name: str(link.value(spec)).strip("0") for spec in (PRESENT, EMBED)}
-    # An empty list means the default.
+    # An empty list stands for the default.
     parts = {spec.name: str(link.value(spec)) or spec.default for spec in _embedding(scene)}
     pictures = scene.open_pictures
     # The steps of an embedded lesson, which may be of several scenes, choose pictures and controls themselves.

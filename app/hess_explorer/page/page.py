@@ -42,7 +42,7 @@ def page(own: Sequence[Lesson] = ()) -> Any:
     """
     try:
         return _page(_query(), own)
-    # Log any error; the user sees one sentence.
+    # Log any error; the user sees a short message.
     except Exception:
         logger.exception("the page could not be built")
         return pn.pane.Str("The page could not be built. Remove the part of its address after “?” and try again.")

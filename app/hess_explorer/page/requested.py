@@ -95,6 +95,6 @@ class RequestedState:
                 continue
             value, note = spec.read(given)
             self.notes += [note] if note else []
-            # An invalid formula keeps the previous one.
+            # An invalid formula leaves the previous one unchanged.
             if note is None or not isinstance(spec, Formula):
                 self.values[name] = value

@@ -63,21 +63,21 @@ class Session:
         self.wire = Wire()
         self._lessons = lessons
         self._tasks = BackgroundTasks()
-        # The browser keeps the pictures of all visited scenes; a stage records what it has drawn on them.
+        # The browser keeps the pictures of all visited scenes; each stage records what is drawn there.
         self._stages: dict[str, Stage[Any]] = {}
         self._described: set[str] = set()
         self._in_sight = pictures
         self._held = False
         self._number = 0
-        # True if the last request asked for another state, False if it asked again for the current one.
+        # True if the last request changed the state, False if it repeated the current one.
         self.is_new = False
         self.values: Values = {}
-        # Scene, requested values and notes of the drawn state, and its pictures; None if nothing valid is drawn.
+        # Scene, requested values, notes and pictures of the drawn state; None if nothing valid is drawn.
         self._drawn: tuple[str, Values, list[str]] | None = None
         self._drawn_pictures: Collection[str] = ()
         # Names of the values that the model has limited.
         self._limited: set[str] = set()
-        # True if a control shows a wrong value.
+        # True if a control shows a value other than that of the state.
         self._mistaken = False
 
     @property

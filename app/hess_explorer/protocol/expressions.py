@@ -26,7 +26,7 @@ FUNCTIONS: Mapping[str, Callable[..., float]] = {
 
 _NAMES = {"pi": math.pi, "π": math.pi, "e": math.e}
 _KINDS = (ast.Expr, ast.Constant, ast.Name, ast.UnaryOp, ast.BinOp, ast.Call)
-# `math.pow`, because powers of integers may have millions of digits.
+# `math.pow` returns floats; `**` could compute integers with millions of digits.
 _OPERATORS: dict[type[ast.AST], Callable[..., Any]] = {
     ast.Add: operator.add,
     ast.Sub: operator.sub,
@@ -36,7 +36,7 @@ _OPERATORS: dict[type[ast.AST], Callable[..., Any]] = {
     ast.USub: operator.neg,
     ast.UAdd: operator.pos,
 }
-# No quotes, commas or brackets, and dots only in numbers: such a text can only produce numbers.
+# Without quotes, commas and brackets, and with dots only in numbers, a text can only produce numbers.
 _TEXT = re.compile(
     r"(?>(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?(?![\w.])|[A-Za-zπ]+[0-9]*(?![\w.])|[-+*/()]|\s)+"
 )

@@ -60,7 +60,7 @@ class RoomDrawing:
         self._lessons = lessons
         self._queue = RequestQueue()
         self._show: Show | None = None
-        # Computes what is missing in the current state.
+        # Computes the missing results of the current state.
         self._session: Session | None = None
         self._left = 0
         self._progress: tuple[int, int] | None = None
@@ -105,8 +105,8 @@ class RoomDrawing:
         answer = session.answer(Request(requested=0))
         state = answer.state
         assert state is not None, "a request for a state has one in its answer"
-        # Running tasks of the same state go on: their results are in the cache, where the new session finds them.
-        # Tasks that have ended without a result would end so again.
+        # Running tasks of the same state continue: the new session finds their results in the cache. Tasks that ended
+        # without a result would only fail again.
         if not (is_same and (is_going or state.progress in (None, self._progress))):
             if self._session is not None:
                 self._session.background.stop()

@@ -201,7 +201,7 @@ class BallSectionState(SectionState):
         psi = self.section.chosen_points[:, 0]
         return None if self.section.known_orbits.reason else np.column_stack([psi[:-1], psi[1:]])
 
-    # ---- words --------------------------------------------------------------------------------------------------
+    # ---- texts --------------------------------------------------------------------------------------------------
 
     def _about_section(self) -> Caption:
         if self.section_caption is not None:

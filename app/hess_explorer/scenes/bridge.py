@@ -268,7 +268,7 @@ class BothSides(State):
         l, x = self.andoyer.T
         return torus_plane.track_columns(found, phi_start=start, l=l, x=x, apart=apart)
 
-    # ---- words --------------------------------------------------------------------------------------------------
+    # ---- texts --------------------------------------------------------------------------------------------------
 
     def _about_torus(self) -> Caption:
         h, f = digits(self.map.h), digits(self.map.f)

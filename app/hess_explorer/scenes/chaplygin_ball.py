@@ -189,7 +189,7 @@ class ChaplyginBall(State):
         places = plane.label_points(self.strip.sigma2(angle)[0], self.strip.sigma1(angle)[0], self.half_width)
         return [(float(x), float(y), name) for (x, y), name in zip(places, ("σ₂", "σ₁"), strict=True)]
 
-    # ---- words --------------------------------------------------------------------------------------------------
+    # ---- texts --------------------------------------------------------------------------------------------------
 
     def _about_sphere(self) -> Caption:
         left, last = in_digits(math.cos(self.theta)), in_digits(self.Gamma[-1])
@@ -302,7 +302,8 @@ SCENE = Scene(
                 ),
                 plane.band(lambda s: s.proof.band),
                 plane.orbit("orbits; the chosen one bold"),
-                # Placed evenly over the strip: the middles of the orbits, where all are slow, would cluster.
+                # Place the arrows evenly over the strip: all orbits are slow near their middles, where arrows would
+                # cluster.
                 arrows("arrows", lambda s: plane.arrows_at(s.all_orbits), color=theme.ORBIT, alpha=0.8),
             ),
         ),

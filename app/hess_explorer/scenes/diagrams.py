@@ -127,7 +127,7 @@ class DiagramState(DiagramControls):
         """Return the parameter values of an orbit that starts at a point of the section."""
         return {"chosen": points_text([(x, min(max(y, 1e-6), math.pi - 1e-6))])}
 
-    # ---- words --------------------------------------------------------------------------------------------------
+    # ---- texts --------------------------------------------------------------------------------------------------
 
     def _about_diagram(self) -> Caption:
         if self.branch == NONE:

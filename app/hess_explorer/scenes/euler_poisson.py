@@ -282,7 +282,7 @@ class EulerPoisson(FilledState):
         l = np.linspace(self.section.frame[0][0], self.section.frame[1][0], 241)
         return l, hess_curve(self.body, l)
 
-    # ---- words --------------------------------------------------------------------------------------------------
+    # ---- texts --------------------------------------------------------------------------------------------------
 
     def _about_section(self) -> Caption:
         if self.section_caption is not None:

@@ -240,7 +240,7 @@ class FreeSuslov(State):
             return branches(one.phase, one.gamma[:, 0], 2.0 * math.pi)
         return [np.column_stack([one.times, one.gamma[:, 0]])]
 
-    # ---- words --------------------------------------------------------------------------------------------------
+    # ---- texts --------------------------------------------------------------------------------------------------
 
     def _about_velocity(self) -> Caption:
         return Caption(

@@ -181,7 +181,7 @@ class HessLeak(State):
         r, sign = self.bridge.heavy.r, math.copysign(1.0, self.bridge.hess.b)
         return parallels(r, [sign * n3 for n3 in self.hess.turning_points.roots[1:]])
 
-    # ---- words --------------------------------------------------------------------------------------------------
+    # ---- texts --------------------------------------------------------------------------------------------------
 
     def _about_leak(self) -> Caption:
         exact, growth = digits(mechanics.exact_growth(self.map)), self.leaks["own"].growth

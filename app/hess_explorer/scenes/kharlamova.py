@@ -46,7 +46,8 @@ from hess_mechanics.suslov.kharlamova import Arc, PlaneBody
 from hess_mechanics.suslov.plane_potential import MOST_SAMPLES, POTENTIALS, PlaneMotion, PotentialBody, motion_from
 from hess_mechanics.suslov.principal_axis import divergence
 
-_LEVELS = (-0.75, -0.5, -0.25, 0.0, 0.25, 0.5, 0.75)  # equipotentials, in units of the potential's largest value
+# Values of the equipotentials, in units of the potential's largest value.
+_LEVELS = (-0.75, -0.5, -0.25, 0.0, 0.25, 0.5, 0.75)
 _ROUND = {"I11": 1.0, "I22": 1.0, "b1": 1.0, "b2": 0.0}
 PRESETS = (
     Preset("Periodic: an arc of a parabola, back and forth"),
@@ -81,7 +82,7 @@ PRESETS = (
 class Kharlamova(State):
     """An orbit on its arc of a parabola, and the periods in all directions from its start."""
 
-    # These bounds are narrower than in other scenes.
+    # The bounds are narrower than in other scenes.
     I11: float = parameter(known.I11, bounds=(1e-2, 1e2))
     I22: float = parameter(known.I22, 1.0, bounds=(1e-2, 1e2))
     b1: float = parameter(
@@ -257,7 +258,7 @@ class Kharlamova(State):
         middle, half = 0.5 * sum(self.arc.ends), round_up(0.6 * self.arc.length)
         return middle - half, middle + half
 
-    # ---- words --------------------------------------------------------------------------------------------------
+    # ---- texts --------------------------------------------------------------------------------------------------
 
     def _about_domain(self) -> Caption:
         if self.arc.kind == "fixed":

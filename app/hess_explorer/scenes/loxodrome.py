@@ -53,7 +53,7 @@ class Loxodrome(State):
     I1: float = parameter(known.I1)
     I2: float = parameter(known.I2, 1.5, doc="Middle principal moment: it must lie between I₁ and I₃.")
     I3: float = parameter(known.I3, 2.0)
-    # The sign makes no difference to the pendulum.
+    # The pendulum does not depend on this sign.
     m: float = parameter(
         known.MU_R,
         0.7071,
@@ -119,7 +119,7 @@ class Loxodrome(State):
             "l": column(self.pendulum_motion.l),
         }
 
-    # ---- words --------------------------------------------------------------------------------------------------
+    # ---- texts --------------------------------------------------------------------------------------------------
 
     def _about_body(self) -> Caption:
         check_note = "" if self.pendulum.body.check.is_body else "Not a rigid body, so no ellipsoid. "
@@ -166,7 +166,7 @@ class Loxodrome(State):
         yield f"Unit of time = {digits(1.0 / p.frequency_unit)}"
         yield f"l(0) = {digits(p.l)}"
         yield f"A rigid body? {'yes' if heavy.check.is_body else 'no'}"
-        yield f"ln(departure) grows by 2π|a| = {digits(2.0 * math.pi * abs(p.a))} per turn in the full equations"
+        yield f"In the full equations ln|(M, r)| grows by 2π|a| = {digits(2.0 * math.pi * abs(p.a))} per turn"
 
     def status(self) -> Iterator[str]:
         """Yield the status of the attitude and of its orbit."""

@@ -188,7 +188,7 @@ class OwnBodyState(State):
     @cached_property
     def is_compiled(self) -> bool:
         """True if equations of this form are compiled."""
-        # `newest` requests the compilation during a drag, too; `need` would not.
+        # `newest_results` requests the compilation even during a drag, unlike `need`.
         return self.work.newest_results([[Task(_compile, self.body.system)]])[0] is not None
 
     @property

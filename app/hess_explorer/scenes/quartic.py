@@ -191,7 +191,7 @@ class Quartic(SectionState):
         except ModelError:
             return {}
 
-    # ---- words --------------------------------------------------------------------------------------------------
+    # ---- texts --------------------------------------------------------------------------------------------------
 
     def _about_domain(self) -> Caption:
         first, second = map(digits, self.body.axes)

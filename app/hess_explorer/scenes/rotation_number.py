@@ -59,7 +59,7 @@ PRESETS = (
 class RotationNumber(State):
     """A torus, a map of ρ over two parameters, and a line through the torus along one parameter."""
 
-    a: float = parameter(known.A_HESS, bounds=BOUNDS["a"])  # the range of the map
+    a: float = parameter(known.A_HESS, bounds=BOUNDS["a"])  # Range of the map.
     h: float = parameter(known.H_HESS, 0.5, step=0.005)
     f: float = parameter(known.F_HESS, 0.8, step=0.005, doc="Area integral in units b = 1.")
     over: str = choice("Map over", PLANES, "h, f", group="State", doc="Two parameters of the map; the third is fixed.")
@@ -83,7 +83,7 @@ class RotationNumber(State):
         doc="The other family: Θ(φ + ε sin 3φ). It is not a Möbius map: its ρ locks at many rational numbers.",
     )
     accuracy: str = accuracy_level()
-    # One window for each map.
+    # Each map has its own window.
     part_hf: str = window_over("h, f")
     part_ha: str = window_over("h, a")
     part_fa: str = window_over("f, a")
@@ -113,7 +113,7 @@ class RotationNumber(State):
     def parameter_line(self) -> ParameterLine:
         """The tori on the line, within the window of the map if the line lies in its plane."""
         low, high = dict(zip(self.rho.sides, self.rho.window, strict=True)).get(self.line, FULL[self.line])
-        # The line's own parameter is set to 0, so the cache key is constant along the line.
+        # Set the line's own parameter to 0, so that the cache key is constant along the line.
         return possible_part(ParameterLine(self.line, self.torus.with_values(**{self.line: 0.0}), low, high))
 
     @cached_property
@@ -152,7 +152,7 @@ class RotationNumber(State):
         """The circle map of the torus; None on the separatrix."""
         return map_or_none(self.work, self.a, self.h, self.f, self.level)
 
-    # ---- words --------------------------------------------------------------------------------------------------
+    # ---- texts --------------------------------------------------------------------------------------------------
 
     def _about_line(self) -> Caption:
         rho = str(self.target).replace("-", "−")
@@ -199,7 +199,7 @@ def _periodic(rho: Fraction, line: ParameterLine) -> tuple[PeriodicTorus | None]
     return (mechanics.periodic_torus(rho, line, REFERENCE),)
 
 
-# ---- what each level costs --------------------------------------------------------------------------------------
+# ---- cost of each level ------------------------------------------------------------------------------------------
 
 
 def _line(s: RotationNumber, plan: Plan) -> Array:

@@ -162,7 +162,7 @@ class ScatteringState(State):
         cells = _FEW_CELLS if self.is_preview else self.plan(Kind.MAP).grid(_CELLS)
         return self.work.need(Task(model.theta_plus_grid, self.map, *cells))
 
-    # ---- words --------------------------------------------------------------------------------------------------
+    # ---- texts --------------------------------------------------------------------------------------------------
 
     def _about_curve(self) -> Caption:
         return Caption(numbers=f"θ⁻ = {in_digits(self.theta)}: {square.range_text(self.curve)} (dotted: θ⁻, π − θ⁻).")
@@ -200,8 +200,8 @@ class ScatteringState(State):
         """Yield a warning if the start is rounded."""
         if self.I13 * self.I23 != 0.0 and self.digits > 8.0:
             yield (
-                "With I₁₃I₂₃ ≠ 0 the start of the orbit is rounded to 1e−16: its passage is a little early or late, "
-                f"and its Γ⁺ is off by up to 1e−{16.0 - self.digits:.0f}."
+                "With I₁₃I₂₃ ≠ 0 the start of the orbit is rounded to 1e−16, which shifts its passage in time and "
+                f"changes Γ⁺ by up to 1e−{16.0 - self.digits:.0f}."
             )
 
 

@@ -32,7 +32,7 @@ from hess_mechanics.numerics.results import Array
 _FEW = 1000
 """Number of points while a slider is dragged and until the full cloud is known."""
 
-# Each example sets all choices that it depends on; unset choices keep their values.
+# Each example sets all choices that affect it, because other choices keep their values.
 _CHOICES: Values = {"start": "energy shell", "direction": "forward", "beside": "nothing", "along": "divergence"}
 _PATCH: Values = {"start": "small patch", "direction": "forward", "along": "volume"}
 
@@ -177,7 +177,7 @@ class SingularMeasures(State):
         """Return the times of the clouds and the mean of the fourth picture."""
         return {"t": column(self.times), "mean": column(self.statistics[0])}
 
-    # ---- words --------------------------------------------------------------------------------------------------
+    # ---- texts --------------------------------------------------------------------------------------------------
 
     def _about_velocity(self) -> Caption:
         return cloud.ends_caption(self.clouds)

@@ -79,7 +79,7 @@ PRESETS = (
         long=3000.0,
     ),
     Preset("Two attractors, and their basins", **_TWO, h=2.999584, colours="basins", count=400.0, drop=_LATE),
-    # All points but a few lie at the two fixed points.
+    # Nearly all points lie at the two fixed points, so a density would show little.
     Preset(
         "Reversal: attractor and repeller (not a rigid body)", **_REVERSAL, h=2.999981, count=100.0, indicator="nothing"
     ),
@@ -197,7 +197,7 @@ class Suslov(FilledState):
         if not self.orbits:
             return Caption(numbers=f"{len(self.section.chosen_points)} points of chosen orbits.")
         backward = f", {len(second)} backward" if len(second) else ""
-        # The later halves of the forward orbits show the attractors.
+        # The second halves of the forward orbits show the attractors.
         later = self.section.points(second_half_only=True)
         counted = self.density.phrase or f"{len(first)} points forward{backward}; "
         cells = occupied_cells(later, self.poincare.window, _CELLS)
@@ -221,7 +221,7 @@ SCENE = Scene(
             *motion_charts(SYSTEM, lambda s: start_on(s.poincare, s.starts), time=lambda s: s.long),
             ChartSource(
                 "basins suslov-section",
-                # Attractors belong to the whole section: one cell is enough.
+                # One cell is enough, because attractors belong to the whole section.
                 lambda s: {**parameters_of(s.body), "h": s.h, "k": s.poincare.k, "across": 1.0, "up": 1.0},
             ),
         ),

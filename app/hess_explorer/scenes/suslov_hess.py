@@ -243,7 +243,7 @@ class SuslovHess(State):
         task = self.colours(affordable_cells(self.body.a, plan.grid(CELLS)), plan.level)
         return CellGrid(self.work.need(task), axes.x, axes.y)
 
-    # ---- words --------------------------------------------------------------------------------------------------
+    # ---- texts --------------------------------------------------------------------------------------------------
 
     def quantities(self) -> Iterator[str]:
         """Yield a, b, derived data of the body, the integrals in its units, and the period."""

@@ -35,7 +35,7 @@ _SPECS = (
     ChoiceSpec("grid", "Grid", ("0", "1"), "0"),
 )
 
-# One file and one slow file at a time, so that open pages have priority.
+# Draw one file and one slow file at a time, so that open pages have priority.
 _files = ThreadPoolExecutor(max_workers=1, thread_name_prefix="export")
 _one_slow = asyncio.Lock()
 _MOST = {False: 20, True: 5}
@@ -121,7 +121,7 @@ class Export(RequestHandler):
         name = f"{where.scene.name}-{where.picture.name}"
         if request.kind in PROGRAMS:
             return name, PROGRAMS[request.kind](where).encode()
-        # Not at the start, because no page needs HoloViews.
+        # Imported here, because no page needs HoloViews.
         from hess_explorer.export.figure import as_file
 
         with time_budget(self._left, _SECONDS), np.errstate(all="ignore"):

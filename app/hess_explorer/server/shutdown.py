@@ -44,7 +44,7 @@ class Workers:
         """Stop the event loop of this worker when the parent process exits."""
 
         def stop(*_: object) -> None:
-            # A closed pipe stays readable for ever, and the loop still runs once more.
+            # A closed pipe stays readable, and the loop would call this handler again.
             loop.remove_handler(self._read)
             loop.stop()
 

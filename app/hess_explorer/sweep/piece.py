@@ -61,11 +61,11 @@ def serialize(plan: SweepPlan) -> bytes:
     import cloudpickle
 
     what = plan.computation
-    # By name where that is enough: a copy of a system would have to compile its kernels.
+    # Serialize importable functions by name: a copy of a system would have to compile its kernels.
     known = catalogue().get(what.key) is what
     try:
         return bytes(cloudpickle.dumps((what.key if known else what, plan.numbers, plan.accuracy, plan.fixed)))
-    # The objects that a function uses may raise anything.
+    # Serialization runs code of the user's objects, which may raise any exception.
     except Exception as error:
         raise InvalidParameter(
             f"{what.key} cannot be sent to other processes ({error}): omit workers, or avoid objects that cannot be "
@@ -111,7 +111,7 @@ def _seconds_of_a_cell(plan: SweepPlan) -> float:
         evaluate(plan.computation, plan.numbers, columns, as_level(plan.accuracy))
         return time.perf_counter() - begun
 
-    # The first cell compiles or loads kernels.
+    # Do not time the first cell, which compiles or loads kernels.
     trial(1)
     count = 1
     while (seconds := trial(count)) < _LONG_ENOUGH and 2 * count * _PART <= plan.cells:

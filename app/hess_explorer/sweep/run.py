@@ -176,7 +176,8 @@ def explain(result: xr.Dataset, **cell: float) -> str:
     facts = result.attrs
     if {*cell} != {*result.status.dims}:
         raise InvalidParameter(
-            f"{', '.join(cell) or 'No coordinate'} given: pass values of {', '.join(map(str, result.status.dims))}."
+            f"A cell cannot be given by {' and '.join(cell) or 'nothing'}: pass values of "
+            f"{', '.join(map(str, result.status.dims))}."
         )
     cell = {name: as_number(name, cell[name]) for name in map(str, result.status.dims)}
     if (failure := json.loads(facts["failures"]).get(cell_name(cell))) is not None:

@@ -223,7 +223,7 @@ def _signed(label: str, kind: str, style: str) -> tuple[Sign, ...]:
 
 
 def _stroked(layer: Layer[S], color: str, width: float, dash: str, alpha: float, label: str) -> Layer[S]:
-    # CSS has no dash-dot line.
+    # CSS has no dash-dot lines.
     sign = f"border-top: {max(2.0, width):g}px {'dashed' if dash == 'dotdash' else dash} {color}"
     return replace(
         layer,

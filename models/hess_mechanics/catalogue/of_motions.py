@@ -179,7 +179,7 @@ def computations(system: System) -> Iterator[Computation]:
         },
         Kind.INDICATOR,
         "values",
-        # One thread: the cells of a sweep share the cores.
+        # Use one thread, because the cells of a sweep share the cores.
         lambda body, start, **more: complete(megno(body, [start], threads=1, **more)),
         example={"duration": 50.0},
     )

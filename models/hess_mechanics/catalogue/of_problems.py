@@ -44,7 +44,7 @@ def _circle_map(accuracy: Level, a: float, h: float, f: float, phi: float) -> Sc
 
 def _tori(accuracy: Level, a: Array, h: Array, f: Array, phi: Array) -> Many:
     tori = values_at(a, h, f, accuracy)
-    # (h, f) = (1, 0) is the separatrix; all other impossible tori lie outside of the region.
+    # (h, f) = (1, 0) is the separatrix; all other impossible tori lie outside the region.
     separatrix = ~tori.possible & (np.hypot(h - 1.0, f) < 1e-6)
     numbers = {"rotation-number": tori.rho, "trace": tori.trace, "locked": tori.locked.astype(float)}
     return (
@@ -71,7 +71,7 @@ _CIRCLE = (with_default(known.THETA, 1.0), with_default(known.CIRCLE_PHASE, 0.0)
 _INNER = with_default(known.D, 1.0)
 
 
-# Many cells of a sweep over angles share a body.
+# Cache the result, because many cells of a sweep over angles share a body.
 _cached_scattering = lru_cache(maxsize=256)(scattering)
 
 
@@ -149,7 +149,7 @@ COMPUTATIONS: tuple[Computation, ...] = (
             ),
         },
         Kind.MAP,
-        # Differences of angles up to full turns.
+        # Compare angles up to full turns.
         lambda r, exact: np.abs(np.angle(np.exp(1j * (r.of.theta(_ANGLES) - exact.of.theta(_ANGLES))))).max(),
         _circle_map,
         unit="rad",

@@ -110,7 +110,7 @@ def computations(example: PoincareSection, period: int) -> Iterator[Computation]
         A computation, without the parameters of the section.
     """
     constants = example.constants
-    # By default, a little above the energy.
+    # The default lies a little above the energy.
     name = next((one for one in ("E", "h") if one in constants), [*constants][-1])
     over = (Choice("parameter", "Parameter that changes.", (*constants,), name),)
     value = constants[name]

@@ -142,7 +142,7 @@ def _lag(body: BallBody, theta: float, phis: Array) -> Complex | None:
     order = np.fft.fftfreq(grid.size, 1.0 / grid.size)
     mean = growth[0].real
     wave = np.divide(growth, 1j * order, out=np.zeros_like(growth), where=order != 0.0)
-    # ∫(μ − mean) is periodic; it remains to integrate a periodic function times e^(−mean s).
+    # The integral ∫(μ − mean) is periodic, so the remaining integrand is a periodic function times e^(−mean s).
     swing = np.fft.ifft(wave * grid.size).real
     if np.ptp(swing) > _MOST_SWING:
         return None
@@ -336,7 +336,8 @@ def ball_scattering(
     # factors 4 and 40 allow for the passage between them.
     with np.errstate(divide="ignore"):
         span = math.log(4.0 / abs(distance)) / rates[0] + math.log(40.0 / level.promise) / rates.min()
-    # Steps must resolve the small distance, which determines the departure; half the promise is for other errors.
+    # Steps must resolve the small distance, which determines the departure; the other half of the promise covers other
+    # errors.
     tight = Level(
         level.name, 0.5 * level.promise, max(0.01 * abs(distance) * level.promise, REFERENCE.tolerance), REFERENCE.order
     )

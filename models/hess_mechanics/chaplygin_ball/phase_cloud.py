@@ -367,10 +367,12 @@ def cloud_of(body: BallBody, states: Array, times: Array, accuracy: Accuracy) ->
         raise InvalidParameter("1/|I13ω1 + I23ω2| is an invariant density only without a field: set b1 = b2 = b3 = 0.")
     J, (n1, n2) = _direction(body)
     t = as_times(times)
-    nu = math.sqrt(_twice_energy(body, states) / min(body.I11, body.I22)) or 1.0  # a bound on every |ω|
+    nu = math.sqrt(_twice_energy(body, states) / min(body.I11, body.I22)) or 1.0  # An upper bound on |ω| of all points.
     first = np.column_stack([states[:, :2] @ [[n2, n1], [-n1, n2]] / nu, states[:, 2:]])
     if not np.all(first[:, 1]):
-        raise InvalidParameter("A point of the cloud lies on I13ω1 + I23ω2 = 0, where 1/|I13ω1 + I23ω2| is infinite.")
+        raise InvalidParameter(
+            "A point of the cloud lies on I13ω1 + I23ω2 = 0, where 1/|I13ω1 + I23ω2| is infinite: choose another point."
+        )
     max_steps = max(_LEAST_STEPS, _MOST_STEPS // len(first))
     p = np.array([body.I11, body.I22, J, n1, n2, body.D])
     closest = np.argsort(np.abs(first[:, 1]))[: max(_FEWEST_CLOSE, len(first) // _CLOSE)]

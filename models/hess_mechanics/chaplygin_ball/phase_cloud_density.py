@@ -224,7 +224,7 @@ def density(cloud: Cloud) -> Density:
     low = max(SMALLEST, float(cloud.log_s.min()))
     first = math.floor(low / BIN)
     edges = BIN * np.arange(first, max(first + 1, math.floor(float(cloud.log_s.max()) / BIN) + 1) + 1, dtype=float)
-    # The share of time that each point spends per unit of ln|s| in the end, where ln|s| decreases at a constant rate.
+    # In the end ln|s| decreases at a constant rate, which gives the share of time per unit of ln|s|.
     last = cloud.times.size - 1
     late = 3 * cloud.times.size // 4
     change = float(np.median(np.abs(cloud.log_s[:, -1] - cloud.log_s[:, late])))

@@ -143,13 +143,13 @@ def _joined(cells: Sequence[tuple[NDArray[np.int64], NDArray[np.int64]]]) -> NDA
     visited = np.zeros(_CELLS[::-1], bool)
     for one in cells:
         visited[one] = True
-    # Imported where they are used: together they take a fifth of a second, which few states need.
+    # Imported here because the imports take 0.2 s together, and few states need them.
     from scipy import ndimage
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import connected_components
 
     patches, count = ndimage.label(visited, np.ones((3, 3)))
-    # Orbits and patches of cells are the nodes of a graph, joined by a visit.
+    # Nodes of the graph are orbits and patches of cells; an edge is a visit.
     orbit = np.repeat(np.arange(len(cells)), [len(row) for row, _ in cells])
     patch = np.concatenate([patches[one] for one in cells]) + len(cells) - 1
     nodes = len(cells) + count
@@ -191,7 +191,7 @@ def recurrent_sets(orbits: Orbits) -> RecurrentSets:
     if not long:
         return RecurrentSets(as_read_only(table), ())
     cells = [_cells(section, one) for one in long]
-    # In the order of their first orbits, the largest set first.
+    # Number the sets in the order of their first orbits, which begins with the largest set.
     _, firsts, numbers = np.unique(_joined(cells), return_index=True, return_inverse=True)
     order = np.argsort(np.argsort(firsts))
     for one, number in zip(cells, order[numbers], strict=True):

@@ -260,7 +260,7 @@ class _Track:
             if length > 4.0 * before and length > promise:
                 break
             z, before = z + step, length
-        raise NotConverged("Newton's method does not return to the branch.")
+        raise NotConverged("Newton's method does not converge to a point of the branch.")
 
     def beside(self, guess: Array, across: Array, t: Array) -> tuple[_Point, Array]:
         """Return the `corrected` point and its tangent, which must be close to t.  Raises `NotConverged`."""
@@ -395,7 +395,7 @@ def extension(
     InvalidParameter
         If the branch cannot be continued.
     NotConverged
-        If Newton's method does not return to the branch.
+        If Newton's method does not converge to a point of the branch.
     WorkLimit
         If a map needs too many steps.
     """

@@ -144,7 +144,7 @@ def ensemble(
     if count == 0:
         raise InvalidParameter("There are no initial states: give at least one.")
     if count * t.size * dimension > MAX_NUMBERS:
-        raise WorkLimit(f"{count} orbits at {t.size} times are too many: choose fewer of one or the other.")
+        raise WorkLimit(f"{count} orbits at {t.size} times are too many: choose fewer orbits or fewer times.")
     scaled_times = problem.times(t)
 
     longest, most_steps = as_max_step(max_step, problem), as_max_steps(max_steps)
@@ -161,7 +161,7 @@ def ensemble(
     errors, scaled_errors = np.full(count, np.inf), np.zeros(count)
     todo = np.flatnonzero(done)
     before, current = out[todo], level
-    # As in `measured`, for the orbits that still miss the promise.
+    # Repeat the orbits that still miss the promise, as `measured` does.
     while todo.size:
         tighter = current.tighter()
         finer, more, _ = run(problems[tighter.is_perturbed], todo, tighter)

@@ -170,7 +170,7 @@ def _begun(map_: Map, orbit: PeriodicOrbit, side: int, index: int) -> _Curve:
     big = int(np.argmax(np.abs(values)))
     if values.imag.any() or not abs(values[big]) > 1.0 + 1e-6 or abs(values[1 - big]) >= 1.0:
         raise InvalidParameter(
-            f"This {orbit.kind} has no such manifolds: choose a saddle, with one multiplier inside and one outside of "
+            f"This {orbit.kind} has no such manifolds: choose a saddle, with one multiplier inside and one outside "
             "the unit circle."
         )
     value, returns = float(values[big].real), orbit.period
@@ -191,7 +191,7 @@ def _begun(map_: Map, orbit: PeriodicOrbit, side: int, index: int) -> _Curve:
     for size in _SIZES:
         curve = replace(curve, away=side * size * v, bend=size * size * q)
         try:
-            # The smallest coefficient found so far: closer to the saddle, round-off exceeds the third order.
+            # Use the smallest coefficient: closer to the saddle, round-off exceeds the third order.
             third = min(third, curve.third_order() / size**3)
         except ModelError:
             continue
@@ -264,7 +264,7 @@ def manifold(
     """
     if not (math.isfinite(length) and length > 0.0 and sagitta > 0.0 and longest > 0.0):
         raise InvalidParameter(
-            f"length = {length}, sagitta = {sagitta}, longest = {longest}: choose positive finite numbers."
+            f"length = {length}, sagitta = {sagitta}, longest = {longest}: choose positive numbers and a finite length."
         )
     if side not in (-1, 1):
         raise InvalidParameter(f"side = {side}: choose 1 (along the direction of the saddle) or −1 (against it).")
@@ -298,7 +298,7 @@ def _followed(
     turns = curve.map_.turns
     points, parameters = [curve.saddle.copy(), curve.point_at(0.0)], [-math.inf, 0.0]
     total = float(np.linalg.norm(curve.away))
-    # Right ends of pieces that are not yet done, the nearest last.
+    # Right ends of the unfinished pieces, with the nearest one last.
     waiting: list[tuple[float, Array]] = []
     ahead, before, spent = 0.0, 0.0, 0
     ended = "At its length."
@@ -333,7 +333,7 @@ def _followed(
         size = float(np.linalg.norm(chord))
         off = float(np.linalg.norm(middle - 0.5 * (here + there)))
         across = abs(_cross(chord, middle - here)) / max(size, 1e-300)
-        # A middle that is far from the middle of the chord, though on its line, may hide a fold between.
+        # A middle point far from the middle of the chord, though on its line, may hide a fold.
         if (across > sagitta or size > longest or off > 0.35 * size) and right - tau > 1e-12 * max(1.0, tau):
             waiting.append((0.5 * (tau + right), middle))
             continue
@@ -346,7 +346,7 @@ def _followed(
             ended = f"At the length {total:.6g} the map jumps: an orbit touches the plane of the section."
             break
         waiting.pop()
-        # Keep the middle, which is already computed: it reduces the sagitta by a factor of four.
+        # Keep the middle point, which is already computed: it reduces the sagitta by a factor of four.
         for parameter, point in ((0.5 * (tau + right), middle), (right, there)):
             total += float(np.linalg.norm(point - points[-1]))
             points.append(point)
@@ -378,7 +378,7 @@ def _error(curve: _Curve, points: Array, parameters: Array) -> float:
     return SAFETY * off + curve.first_error + 4e-16 if off >= 0.0 else math.inf
 
 
-# ---- where two of them cross ------------------------------------------------------------------------------------
+# ---- intersections ---------------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
@@ -460,7 +460,7 @@ def _refined(one: Manifold, other: Manifold, pair: tuple[int, int]) -> Intersect
     try:
         for iteration in range(20):
             check_limit()
-            # After two steps slopes are right to a percent, which costs fewer points than to compute them again.
+            # After two steps the slopes are accurate to a percent, and reusing them saves points.
             for k, (curve, sign) in enumerate(((one, 1.0), (other, -1.0)) if iteration < 2 else ()):
                 both = [curve.point_at(tau[k] + side * h[k]) for side in (1.0, -1.0)]
                 slopes[:, k] = sign * difference(one.turns, *both) / (2.0 * h[k])
@@ -543,7 +543,7 @@ def heights_at(curve: Manifold, axis: int, value: float) -> Array:
 
 def _height_on(curve: Manifold, axis: int, value: float, i: int) -> float:
     """Return the other coordinate on the segment i."""
-    from scipy.optimize import brentq  # imported here because it takes 0.3 s
+    from scipy.optimize import brentq  # Imported here because the import takes 0.3 s.
 
     reference = curve.points[i]
 

@@ -198,7 +198,7 @@ def megno(
             f"MEGNO takes too long for t = {plain(abs(duration), 4)}: choose at most {plain(_LONGEST / problem.nu, 4)}."
         )
     count, size = problem.states.shape
-    # At least one sample per 1/ν, in twelve stretches after the first fifth.
+    # Sample at least once per 1/ν, in twelve stretches after the first fifth.
     samples = 60 * max(4, math.ceil(abs(duration) * problem.nu / 60))
     t = duration * problem.nu * np.arange(1, samples + 1) / samples
     first = samples // 5
@@ -219,14 +219,15 @@ def megno(
         along = tangent(problem, start, direction, t, level, LONGEST)
         steps[i] = along.steps
         length = np.concatenate([[0.0], along.lengths[:, 0]])
-        # ∫ s dL = tL − ∫ L ds, with sums for integrals, in units of the sample spacing.
+        # ∫ s dL = tL − ∫ L ds, with sums in place of integrals and the sample spacing as unit of time.
         number = np.arange(1, samples + 1)
         below = np.cumsum(0.5 * (length[1:] + length[:-1]))
         y = 2.0 * (length[1:] - below / number)
         times = np.abs(t[first - 1 :]) / problem.nu
         volume = along.volume[first - 1 :]
         windows = window_rates(volume, times)
-        # The error of the steps, the scatter of stretches, and the remainder on tori, which no scatter shows.
+        # Add the error of the steps, the scatter of stretches, and the remainder on tori, which the scatter does not
+        # show.
         floor = (level.tolerance + 1e-15) * steps[i] / abs(duration)
         scatter = batch_error(volume[:, None], times)[1][0]
         numbers[:, i] = y.mean(), *windows, max(scatter, float(np.abs(windows[1:] - windows[0]).max())) + floor

@@ -297,6 +297,6 @@ def time_of(section: PoincareSection, turns: float) -> float:
     x, y = np.meshgrid(centres(x0, x1, _TRIED), centres(y0, y1, _TRIED))
     states, there = section.states_at(x.ravel(), y.ravel())
     if not there.any():
-        raise OutsideRegion("No motion of this energy crosses the section: choose a larger one.")
+        raise OutsideRegion("No motion of this energy crosses the section: choose a larger energy.")
     nu = section.system.frequency(states[there].T, np.array(section.parameters))
     return float(turns * section.slowness / np.median(nu))

@@ -79,7 +79,7 @@ def as_times(times: float | Sequence[float] | Array) -> Array:
         raise WorkLimit(f"{t.size} times are too many: at most {MAX_SAMPLES} are allowed.")
     before = np.concatenate(([0.0], t[:-1]))
     if np.any(t < before) and np.any(t > before):
-        raise InvalidParameter("The times turn back: give increasing times from 0 on, or decreasing ones.")
+        raise InvalidParameter("The times are not monotonic: give increasing times from 0 on, or decreasing ones.")
     return t
 
 
@@ -105,8 +105,8 @@ def as_duration(duration: float, what: str) -> float:
     """
     if not _SHORTEST <= abs(duration) < math.inf:
         raise InvalidParameter(
-            f"The time span of {what} is {duration:g}, and must be finite and at least {_SHORTEST:g}: choose one like "
-            "100, or -100 for backwards."
+            f"The time span of {what} is {duration:g}, and must be finite and at least {_SHORTEST:g}: choose one such "
+            "as 100, or -100 for backward motion."
         )
     return float(duration)
 

@@ -175,7 +175,7 @@ def period_of(
         halves = points[: len(points) // 2 + m // 2], points[len(points) // 2 - m // 2 :]
         ways[m - 1] = [np.abs(difference(turns, one[m:], one[:-m])).max() for one in halves]
         if ways[m - 1].max() <= max(same, _PROMISES * promise):
-            # A multiplier near −1 makes an orbit look twice as long while it is still settling.
+            # While an orbit with a multiplier near −1 settles, its period seems doubled.
             shorter = [k - 1 for k in range(1, m) if m % k == 0]
             is_settled = bool(np.all(ways[shorter, 1] >= _SETTLING * ways[shorter, 0]))
             return (m, True) if is_settled else (0, False)
@@ -232,11 +232,12 @@ def diagram_over(
     along = np.array(values, float, ndmin=1)
     if not (along.ndim == 1 and np.all(np.isfinite(along)) and 1 <= along.size <= MAX_VALUES):
         raise InvalidParameter(
-            f"{along.size} values of the parameter, or some not finite: give 1 to {MAX_VALUES} finite values."
+            f"There are {along.size} values of the parameter, or one is not finite: give 1 to {MAX_VALUES} finite ones."
         )
     if not (crossings >= 1 and transient >= 0 and transient + crossings <= MAX_CROSSINGS):
         raise WorkLimit(
-            f"{transient} + {crossings} crossings per value: choose at least 1 and at most {MAX_CROSSINGS}."
+            f"transient + crossings = {transient} + {crossings} per value: choose at least one crossing, and together "
+            f"at most {MAX_CROSSINGS}."
         )
     first = np.array(start, float)
     restart = first if again is None else np.array(again, float)
@@ -264,7 +265,7 @@ def diagram_over(
         except WorkLimit:
             raise
         except ModelError:
-            # At this value there is no such body, or no motion: the diagram has a gap.
+            # The diagram has a gap at a value without a body or without motion.
             pass
         shown.append(as_read_only(points.copy()))
         if len(points):
@@ -483,7 +484,7 @@ def cascade(
             ended = f"Beyond {parameter} = {flip.value:.9g} no orbit of period {2 * orbit.period} is found."
             break
         at, orbit = born
-        # The first step says little about the distance to the next doubling.
+        # The first step is no estimate of the distance to the next doubling.
         far = end if len(flips) == 1 else flip.value + direction * 4.0 * step
     return Cascade(
         parameter,

@@ -78,7 +78,8 @@ class Plane:
     def __post_init__(self) -> None:
         if not (all(map(math.isfinite, self.normal)) and any(self.normal) and math.isfinite(self.offset)):
             raise InvalidParameter(
-                "The normal of the plane is 0, or the normal or offset is not finite: choose others."
+                "The normal of the plane is 0, or the normal or offset is not finite: give a nonzero normal and finite "
+                "numbers."
             )
         if self.sense not in (-1, 0, 1):
             raise InvalidParameter(
@@ -171,7 +172,7 @@ class AnglePlane:
     sense: int = 1
 
     def __post_init__(self) -> None:
-        # Validate value and sense as those of a plane.
+        # The checks of value and sense are those of a plane.
         Plane((1.0,), self.value, self.sense)
 
     def gradient(self, state: Array) -> Array:
@@ -297,7 +298,7 @@ class _Search:
         if not math.isfinite(duration):
             raise InvalidParameter(f"The end of the time span is {duration}: choose a finite number.")
         if not 1 <= crossings <= MAX_CROSSINGS:
-            raise WorkLimit(f"{crossings} crossings: choose a number between 1 and {MAX_CROSSINGS}.")
+            raise WorkLimit(f"crossings = {crossings}: choose a number between 1 and {MAX_CROSSINGS}.")
         problem = Problem.of(body, states)
         if not hasattr(plane, "crossing_kernel"):
             raise InvalidParameter(
@@ -390,7 +391,7 @@ class _Search:
         (times, states), (other_times, others) = one, other
         both = min(len(states), len(others))
         off = float(np.abs(times[:both] - other_times[:both]).max(initial=0.0))
-        # One crossing may differ, at the very end of the time span.
+        # At the very end of the time span, one of the runs may have one more crossing.
         extra = np.concatenate((times[both:], other_times[both:]))
         near = 10.0 * max(self.level.promise, off)
         same = len(extra) == 0 or (len(extra) == 1 and abs(extra[0] - self.end) <= near)

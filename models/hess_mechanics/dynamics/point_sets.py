@@ -43,7 +43,7 @@ def nearest(turns: Sequence[float], a: Array, b: Array) -> Array:
     ndarray, shape (n,)
         Distances.
     """
-    from scipy.spatial import cKDTree  # imported here because it takes 0.2 s
+    from scipy.spatial import cKDTree  # Imported here because the import takes 0.2 s.
 
     box = np.array([turn if math.isfinite(turn) else 0.0 for turn in turns])
 
@@ -142,7 +142,8 @@ def set_distance(turns: Sequence[float], a: Array, b: Array) -> SetDistance:
     ]
     shared = []
     for (first, second), other in zip(halves, (b, a), strict=True):
-        # "Close" means within the distance that 95 % of the points of one half have from the other half.
+        # "Close" means within the 95 % quantile of the distances from the points of one half of a set to the other
+        # half.
         close = max(_RESOLVED, float(np.quantile(nearest(turns, first, second), _QUANTILE)))
         own = np.concatenate([first, second])
         shared.append(float(np.mean(nearest(turns, own, other) <= close)))

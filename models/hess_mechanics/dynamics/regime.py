@@ -229,7 +229,7 @@ class _Evidence:
         """The kind of the motion that this evidence shows."""
         if self.period:
             return MotionKind.FIXED_POINT if self.period == 1 else MotionKind.PERIODIC
-        # Neighbours part exponentially, and still do when the time is doubled.
+        # Neighbours separate exponentially, and continue to when the time is doubled.
         grows = min(self.early, self.late) > CHAOTIC and self.late > _GROWS * self.early
         if grows and self.k > _CHAOTIC_SERIES and not self.regular:
             return MotionKind.CHAOTIC
@@ -290,7 +290,7 @@ def regime(
     if len(points) < transient + crossings:
         return _not_seen(map_, points, start)
     points = points[transient:]
-    # MEGNO raises the error for a time that is not positive.
+    # Pass a time that is not positive to MEGNO unchanged, which raises the error for it.
     span = max(duration, _RETURNS * map_.time_of(points[-1])) if duration > 0.0 else duration
     evidence = _evidence(map_, points, span)
     for _ in range(_ROUNDS - 1):
@@ -363,7 +363,7 @@ def _closes(map_: ReturnMap, points: Array, m: int) -> bool:
     """Return True if Newton's method finds an orbit of period m on which the points lie, or to which they tend."""
     last, precision = points[-m:], min(SAME, _CLOSED * map_.promise)
     if m == 1 and _at_rest(map_, last[0], precision):
-        # There is no return, but the motion is known: f(y) = 0.
+        # The motion does not return, but its kind is known: f(y) = 0.
         return True
     try:
         orbit = find_periodic(map_, last if m > 1 else last[0], m, near=True)
@@ -378,7 +378,7 @@ def _closes(map_: ReturnMap, points: Array, m: int) -> bool:
     gap = float(np.abs(difference(map_.turns, points[m:], points[:-m])).max())
     if away[-1] <= precision or (gap <= precision and away[-1] <= SAME):
         return True
-    # An attracting orbit is the limit if the distance falls as its multiplier says.
+    # An attracting orbit is the limit if the distance decreases at the rate of its multiplier.
     rate = float(np.abs(orbit.multipliers).max()) + orbit.multiplier_error
     return rate < 1.0 and float(away[-1]) < 0.5 * (1.0 + rate ** (periods - 1)) * float(away[0])
 
@@ -427,7 +427,7 @@ def _reversor(map_: ReturnMap, points: Array) -> str:
                 ]
             )
             there = plane.points_of(images)
-            # The image has to be on the same levels of the integrals.
+            # The image must have the same values of the integrals.
             same = float(np.abs(map_.state_at(there) - images).max()) <= SAME * max(1.0, float(np.abs(images).max()))
         except (ModelError, IndexError):
             continue

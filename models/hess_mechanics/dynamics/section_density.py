@@ -104,7 +104,7 @@ def visits(
     WorkLimit
         As `section_points`, and if a motion ends.
     """
-    # Counting in NumPy takes a hundredth of the time of the orbits: no kernel or library would be noticed.
+    # NumPy is fast enough: counting takes a hundredth of the time of the orbits.
     low, high = np.array(window)
     counts = np.zeros(cells[0] * cells[1], np.uint32)
     ends, points, drift = list[Array](), 0, dict[str, float]()
@@ -194,7 +194,7 @@ def visits_over(
         except WorkLimit:
             raise
         except ModelError:
-            # At this value there is no such body, or no motion.
+            # A value without a body or without motion leaves its column empty.
             continue
         states = orbits.states[0]
         coordinates = section.points_of(states[section.is_on(states)])

@@ -236,7 +236,7 @@ def kaplan_yorke(values: Array, errors: Array, total: float, total_error: float 
     if total >= -ERRORS * total_error:
         return float(values.size), (abs(total) + total_error) / last if last > 0.0 else 0.0
     if last == 0.0:
-        # Volume shrinks, but no exponent is negative: nothing is known.
+        # Volume shrinks although no exponent is negative, so the dimension is undefined.
         return float(values.size), float(values.size)
     k = int(np.argmax(sums < 0.0)) if np.any(sums < 0.0) else values.size - 1
     if k == values.size - 1:
@@ -340,7 +340,7 @@ def lyapunov_exponent(body: Body, start: Sequence[float], duration: float, accur
     samples = abs(span) / _INTERVAL * problem.nu
     if not samples <= MAX_SAMPLES:
         raise WorkLimit(
-            f"This takes {plain(samples, 3)} samples of the growth, at most {MAX_SAMPLES} are allowed: choose a "
+            f"This takes {plain(samples, 3)} samples of the growth, but at most {MAX_SAMPLES} are allowed: choose a "
             "shorter time span."
         )
     count = max(1, math.ceil(samples))
@@ -401,7 +401,7 @@ def lyapunov_spectrum(
     begun = time.perf_counter()
     problem, system = Problem.of(body, [start]), body.system
     y, d, end = problem.states[0], len(system.variables), duration * problem.nu
-    # Other columns in general position.
+    # Take other columns in general position.
     frame, speed = flow_frame(problem, np.cos(1.0 + np.arange(d * d).reshape(d, d) ** 2), _SLOW)
     ahead = speed > _SLOW
     stretches = _SETTLES + STRETCHES
@@ -418,7 +418,7 @@ def lyapunov_spectrum(
             speeds = speed * np.linalg.norm(motion.vectors[:, :, 0], axis=1)
             speed = float(speeds[-1])
             if not speeds.min() > _SLOW:
-                # From here on f is integrated like all other vectors.
+                # From now on integrate the vector f like all others.
                 ahead = False
                 continue
         columns, lengths = np.linalg.qr(motion.vectors)
@@ -432,7 +432,7 @@ def lyapunov_spectrum(
     first = _SETTLES * _SAMPLES
     together = np.column_stack([growth, volume])
     mean, error = batch_error(together[first:], times[first:])
-    # Error of the integration: one tolerance per step.
+    # The error of the integration is about one tolerance per step.
     floor = (level.tolerance + 1e-15) * steps / abs(duration)
     order = np.argsort(-mean[:-1], kind="stable")
     rates = growth[1:, order] / times[1:, None]

@@ -303,7 +303,7 @@ class System:
             try:
                 problem = Problem.of(self.at(p.tolist()), states)
             except ModelError:
-                continue  # no motion there
+                continue  # No motion is possible at this state.
             except ValueError as error:
                 raise WrongScaling(
                     f"{self.title}: `rescale` and `frequency` take states (d,) and (d, n): {error}."
@@ -328,7 +328,7 @@ class System:
         actual = np.concatenate([problem.scale * scaled, problem.scale * problem.nu * rates])
         names = [*self.variables, *(f"d{name}/dt" for name in self.variables)]
         for name, one, other in zip(names, expected, actual, strict=True):
-            # Where a rate is NaN, nothing is compared.
+            # NaN rates cannot be compared.
             if abs(one - other) > _ROUNDING * float(np.max(np.abs(expected))):
                 leading = ", ".join(self.variables[: self.angular_velocities]) or "none"
                 raise WrongScaling(
@@ -363,7 +363,7 @@ class System:
         """
         rates = np.empty(states.shape)
         for i, rate in enumerate(self.field(list(states.T), np.asarray(parameters).tolist())):
-            # A rate may be a plain number.
+            # A rate may be a plain number instead of an expression.
             rates[:, i] = rate
         return rates
 
@@ -452,7 +452,7 @@ class System:
             return None
         sizes = [np.zeros(len(self.variables))]
         for y in states[:: max(1, len(states) // _SAMPLES)]:
-            with suppress(Undefined):  # at a removable zero of a divisor
+            with suppress(Undefined):  # Skip a sample at a removable zero of a divisor.
                 values, errors = self.rates_with_rounding(y, parameters)
                 size = max(np.abs(y).max(), np.abs(values).max())
                 sizes.append(np.where(errors > _CANCELS * size, errors, 0.0))
@@ -811,7 +811,7 @@ class Problem:
         for shape, names in ((given.shape[1:], system.variables), (p.shape, system.parameters)):
             if shape != (len(names),):
                 raise InvalidParameter(
-                    f"{system.title}: the shape {shape} does not fit, give {len(names)} numbers, {', '.join(names)}."
+                    f"{system.title}: the shape {shape} does not fit: give {len(names)} numbers, {', '.join(names)}."
                 )
         if not (np.all(np.isfinite(given)) and np.all(np.isfinite(p))):
             raise InvalidParameter("A component of the state or a parameter is not finite: give finite numbers.")

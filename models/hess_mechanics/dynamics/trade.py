@@ -114,7 +114,7 @@ def measure(
         """Return the truth for the result of a plan; plans that are alike share it."""
         return truth(getattr(plan, shared_setting) if shared_setting else 1.0)
 
-    # The costliest first: it fails if any does.
+    # Run the costliest plan first: if any plan fails, it does.
     exact(PLANS[kind][REFERENCE.name])
     for name in LEVELS:
         plan, seconds = PLANS[kind][name], []

@@ -450,7 +450,7 @@ class _Walk:
 
     def _length(self, series: list[list[ArbBall]]) -> float:
         """Return the step size at which the last terms are as small as a rounding; the proof does not depend on it."""
-        # Logarithms: the terms of a distant pulse are smaller than any double.
+        # Use logarithms, because the terms of a distant pulse may underflow.
         shortest = math.log(1e6)
         for k in (self.terms - 1, self.terms - 2):
             for one, size in zip(series, self.scale, strict=True):
@@ -526,7 +526,7 @@ def _series(
     p = tuple(parameters)
     if recursion.constants:
         p += tuple(functions["constants"](tuple(y), p))
-    series: list[list[ArbBall]] = [[] for _ in range(recursion.known[-1])]
+    series: list[list[ArbBall]] = [[] for _ in range(recursion.stage_starts[-1])]
     now = list(y)
     for k in range(terms):
         one = arb(1 if k == 0 else 0)
@@ -601,6 +601,7 @@ def proved_orbit(
     intervals = tube(body, start, times, digits, most_work)
     if not intervals.times.size:
         raise WorkLimit(
-            "No time is enclosed: reduce the digits or the time, or allow more work; or choose less extreme parameters."
+            "The motion is enclosed at none of the times: choose fewer digits, earlier times, more work or less "
+            "extreme parameters."
         )
     return ProvedOrbit(solve(body, start, intervals.times, accuracy), intervals, threshold)

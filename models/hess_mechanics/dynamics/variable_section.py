@@ -193,7 +193,7 @@ class VariableSection(PoincareSection):
             return np.ones(y.shape[1], bool)
         last = np.full((len(unknown), y.shape[1]), np.inf)
         for _ in range(_ITERATIONS):
-            # All differences at once: a call of the integrals is expensive, whatever its length.
+            # Evaluate all differences in one call: the cost of a call hardly depends on the number of states.
             step = _STEP * np.maximum(1.0, np.abs(y[unknown]))
             moved = np.repeat(y[:, None], 2 * len(unknown) + 1, axis=1)
             for j, i in enumerate(unknown):
@@ -207,7 +207,7 @@ class VariableSection(PoincareSection):
             change = np.linalg.solve(slopes, off.T[:, :, None])[:, :, 0].T
             y[unknown] -= change
             away, size = np.abs(change), np.maximum(1.0, np.abs(y[unknown]))
-            # Near a root the changes end as round-off, and no longer shrink.
+            # Near a root the changes are round-off, which no longer shrinks.
             if np.all((away <= 1e-15 * size) | ((away <= _NEAR * size) & (away >= 0.5 * last))):
                 break
             last = away

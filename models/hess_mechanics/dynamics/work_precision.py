@@ -320,7 +320,7 @@ def measure_scipy(
     WorkLimit
         If the motion needs too many steps.
     """
-    from scipy.integrate import solve_ivp  # imported here because it takes 0.3 s
+    from scipy.integrate import solve_ivp  # Imported here because the import takes 0.3 s.
 
     system, exact = systems()[name], truth(name, start, parameters, duration, samples)
     evaluations = count(1)

@@ -143,7 +143,7 @@ def run_free(
     problem = Problem.of(body, [start])
     scaled = problem.times(times)
     axis, a = np.array(body.r) / math.hypot(*body.r), body.a[1]
-    # |w| of the motion on the manifold is at most `fastest`.
+    # `fastest` is an upper bound on |w| of the motion on the manifold.
     fastest = math.sqrt((a * math.hypot(*start[:3])) ** 2 + 4.0 * a * body.strength)
     growth = body.hess_a * fastest * duration
     pieces = math.ceil(max((count - 1) / _HELD_SAMPLES, growth / _BEFORE_HELD)) if held else 1

@@ -151,7 +151,7 @@ def saddles(torus: HessTorus, accuracy: Accuracy) -> Saddles:
     try:
         theta = circle_map(bridge.hess.a, h, f, REFERENCE)
     except OutsideRegion as reason:
-        # The numbers in the original message are in other units.
+        # Raise a new error, because the numbers in the original message are in other units.
         raise OutsideRegion(
             "The Hess manifold has no motion with these h and f, so no separatrices: choose a larger h "
             "or a smaller |f|."
@@ -235,7 +235,7 @@ def _towards(map_: ReturnMap, points: Array, l: float, stable: bool) -> Manifold
     d = curve[1] - curve[0]
     side = 1 if d[int(np.argmax(np.abs(d)))] > 0.0 else -1
     branch = manifold(map_, orbit, length + _ROOM, stable=stable, side=side, sagitta=_SAGITTA, longest=_CHORD)
-    # The angles continue without jumps; shift them to the turn of l.
+    # The angles continue without jumps; shift them to the turn that contains l.
     shift = (l - from_) - way
     return replace(branch, points=as_read_only(branch.points + np.array([shift, 0.0])))
 

@@ -129,7 +129,8 @@ class Level:
         if self.is_floor:
             return Level(self.name, self.promise, self.tolerance / 30.0, self.order - 3, not self.is_perturbed)
         order = self.order + 4 if self.tolerance > 1e-11 else REFERENCE.order
-        # A hundredth of 1e-15 is a little more than 1e-17: the floor would be compared with itself.
+        # The factor is 200 instead of 100, because 1e-15 · 1e-2 rounds to more than 1e-17: the floor would be compared
+        # with itself.
         tolerance = self.tolerance * 1e-2 if self.tolerance > 200.0 * FLOOR_TOLERANCE else FLOOR_TOLERANCE
         return Level(self.name, self.promise, tolerance, order, not self.is_perturbed)
 
@@ -365,10 +366,10 @@ PLANS: Mapping[Kind, Mapping[str, Plan]] = {
     Kind.CURVE: _plans(
         Plan(DRAFT, 0.75, cells=0.5), Plan(STANDARD, 0.25), Plan(PRECISE, 0.25), Plan(REFERENCE, 0.1, cells=2.0)
     ),
-    # The attractor of an orbit, or its chaos, needs few digits; more cells show more.
+    # Classifying an orbit needs few digits, whereas more cells show more detail.
     Kind.BASINS: _CELLS,
     Kind.INDICATOR: _CELLS,
-    # The time over which λ is averaged limits its accuracy.
+    # The averaging time limits the accuracy of λ.
     Kind.EXPONENT: _plans(
         Plan(replace(DRAFT, tolerance=1e-10, order=16), 0.05, share=0.2),
         Plan(replace(STANDARD, tolerance=1e-14, order=24), 0.02),

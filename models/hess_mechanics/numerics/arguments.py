@@ -215,7 +215,7 @@ def as_cells(cells: Any) -> tuple[int, int]:
     """
     m, n = (as_integer("cells", side, 1, _MOST_CELLS) for side in as_parts("cells", cells, 2))
     if m * n > _MOST_CELLS:
-        raise InvalidParameter(f"{m * n} cells are too many: at most {_MOST_CELLS} are allowed.")
+        raise InvalidParameter(f"{m * n} cells are too many: choose at most {_MOST_CELLS}.")
     return m, n
 
 
@@ -275,7 +275,7 @@ def as_point(names: tuple[str, ...], point: Any) -> tuple[float, ...]:
         raise
     except (TypeError, ValueError):
         raise InvalidParameter(
-            f"{_short(point)} is not a point here: give {len(names)} numbers, {', '.join(names)}."
+            f"{_short(point)} is not a point with these coordinates: give {len(names)} numbers, {', '.join(names)}."
         ) from None
 
 

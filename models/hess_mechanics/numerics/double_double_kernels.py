@@ -76,7 +76,7 @@ def _expansion(recursion: Recursion) -> Callable[..., Any]:
     def inside(c, k, inner):
         for j in range(left.size):
             inner[j] = 0.0
-        # Products of inner orders: the sums are independent of each other.
+        # Add the products of inner orders with the loop over j inside, because its sums are independent of each other.
         for m in range(1, k):
             for j in range(left.size):
                 inner[j] = add(inner[j], multiply(c[m, left[j]], c[k - m, right[j]]))

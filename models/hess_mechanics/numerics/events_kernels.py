@@ -54,7 +54,7 @@ def _largest_bend(e, h):
     """Return the upper bound D = Σ k(k−1)|e_k| h^(k−2) on |e″| over [0, h]."""
     even = 0.0
     odd = 0.0
-    # Finite, so that 0 times it is 0.
+    # Keep the square finite, so that 0 · square = 0.
     square = min(h * h, 1e300)
     last = e.size - 1
     if last % 2 == 0:
@@ -124,7 +124,7 @@ def roots_on_step(e, h, below, end, below_at_end, sense, roots, pieces):
             below_right = at_right < 0.0 if abs(at_right) > noise else below
         width = right - left
         rise = at_right - at_left
-        # The bound holds on [0, right] only, so that curvature near the end does not force bisections at the start.
+        # Use the bound on [0, right] only, so that curvature near the end does not force bisections at the start.
         bend = whole if right == h else _largest_bend(e, right)
         same_side = below == below_right
         if same_side:
@@ -279,7 +279,7 @@ def crossing_finder(recursion: Recursion, surface: SurfaceKernels | None = None)
                 for k in range(1, order + 1, 2):
                     e[k] = -e[k]
             if steps == 0:
-                # A start on the plane must not become a crossing by round-off.
+                # Round-off must not turn a start on the plane into a crossing.
                 on_plane = abs(e[0]) <= 1e-14 * (1.0 + abs(offset))
                 below = e[0] < 0.0
                 if on_plane:

@@ -82,12 +82,12 @@ class Series:
     def __init__(self, tape: Tape, variables: int, functions: Sequence[Node], multiplies_out: bool) -> None:
         self._tape, self._multiplies_out = tape, multiplies_out
         self._functions = {node: variables + i for i, node in enumerate(functions)}
-        self._variables = variables + len(functions)  # all series with a rate
+        self._variables = variables + len(functions)  # Number of series with a rate.
         self._one = tape.linear("one")
         self._lowered: dict[Node, Node] = {}
-        self._rules: list[Node] = []  # of the auxiliary series
+        self._rules: list[Node] = []  # Rules of the auxiliary series.
         self._places: dict[Node, int] = {}
-        self._divided: set[Node] = set()  # the products d·z of the quotients
+        self._divided: set[Node] = set()  # Products d·z of the quotients.
 
     def lower(self, node: Node) -> Node:
         """Return the node as a sum of series and products with constant factors."""

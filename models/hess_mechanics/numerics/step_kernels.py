@@ -182,7 +182,7 @@ def _zero_ahead(seen, i, direction):
 
 
 _ALLOWED = {
-    # e^x is 0 below −745: until there x may change at will.
+    # e^x is 0 below −745, so x may vary freely there.
     "exp": "max(8.0, -745.0 - seen[0, {i}])",
     # tanh x rounds to ±1 beyond 19.
     "tanh": "max(4.0, abs(seen[0, {i}]) - 20.0)",
@@ -205,7 +205,7 @@ def step_check(recursion: Recursion) -> Callable[..., Any]:
     each = range(recursion.variables)
     watched = [(recursion.observables + j, kind) for j, kind in enumerate(recursion.monitors)]
     extended = "y + started(y, p)" if recursion.functions else "y"
-    # In a polynomial field p′ − f(p) is s^order times a polynomial, which no inner point shows better than the end.
+    # For a polynomial field p′ − f(p) is s^order times a polynomial, so the end of the step is the best test point.
     points = 2 if recursion.functions or recursion.monitors else 1
     compare = compile_source(
         f"""

@@ -228,8 +228,8 @@ def _record(field: Field, variables: int, parameters: int, observables: int) -> 
         raise
     except IndexError as error:
         raise NotTraceable(
-            f"This field reads beyond its {variables} variables y[0], … or its {parameters} parameters p[0], …; the "
-            "first index is 0."
+            f"This field reads beyond its {variables} variables y[0], … or its {parameters} parameters p[0], …: count "
+            "the indices from 0."
         ) from error
     except (TypeError, ValueError, AttributeError, ArithmeticError, LookupError) as error:
         raise NotTraceable(f"This field cannot be traced: {error}. {ALLOWED}") from error

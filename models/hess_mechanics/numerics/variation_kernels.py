@@ -264,7 +264,7 @@ def variation_integrator(of: Variation, columns: int, ahead: bool = False) -> Ca
                 rise = np.log(speed) if ahead else 0.0
                 if steps == 0:
                     speed_then = rise
-                # The column f(y) counts with length 1.
+                # Count the column f(y) with length 1.
                 if _is_bent(v[0], n, columns, known, (volume - volume_then) - (rise - speed_then), limit):
                     _orthonormalised(v[0], c[1], speed, n, columns, grown)
                     speed_then, volume_then = rise, volume

@@ -176,10 +176,10 @@ def check_body(I11: float, I22: float, I13: float, I23: float) -> BodyCheck:
     require_positive_definite(I11, I22)
     scale = max(I11, I22)
     s, d = (I11 + I22) / (2 * scale), (I11 - I22) / (2 * scale)
-    # Beyond 2 there is no rigid body anyway; the bound keeps the squares in range.
+    # Ratios beyond 2 exclude a rigid body; the bound keeps the squares finite.
     p, q = min(abs(I23) / scale, 2.0) ** 2, min(abs(I13) / scale, 2.0) ** 2
 
-    # Imported here because it takes 0.3 s, and the Hess case has a closed form.
+    # Imported here because the import takes 0.3 s, and the Hess case has a closed form.
     from scipy.optimize import brentq
 
     def g(y: float) -> float:
@@ -188,7 +188,7 @@ def check_body(I11: float, I22: float, I13: float, I23: float) -> BodyCheck:
     def slope(y: float) -> float:
         return -1.0 + (p / (y + d) ** 2 if p else 0.0) + (q / (y - d) ** 2 if q else 0.0)
 
-    low = abs(d) * (1 + 1e-15) + 1e-150  # clear of the poles, and its square of underflow
+    low = abs(d) * (1 + 1e-15) + 1e-150  # Keep the bracket away from the poles, and its square from underflow.
     top = low if slope(low) <= 0 else brentq(slope, low, low + 2 * (math.sqrt(p) + math.sqrt(q)), **_SEARCH)
     if not g(top) > 1e-15 * s:
         return body_check(None)

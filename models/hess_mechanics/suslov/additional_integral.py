@@ -157,7 +157,7 @@ def coefficients(k: int, I22: Fraction | float, I23: Fraction | float) -> Coeffi
     for j in range(n):
         odd, back = 2 * j + 1, (k + 1 - 2 * j) * I23 / I11
         below_b, below_c = (b[j - 1], c[j - 1]) if j else (Fraction(0), Fraction(0))
-        # c_j = odd x b_j − back b_(j−1) in a_j = b_j + odd x c_j − back c_(j−1)
+        # a_j = b_j + odd x c_j − back c_(j−1) and c_j = odd x b_j − back b_(j−1).
         if j:
             b.append((a[j] + odd * x * back * below_b + back * below_c) / (1 + (odd * x) ** 2))
             c.append(Fraction(0))

@@ -422,7 +422,7 @@ def passage(body: SuslovBody, omega: Sequence[float]) -> Passage:
     r = math.hypot(math.sqrt(body.I11) * w1, math.sqrt(body.I22) * w2)
     if r == 0.0:
         raise InvalidParameter("ω = 0: the body is at rest for ever, h = 0. Choose a nonzero ω1 or ω2.")
-    # Exact arithmetic, because close to the line of equilibria the two products nearly cancel.
+    # Use exact arithmetic, because the two products nearly cancel close to the line of equilibria.
     s = Fraction(body.I13) * Fraction(w1) + Fraction(body.I23) * Fraction(w2)
     if s == 0:
         raise InvalidParameter(
@@ -503,7 +503,7 @@ def transfer(of: PassageConstants, arc: int, u: Array, accuracy: Accuracy) -> tu
         return (out[:, 4] + 1j * out[:, 5], out[:, 6] + 1j * out[:, 7]), total
 
     def apart(one: tuple[Complex, Complex], other: tuple[Complex, Complex]) -> float:
-        # Factor 4: a rotation is quadratic in A and B, and both its ends have errors.
+        # The factor 4 covers the errors of both ends of a rotation, which is quadratic in A and B.
         return 4.0 * float((np.abs(one[0] - other[0]) + np.abs(one[1] - other[1])).max())
 
     result = measured(level, run, apart)
@@ -543,15 +543,15 @@ def rotation(motion: Passage, elapsed: Array, accuracy: Accuracy) -> tuple[Array
     of, arc, u0 = motion.shape, motion.arc, motion.u0
     u = u0 + elapsed
     A, B, error, steps = transfer(of, arc, np.concatenate([[u0, -of.end, of.end], u]), accuracy)
-    # From the rotating frame to that of the body.
+    # Transform from the rotating frame to that of the body.
     before = float(of.angle(u0, arc))
     outside = -of.K * (_elapsed_size(u0, u, elapsed) + _tail(u) - _tail(u0)) + arc * of.c * (_gd(u) - _gd(u0))
     axes = np.column_stack([of.eta, [0.0, 0.0, 1.0], of.xi])
     limits = _gamma_row(A[1:3], B[1:3] * np.exp(1j * before)) @ axes.T
-    # The factor of A and that of B cancel exactly in Γ, which contains AB, however large the angle.
+    # Γ contains the product AB, so the factors of A and B cancel exactly, however large the angle.
     half = np.exp(-0.5j * outside)
     A, B = A[3:] * half, B[3:] * half.conj() * np.exp(1j * before)
-    # Errors of the data: ω0, K and u0 are known to a few units in the last place.
+    # The data ω0, K and u0 are accurate to a few units in the last place.
     error += 1e-15 * of.K * float(np.max(np.abs(elapsed), initial=0.0)) + 3e-16 * abs(u0) * (1.0 + of.size)
     return axes @ _matrices(A, B) @ axes.T, limits, min(error, 2.0), steps
 
@@ -770,7 +770,7 @@ def sample_times(
     first_u, last_u = sorted((motion.u0, motion.u0 + length))
     knots = np.clip(np.linspace(-_UNIFORM, _UNIFORM, 801), first_u, last_u)
     u = np.unique(np.concatenate([[motion.u0, motion.u0 + length], knots]))
-    if u.size == 1:  # u changes by less than round-off
+    if u.size == 1:  # Stop when u changes by less than round-off.
         return np.linspace(0.0, duration, min(most, 17))
     tanh, sech = np.tanh(u), _sech(u)
     speed = np.linalg.norm(_omega(of, motion.arc, tanh, sech), axis=1)

@@ -295,7 +295,7 @@ def rescaled_time(arc: Arc, states: Array) -> Array:
         Times τ.
     """
     v, unit = np.column_stack([-states[:, 1], states[:, 0]]), arc.rate or 1.0
-    # Both in units in which ν is 1.
+    # Scale both equations to units in which ν is 1.
     slope = np.hstack([0.5 * (v + arc.v0) / unit, np.broadcast_to(arc.a / unit**2, v.shape)])
     change = np.hstack([states[:, 2:4] - arc.u0, (v - arc.v0) / unit])
     size = np.sum(slope * slope, axis=1)

@@ -346,7 +346,7 @@ def frequency(y: Array, p: Array) -> Array | float:
     I11, I22 = p[0], p[1]
     require_comparable(I11, I22)
     square = y[2] ** 2 + y[3] ** 2 + y[4] ** 2
-    # |γ1²γ2 − γ2³/3| ≤ |γ|³/3, γ1²γ2² ≤ |γ|⁴/4.
+    # Bounds: |γ1²γ2 − γ2³/3| ≤ |γ|³/3 and γ1²γ2² ≤ |γ|⁴/4.
     largest = (
         0.5 * max(abs(p[2]), abs(p[3])) * square + abs(p[4]) / 3 * square * np.sqrt(square) + abs(p[5]) / 4 * square**2
     )

@@ -157,7 +157,7 @@ def conformal(body: SuslovBody, start: Sequence[float], duration: float, accurac
     orbit = solve(body, start, np.linspace(0.0, duration, 2 * math.ceil(pairs) + 1), accuracy)
     y = list(orbit.states.T)
     g3, rates, step = y[4], np.array(SYSTEM.field(y, p)), orbit.times[1]
-    # Cubic Hermite interpolation of γ3.
+    # Interpolate γ3 by cubic Hermite polynomials.
     pieces = 0.5 * step * (g3[1:] + g3[:-1]) + step * step / 12.0 * (rates[4, :-1] - rates[4, 1:])
     with np.errstate(divide="ignore", invalid="ignore"):
         P, gradient = poisson_matrix(y, p), energy_gradient(y, p)

@@ -197,7 +197,7 @@ def scattering(body: SuslovBody, accuracy: Accuracy, arc: int = 1, distance: flo
     of = shape(body)
     first = -of.end if distance is None else _u_at(of, float(distance))
     A, B, error, steps = transfer(of, arc, np.array([first, of.end]), level)
-    # The azimuth at the start, transformed to the rotating frame.
+    # Transform the azimuth at the start to the rotating frame.
     before = 0.0 if distance is None else float(of.angle(first, arc))
     half = cmath.exp(0.5j * before)
     alpha, beta = complex(A[1]) * half, complex(B[1]) * half

@@ -181,7 +181,7 @@ def h_min(f: float) -> float:
     """
     require_finite(f=f)
     low, high = 0.0, 1.0
-    # Bisection in √n to round-off: r⁴ + |f| r − 1 increases with r = √n.
+    # Bisect in r = √n down to round-off, because r⁴ + |f| r − 1 increases with r.
     while low < (root := 0.5 * (low + high)) < high:
         low, high = (root, high) if root**4 + abs(f) * root < 1.0 else (low, root)
     return curve_point(high * high)[0]
@@ -240,10 +240,10 @@ def turning_points(h: float, f: float) -> TurningPoints:
     [-1.5, -1.0, 1.0]
     """
     _check_h(h)
-    h, f = float(h), as_number("f", f) + 0.0  # f = −0.0 is f = 0
+    h, f = float(h), as_number("f", f) + 0.0  # Treat f = −0.0 as 0.
     fm, numbers, period = f_max_and_roots(h, f)
     if abs(f) > fm * (1 + 1e-15):
-        # Rounded down, so that the bound in the message is itself accepted.
+        # Round down, so that the bound in the message is itself accepted.
         raise OutsideRegion(
             f"No motion has h = {h:.15g} and f = {f:.15g}: at this h choose |f| ≤ {fm * (1 - 1e-11):.12g}, "
             "or a larger h."

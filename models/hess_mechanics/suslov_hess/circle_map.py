@@ -122,7 +122,7 @@ def rotation_numbers_of(rows: Array) -> Array:
     k = np.floor(zeta / np.pi)
     sign = 1.0 - 2.0 * (k % 2)
     turning = k + np.arctan2(np.sqrt(np.maximum(-discriminant, 0.0)), sign * re) / np.pi
-    rho: Array = np.where(discriminant < 0.0, turning, np.round(zeta / np.pi)) + 0.0  # no −0.0
+    rho: Array = np.where(discriminant < 0.0, turning, np.round(zeta / np.pi)) + 0.0  # Avoid −0.0.
     return rho
 
 
@@ -420,7 +420,7 @@ def circle_map(a: float, h: float, f: float, accuracy: Accuracy) -> CircleMap:
     ('elliptic', 0)
     """
     level = as_level(accuracy)
-    a, h, f = as_number("a", a), as_number("h", h), as_number("f", f) + 0.0  # f = −0.0 is f = 0
+    a, h, f = as_number("a", a), as_number("h", h), as_number("f", f) + 0.0  # Treat f = −0.0 as 0.
     check_a(a)
     turning = turning_points(h, f)
     here = np.array([h]), np.array([f])

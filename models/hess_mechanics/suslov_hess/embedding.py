@@ -115,7 +115,7 @@ def _times(n0: float, n1: float, n2: float, theta: Array) -> Array:
     if n1 == n0:
         return np.where(theta > 0.0, math.inf, 0.0)
     m = (n2 - n1) / (n2 - n0)
-    # Imported here because it takes 0.2 s, and few commands draw a torus.
+    # Imported here because the import takes 0.2 s, and few commands draw a torus.
     from scipy.special import ellipk, ellipkinc
 
     times = math.sqrt(2.0 / (n2 - n0)) * (ellipk(m) - ellipkinc(0.5 * (math.pi - theta), m))

@@ -93,8 +93,8 @@ def tongue_boundary(a: float, accuracy: Accuracy, points: int = 48) -> Array:
     check_a(a)
     as_integer("points", points, 3, 100_000)
     if abs(a) > _MAX_A_OF_BOUNDARY:
-        raise InvalidParameter(f"a = {a:g} is too large for the lock boundary: choose |a| ≤ {_MAX_A_OF_BOUNDARY:g}.")
-    # h*, the end of the boundary on the bifurcation curve.
+        raise InvalidParameter(f"a = {a:g} is too large for the Arnold tongue: choose |a| ≤ {_MAX_A_OF_BOUNDARY:g}.")
+    # h* is the energy at the end of the boundary on the bifurcation curve.
     end = (1 - 2 * a * a) / (2 * abs(a) * math.hypot(1.0, a)) if a else math.inf
     if end > 1e6:
         return as_read_only(np.empty((0, 2)))
@@ -185,7 +185,10 @@ def critical_a(h: float, f: float, accuracy: Accuracy, high: float = 10.0) -> fl
     turning_points(h, f)
     a = float(critical_a_of_tori(np.array([h], float), np.array([f], float), accuracy, high)[0])
     if math.isnan(a):
-        raise InvalidParameter(f"No lock boundary crosses this h and f between a = 0 and a = {high:g}.")
+        raise InvalidParameter(
+            f"At this h and f no limit cycles appear between a = 0 and a = {high:g}: choose another torus or a larger "
+            "`high`."
+        )
     return a
 
 
@@ -250,7 +253,7 @@ def rotation_number_window(
     level = as_level(accuracy)
     check_a(a)
     hs, fs = np.maximum(centres(*h, cells[0]), -1.0 + 1e-6), centres(*f, cells[1])
-    # f and −f may differ in the last digits.
+    # Compute each |f| once: the values of f and −f may differ in the last digits.
     mantissas, exponents = np.frexp(np.abs(fs))
     magnitudes, back = np.unique(np.ldexp(np.round(mantissas, 13), exponents), return_inverse=True)
     H, F = (x.ravel() for x in np.meshgrid(hs, magnitudes))
@@ -263,7 +266,7 @@ def rotation_number_window(
     exact = level.tighter().tighter()
 
     def part(i: int) -> None:
-        # Every second point, so that both threads get equally many slow points.
+        # Give each thread every second point, so that both get equally many slow points.
         own = np.arange(H.size) % 2 == i
         for points, chosen in ((own & ~near, level), (own & near, exact)):
             if points.any():

@@ -378,7 +378,7 @@ def _proof(
     rotation = _rotation(statement, t, A, B, C, D, theta)
     cycles = _cycles(t, A, B, C, D) if statement == TWO_CYCLES else ((), ())
     if rotation is None or cycles is None:
-        # The sign of the trace is known, but the rotation number or the cycles are not enclosed yet.
+        # The sign of the trace is certain, but the rotation number or the cycles need more digits.
         statement, rotation, cycles = UNDECIDED, None, ((), ())
     trace = Enclosure(max(Fraction(0), t.low, -t.high), max(abs(t.low), abs(t.high)))
     return Proof(
@@ -481,7 +481,7 @@ def _rotation(
         return None
     m = math.floor(quadrants.low)
     if statement == TWO_CYCLES:
-        # ρ is the even one of m and m + 1 for t > 2, the odd one for t < −2.
+        # ρ is the even number of m and m + 1 for t > 2, and the odd number for t < −2.
         locked = Fraction(m + (m + int(t.low < 0)) % 2)
         return Enclosure(locked, locked)
     share = 2 * (-(B * C) / (A * D)).sqrt().atan() / arb.pi()

@@ -479,7 +479,7 @@ def parameter_at(rho: float, line: ParameterLine, accuracy: Accuracy) -> float |
     changes = np.flatnonzero(both & (excess[1:] * excess[:-1] <= 0.0) & (np.abs(np.diff(values.rho)) < 0.25))
     if not changes.size:
         return None
-    from scipy.optimize import brentq  # imported here because it takes 0.3 s
+    from scipy.optimize import brentq  # Imported here because the import takes 0.3 s.
 
     i = int(changes[0])
     first, last = x[i : i + 2].tolist()

@@ -82,7 +82,7 @@ REFUSED = {
     "complex": (lambda y, p: (y[0] * 1j, y[1]), r"cannot be traced: .*Use \+, −, \*, /"),
     "division by 0": (lambda y, p: (y[0] / 0, y[1]), "cannot be traced: .*divides by 0"),
     "text": (lambda y, p: (y[0] / (p[0] - p[0] * 1 + y[0] * 0), "y"), "cannot be traced: "),
-    "missing variable": (lambda y, p: (y[0], y[5]), "reads beyond its 2 variables.*the first index is 0"),
+    "missing variable": (lambda y, p: (y[0], y[5]), "reads beyond its 2 variables.*count the indices from 0"),
     "three rates": (lambda y, p: (y[0],) * 3, "2 variables and returns 3 rates: return one for each"),
     "condition": (
         lambda y, p: (np.where(y[0] > 0, 1.0, 2.0), y[1]),

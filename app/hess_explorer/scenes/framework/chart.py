@@ -87,7 +87,7 @@ class _Chart(Part[Any]):
         if self.key in STORED:
             cells, window = STORED[self.key]
             return cells, 0, window
-        # Request the number of this state before those of the cells.
+        # Request the number of this state before the numbers of the cells.
         _ = self.own
         more = self.key.source.computation.many is not None
         counts = [_FIRST * COARSE**stage for stage in range(_STAGES + more)]

@@ -90,7 +90,7 @@ def chart_row(cells: Cells, window: Window, count: int, row: int) -> Array:
         except Exception as error:
             found[2, i], _ = failure(error, {cells.x.name: x, cells.y.name: y})
     if known:
-        # Compare arguments instead of states: other parameters of the scene do not change the cells.
+        # Compare arguments instead of states, because the cells do not depend on the other parameters of the scene.
         found[:, [*known]] = Task(_evaluate_cells, cells.source, cells.number, cells.level, tuple(known.values())).get()
     return as_read_only(found)
 

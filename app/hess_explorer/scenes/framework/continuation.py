@@ -114,7 +114,7 @@ class Continuation(Part[H_co]):
         """The known pieces of the branch."""
         return self._pieces[0]
 
-    # ---- the mouse ----------------------------------------------------------------------------------------------
+    # ---- mouse events -------------------------------------------------------------------------------------------
 
     def _pixels(self, values: Array, points: Array, x: float, y: float) -> Array:
         """Return the pixels (n, 2) from (x, y) to points (n, d) at values (n,) of the parameter."""
@@ -179,7 +179,7 @@ class Continuation(Part[H_co]):
             f"{branch.kinds[i]}, μ = {multipliers}"
         )
 
-    # ---- words --------------------------------------------------------------------------------------------------
+    # ---- texts --------------------------------------------------------------------------------------------------
 
     def _bifurcation_text(self, one: Bifurcation) -> str:
         value = f"{digits(one.value, 8)} ± {digits(one.error, 1)}"

@@ -73,7 +73,7 @@ I23 = replace(
     default=0.28,
     doc="Product of inertia. a = I₂₃/I₂₂ tilts the circular section; a = 0 decouples the motion.",
 )
-# Without a field in this direction there is no Hess case.
+# The Hess case needs a field in this direction.
 B3 = replace(
     known.B3,
     default=-1.0,
@@ -156,7 +156,7 @@ def proved_statement(I22: float, I23: float, h: float, f: float) -> ProvedStatem
         moves = "two equilibria" if found.statement == TWO_EQUILIBRIA else "one periodic orbit"
         return ProvedStatement(f"Proved: no torus, but a circle with n₃ constant: {moves}.", claim(found))
     if found.statement == NO_CYCLE:
-        # With enough digits to show that it is less than 2.
+        # Print enough digits to show that |t| is less than 2.
         least = next(count for count in itertools.count(4) if Fraction(found.trace.decimals(count)[1]) < 2)
         return ProvedStatement(
             f"Proved: no cycle, |trace| in {_within(found.trace, least)}.",

@@ -104,7 +104,7 @@ def find_orbit(map_: ReturnMap, aim: Point, period: int | None, near: bool) -> C
             map_.time_of(first, orbit.period),
         )
     except ModelError as error:
-        # A cancelled request or one over its budget must not cache a result.
+        # Raise if the request was cancelled or is over its budget, so that no result is cached.
         check_limit()
         return NotFound(str(error))
 

@@ -403,7 +403,7 @@ class Scene(Generic[S]):
         try:
             state = self.of(within).valid_state(notes)
         except ModelError:
-            # An impossible state raises its error when it is computed.
+            # `of` accepts an impossible state; the error is raised when it is computed.
             return within, notes
         return {spec.name: cast(Value, getattr(state, spec.name)) for spec in self.specs}, notes
 

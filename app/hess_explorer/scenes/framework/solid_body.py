@@ -130,7 +130,7 @@ def hess_solid(body: HessBody, track: Track) -> Solid:
             "Not drawn: no such rigid body.", "|a| ≥ 1 violates the triangle inequalities for every I₃₃."
         )
         return Solid(track.times, track.omega, track.gamma, mass, None, about_shape, is_drawn=False)
-    # In the axes n1, n2, n3.
+    # Components in the axes n1, n2, n3.
     tensor = body.tensor(body.middle_I33)
     moments = ", ".join(map(digits, np.linalg.eigvalsh(tensor)))
     return Solid(

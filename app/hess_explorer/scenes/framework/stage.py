@@ -31,7 +31,7 @@ class Stage(Generic[S]):
 
     def show(self, state: S, hold_axes: bool) -> Report:
         """Draw a state of `Scene.compute`; `hold_axes` keeps the axes during a drag.  Raises `ModelError`."""
-        # Everything that can fail comes first, so that a failing state is not partly drawn.
+        # Compute everything that can fail before drawing, so that a failing state is not partly drawn.
         views = [view for view in self.scene.views if view.name in state.visible]
         captions = {view.name: view.full_caption(state) for view in views}
         held = {view.name: self._axes[view.name] for view in views}

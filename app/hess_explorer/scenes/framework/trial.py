@@ -99,7 +99,7 @@ def level_costs(trial: Trial[S], state: S) -> tuple[LevelCost, ...] | Refusal:
     try:
         return tuple(measure(*_of(trial, state), shared_setting=trial.shared_setting))
     except OverBudget:
-        # A later attempt may succeed.
+        # Do not cache this failure: a later attempt may be faster.
         raise
     except ModelError as error:
         return Refusal(str(error))

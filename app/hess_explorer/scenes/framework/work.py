@@ -46,7 +46,7 @@ class Work:
         self._refinements: list[Task[Any]] = []
         self.pieces = 0
         chosen = level(self.level_name)
-        # While a slider is dragged, use the cheapest level that is right to half a pixel.
+        # While a slider is dragged, use the cheapest level with an error below half a pixel.
         self.level: Level = min(chosen, cheapest(HALF_A_PIXEL), key=lambda rung: rung.order) if is_preview else chosen
 
     @property

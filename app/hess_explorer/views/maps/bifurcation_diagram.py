@@ -59,7 +59,7 @@ def _tongue(boundary: Array, axes: Axes) -> Regions:
         return []
     h, f = boundary[0]
     far, top = max(axes.x[1], h) + 1.0, 2.0 * max(axes.y[1], f)
-    # A single part, as two parts that meet at f = 0 would show a seam.
+    # Use one part, because two parts that meet at f = 0 would show a seam.
     mirrored = boundary[::-1] * (1.0, -1.0)
     return [[np.array([*boundary, *mirrored, [h, -top], [far, -top], [far, top], [h, top]])]]
 

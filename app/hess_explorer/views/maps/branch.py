@@ -41,7 +41,7 @@ def _strands(branch: Branch, side: int, sign: str) -> list[Array]:
                 met = (one.value, float(one.points[j, side]))
                 runs.append([*run, met] if run else [])
                 run = [met] if signs[i] == sign else []
-            # Without a bifurcation between them, a point of neither sign belongs to the previous part.
+            # A point of neither sign belongs to the previous part, unless a bifurcation lies between them.
             if signs[i] == sign or (run and signs[i] == "neither"):
                 run.append((float(value), float(orbit[j, side])))
             else:
@@ -88,7 +88,7 @@ def layers(of: Callable[[S], HasBranches]) -> Layers[S]:
             y = one.points[:, shown.side]
             there = visible_points(np.column_stack([y, np.full(len(y), one.value)]), shown.turn, up)
             inside = [(float(x), float(height)) for height, x in there if axes.x[0] <= x <= axes.x[1]]
-            # Only the highest point has a label, because labels at all points would overlap.
+            # Label only the highest point, because labels at all points would overlap.
             found += [
                 (x, y, _SHORT.get(one.kind, one.kind) if y == max(inside, key=lambda at: at[1])[1] else "")
                 for x, y in inside

@@ -28,7 +28,7 @@ _ANGLES = np.linspace(0.0, 2.0 * math.pi, 97)
 
 def _frames(columns: Sequence[Array]) -> np.ndarray:
     """Return columns (n, m) as one block [frame][column][point] in single precision."""
-    # Millions of numbers: double precision would take twice the memory.
+    # Single precision halves the memory of millions of numbers.
     return np.stack([one.T for one in columns], axis=1).astype(np.float32).ravel()
 
 

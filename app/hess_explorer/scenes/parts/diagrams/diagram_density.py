@@ -126,7 +126,7 @@ class DiagramDensity(Part[OrbitDiagram]):
         from scipy.ndimage import maximum_filter1d
 
         near = maximum_filter1d(there, 2 * _NEAR + 1, axis=0) > 0
-        # Draw falling points near rising ones in the colour of the latter, so that only hysteresis stands out.
+        # Draw falling points near rising points in the colour of the rising ones, so that only hysteresis stands out.
         return view.tones((backward, np.where(near, 0, back), there + np.where(near, back, 0)))
 
     @property

@@ -53,7 +53,7 @@ class HessSplit(Part[Host]):
     @cached_property
     def _splits(self) -> dict[float, Split | NotFound] | None:
         """The splits by ε, for the graph and for the slope; None until all are known."""
-        # Without separatrices at ε = 0 nothing can split.
+        # Without separatrices at ε = 0 there is nothing to split.
         first = self.work.need(Task(_split, self.torus, 0.0), preview=None)
         if not isinstance(first, Split):
             return None if first is None else {0.0: first}

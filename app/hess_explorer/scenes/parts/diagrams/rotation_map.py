@@ -40,8 +40,8 @@ from hess_mechanics.suslov_hess.bifurcation import f_max_of_energies
 from hess_mechanics.suslov_hess.rotation_number import Torus, TorusValues
 
 _COARSE, _FINE = (75, 50), (300, 200)
-_ROWS = 25  # rows of the fine map per task
-_ON_CURVE = 48  # points of the boundary of the Arnold tongue
+_ROWS = 25  # Rows of the fine map per task.
+_ON_CURVE = 48  # Points of the boundary of the Arnold tongue.
 _ON_EDGE = 300
 FULL = {"h": (-1.0, 4.0), "f": (-3.0, 3.0), "a": (0.0, 2.0)}
 BOUNDS = {"h": (-1.0, 1e6), "f": (-1e4, 1e4), "a": (-100.0, 100.0)}
@@ -124,7 +124,7 @@ class RotationMap(Part[Host]):
 
         Cells without a torus repeat the nearest one, so that both can be interpolated up to the edge.
         """
-        from scipy.ndimage import distance_transform_edt  # imported here because it is slow
+        from scipy.ndimage import distance_transform_edt  # Imported here because the import is slow.
 
         values, (m, n) = self.grid
         outside = ~values.possible.reshape(n, m)

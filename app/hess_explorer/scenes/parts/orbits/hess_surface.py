@@ -131,7 +131,7 @@ class HessSurface(Part[HasTorus]):
         if not self.has_density or self.section is None:
             return None, ""
         map_ = self.host.map
-        # The caption of the torus states the reason.
+        # The caption of the torus already states the reason.
         if map_ is None or torus_density.reason_for_no_density(map_, self.host.turning_points):
             return None, "No density."
         try:

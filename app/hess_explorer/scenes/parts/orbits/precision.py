@@ -115,7 +115,7 @@ class Precision:
             return {}
         return {"accuracy": min(self._taylor, key=lambda point: abs(math.log10(max(point.error, _FLOOR) / x))).setting}
 
-    # ---- words --------------------------------------------------------------------------------------------------
+    # ---- texts --------------------------------------------------------------------------------------------------
 
     def _about_cost(self) -> Caption:
         here = self._here
@@ -168,7 +168,7 @@ class Precision:
         """Yield the limits of the measurement with reasons."""
         motion = self.limited_motion
         if motion.duration < self.motion.duration:
-            yield f"Measured up to t = {digits(motion.duration * motion.unit)}: a longer span takes seconds."
+            yield f"Measured up to t = {digits(motion.duration * motion.unit)}, because more takes several seconds."
         if "work_points" in vars(self) and mechanics.scipy_takes_long(*motion.arguments):
             yield "SciPy's methods are slow over this time span and were omitted: choose a shorter one."
 

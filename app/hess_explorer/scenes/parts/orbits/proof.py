@@ -163,8 +163,8 @@ def _band(omega: Array, errors: Array, sizes: Array) -> list[Array]:
 
 def hull(points: Array) -> Array:
     """Return the closed convex hull (m, 2) of points (n, 2)."""
-    from scipy.spatial import ConvexHull  # imported here because it is slow and few states draw a band
+    from scipy.spatial import ConvexHull  # Imported here because the import is slow and few states draw a band.
 
-    # QJ joggles the last digits, so that collinear points raise no error.
+    # Qhull's option QJ joggles the input, so that collinear points raise no error.
     corners = ConvexHull(points, qhull_options="QJ").vertices
     return np.asarray(points[[*corners, corners[0]]])

@@ -62,7 +62,7 @@ class OrbitRegime(Part[_Host]):
             return None
         duration = self.work.plan(Kind.EXPONENT).share * self.long
         task = Task(_dynamics, self._map, self.host.point, *_LONG, duration)
-        # Compute it after the orbits and doublings of the diagram, because it takes as long as all of these.
+        # Classify the motion after the orbits and doublings of the diagram, because it takes as long as all of these.
         return self.work.newest_results([[task]], last=True)[0]
 
     @property

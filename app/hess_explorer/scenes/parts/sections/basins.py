@@ -174,7 +174,7 @@ class SectionBasins(Part[_Host]):
         ]
         return [one for one in found if isinstance(one, Manifold)]
 
-    # ---- words --------------------------------------------------------------------------------------------------
+    # ---- texts --------------------------------------------------------------------------------------------------
 
     @property
     def caption(self) -> Caption | None:

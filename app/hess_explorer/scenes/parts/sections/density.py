@@ -74,7 +74,10 @@ class SectionDensity(Part[Section]):
         where = self.host.poincare, self.host.frame
         return self.work.newest_results(
             [
-                [Task(_stage, *where, starts, self._ways[kind], self.host.later, i) for i in range(self._stages)]
+                [
+                    Task(_stage, *where, starts, self._ways[kind], self.host.second_half_only, i)
+                    for i in range(self._stages)
+                ]
                 for kind, starts in self._kinds
             ]
         )

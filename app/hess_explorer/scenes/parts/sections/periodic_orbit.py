@@ -164,7 +164,7 @@ class SectionPeriodicOrbit(Part[Section]):
     @property
     def homoclinic(self) -> list[Intersection]:
         """The reliable crossings of the drawn manifolds of a saddle."""
-        return [one for some in self._intersections or () for one in some if one.certain]
+        return [one for some in self._intersections or () for one in some if one.is_certain]
 
     @property
     def _saddle(self) -> mechanics.PeriodicOrbit | None:
@@ -185,7 +185,7 @@ class SectionPeriodicOrbit(Part[Section]):
         # If the flow preserves volume, the sum is round-off only.
         return float(logarithms[0]), round(float(logarithms.sum()), 9) + 0.0
 
-    # ---- words --------------------------------------------------------------------------------------------------
+    # ---- texts --------------------------------------------------------------------------------------------------
 
     def idle_values(self) -> Mapping[str, float]:
         """Return the length of the manifolds if it has no effect."""
@@ -252,7 +252,7 @@ class SectionPeriodicOrbit(Part[Section]):
                 "The manifolds are not known to half a pixel: choose a shorter length of manifolds, or a higher "
                 "accuracy."
             )
-        apart = sum(not one.certain for some in self._intersections or () for one in some)
+        apart = sum(not one.is_certain for some in self._intersections or () for one in some)
         if apart:
             yield (
                 f"At {apart} more point{'s' * (apart > 1)} the manifolds meet within their error: whether they "

@@ -310,7 +310,7 @@ class Section(Part[_Host]):
             return None
         return counts[0][0], lower_median([count for each in counts[1:] for count in each])
 
-    # ---- words --------------------------------------------------------------------------------------------------
+    # ---- texts --------------------------------------------------------------------------------------------------
 
     def status(self) -> Iterator[str]:
         """Yield the size, cost and drift of the section, and the accuracy of the current orbit."""
