@@ -205,7 +205,7 @@ D = Parameter(
 K_DRIVES_I11 = Parameter(
     "k",
     "k",
-    "k, drives I₁₁",
+    "k, which sets I₁₁",
     2.4,
     (-2.0, 7.0),
     0.05,
@@ -247,7 +247,7 @@ A_HESS = Parameter(
     (0.0, 2.0),
     0.005,
     (-1e3, 1e3),
-    "a = I₂₃/I₂₂ (Suslov) or √((a₃−a₂)(a₂−a₁))/a₂ (Euler–Poisson); a body has |a| < 1.",
+    "a = I₂₃/I₂₂ (Suslov) or √((a₃−a₂)(a₂−a₁))/a₂ (Euler–Poisson); a rigid body has |a| < 1.",
     "Body",
 )
 B_HESS = Parameter("b", "b", "Field b", 1.0, (0.05, 3.0), 0.01, (-1e3, 1e3), "Field of the reduced equations.", "Body")
@@ -272,7 +272,7 @@ F_HESS = Parameter(
     (-3.0, 3.0),
     0.01,
     (-1e4, 1e4),
-    "Area integral in units b = 1. Its range follows h.",
+    "Area integral in units b = 1; its range depends on h.",
     meaning=_UNITS_OF_B,
 )
 PHI0 = Parameter(
@@ -314,7 +314,7 @@ I1, I2, I3 = tuple(
     Parameter(name, symbol, f"Moment {symbol}", default, (0.1, 3.0), 0.005, _MOMENT, doc, "Body")
     for name, symbol, default, doc in (
         ("I1", "I₁", 1.0, "First principal moment of inertia."),
-        ("I2", "I₂", 0.625, "Middle principal moment: it lies between I₁ and I₃, else there is no Hess condition."),
+        ("I2", "I₂", 0.625, "Middle principal moment; the Hess condition needs I₂ between I₁ and I₃."),
         ("I3", "I₃", 0.375, "Third principal moment of inertia."),
     )
 )
@@ -349,7 +349,7 @@ MU_R = Parameter(
     (-20.0, 20.0),
     0.005,
     (-1e3, 1e3),
-    "The potential is −μ(r, γ). Its sign is that of r.",
+    "The product μ|r| in the potential −μ(r, γ); its sign is that of r.",
     "Body",
 )
 MOMENTUM = _vector(
@@ -362,9 +362,27 @@ MOMENTUM = _vector(
     (-1e3, 1e3),
     "Component of the angular momentum at t = 0.",
 )
-H_HEAVY = Parameter("h", "h", "Energy h", 50.0, (-9.0, 100.0), 0.05, (-1e3, 1e5), "H = h; above −μ|r|.", meaning=_HEAVY)
+H_HEAVY = Parameter(
+    "h",
+    "h",
+    "Energy h",
+    50.0,
+    (-9.0, 100.0),
+    0.05,
+    (-1e3, 1e5),
+    "Energy H = h, which must exceed −μ|r|.",
+    meaning=_HEAVY,
+)
 F_HEAVY = Parameter(
-    "f", "f", "Area integral f", 5.0, (-8.0, 8.0), 0.05, (-1e3, 1e3), "(M, γ) = f. Its range follows h.", meaning=_HEAVY
+    "f",
+    "f",
+    "Area integral f",
+    5.0,
+    (-8.0, 8.0),
+    0.05,
+    (-1e3, 1e3),
+    "Area integral f = (M, γ); its range depends on h.",
+    meaning=_HEAVY,
 )
 L = Parameter(
     "l", "l", "Angle l", 0.0, _TURN, 0.01, _ANGLES, "Andoyer–Deprit angle of M about axis 3, at t = 0.", unit="rad"
@@ -378,7 +396,7 @@ SHEET = Parameter(
     (0, 2),
     1,
     (0, 2),
-    "Number of the momentum G of this energy; 0 is the largest.",
+    "Number of the root G of the energy equation; 0 is the largest root.",
     is_integer=True,
 )
 H_PENDULUM = Parameter(
@@ -389,7 +407,7 @@ H_PENDULUM = Parameter(
     (-0.95, 4.0),
     0.01,
     (-1.0 + 1e-4, 1e4),
-    "In units of μ|r|: −1 hanging at rest, 1 the separatrix, on which it comes to rest upright.",
+    "In units of μ|r|: −1 hanging at rest, 1 the separatrix, on which the body comes to rest upright.",
 )
 L_PENDULUM = Parameter(
     "l",
@@ -419,7 +437,7 @@ H_SUSLOV = Parameter(
 H_BALL = Parameter(
     "h",
     "h",
-    "Energy above the plane's lowest",
+    "Energy above the minimum",
     2.0,
     (0.05, 5.0),
     0.01,
@@ -434,7 +452,7 @@ H_FREE_BALL = Parameter(
     (0.1, 20.0),
     0.1,
     (1e-6, 1e6),
-    "E = h > 0: every such energy is possible. It sets the size of the strip and the unit of time.",
+    "Energy E = h > 0, which sets the size of the strip and the unit of time.",
 )
 H_QUARTIC = Parameter(
     "h",
@@ -444,7 +462,7 @@ H_QUARTIC = Parameter(
     (-0.9, 4.0),
     0.01,
     (-1e2, 1e3),
-    "Above −|b₃|. Above |b₃| the point cannot reach the middle.",
+    "Energy above −|b₃|. Above |b₃| the point cannot reach the middle.",
 )
 
 # ---- where a motion starts, and how long it is followed -------------------------------------------------------------
@@ -494,7 +512,7 @@ DELTA = Parameter(
 THETA = Parameter(
     "theta",
     "θ⁻",
-    "Angle θ⁻ of the circle left",
+    "Angle θ⁻ of the initial circle",
     1.2,
     (0.0, 3.14),
     0.01,
@@ -503,7 +521,15 @@ THETA = Parameter(
     unit="rad",
 )
 CIRCLE_PHASE = Parameter(
-    "phi", "φ", "Phase φ", 0.5, _TURN, 0.01, _ANGLES, "Angle on that circle at which γ starts, in radians.", unit="rad"
+    "phi",
+    "φ",
+    "Phase φ",
+    0.5,
+    _TURN,
+    0.01,
+    _ANGLES,
+    "Angle on the initial circle at which γ starts, in radians.",
+    unit="rad",
 )
 GAMMA_CIRCLE = Parameter(
     "Gamma",
@@ -513,7 +539,7 @@ GAMMA_CIRCLE = Parameter(
     (-1.0, 1.0),
     0.01,
     (-1.0, 1.0),
-    "Where γ starts: the height along ξ of its circle on the sphere.",
+    "Initial component of γ along ξ, which is the height of its circle on the sphere.",
 )
 TIME = Parameter(
     "duration",
@@ -523,7 +549,7 @@ TIME = Parameter(
     (0.0, 200.0),
     1.0,
     (-1e9, 1e9),
-    "The last time; negative: backward.",
+    "Last time; negative for backward motion.",
     "Computation",
     "time",
 )

@@ -115,7 +115,12 @@ class BallSectionState(SectionState):
     low: float = end_of_branch("from")
     high: float = end_of_branch("to")
     upwards: str = coordinate_of_branch(_NAMES)
-    drop: str = choice("Points shown", ("all", _LATE), "all", doc="The later half shows the attractor.")
+    drop: str = choice(
+        "Points shown",
+        ("all", _LATE),
+        "all",
+        doc="The second half of the crossings shows the attractor without the transient.",
+    )
 
     # ---- the motion ---------------------------------------------------------------------------------------------
 
@@ -217,12 +222,14 @@ class BallSectionState(SectionState):
         if self.section.known_orbits.reason:
             return Caption("Omitted: too many steps.")
         if is_reversible(self.body):
-            return Caption("One point: every orbit that returns closes.", "Proved by the symmetry γ₃ → −γ₃, t → −t.")
+            return Caption(
+                "A single point: every returning orbit is periodic.", "Proved by the symmetry γ₃ → −γ₃, t → −t."
+            )
         if self.closed_orbit is not None:
-            return Caption("Each ψ against the next.", f"Period {self.closed_orbit.orbit.period}.")
+            return Caption("ψ of each crossing against the next ψ.", f"Period {self.closed_orbit.orbit.period}.")
         if has_area_integral(self.body):
-            return Caption("A curve: there is another integral.", "ω₁γ₁ + ω₂γ₂ is constant.")
-        return Caption("Each ψ against the next.")
+            return Caption("A curve, because of an additional integral.", "ω₁γ₁ + ω₂γ₂ is constant.")
+        return Caption("ψ of each crossing against the next ψ.")
 
     def quantities(self) -> Iterator[str]:
         """Yield the energies and the start of the orbit."""
@@ -246,7 +253,7 @@ SCENE = Scene(
     essential=("h", "I13", "D", "psi"),
     handle="psi",
     answers=(
-        Answer("Here a symmetry closes every orbit that returns.", lambda s: is_reversible(s.body)),
+        Answer("A symmetry makes every returning orbit periodic.", lambda s: is_reversible(s.body)),
         Answer("Each dot is one return: dots on a curve look regular, a cloud of dots looks chaotic."),
     ),
     lead=("section",),

@@ -380,7 +380,7 @@ SCENE = Scene(
                 map=lambda s: s.map,
                 iterates=lambda s: s.iterates,
                 caption=lambda s: circle.caption(s.map),
-                title="Circle map of both",
+                title="Circle map of both systems",
                 dot=("phi_start", "phi"),
                 on_click=lambda s, x, y: {"phi0": x},
             ),

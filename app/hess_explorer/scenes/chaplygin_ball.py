@@ -275,7 +275,7 @@ SCENE = Scene(
     group="Ball",
     essential=("D", "h", "theta", "phi"),
     handle="phi",
-    answers=(Answer("Off both lines, motions go from the dashed one to a uniform rotation on the solid one."),),
+    answers=(Answer("Motions off both lines go from the dashed line to a uniform rotation on the solid line."),),
     lead=("curve",),
     title="Chaplygin ball",
     summary="A ball rolls inside the body: orbits go from Nᵘ to Nˢ in a strip between two ellipses.",
@@ -284,7 +284,7 @@ SCENE = Scene(
     views=(
         body_picture(ball=True, field=False),
         plane.picture(
-            lambda s: Caption("From Nᵘ to Nˢ.", "Every orbit lies in the strip between σ₂ and σ₁."),
+            lambda s: Caption("Orbits go from Nᵘ to Nˢ.", "Every orbit lies in the strip between σ₂ and σ₁."),
             lambda s: s.half_width,
             layers=(
                 region(
@@ -298,7 +298,9 @@ SCENE = Scene(
                 names("names", ChaplyginBall.ellipse_names),
                 plane.arcs(lambda s: [track for track, _ in s.all_orbits if len(track) > 1]),
                 *plane.half_lines(
-                    lambda s, _: s.strip.stable, lambda s, _: s.strip.unstable, ("Nˢ, circle joined", "Nᵘ, circle left")
+                    lambda s, _: s.strip.stable,
+                    lambda s, _: s.strip.unstable,
+                    ("Nˢ; limit circle for t → ∞", "Nᵘ; limit circle for t → −∞"),
                 ),
                 plane.band(lambda s: s.proof.band),
                 plane.orbit("orbits; the chosen one bold"),

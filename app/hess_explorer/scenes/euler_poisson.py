@@ -155,8 +155,8 @@ class EulerPoisson(FilledState):
         0.005,
         bounds=(-math.pi, math.pi),
         label="Angle off the Hess condition, ε",
-        doc="The angle, in radians, by which the centre of mass r is turned away from the direction "
-        "that the Hess condition asks for. At 0 the barrier r·M = 0 cannot be crossed.",
+        doc="Angle, in radians, by which the centre of mass r is rotated away from the direction of the Hess "
+        "condition. At 0 no orbit crosses the barrier r·M = 0.",
     )
     m: float = parameter(MU_R)
     h: float = parameter(H_HEAVY, softbounds=(-1.0, 60.0), doc="Energy, H = h.")
@@ -180,7 +180,7 @@ class EulerPoisson(FilledState):
         "Sheet",
         (_LARGEST, _SECOND),
         _LARGEST,
-        doc="The momentum G with which orbits start, where several have this energy at one point of the section.",
+        doc="Momentum G at the start, where several G have this energy at one point of the section.",
     )
     shade: str = shading()
     starts: str = points("The points of the chosen orbits", 12, *_BOUNDS, "0,0.2")
@@ -246,7 +246,7 @@ class EulerPoisson(FilledState):
 
         def says() -> str:
             if self.away != 0.0:
-                return "It belongs to ε = 0, and is not invariant now."
+                return "The torus belongs to ε = 0 and is not invariant here."
             off = float(np.max(np.abs(relation(self.body, self.orbit.path.states))))
             return f"The orbit has |r·M| up to {digits(off, 3)}; on the torus r·M = 0."
 

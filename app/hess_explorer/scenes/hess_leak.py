@@ -188,11 +188,11 @@ class HessLeak(State):
         if self.map.kind != "hyperbolic":
             merged, largest = self.map.fixed_points, digits(float(np.max(np.abs(self.run.offset))), 2)
             return Caption(
-                "Lock boundary: |r·M| grows like t²." if merged else "No cycles: no growth to first order.",
+                "Tongue boundary: |r·M| grows like t²." if merged else "No cycles: no growth to first order.",
                 f"In {self._periods} periods |r·M| ≤ {largest}.",
             )
         if growth is None:
-            return Caption("Too short a growth to measure.", f"Exact growth {exact} per period.")
+            return Caption("The growth is too short to measure.", f"Exact growth {exact} per period.")
         measured = digits(growth.per_period)
         return Caption(
             "r·M grows exponentially.",
@@ -208,7 +208,7 @@ class HessLeak(State):
         if sign == 0:
             return Caption("The Hess relation holds to round-off.")
         layer = f"The orbit enters the layer r·M {'>' if sign > 0 else '<'} 0."
-        return Caption(layer, "It stays there." if stays else "It changes layer later.")
+        return Caption(layer, "The orbit stays in this layer." if stays else "The orbit changes layer later.")
 
     def _about_sphere(self) -> Caption:
         return Caption(

@@ -86,10 +86,18 @@ class Kharlamova(State):
     I11: float = parameter(known.I11, bounds=(1e-2, 1e2))
     I22: float = parameter(known.I22, 1.0, bounds=(1e-2, 1e2))
     b1: float = parameter(
-        known.B1, 0.4, softbounds=(-2.0, 2.0), bounds=(-1e2, 1e2), doc="b = −mg r, r the mass centre; b₃ = 0."
+        known.B1,
+        0.4,
+        softbounds=(-2.0, 2.0),
+        bounds=(-1e2, 1e2),
+        doc="b = −mg r, where r is the centre of mass; here b₃ = 0.",
     )
     b2: float = parameter(
-        known.B2, 0.7, softbounds=(-2.0, 2.0), bounds=(-1e2, 1e2), doc="b = −mg r; b₁ = b₂ = 0: straight lines."
+        known.B2,
+        0.7,
+        softbounds=(-2.0, 2.0),
+        bounds=(-1e2, 1e2),
+        doc="b = −mg r; orbits are straight lines for b₁ = b₂ = 0.",
     )
     q1: float = number(
         "q₁",
@@ -281,7 +289,7 @@ class Kharlamova(State):
 
     def _about_curve(self) -> Caption:
         if self.arc.kind == "fixed":
-            return Caption("τ is constant.", "dτ = γ₃ dt = 0." if self.arc.rate > 0.0 else "Nothing depends on it.")
+            return Caption("τ is constant.", "dτ = γ₃ dt = 0." if self.arc.rate > 0.0 else "Nothing depends on τ.")
         verdict = "γ₃² = P(τ) between two zeros."
         zeros = "Zeros {} and {}".format(*map(digits, self.arc.tau))
         if self.arc.kind == "asymptotic":
@@ -290,7 +298,7 @@ class Kharlamova(State):
 
     def _about_period(self) -> Caption:
         if self.arc.kind == "fixed":
-            return Caption("Periods in other directions from here.")
+            return Caption("Periods in all directions from this start.")
         if self.arc.kind == "asymptotic":
             return Caption("T = ∞ in this direction.", "∫dτ/γ₃ diverges.")
         return Caption(
@@ -357,7 +365,7 @@ SCENE = Scene(
             "In this direction the motion takes forever: it tends to an unstable fixed point.",
             lambda s: s.arc.kind == "asymptotic",
         ),
-        Answer("Nearly every motion is an arc, there and back: after one period it begins again."),
+        Answer("Nearly every motion runs along an arc and back, and repeats itself after one period."),
     ),
     lead=("period",),
     title="Principal axis, b₃ = 0",

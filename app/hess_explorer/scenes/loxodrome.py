@@ -51,7 +51,7 @@ class Loxodrome(State):
     """A motion of a loxodromic pendulum."""
 
     I1: float = parameter(known.I1)
-    I2: float = parameter(known.I2, 1.5, doc="Middle principal moment: it must lie between I₁ and I₃.")
+    I2: float = parameter(known.I2, 1.5, doc="Middle principal moment, which must lie between I₁ and I₃.")
     I3: float = parameter(known.I3, 2.0)
     # The pendulum does not depend on this sign.
     m: float = parameter(
@@ -60,7 +60,7 @@ class Loxodrome(State):
         softbounds=(0.05, 20.0),
         step=0.05,
         bounds=(1e-3, 1e3),
-        doc="It sets the unit of energy and of time; the direction of r follows from the moments.",
+        doc="Sets the units of energy and time; the direction of r follows from the moments.",
     )
     energy: float = parameter(known.H_PENDULUM)
     l: float = parameter(known.L_PENDULUM)
@@ -229,7 +229,7 @@ SCENE = Scene(
             marks=(Mark((1.0, 0.0, 0.0), "muted", "e"), Mark((-1.0, 0.0, 0.0), "muted", "−e")),
             signs=(
                 Sign("loxodrome", "line", f"border-top: 2px solid {theme.MUTED}"),
-                Sign("middle axis, its track", "line", f"border-top: 4px solid {theme.ORBIT}"),
+                Sign("middle axis and its track", "line", f"border-top: 4px solid {theme.ORBIT}"),
                 CENTRE_OF_MASS,
             ),
         ),

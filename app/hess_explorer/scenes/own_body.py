@@ -64,7 +64,7 @@ def _velocity(symbol: str, default: float, group: Group = "State") -> Any:
         0.01,
         bounds=(-1e3, 1e3),
         label=f"Velocity {symbol}",
-        doc="Angular velocity at t = 0; the part that the constraint forbids is left out.",
+        doc="Angular velocity at t = 0; the component that the constraint forbids is removed.",
         group=group,
         meaning="own body",
     )
@@ -86,7 +86,7 @@ class OwnBodyState(State):
         "Constraint",
         (_CONSTRAINED, _FREE),
         _CONSTRAINED,
-        doc="The velocity along a is 0, or the body is free.",
+        doc="The constraint (a, ω) = 0, or none.",
         group="Body",
     )
     I11: float = parameter(I11, 2.0)
@@ -269,7 +269,7 @@ def _energy_caption(s: OwnBodyState) -> Caption:
 def _section_caption(s: OwnBodyState) -> Caption:
     if not s.is_compiled or s.crossings is None:
         return _caption(s) if not s.is_compiled else Caption(s.pending_caption())
-    where = "Once in each period of the drive." if s.body.is_driven and s.frequency else "Where γ₃ = 0, upwards."
+    where = "One point per period of the drive." if s.body.is_driven and s.frequency else "Upward crossings of γ₃ = 0."
     return Caption(where, f"{len(s.crossings.times)} crossings up to t = {digits(s.long)}.")
 
 

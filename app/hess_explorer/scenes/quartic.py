@@ -70,7 +70,7 @@ class Quartic(SectionState):
     # Narrower bounds than in other scenes: beyond them a section takes too many Taylor steps.
     I22: float = parameter(I22, 1.0, softbounds=(0.2, 3.0), bounds=(1e-2, 1e2))
     ratio: float = parameter(RATIO)
-    b3: float = parameter(B3, 1.0, bounds=(-1e2, 1e2), doc="b = −mg r; not 0 here, b₁ = b₂ = 0.")
+    b3: float = parameter(B3, 1.0, bounds=(-1e2, 1e2), doc="b = −mg r with b₁ = b₂ = 0; b₃ must not be 0.")
     h: float = parameter(H_QUARTIC)
     Q1: float = number(
         "q₁",
@@ -97,7 +97,7 @@ class Quartic(SectionState):
         0.01,
         bounds=(-math.pi, math.pi),
         label="Start: direction β",
-        doc="Initial direction of the point: q̇ = −p, |p| = √(1 − γ₃²). Click the section to choose all three.",
+        doc="Initial direction of the point: q̇ = −p, |p| = √(1 − γ₃²). Click the section to set q₁, q₂ and β.",
     )
     over: str = parameter_of_branch(tuple(_ALONG))
     low: float = end_of_branch("from")

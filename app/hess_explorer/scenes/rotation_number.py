@@ -71,7 +71,7 @@ class RotationNumber(State):
         _RATIONALS,
         "−1/4",
         group="State",
-        doc="Rotation number to find on the line, with the number of cycles of its torus.",
+        doc="Rational rotation number of the torus to find on the line.",
     )
     epsilon: float = number(
         "ε",
@@ -80,7 +80,7 @@ class RotationNumber(State):
         0.005,
         bounds=(0.0, 0.33),
         label="Perturbation ε, not Möbius",
-        doc="The other family: Θ(φ + ε sin 3φ). It is not a Möbius map: its ρ locks at many rational numbers.",
+        doc="Parameter of the other family Θ(φ + ε sin 3φ), which is not Möbius: its ρ locks at many rational numbers.",
     )
     accuracy: str = accuracy_level()
     # Each map has its own window.
@@ -164,7 +164,9 @@ class RotationNumber(State):
                 "All orbits of this torus are periodic.",
                 f"ρ = {rho} at {self.line} = {value}: {difference} ≤ {defect}.",
             )
-        return Caption("ρ locks at 0 only." if self._search is None else f"No torus with ρ = {rho} found here.")
+        return Caption(
+            "ρ locks only at integers, here at 0." if self._search is None else f"No torus with ρ = {rho} found here."
+        )
 
     def _about_circle(self) -> Caption:
         if self.map is None:

@@ -70,7 +70,7 @@ class ScatteringState(State):
         5.30103,
         softbounds=(1.0, 12.0),
         bounds=(0.5, 300.0),
-        doc="The start is δ = 10^−digits of |ω| away from the unstable point; it only shifts the phase.",
+        doc="Distance of the start from the unstable point: δ = 10^−digits of |ω|. A change only shifts the phase.",
     )
     accuracy: str = accuracy_level()
 
@@ -169,7 +169,8 @@ class ScatteringState(State):
 
     def _about_map(self) -> Caption:
         return Caption(
-            "One rotation gives the whole map.", f"It turns ξ by χ = {in_digits(math.acos(self.limit.cos_chi))}."
+            "One rotation gives the whole map.",
+            f"The rotation turns ξ by χ = {in_digits(math.acos(self.limit.cos_chi))}.",
         )
 
     def _about_sphere(self) -> Caption:

@@ -86,7 +86,7 @@ class SingularMeasures(State):
         0.01,
         bounds=ONE_TURN,
         label="Direction φ of the patch",
-        doc="Angle of the patch in the plane of ω₁ and ω₂, in radians. A click there chooses it.",
+        doc="Angle of the patch in the plane of ω₁ and ω₂, in radians. Click the plane to set it.",
     )
     span: float = time_span(14.0, 40.0, step=0.5, what="the cloud")
     b3: float = parameter(
@@ -94,7 +94,7 @@ class SingularMeasures(State):
         1.0,
         label="Field b₃ of the second cloud",
         group="State",
-        doc="With I₁₃ = I₂₃ = 0 nothing would move without a field; the first cloud has none.",
+        doc="Only the second cloud has a field: without one, ω would be constant for I₁₃ = I₂₃ = 0.",
     )
     start: str = choice(
         "Cloud",
@@ -108,7 +108,7 @@ class SingularMeasures(State):
         ("forward", "backward"),
         "forward",
         group="State",
-        doc="Forward to the stable half of s = 0, backward to the other.",
+        doc="Forward, the cloud approaches the stable half of s = 0; backward, the unstable half.",
     )
     beside: str = choice(
         "Beside",
@@ -184,13 +184,13 @@ class SingularMeasures(State):
 
     def _about_sphere(self) -> Caption:
         first, last = (float(((self.clouds.cloud.gamma[:, i] @ self.strip.xi) ** 2).mean()) for i in (0, -1))
-        return Caption("γ of the same points.", f"Mean of (γ, ξ)² {range_text(first, last, 3)}.")
+        return Caption("γ of the points of the cloud.", f"Mean of (γ, ξ)² {range_text(first, last, 3)}.")
 
     def _about_density(self) -> Caption:
         s, mean = self.clouds.density.upper_quarter
         height = digits(self.clouds.density.height, 3)
         return Caption(
-            "Mean over time against the invariant density.",
+            "Time average and invariant density.",
             f"At |s| = {digits(s, 2)}: {digits(mean, 3)}/|s|; invariant density: {height}/|s|.",
         )
 

@@ -114,7 +114,12 @@ class Suslov(FilledState):
         _BOTH,
         doc="Basins: the attractor to which each point of the section leads, and how soon.",
     )
-    drop: str = choice("Points shown", ("all", _LATE), "all", doc="The later half shows the attractor.")
+    drop: str = choice(
+        "Points shown",
+        ("all", _LATE),
+        "all",
+        doc="The second half of the crossings shows the attractor without the transient.",
+    )
     span: float = time_span(60.0, 400.0, what="the chosen orbit")
     starts: str = points("The points of the chosen orbits", 12, *_BOUNDS, "1,1")
     window: str = points("The window of the section", 2, *_BOUNDS)
@@ -180,7 +185,7 @@ class Suslov(FilledState):
     def _conformal(self) -> tuple[Conformal | None, str]:
         """The orbit in real and in conformal time and an empty string; or None and the reason."""
         if self.I13 != 0.0 or self.I23 != 0.0:
-            return None, "Only for I₁₃ = I₂₃ = 0, as in the example “On a principal axis”."
+            return None, "Needs I₁₃ = I₂₃ = 0, as in the example “On a principal axis”."
         try:
             return self.work.need(Task(conformal, self.body, self.start, self.duration, self.orbit_level())), ""
         except WorkLimit as error:

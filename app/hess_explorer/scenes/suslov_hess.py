@@ -323,7 +323,7 @@ SCENE = Scene(
     answers=(
         Answer("On the separatrix the body climbs forever and never comes back.", lambda s: s.map is None),
         Answer(
-            "At this edge the torus has shrunk: the height of the body no longer changes.",
+            "On this edge the torus shrinks to a circle: the height of the body is constant.",
             lambda s: torus_plane.is_circle(s.turning_points),
         ),
         Answer(

@@ -97,7 +97,7 @@ class Sign:
     least: float | None = None
 
 
-TURNS = Sign("ρ from −½ to ½, the same", "box rho", f"background: {theme.gradient(theme.TURN_MAP)}")
+TURNS = Sign("ρ from −½ to ½ (cyclic)", "box rho", f"background: {theme.gradient(theme.TURN_MAP)}")
 """Legend entry of the scale of rotation numbers."""
 MOVING_POINT = Sign("moving point", "dot", f"background: {theme.POINT}; border: 1.5px solid")
 _QUARTERS = f"{theme.INK} 25%, {theme.PAPER} 0 50%, {theme.INK} 0 75%, {theme.PAPER} 0"

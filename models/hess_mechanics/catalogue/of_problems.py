@@ -180,7 +180,7 @@ COMPUTATIONS: tuple[Computation, ...] = (
                 0.0,
                 0.0,
                 1.0,
-                "Phases belong to the place where ω across ξ is this fraction of |ω⁻|; 0: phases for t → −∞.",
+                "Phases are taken where ω across ξ is this fraction of |ω⁻|; 0: phases for t → −∞.",
             ),
         ),
         {

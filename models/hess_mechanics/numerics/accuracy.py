@@ -249,7 +249,7 @@ MEANINGS: Mapping[Kind, Meaning] = {
     ),
     Kind.ROTATION: Meaning("error of the rotation number of a closed curve, in turns", "crossings", "orbits"),
     Kind.GRID: Meaning("error of ρ, in turns, if |trace| is not within 1e-2 of 2", "", "cells along a side"),
-    Kind.LINE: Meaning("as for a grid", "turns", "places"),
+    Kind.LINE: Meaning("as for a grid", "turns", "points"),
     Kind.COLOURS: Meaning("as for a grid; 256 colours resolve 4e-3", "", "cells along a side"),
     Kind.MAP: Meaning("error of θ⁺, in radians", "", "phases"),
     Kind.CURVE: Meaning("distance from the curve, in pixels, for |a| ≤ 1", "", "tori"),

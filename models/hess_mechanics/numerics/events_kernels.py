@@ -185,7 +185,7 @@ def along(c, normal, e, scratch):
 def height(y, normal):
     return {height("y[")}
 
-def counted(y, normal):
+def is_crossing(y, normal):
     return True
 """),
         is_nonlinear=False,

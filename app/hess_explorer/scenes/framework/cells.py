@@ -17,7 +17,7 @@ COARSE = 3
 """Fine cells along each side of a coarse one: odd, so that the middle of the coarse cell is that of a fine one."""
 
 DENSITY = "density"
-"""The choice of what lies under the points of a section that counts crossings."""
+"""Choice that shows the density of crossings under the points of a section."""
 
 Arguments = tuple[Any, ...]
 

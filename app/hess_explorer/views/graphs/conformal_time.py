@@ -27,7 +27,7 @@ def caption(motion: Conformal) -> Caption:
     """Return the caption of a motion in both times."""
     turned = {0: "never", 1: "once"}.get(motion.turns, f"{motion.turns} times")
     return Caption(
-        "Hamiltonian in the time τ.",
+        "The motion is Hamiltonian in τ.",
         f"ẋ = γ₃{{x, E}} within {digits(motion.residual, 1)}; τ reverses {turned} on the equator.",
     )
 

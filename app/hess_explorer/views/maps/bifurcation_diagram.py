@@ -128,7 +128,7 @@ def caption(h: float, f: float, theta: CircleMap | None) -> Caption:
     zone = (
         "On the separatrix."
         if theta is None
-        else {"hyperbolic": "Locked: two limit cycles.", "parabolic": "On the lock boundary."}.get(
+        else {"hyperbolic": "Locked: two limit cycles.", "parabolic": "On the boundary of the Arnold tongue."}.get(
             theta.kind, "Not locked: no limit cycle."
         )
     )

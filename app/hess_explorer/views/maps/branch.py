@@ -17,8 +17,8 @@ S = TypeVar("S")
 _SHORT = {"Neimark–Sacker": "N–S"}
 _LOOKS = (
     ("attracts", theme.STABLE, "solid", "branch of a stable periodic orbit", "stable"),
-    ("neither", theme.SHEET, "solid", "branch of an elliptic or parabolic one", "elliptic"),
-    ("repels", theme.UNSTABLE, "dashed", "branch of an unstable one", "unstable"),
+    ("neither", theme.SHEET, "solid", "branch of an elliptic or parabolic orbit", "elliptic"),
+    ("repels", theme.UNSTABLE, "dashed", "branch of an unstable orbit", "unstable"),
 )
 """Colour, dash, label and tag of each sign of `sign_of`."""
 

@@ -125,7 +125,7 @@ def picture(
 def cycles(theta: CircleMap) -> str:
     """Return the limit cycles of a torus in words; a parabolic map without a fixed point is the identity."""
     if theta.kind == "parabolic":
-        return "the two cycles have merged" if theta.fixed_points else "every orbit closes"
+        return "the two cycles have merged" if theta.fixed_points else "every orbit is periodic"
     return "two limit cycles" if theta.kind == "hyperbolic" else "no cycle"
 
 

@@ -139,7 +139,7 @@ def layers(
     """
 
     def of_colour(i: int, color: str) -> Layer[S]:
-        label = "" if i else "chosen orbit, from its ring"
+        label = "" if i else "chosen orbit; its ring marks the start"
         return _points(f"own{i or ''}", lambda s: concatenate(own(s)[i :: len(theme.CHOSEN)]), window, 10, color, label)
 
     def ring_of(i: int, color: str) -> Layer[S]:

@@ -109,7 +109,7 @@ def orbit_points(orbits: Callable[[S], Sequence[PeriodicOrbit]]) -> Layers[S]:
             color=theme.STABLE,
             edge=theme.INK,
             edge_width=1.5,
-            label="periodic orbit that attracts",
+            label="attracting periodic orbit",
             tag="attracts",
         ),
         points(

@@ -34,7 +34,7 @@ def caption(body: PotentialBody, motion: PlaneMotion) -> Caption:
         return Caption("A fixed point: nothing changes.")
     if motion.period is not None:
         return Caption(
-            "Periodic: it crosses the equator twice.",
+            "Periodic, with two equator crossings.",
             f"T = {digits(motion.period)}, returns to its start within {digits(motion.closure_error, 1)}.",
         )
     integral = (
@@ -43,7 +43,7 @@ def caption(body: PotentialBody, motion: PlaneMotion) -> Caption:
         else f"F₂ changes by {digits(100.0 * motion.integral, 2)} %."
     )
     if motion.one_sided:
-        return Caption("Too slow to reach the equator.", f"It stays on one side. {integral}")
+        return Caption("The motion does not reach the equator.", f"γ₃ keeps its sign. {integral}")
     return Caption(
         "Fewer than two equator crossings.", f"Up to t = {digits(float(motion.orbit.times[-1]))}. {integral}"
     )

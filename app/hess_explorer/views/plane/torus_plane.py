@@ -103,4 +103,4 @@ def heights_caption(turning_points: TurningPoints | None) -> Caption:
     n1, n2 = turning_points.roots[1:]
     if digits(n1) == digits(n2):
         return Caption("The vertical γ has constant height.", f"n₃ = {digits(n1)}.")
-    return Caption("The vertical γ between two heights.", f"n₃ = {digits(n1)} and {digits(n2)}.")
+    return Caption("The vertical γ moves between two heights.", f"n₃ = {digits(n1)} and {digits(n2)}.")

@@ -219,7 +219,7 @@ def density_layers(density: Callable[[S], Density]) -> Layers[S]:
         line(
             "last", data_in_axes=of(lambda one: one.last), color=theme.MUTED, width=1, label="end; energy h", tag="end"
         ),
-        line("mean", data_in_axes=of(lambda one: one.mean), color=theme.ORBIT, label="cloud; its mean", tag="mean"),
+        line("mean", data_in_axes=of(lambda one: one.mean), color=theme.ORBIT, label="cloud and its mean", tag="mean"),
         now,
     )
 

@@ -101,7 +101,9 @@ class OrbitExponent(Part[_Host]):
     def caption(self) -> Caption:
         """The caption of the picture."""
         if self.growth is not None:
-            return Caption("From the multipliers of the periodic orbit.", f"ln|μ₁|/T = {digits(self.growth[0])}.")
+            return Caption(
+                "Exponent from the multipliers of the periodic orbit.", f"ln|μ₁|/T = {digits(self.growth[0])}."
+            )
         found = self._answer
         if found is None:
             return Caption(self.work.pending_caption())

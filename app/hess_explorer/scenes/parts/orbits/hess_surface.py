@@ -32,7 +32,7 @@ def shading() -> Any:
         "Torus in space",
         (PLAIN, INVARIANT),
         PLAIN,
-        doc="Greener where the invariant density is larger. It exists only without limit cycles.",
+        doc="Shades the torus by its invariant density, which exists only without limit cycles.",
     )
 
 

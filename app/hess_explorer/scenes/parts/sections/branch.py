@@ -54,7 +54,7 @@ def end_of_branch(word: str) -> Any:
         bounds=_FARTHEST,
         label=f"Branch {word}",
         group="Computation",
-        doc="Range of “Branch of the periodic orbit”. If both ends are equal, it surrounds the current value.",
+        doc="Range of “Branch of the periodic orbit”. If both ends are equal, the range surrounds the current value.",
     )
 
 
@@ -215,7 +215,9 @@ class SectionBranch(Continuation[_Section]):
     def caption(self) -> Caption:
         """The caption of the picture."""
         if not self.orbit.is_on:
-            return Caption("No periodic orbit is chosen.", "Choose one, then click its branch to select an orbit.")
+            return Caption(
+                "No periodic orbit is chosen.", "Choose a periodic orbit, then click its branch to select an orbit."
+            )
         return Caption(self.work.pending_caption("A periodic orbit is")) if self.orbit.is_searching else super().caption
 
     @property

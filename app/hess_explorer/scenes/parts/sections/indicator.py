@@ -91,7 +91,9 @@ class Indicator(Part[Section]):
         if not self.is_on or self.work.is_preview:
             return None
         if self._cells is None or self._cells[1]:
-            return Caption(self.work.pending_caption(), f"MEGNO after t = {digits(self.time)}: first coarse cells.")
+            return Caption(
+                self.work.pending_caption(), f"MEGNO after t = {digits(self.time)}; only coarse cells so far."
+            )
         kinds = self._cells[0][:, 1]
         there = kinds[kinds >= 0.0]
         if not there.size:

@@ -66,7 +66,7 @@ def length_of_manifolds() -> Any:
         bounds=(0.0, 100.0),
         label="Length of manifolds",
         group="Computation",
-        doc=f"Of each branch, in units of the axes of the section; at most {MAX_POINTS} points.",
+        doc=f"Length of each branch, in units of the axes of the section; at most {MAX_POINTS} points.",
     )
 
 

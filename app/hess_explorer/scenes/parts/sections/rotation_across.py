@@ -166,7 +166,7 @@ class RotationAcross(Part[_Host]):
         if low == high:
             return Caption("One rotation number for all closed curves.", f"ρ = {low}{standing}.")
         if turning is None:
-            return Caption("ρ of the closed curves.", f"From {low} to {high}{standing}.")
+            return Caption("Rotation numbers of the closed curves.", f"From {low} to {high}{standing}.")
         return Caption(
             "No twist where ρ has an extremum.",
             f"ρ from {low} to {high}, extremum {self._turns(turning[1])} at {digits(turning[0])}.",
@@ -215,7 +215,7 @@ def rotation_picture() -> Picture[Any]:
                 data_in_axes=lambda s, axes: s.rotation.chaotic_parts(axes),
                 color=theme.MUTED + "38",
                 is_overlay=True,
-                label="ρ does not settle",
+                label="ρ does not converge",
             ),
             points(
                 "standing",
