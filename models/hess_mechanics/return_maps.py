@@ -572,7 +572,7 @@ def basins(
 
 
 def _values_of(values: dict[str, float | None], *names: str) -> list[float]:
-    """Return the values of these integrals; any other integral must be absent.  Raises `InvalidParameter`."""
+    """Return the values of these integrals; no other integral may be given.  Raises `InvalidParameter`."""
     lost = [name for name in names if values[name] is None]
     if lost:
         raise InvalidParameter(f"The section of this body lies at given {' and '.join(names)}: give {lost[0]}.")

@@ -54,7 +54,7 @@ class Background:
         self.add(tasks)
 
     def add(self, tasks: Collection[Task[Any]]) -> None:
-        """Compute these tasks too, after the others."""
+        """Queue further tasks behind the present ones."""
         job = self._job
         with self._lock:
             job.tasks.extend(tasks)

@@ -37,7 +37,7 @@ numpydoc_show_class_members = False
 
 
 def _escape_bars(app: object, what: str, name: str, of: object, options: object, lines: list[str]) -> None:
-    """Keep |f| as it is: reStructuredText would take the bars for a substitution."""
+    """Escape the bars of |f|, which reStructuredText would read as a substitution."""
     lines[:] = [line.replace("|", r"\|") for line in lines]
 
 

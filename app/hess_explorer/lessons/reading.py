@@ -172,7 +172,7 @@ def _section(lines: list[str]) -> tuple[int, int]:
 
 @dataclass(frozen=True)
 class _Part:
-    """The text from a heading to the next one.
+    """The text between two headings.
 
     Attributes
     ----------

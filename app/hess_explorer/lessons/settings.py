@@ -73,7 +73,7 @@ def state_of_link(text: object, line: int) -> StateLink:
 
 
 def example_of(begins: object, before: StateLink | None, line: int) -> StateLink:
-    """Return the state of the example whose name begins with this text, in the scene of the step before."""
+    """Return the state of the example whose name begins with this text, in the scene of the previous step."""
     scene = next(iter(scenes().values())) if before is None else scenes()[before.scene]
     found = [one for one in scene.presets if isinstance(begins, str) and begins and one.name.startswith(begins)]
     if len(found) != 1:

@@ -89,7 +89,7 @@ class SceneState:
 
     @property
     def periodic(self) -> Any:
-        """The `PeriodicOrbit` shown in the section; None without one.
+        """The `PeriodicOrbit` shown in the section; None without a periodic orbit.
 
         Raises
         ------
@@ -458,7 +458,7 @@ def _validate(spec: Spec, value: Any) -> Value:
 
 
 def _first(state: Any, names: tuple[str, ...]) -> Any:
-    """Return the first of these properties that the state of a scene has, or None."""
+    """Return the first existing property of a scene's state among these names, or None."""
     return next(
         (
             getattr(state, name)

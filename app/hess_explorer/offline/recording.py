@@ -141,7 +141,7 @@ class Recording:
         strip.add(tree, block, steps_of_plots(axes))
 
     def _note_columns(self, scene: Scene[Any], sources: Mapping[str, Mapping[str, Any]]) -> None:
-        """Record the columns of each data source, which other states have to empty."""
+        """Record the columns of each data source, which states without these columns must clear."""
         canvases = {view.name for view in scene.views if not isinstance(view, Plot)}
         noted = self._columns.setdefault(scene.name, {})
         for source, columns in sources.items():

@@ -135,7 +135,7 @@ class OfflineStrip:
         self._last = places
 
     def _array(self, values: Array, column: str, step: float | None, before: int | None) -> int:
-        """Store an array unless it equals the previous one; return its number."""
+        """Store an array unless it equals its predecessor; return its number."""
         step = _step(values, column, step)
         if before is not None and len(self._wholes[before]) != len(values):
             before = None

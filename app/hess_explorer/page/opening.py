@@ -1,4 +1,4 @@
-"""Parse the link of a page.  The document and the websocket both do this, with the same result."""
+"""Parse the link of a page, in the same way for the document and the websocket."""
 
 from __future__ import annotations
 

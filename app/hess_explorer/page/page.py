@@ -1,4 +1,4 @@
-"""The page: one component of Panel that holds everything.
+"""The page, a single Panel component.
 
 Panel does not handle states; they use a separate websocket ("server/websockets.py").
 """

@@ -98,7 +98,7 @@ class Session:
         return self._tasks.background
 
     def answer(self, request: Request) -> Response:
-        """Process a request and return the response; a requested state always gets one."""
+        """Process a request and return the response, which contains a state if the request asked for one."""
         scene = self.scene
         try:
             # `hess_mechanics` checks its results for overflow itself, so NumPy's warnings would be noise.

@@ -37,7 +37,7 @@ class Member(Protocol):
     """The websocket of a lecturer or follower."""
 
     def put(self, kind: str, message: str | bytes) -> None:
-        """Send a message; it replaces a waiting one of the same kind."""
+        """Send a message, which replaces a waiting message of the same kind."""
 
     def close(self, code: int, reason: str) -> None:
         """Close the websocket."""
@@ -77,7 +77,7 @@ class Room:
         return hmac.compare_digest(self.key.encode(), key.encode("utf-8", "replace"))
 
     def lead(self, member: Member) -> None:
-        """Make a websocket the lecturer's; it replaces an earlier one."""
+        """Make a websocket the lecturer's, in place of an earlier websocket."""
         if self._lead is not None:
             self._lead.close(*REPLACED)
         self._lead, self._counts = member, None
@@ -129,7 +129,7 @@ class Room:
 
     @property
     def _prediction(self) -> Prediction | None:
-        """The prediction of the current step; None without one."""
+        """The prediction of the current step; None without a prediction."""
         step = step_of(self._lessons, self._show) if self._show is not None else None
         return step.prediction if step is not None else None
 

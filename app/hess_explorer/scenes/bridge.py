@@ -135,7 +135,7 @@ class BothSides(State):
         return {"h": (-0.99, max(4.0, self.h), 0.01), **f}
 
     def idle_values(self) -> Mapping[str, float]:
-        """Return the parameters of the other side, translated from the given one.  Raises `ModelError`."""
+        """Return the parameters of the other side, translated from those of the given side.  Raises `ModelError`."""
         hess, heavy = self.bridge.hess, self.bridge.heavy
         if self.given == HEAVY:
             body = {"I22": hess.I22, "I23": hess.I23, "b3": hess.b3, "share": share_of(heavy)}

@@ -300,7 +300,7 @@ SCENE = Scene(
                 *plane.half_lines(
                     lambda s, _: s.strip.stable,
                     lambda s, _: s.strip.unstable,
-                    ("Nˢ; limit circle for t → ∞", "Nᵘ; limit circle for t → −∞"),
+                    ("Nˢ, limit circle for t → ∞", "Nᵘ, limit circle for t → −∞"),
                 ),
                 plane.band(lambda s: s.proof.band),
                 plane.orbit("orbits; the chosen one bold"),

@@ -1,4 +1,4 @@
-"""Shared by two scenes: attractors of a section γ₃ = 0 over a parameter, and one orbit."""
+"""Attractors of a section γ₃ = 0 over a parameter, and one orbit; base of two scenes."""
 
 from __future__ import annotations
 

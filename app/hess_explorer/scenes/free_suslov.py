@@ -327,7 +327,7 @@ SCENE = Scene(
                 *plane.half_lines(
                     lambda s, axes: plane.half_line(s.points.stable, s.half_width, axes),
                     lambda s, axes: plane.half_line(s.points.unstable, s.half_width, axes),
-                    ("stable half; limit circle for t → ∞", "unstable half; limit circle for t → −∞"),
+                    ("stable half, limit circle for t → ∞", "unstable half, limit circle for t → −∞"),
                 ),
                 line(
                     "second",

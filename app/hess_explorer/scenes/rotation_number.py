@@ -133,7 +133,7 @@ class RotationNumber(State):
 
     @property
     def target(self) -> Fraction:
-        """The rational number to find on the line; positive for f < 0, as ρ is."""
+        """The rational rotation number to find on the line; positive for f < 0, like ρ."""
         rho = Fraction(self.rational.replace("−", "-"))
         return -rho if self.line != "f" and self.f < 0.0 else rho
 
@@ -144,7 +144,7 @@ class RotationNumber(State):
 
     @property
     def periodic(self) -> PeriodicTorus | None:
-        """The torus on the line with the rational ρ; None if there is none or until known."""
+        """The torus on the line with the rational ρ; None without such a torus and until known."""
         return None if self._search is None else self._search[0]
 
     @cached_property

@@ -40,7 +40,7 @@ class Study(State):
 
     @cached_property
     def precision(self) -> Precision | None:
-        """The motion at every level; None for a scene without one.  Raises `ModelError`."""
+        """The motion at every level; None for a scene without a motion.  Raises `ModelError`."""
         motion = self.base.motion()
         return None if motion is None else Precision(self.work, motion)
 

@@ -177,7 +177,7 @@ class SuslovHess(State):
 
     @cached_property
     def density(self) -> tuple[Array | None, str]:
-        """The invariant density on the torus, relative to the uniform one, or None; and the reason for None."""
+        """The invariant density on the torus relative to the uniform density, or None; and the reason for None."""
         reason = torus_density.reason_for_no_density(self.map, self.turning_points)
         if reason or self.map is None:
             return None, reason

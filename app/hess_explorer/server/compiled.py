@@ -1,4 +1,4 @@
-"""Track compiled kernels, and start processes that compile the others.  This module imports only Numba."""
+"""Track compiled kernels, and start processes that compile missing kernels.  This module imports only Numba."""
 
 from __future__ import annotations
 

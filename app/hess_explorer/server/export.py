@@ -47,7 +47,7 @@ _SECONDS = 10.0
 
 
 def _needs_browser(name: str, picture: str, kind: str) -> bool:
-    """Return whether a browser draws the file: a film, or a figure of anything but a plot."""
+    """Return whether a browser draws the file: a film, or a figure of a picture other than a plot."""
     scene = scenes().get(name, next(iter(scenes().values())))
     view = next((view for view in scene.views if view.name == picture), scene.views[0])
     return kind in formats_of("film") or (kind in formats_of("figure") and not isinstance(view, Plot))

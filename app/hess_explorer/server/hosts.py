@@ -32,7 +32,7 @@ logger = logging.getLogger("hess_explorer")
 
 
 class Hosts(Matcher):
-    """The hosts of a server: localhost, addresses and names of the machine, and further ones.
+    """The hosts of a server: localhost, addresses and names of the machine, and further hosts.
 
     A matcher of Tornado's router that matches the requests for other hosts.
 

@@ -37,7 +37,7 @@ class Outbox:
         self._sending: asyncio.Task[None] | None = None
 
     def put(self, kind: str, message: str | bytes) -> None:
-        """Send a message; it replaces a waiting one of the same kind, and comes after all others."""
+        """Send a message after all others; it replaces a waiting message of the same kind."""
         self._waiting.pop(kind, None)
         self._waiting[kind] = message
         if self._sending is None or self._sending.done():

@@ -356,7 +356,7 @@ class Computation:
         return Scalar(result) if isinstance(result, float) else result
 
     def error(self, result: Any, exact: Any) -> float:
-        """Return the distance of a result from a more accurate one.
+        """Return the distance of a result from a more accurate result.
 
         Parameters
         ----------

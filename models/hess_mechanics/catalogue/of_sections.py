@@ -48,12 +48,12 @@ def _periodic(map_: ReturnMap, point: Point, period: int) -> PeriodicOrbit:
 
 
 def _from_orbit(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Return a function of a map and a point, from one of a map and a periodic orbit."""
+    """Convert a function of a map and a periodic orbit to a function of a map and a point."""
     return lambda map_, point, period, **more: function(map_, _periodic(map_, point, period), **more)
 
 
 def _along(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Return a function over evenly spaced values of a parameter, from one over any values."""
+    """Convert a function over any values of a parameter to a function over evenly spaced values."""
     return lambda map_, point, parameter, low, to, values, **more: function(
         map_, parameter, np.linspace(low, to, values), point, **more
     )
@@ -277,6 +277,6 @@ def computations(example: PoincareSection, period: int) -> Iterator[Computation]
 
 
 def _points_away(one: PlanePoints, exact: PlanePoints) -> float:
-    """Return the largest distance of the first twenty points of each orbit; later ones of chaotic orbits differ."""
+    """Return the largest distance of the first twenty points of each orbit; later points differ by chaos."""
     pairs = zip(one.orbits, exact.orbits, strict=False)
     return max((largest_difference(a[:20], b[:20]) for a, b in pairs), default=np.nan)

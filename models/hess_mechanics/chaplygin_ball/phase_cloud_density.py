@@ -112,7 +112,7 @@ class Density(Result):
 
 
 def sides(cloud: Cloud) -> tuple[int, int, int] | None:
-    """Return the numbers of points on both sides of F2 = 0, and of those that change sides.
+    """Return the numbers of points on both sides of F2 = 0, and of points that change sides.
 
     Points whose F2 is 0 to round-off are not counted.
 

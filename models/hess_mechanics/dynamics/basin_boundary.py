@@ -16,7 +16,7 @@ __all__ = ["ambiguity", "arrivals_of_cells", "cells_to_compute", "coarsest_cells
 
 
 def _on_boundary(cells: NDArray[Any]) -> Mask:
-    """Return a mask (n, m) of the cells with another number than one of their eight neighbours."""
+    """Return a mask (n, m) of the cells whose number differs from that of a neighbour, of eight."""
     from scipy import ndimage
 
     return np.asarray(ndimage.maximum_filter(cells, 3) != ndimage.minimum_filter(cells, 3))

@@ -209,7 +209,7 @@ class Attractors:
 
     @property
     def largest(self) -> Contraction | None:
-        """The largest mean divergence about a recurrent set; None without one."""
+        """The largest mean divergence about a recurrent set; None without a recurrent set."""
         return max(self.contractions, key=lambda one: one.mean, default=None)
 
 

@@ -578,7 +578,7 @@ def _first_of(
 
 
 def _breaks_a_symmetry(map_: Map, points: Array, point: _Point) -> bool:
-    """Return True if the orbit has a symmetry that those of the other branch do not have."""
+    """Return True if the orbit has a symmetry that the orbits of the other branch lack."""
     own = set(map_.symmetries_of(points, 1e-7))
     if not own:
         return False

@@ -378,7 +378,7 @@ class Cascade(Result):
 
     @property
     def ratios(self) -> Array:
-        """Ratios (λ_k − λ_(k−1))/(λ_(k+1) − λ_k), shape (k − 2,); near 4.6692 for maps like one of a line."""
+        """Ratios (λ_k − λ_(k−1))/(λ_(k+1) − λ_k), shape (k − 2,); near 4.6692 for maps close to a map of a line."""
         steps = np.diff(self.values)
         return np.asarray(steps[:-1] / steps[1:])
 
@@ -390,7 +390,7 @@ class Cascade(Result):
 
     @property
     def limit(self) -> float:
-        """Accumulation point if all further ratios equal the last one; NaN for fewer than three doublings."""
+        """Accumulation point if all further ratios equal the last ratio; NaN for fewer than three doublings."""
         if len(self.values) < 3:
             return math.nan
         return float(self.values[-1] + (self.values[-1] - self.values[-2]) / (self.ratios[-1] - 1.0))
@@ -499,7 +499,7 @@ def cascade(
 
 
 def _doubled(family: Callable[[float], Map], flip: Bifurcation, step: float) -> tuple[float, PeriodicOrbit] | None:
-    """Return the orbit of twice the period beyond a flip, and the parameter; a stable orbit if there is one."""
+    """Return the orbit of twice the period beyond a flip, if possible a stable orbit, and the parameter."""
     twice = np.concatenate([flip.points, flip.points])
     away = np.linalg.svd(shoot(family(flip.value), twice).jacobian)[2][-1].reshape(twice.shape)
     away /= np.abs(away).max()

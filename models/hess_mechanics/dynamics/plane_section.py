@@ -387,7 +387,7 @@ class _Search:
         )
 
     def _apart(self, one: tuple[Array, Array], other: tuple[Array, Array]) -> float:
-        """Return the difference of the states at the crossings of two runs, ∞ if these are not the same crossings."""
+        """Return the difference of the states at the crossings of two runs, ∞ if the crossings do not correspond."""
         (times, states), (other_times, others) = one, other
         both = min(len(states), len(others))
         off = float(np.abs(times[:both] - other_times[:both]).max(initial=0.0))

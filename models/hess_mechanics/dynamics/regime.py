@@ -437,7 +437,7 @@ def _reversor(map_: ReturnMap, points: Array) -> str:
 
 
 def _has_a_curve(map_: ReturnMap, point: Array, duration: float) -> bool:
-    """True if one more exponent is 0 than the integrals and the direction of motion require.
+    """True if more exponents vanish, by one, than the integrals and the direction of motion require.
 
     An attracting invariant curve has such an exponent; an attracting periodic orbit, however long, does not.
     """
@@ -483,7 +483,7 @@ class Dynamics(Result):
 
     @property
     def overlap(self) -> float:
-        """Fraction of the points of one set that lie at the other, the mean over the settled orbits."""
+        """Mean fraction of the points of one set that are close to the other set, over the settled orbits."""
         return float(np.mean([one.overlap for one in self.settled_comparisons]))
 
     @property

@@ -44,7 +44,7 @@ class Visits:
     drift: Mapping[str, float]
 
     def combine(self, before: Visits) -> Visits:
-        """Return these visits added to earlier ones of the same orbits.
+        """Add these visits to earlier visits of the same orbits.
 
         Parameters
         ----------

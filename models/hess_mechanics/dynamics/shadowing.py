@@ -57,7 +57,7 @@ def errors_in_pixels(
 
 
 def has_diverged(away: Array) -> bool:
-    """Return True if chaos has made a computed orbit a different one.
+    """Return True if a computed orbit has separated from the true orbit because of chaos.
 
     Parameters
     ----------

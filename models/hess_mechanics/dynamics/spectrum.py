@@ -152,7 +152,7 @@ class Spectrum(Result):
 
     @property
     def zeros(self) -> int:
-        """Number of zero exponents: one per integral, and one for the direction of motion unless it is at rest."""
+        """Number of zero exponents: one per integral, and one for the direction of motion of a moving state."""
         return self.signs.count("0")
 
     @cached_property

@@ -45,7 +45,7 @@ class LevelCost:
 
     @property
     def is_measured(self) -> bool:
-        """True if there is an error."""
+        """True if an error was measured."""
         return not math.isnan(self.error)
 
 

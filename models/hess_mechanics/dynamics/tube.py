@@ -194,7 +194,7 @@ class ProvedOrbit(Result):
 
     @property
     def valid_until(self) -> float:
-        """Last time up to which every state is right; 0 if the first one is not."""
+        """Last time up to which every state is correct; 0 if the first state is not."""
         last = 0.0
         for t, sample in zip(self.tube.times.tolist(), self._errors, strict=True):
             if max(most for _, most in sample) > Fraction(self.threshold):
@@ -289,7 +289,7 @@ def tube(
 
 
 def _more_bits(walk: _Walk, digits: int, length: float, left: float) -> int:
-    """Return the bits that the rest of the time needs at a walk's rate of loss, or that the work left affords."""
+    """Return the bits needed for the remaining time at a walk's rate of loss, or affordable with the remaining work."""
     gone = float(abs(walk.t))
     if walk.reached_work_limit or gone == 0.0 or walk.bits >= _MOST_BITS:
         return 0
@@ -422,7 +422,7 @@ class _Walk:
         self.steps += 1
 
     def _step(self, sign: int, left: float, most_work: float) -> _Step | None:
-        """Return the next step, at most over the time that is left; None if there is none, or no work left for it."""
+        """Return the next step, at most over the remaining time; None if it fails or exceeds the remaining work."""
         from flint import arb_poly
 
         series = [

@@ -188,7 +188,7 @@ class VariableSection(PoincareSection):
         return states.T.copy(), there
 
     def _solve(self, y: Array, unknown: list[int]) -> Mask:
-        """Move the unknown variables of y (d, n) to the values of the integrals; return a mask of those that are."""
+        """Solve the integrals for the unknown variables of y (d, n); return a mask of the solved states."""
         if not unknown:
             return np.ones(y.shape[1], bool)
         last = np.full((len(unknown), y.shape[1]), np.inf)

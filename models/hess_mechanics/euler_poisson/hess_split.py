@@ -213,7 +213,7 @@ def split_at(torus: HessTorus, away: float, accuracy: Accuracy) -> Split:
 
 
 def _towards(map_: ReturnMap, points: Array, l: float, stable: bool) -> Manifold:
-    """Return the branch along the Hess manifold, from the saddle next to these points to l and beyond."""
+    """Return the branch along the Hess manifold, from the saddle near these points to beyond the angle l."""
     orbit = find_periodic(map_, points if len(points) > 1 else points[0], None if len(points) > 1 else 1, near=True)
     if (
         not orbit.kind.startswith("saddle")

@@ -116,7 +116,7 @@ class Level:
         return abs(limit) * (_OTHER_STEP if self.is_perturbed else 1.0)
 
     def tighter(self) -> Level:
-        """Return the same level with a hundredth of the tolerance, to measure the error of this one.
+        """Return the same level with a hundredth of the tolerance, to measure the error of this level.
 
         The order differs too, so that a motion that fits into one step is not compared with itself; and so does the
         start, so that the two runs do not make the same roundings.
@@ -135,7 +135,7 @@ class Level:
         return Level(self.name, self.promise, tolerance, order, not self.is_perturbed)
 
     def variant(self) -> Level:
-        """Return a level as accurate as this one, whose runs make other roundings.
+        """Return an equally accurate level whose runs round differently.
 
         Returns
         -------
@@ -209,7 +209,7 @@ def cheapest(error: float) -> Level:
 
 
 class Kind(StrEnum):
-    """Kinds of computation; each one has its own meaning of the levels, see `MEANINGS`."""
+    """Kinds of computation; each kind has its own meaning of the levels, see `MEANINGS`."""
 
     ORBIT = "orbit"
     SECTION = "section"
@@ -408,7 +408,7 @@ def plan(kind: Kind, accuracy: Accuracy) -> Plan:
 
 
 def levels_table() -> tuple[tuple[str, ...], ...]:
-    """Return the table of what each level promises and computes, a row for each kind of computation.
+    """Return the table of the promises and settings of the levels, with a row for each kind of computation.
 
     Returns
     -------
@@ -428,7 +428,7 @@ def levels_table() -> tuple[tuple[str, ...], ...]:
 
 
 def _cells(kind: Kind) -> Iterator[str]:
-    """Yield what each level means for a kind."""
+    """Yield the meaning of each level for a kind."""
     meaning = MEANINGS[kind]
     shown: dict[tuple[float, float, float], str] = {}
     for each in PLANS[kind].values():

@@ -12,7 +12,7 @@ __all__ = ["write_atomically"]
 
 
 def write_atomically(path: str | Path, content: bytes, modified: float | None = None) -> None:
-    """Write a file at once: an earlier one stays as it is until the new one is complete.
+    """Write a file atomically: an earlier version stays unchanged until the new version is complete.
 
     Parameters
     ----------

@@ -249,7 +249,7 @@ def kernel(function: Callable[..., Any]) -> Callable[..., Any]:
 
 
 def with_compile_notice(function: Callable[..., Any], name: str, seconds: float) -> Callable[..., Any]:
-    """Return a kernel whose compilation, expected to take so many seconds, is announced if that is long.
+    """Return a kernel that announces its compilation if that is expected to take long.
 
     A long compilation ends between two passes of the compiler if the request is cancelled.
     """
@@ -262,7 +262,7 @@ def with_compile_notice(function: Callable[..., Any], name: str, seconds: float)
 
 
 class _LongCompilations(event.Listener):  # type: ignore[misc]  # numba has no types
-    """Logs the beginning of a long compilation, and asks between its passes whether to go on."""
+    """Logs the beginning of a long compilation, and checks for a cancellation between its passes."""
 
     def __init__(self) -> None:
         self.of = threading.local()
@@ -284,7 +284,7 @@ class _LongCompilations(event.Listener):  # type: ignore[misc]  # numba has no t
 
 
 def _announcement(event: Any) -> str:
-    """Return the announcement of the kernel whose compilation an event begins or ends; empty if there is none."""
+    """Return the announcement of the kernel that an event of Numba is about; empty for other events."""
     return str(getattr(event.data["dispatcher"].py_func, "announcement", "")) if event.kind == "numba:compile" else ""
 
 

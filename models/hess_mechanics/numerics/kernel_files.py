@@ -33,7 +33,7 @@ class KernelFiles(FunctionCache):  # type: ignore[misc]  # numba has no types
 
     @property
     def _lock(self) -> FileLock:
-        """The lock of the kernel in this process: one made before a fork may not be used after it."""
+        """The lock of the kernel in this process, because a lock from before a fork must not be used afterwards."""
         process = os.getpid()
         if process not in self._locks:
             self._locks[process] = FileLock(self._path, timeout=PATIENCE)

@@ -78,7 +78,7 @@ class ShortRepr:
 
 
 def _printed(result: Any, facts: Mapping[str, Any], arrays: Sequence[str]) -> str:
-    """Return the type of a result with its facts, and a line for each of its arrays, as many as there is room for."""
+    """Return the type of a result with its facts, and a line for each array, up to the maximum number of lines."""
     words = ", ".join(f"{name} {_short(value)}" for name, value in facts.items() if str(value))
     lines = wrap(f"{type(result).__name__}: {words}", 100, max_lines=4, placeholder=" …")
     room = _LINES - len(lines)

@@ -165,7 +165,7 @@ def tanh(a):
 
 @without_fma
 def atan2(y, x):
-    """Return the angle of (x, y): the double, and the angle that is left after a rotation back by it."""
+    """Return the angle of (x, y) as a double, and the remaining angle after a rotation back by this double."""
     first = complex(math.atan2(y.real, x.real), 0.0)
     s, c = _sine_cosine(first)
     along, across = add(multiply(x, c), multiply(y, s)), subtract(multiply(y, c), multiply(x, s))

@@ -181,7 +181,7 @@ class Series:
         return levels
 
     def recursion(self, rates: Sequence[Node], parameters: int, watched: tuple[str, ...] = ()) -> Recursion:
-        """Return the recursion of a field with these rates, of which the last ones are `watched`."""
+        """Return the recursion of a field with these rates, of which the last are the `monitors`."""
         forms = [self.lower(rate) for rate in rates]
         # Keep only the series that the rates need: an unused intermediate result costs nothing.
         used = self._used(forms)

@@ -1,5 +1,5 @@
 # mypy: allow-untyped-defs
-"""Length of a Taylor step, from the last terms of the series; checked where these may miss a change ahead.
+"""Length of a Taylor step, from the last terms of the series; checked where these terms may miss a change ahead.
 
 Not for users.  The last terms of a series bound its error only if the terms after them fall as well.  They need not:
 the series of τ⁴⁰ at 0 ends before it begins, tanh(x) rounds to 1 and stays constant whatever x does later, x/√(x²) is 1
@@ -167,7 +167,7 @@ def _within(seen, i, h, allowed):
 
 @inner
 def _zero_ahead(seen, i, direction):
-    """Return the distance of the next zero of a watched divisor; ∞ if there is none that Newton's method finds."""
+    """Return the distance of the next zero of a divisor; ∞ if Newton's method finds none."""
     s = 0.0
     for _ in range(5):
         value = 0.0

@@ -80,7 +80,7 @@ def variation(field: Field, variables: int, parameters: int) -> Variation:
 
 
 def _lanes(columns: int) -> int:
-    """Return the length of a row of V, padded to a multiple of four unless it is one."""
+    """Return the length of a row of V, padded to a multiple of four unless the length is 1."""
     return 1 if columns == 1 else columns + -columns % 4
 
 

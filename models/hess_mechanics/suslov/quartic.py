@@ -121,7 +121,7 @@ class QuarticBody(PlaneProblem):
         return math.sqrt(size * self.I22) / abs(self.b3), math.sqrt(size * self.I11) / abs(self.b3)
 
     def _size(self, height: Array | float) -> Array:
-        """Return the size of the ellipse on which γ3 has a given value, in units of `axes`; 0 if there is none."""
+        """Return the size of the ellipse on which γ3 has a given value, in units of `axes`; 0 if it does not exist."""
         size = abs(self.b3)
         return np.sqrt(np.maximum(0.0, self.E - self.b3 * np.asarray(height)) / (self.E + size))
 

@@ -336,7 +336,7 @@ def _difference(m: Array, n: Array) -> float:
 
 
 def _weight(m: Array) -> float:
-    """Return the factor from an error of Re α e^{−L} to one of the trace, which is relative if the trace exceeds 1."""
+    """Return the factor from an error of Re α e^{−L} to an error of the trace, relative if the trace exceeds 1."""
     scale = math.exp(min(m[3], 700.0))
     return scale / max(1.0, 2 * abs(float(m[0])) * scale)
 

@@ -197,7 +197,7 @@ CELLS = (100, 75)
 
 
 def affordable_cells(a: float, cells: tuple[int, int]) -> tuple[int, int]:
-    """Return fewer cells if a large |a| makes each one expensive, but at least 8 × 8.
+    """Return fewer cells if a large |a| makes each cell expensive, but at least 8 × 8.
 
     Parameters
     ----------

@@ -447,7 +447,7 @@ def _step(
 
 
 def _verdict(A: ArbBall, B: ArbBall, C: ArbBall, D: ArbBall) -> tuple[str, Enclosure]:
-    """Return the statement and t: both forms enclose t, and the one with the smaller product does so more closely."""
+    """Return the statement and t, from the tighter of two forms that enclose t."""
     small, large = enclosure(B * C), enclosure(A * D)
     t = Enclosure(2 + 4 * max(small.low, large.low - 1), 2 + 4 * min(small.high, large.high - 1))
     if t.low > 2 or t.high < -2:
@@ -458,7 +458,7 @@ def _verdict(A: ArbBall, B: ArbBall, C: ArbBall, D: ArbBall) -> tuple[str, Enclo
 def _cycles(
     t: Enclosure, A: ArbBall, B: ArbBall, C: ArbBall, D: ArbBall
 ) -> tuple[tuple[Enclosure, ...], tuple[Enclosure, ...]] | None:
-    """Return φ and the multipliers of the stable and of the unstable cycle; None if these balls do not decide."""
+    """Return φ and the multipliers of the stable and of the unstable cycle; None if the balls are too wide."""
     phi = 2 * (A * C / (B * D)).sqrt().atan()
     multiplier = (abs(A * D).sqrt() + abs(B * C).sqrt()) ** -4
     if not (phi.is_finite() and multiplier.is_finite() and multiplier > 0):
@@ -473,7 +473,7 @@ def _cycles(
 def _rotation(
     statement: str, t: Enclosure, A: ArbBall, B: ArbBall, C: ArbBall, D: ArbBall, theta: ArbBall
 ) -> Enclosure | None:
-    """Return ρ; None if these balls do not decide."""
+    """Return ρ; None if the balls are too wide."""
     from flint import arb
 
     quadrants = enclosure(2 * theta / arb.pi()) if theta.is_finite() else None

@@ -127,7 +127,7 @@ class Torus:
 
 @dataclass(frozen=True)
 class ParameterLine:
-    """Tori on a line in the space of parameters: one of them varies.
+    """Tori on a line in the space of parameters, along which one parameter varies.
 
     Parameters
     ----------

@@ -55,7 +55,7 @@ class Part(Generic[H_co]):
         return self.host.work
 
     def has_result(self, name: str) -> bool:
-        """Return whether a visible picture has computed this cached property; texts compute nothing."""
+        """Return whether a visible picture has computed this cached property, because texts start no computation."""
         return name in vars(self)
 
     def corrections(self, notes: list[str]) -> Values:

@@ -61,7 +61,7 @@ class NotFound:
 
 
 class Periodic(Protocol):
-    """The periodic orbit shown in place of the chosen one."""
+    """The periodic orbit shown in place of the chosen orbit."""
 
     @property
     def closed_orbit(self) -> ClosedOrbit | None:

@@ -128,7 +128,7 @@ class State:
 
     @property
     def level(self) -> Level:
-        """The level of accuracy; during a drag the cheapest one with an error below half a pixel."""
+        """The level of accuracy; during a drag the cheapest level with an error below half a pixel."""
         return self.work.level
 
     @property
@@ -198,7 +198,7 @@ class State:
         }
 
     def motion(self) -> Motion | None:
-        """Return the current motion, for "Speed and accuracy"; None without one.  Raises `ModelError`."""
+        """Return the current motion, for "Speed and accuracy"; None without a motion.  Raises `ModelError`."""
         return None
 
     def quantities(self) -> Iterable[str]:
@@ -479,7 +479,7 @@ class Scene(Generic[S]):
         )
 
     def _settle(self, state: S) -> None:
-        """Set the level of "auto" to the cheapest one whose error is invisible in all visible pictures."""
+        """Set the level of "auto" to the cheapest level with an invisible error in all visible pictures."""
         if not state.work.auto or state.is_preview:
             return
         found = [
@@ -492,7 +492,7 @@ class Scene(Generic[S]):
 
 
 def _or_nothing(compute: Callable[[], Mapping[str, T]]) -> Mapping[str, T]:
-    """Return the mapping, or an empty one if it raises `ModelError`."""
+    """Return the mapping; empty if its computation raises `ModelError`."""
     try:
         return compute()
     except ModelError:

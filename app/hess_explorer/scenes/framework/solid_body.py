@@ -75,7 +75,7 @@ class Solid:
         return attitude_along(self.times, omega, self.gamma)
 
     def in_space(self, held: bool = False) -> tuple[Attitude, Array] | None:
-        """Return attitude and times, every second sample if a slider is held; None if nothing is drawn."""
+        """Return attitude and times, with every second sample during a drag; None if nothing is drawn."""
         if not self.is_drawn or self.attitude.defect > _LARGEST_DEFECT:
             return None
         found = self.attitude.thin() if held else self.attitude

@@ -19,7 +19,7 @@ S = TypeVar("S", bound=State)
 
 
 class Stage(Generic[S]):
-    """The pictures of any scene in one session; sends the changed columns of pictures in sight."""
+    """The pictures of a scene in one session; sends the changed columns of visible pictures."""
 
     def __init__(self, scene: Scene[S], wire: Wire) -> None:
         self.scene, self.wire = scene, wire

@@ -87,7 +87,7 @@ class Refusal:
 
 
 def bare_state(state: S) -> S:
-    """Return the state without its accuracy and pictures in sight, as a cache key."""
+    """Return the state without its accuracy and visible pictures, as a cache key."""
     typed: Any = state
     accuracy = {"accuracy": STANDARD.name} if hasattr(state, "accuracy") else {}
     found: S = replace(typed, **accuracy, work=Work(), visible=frozenset(), sources={})

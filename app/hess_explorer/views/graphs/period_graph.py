@@ -22,7 +22,7 @@ def has_periods(periods: Array) -> bool:
 
 
 def period_axis(periods: Array, here: float = 0.0) -> Range:
-    """Return an axis that contains most finite periods and the current one, if it is finite."""
+    """Return an axis that contains most finite periods and the current period, if that is finite."""
     finite = periods[np.isfinite(periods[:, 1]), 1]
     if not finite.size:
         return 0.0, 20.0

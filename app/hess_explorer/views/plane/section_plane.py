@@ -1,4 +1,4 @@
-"""A Poincaré section: points of many orbits, the chosen one on top."""
+"""A Poincaré section: points of many orbits, with the chosen orbit on top."""
 
 from __future__ import annotations
 

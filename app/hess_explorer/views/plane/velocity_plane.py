@@ -152,7 +152,7 @@ def ring_outside(inner: Array, outer: Array, half_width: float) -> Regions:
 
 
 def label_points(inner: Array, outer: Array, half_width: float) -> Array:
-    """Return points (2, 2) for two labels: inside a point (2,) of the inner curve, outside one of the outer curve."""
+    """Return points (2, 2) for two labels: just inside the inner curve and just outside the outer curve."""
     gap = 0.09 * half_width
     lengths = np.linalg.norm([inner, outer], axis=1)
     return np.array([inner * (1.0 - min(1.0, gap / lengths[0])), outer * (1.0 + gap / lengths[1])])

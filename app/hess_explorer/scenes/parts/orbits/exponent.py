@@ -54,7 +54,7 @@ class OrbitExponent(Part[_Host]):
 
     @property
     def growth(self) -> tuple[float, float] | None:
-        """Growth rate ln|μ₁|/T and mean divergence ln|μ₁μ₂|/T of the periodic orbit; None without one."""
+        """Growth rate ln|μ₁|/T and mean divergence ln|μ₁μ₂|/T of the periodic orbit; None without a periodic orbit."""
         return self.host.periodic_orbit.growth
 
     @property

@@ -110,7 +110,7 @@ class Precision:
         }
 
     def choose(self, x: float, y: float) -> Mapping[str, str]:
-        """Return the level whose point lies nearest to the error x."""
+        """Return the level with the error nearest to x."""
         if not x > 0.0:
             return {}
         return {"accuracy": min(self._taylor, key=lambda point: abs(math.log10(max(point.error, _FLOOR) / x))).setting}

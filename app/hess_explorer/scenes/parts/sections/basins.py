@@ -121,7 +121,7 @@ class SectionBasins(Part[_Host]):
 
     @cached_property
     def stage(self) -> int:
-        """The newest known stage; −1 before the first one."""
+        """The newest known stage; −1 before the first stage."""
         if self._what is None:
             return -1
         chains = [[Task(_piece, self._what, stage, i) for stage in range(_STAGES)] for i in range(_PARTS)]

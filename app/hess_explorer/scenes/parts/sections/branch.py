@@ -154,7 +154,7 @@ class SectionBranch(Continuation[_Section]):
 
     @property
     def orbit_points(self) -> Array | None:
-        """The points (2, m) of the periodic orbit in the picture; None without one."""
+        """The points (2, m) of the periodic orbit in the picture; None without a periodic orbit."""
         closed = self.orbit.closed_orbit
         return None if closed is None else np.array([(self.value, point[self.side]) for point in closed.orbit.points]).T
 

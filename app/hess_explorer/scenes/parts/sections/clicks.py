@@ -122,7 +122,7 @@ class Clicks(Part[_Host]):
 
     @cached_property
     def selection(self) -> _Chosen:
-        """The chosen starts with a motion; if the last one has none, another start replaces all of them.
+        """The chosen starts with a motion; if the last start has no motion, another start replaces them all.
 
         Raises `InvalidParameter` if no motion is possible in the window.
         """

@@ -176,7 +176,7 @@ class SectionPeriodicOrbit(Part[Section]):
 
     @property
     def growth(self) -> tuple[float, float] | None:
-        """Growth rate ln|μ₁|/T and mean divergence ln|μ₁μ₂|/T of the periodic orbit; None without one."""
+        """Growth rate ln|μ₁|/T and mean divergence ln|μ₁μ₂|/T of the periodic orbit; None without a periodic orbit."""
         if self.closed_orbit is None:
             return None
         sizes = np.abs(self.closed_orbit.orbit.multipliers)

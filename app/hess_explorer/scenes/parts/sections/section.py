@@ -96,7 +96,7 @@ class _Host(HasSection, Protocol):
 
     @property
     def periodic_orbit(self) -> Periodic:
-        """The periodic orbit in place of the chosen one."""
+        """The periodic orbit in place of the chosen orbit."""
 
 
 @dataclass(frozen=True)
@@ -192,7 +192,7 @@ class Section(Part[_Host]):
 
     @cached_property
     def start_point(self) -> Point | None:
-        """The point where the current orbit starts in the section or first crosses it; None without one."""
+        """The point of the current orbit's start in the section or of its first crossing; None without a crossing."""
         start = self.starts[-1]
         try:
             return _first_point(self.poincare, start, lambda: self.work.need(self.batch((start,))))
@@ -291,7 +291,7 @@ class Section(Part[_Host]):
 
     @cached_property
     def _right(self) -> tuple[int, int | None] | None:
-        """The last crossing right to half a pixel, of the current orbit, and the median of some others, if any.
+        """The number of crossings accurate to half a pixel, of the current orbit and in the median of some others.
 
         This compares with a second run at a hundredth of the tolerance; None until known, and during a drag.
         """
@@ -344,7 +344,7 @@ def section_caption(section: Section) -> Caption:
 
 
 def _first_point(section: PoincareSection, state: Start, crossed: Callable[[], OrbitBatch]) -> Point | None:
-    """Return the point of a state in the section, or of its first crossing; None without one."""
+    """Return the point of a state in the section, or of its first crossing; None without a crossing."""
     start = np.array([state])
     point = section.points_of(start)
     states, there = section.states_at(*point.T)

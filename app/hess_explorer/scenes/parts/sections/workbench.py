@@ -114,7 +114,7 @@ class SectionState(State, ABC):
 
 @dataclass(frozen=True)
 class FilledState(SectionState):
-    """A state with a section whose window is filled with orbits; clicks start further ones."""
+    """A state with a section whose window is filled with orbits; clicks start further orbits."""
 
     orbits: float = orbits_spread(40.0, 120.0, 300.0)
     count: float = points_of_each(200.0)
