@@ -71,7 +71,7 @@ def nothing_later(monkeypatch):
 
     Disable proofs as well: a state that waits for its proof looks up all its results in the cache again.
     """
-    monkeypatch.setattr(POOL, "fill", lambda task: None)
+    monkeypatch.setattr(POOL, "add_task", lambda task: None)
     monkeypatch.setattr(suslov_hess, "has_flint", lambda: False)
 
 

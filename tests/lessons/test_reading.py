@@ -49,7 +49,7 @@ def test_a_lesson_is_read_as_it_is_written():
     assert first.animation == Animation("h", 0.2, 1.5, 8.0)
     assert first.state.values == SCENES["suslov-hess"].defaults() | {"h": 0.2, "f": 0.5}
     guess = first.prediction
-    assert (guess.source, guess.columns, guess.what) == ("circle-stable", ("phi", "theta"), "point")
+    assert (guess.source, guess.columns, guess.kind) == ("circle-stable", ("phi", "theta"), "point")
     assert guess.outcome.values == SCENES["suslov-hess"].defaults() | {"h": 1.5, "f": 0.6}
     # The control of what is animated is beside the text; another step may name others.
     assert first.controls == ("h",)

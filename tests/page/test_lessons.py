@@ -34,7 +34,7 @@ def here(explorer):
 def guess(explorer, prediction, press):
     """Click or tap in the picture."""
     left, top, right, bottom = frame(explorer, prediction.picture)
-    shares = [(0.2, 0.7), (0.35, 0.4), (0.8, 0.4)] if prediction.what == "curve" else [(0.3, 0.4)]
+    shares = [(0.2, 0.7), (0.35, 0.4), (0.8, 0.4)] if prediction.kind == "curve" else [(0.3, 0.4)]
     for x, y in shares:
         press(left + x * (right - left), top + y * (bottom - top))
 

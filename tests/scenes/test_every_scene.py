@@ -737,7 +737,7 @@ def test_what_is_computed_behind_an_answer_begins_when_that_is_made(monkeypatch)
 @pytest.mark.parametrize(
     "where, opening",
     [
-        *((where, True) for where in ("limits", "compute", "idle")),
+        *((where, True) for where in ("limits", "compute", "idle_values")),
         *((where, False) for where in ("admit", "adjustments", "limits", "compute")),
     ],
 )

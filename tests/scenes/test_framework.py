@@ -7,7 +7,7 @@ from functools import cached_property
 import numpy as np
 import pytest
 
-from hess_explorer.protocol.specs import Controlled
+from hess_explorer.protocol.specs import ControlSpec
 from hess_explorer.scenes.framework.scene import Motion, Scene, State
 from hess_explorer.scenes.framework.sliders import accuracy_level, number, redeclare, specs_of
 from hess_explorer.scenes.speed_accuracy import speed_and_accuracy
@@ -112,7 +112,7 @@ def test_the_ring_of_the_suslov_hess_case_fills_its_frame(I22, I23, h):
 def test_a_cockpit_has_few_controls_outside_computation(name):
     """The choices of a chart show only with the chart."""
     scene = SCENES[name]
-    groups = [spec.group for spec in scene.specs if isinstance(spec, Controlled)]
+    groups = [spec.group for spec in scene.specs if isinstance(spec, ControlSpec)]
     assert sum(group in ("Body", "State") for group in groups) <= 12
     assert {*groups} <= {"Body", "State", "Computation", "Swarm", "Chart"}
     assert len(scene.essential) <= 5

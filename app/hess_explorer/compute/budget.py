@@ -34,7 +34,7 @@ class Budget:
     """CPU budget of the answering thread; helpers charge it through `spend`."""
 
     def __init__(self, cancellation: threading.Event, seconds: float, wait: float, what: str) -> None:
-        self.cancellation, self.seconds, self.wait, self.what = cancellation, seconds, wait, what
+        self.cancellation, self.seconds, self.wait, self.subject = cancellation, seconds, wait, what
         self._thread, self._began, self._compiled = threading.get_ident(), time.thread_time(), compile_seconds()
         self.deadline = time.monotonic() + wait
         self._elsewhere, self._lock = 0.0, threading.Lock()
@@ -89,7 +89,7 @@ def check() -> None:
         raise ClientGone
     if budget.cpu_seconds > budget.seconds:
         raise OverBudget(
-            f"{budget.what} takes more than {budget.seconds:g} s to compute, which is the limit: "
+            f"{budget.subject} takes more than {budget.seconds:g} s to compute, which is the limit: "
             "choose a shorter time span, fewer orbits or a lower accuracy."
         )
     if time.monotonic() > budget.deadline:

@@ -131,7 +131,7 @@ def evaluate(what: Computation, numbers: Sequence[str], columns: Mapping[str, Ar
     """
     count = next(iter(columns.values())).size
     with np.errstate(all="ignore"):
-        if what.many is not None and (many := _at_once(what, numbers, columns, level, count)) is not None:
+        if what.vectorized is not None and (many := _at_once(what, numbers, columns, level, count)) is not None:
             return many
         return _one_by_one(what, numbers, columns, level, count)
 
@@ -140,10 +140,10 @@ def _at_once(
     what: Computation, numbers: Sequence[str], columns: Mapping[str, Array], level: Level, count: int
 ) -> CellResults | None:
     """Evaluate all cells in one call; return None if a number has no such function, or if a cell fails."""
-    assert what.many is not None
+    assert what.vectorized is not None
     every = {one.name: np.full(count, one.default) for one in what.parameters} | dict(columns)
     try:
-        known, missing = what.many(level, **every)
+        known, missing = what.vectorized(level, **every)
     except ModelError:
         # The caller then computes the cells one by one, which shows where the error is.
         return None

@@ -73,7 +73,7 @@ class Prediction:
         Data source of the hidden layer in the browser.
     columns : tuple of str
         Names of its columns with positions (x, y) of points or curves.
-    what : str
+    kind : str
         "point" for one click, compared with the nearest point; "curve" for clicks along a curve.
     outcome : StateLink
         State in which the layer is shown.
@@ -82,7 +82,7 @@ class Prediction:
     picture: str
     source: str
     columns: tuple[str, str]
-    what: Literal["point", "curve"]
+    kind: Literal["point", "curve"]
     outcome: StateLink
 
 

@@ -19,7 +19,7 @@ from hess_explorer.lessons.lesson import (
     Prediction,
     StateLink,
 )
-from hess_explorer.protocol.specs import Controlled, Link, NumberSpec, refusal
+from hess_explorer.protocol.specs import ControlSpec, Link, NumberSpec, refusal
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Scene
 from hess_explorer.views.layers import Layer
@@ -124,7 +124,7 @@ def controls_of(value: object, animation: Animation | None, scene: Scene[Any], l
     """Return the names of the controls beside the text; by default that of the animated parameter."""
     if value is None:
         return (animation.name,) if animation and animation.name != TIME else ()
-    return _names_of(value, "controls", [spec.name for spec in scene.specs if isinstance(spec, Controlled)], line)
+    return _names_of(value, "controls", [spec.name for spec in scene.specs if isinstance(spec, ControlSpec)], line)
 
 
 def _names_of(value: object, key: str, allowed: Sequence[str], line: int) -> tuple[str, ...]:

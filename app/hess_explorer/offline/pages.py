@@ -99,10 +99,10 @@ def _drag_values(scene: Scene[Any]) -> Values:
     Sections and diagrams shaded by density take seconds at full accuracy, so their sliders move at the accuracy of a
     drag.
     """
-    return {"accuracy": DRAFT.name} if accumulates(scene) else {}
+    return {"accuracy": DRAFT.name} if has_density_shading(scene) else {}
 
 
-def accumulates(scene: Scene[Any]) -> bool:
+def has_density_shading(scene: Scene[Any]) -> bool:
     """Return whether the pictures of a scene are shaded by the density of very many points."""
     return isinstance(getattr(scene.state, "density", None), part)
 

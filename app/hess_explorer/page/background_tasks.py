@@ -61,7 +61,7 @@ class BackgroundTasks:
         return self._left == 0 if more else self._stopped
 
     @property
-    def has_news(self) -> bool:
+    def has_updates(self) -> bool:
         """True if a task has ended since the state was computed, or none is running or about to start."""
         return self._next is None and not 0 < self.background.backlog == self._left
 

@@ -15,7 +15,7 @@ from hess_explorer.lessons import suggestions
 from hess_explorer.lessons.reading import without_suggestions
 from hess_explorer.page.glossary import explainer
 from hess_explorer.page.lesson_description import steps
-from hess_explorer.protocol.specs import ChoiceSpec, Controlled, NumberSpec
+from hess_explorer.protocol.specs import ChoiceSpec, ControlSpec, NumberSpec
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Scene
 from hess_explorer.scenes.framework.swarm import SWARM
@@ -37,14 +37,14 @@ def describe(name: str) -> str:
             "title": scene.title,
             "pictures": [{**view.describe(), "folded": view.button or None} for view in scene.views],
             "controls": [
-                _control(spec) for spec in scene.specs if isinstance(spec, Controlled) and spec.group in groups
+                _control(spec) for spec in scene.specs if isinstance(spec, ControlSpec) and spec.group in groups
             ],
             "essential": list(scene.essential),
             "handle": _handle(scene),
             "moves": scene.moves,
             "lead": list(scene.lead or scene.open_pictures[:1]),
             "groups": groups,
-            "drawn": not all(isinstance(spec, Controlled) for spec in scene.specs),
+            "drawn": not all(isinstance(spec, ControlSpec) for spec in scene.specs),
             "presets": [preset.name for preset in scene.presets],
             "legend": scene.legend,
             "words": _html(scene),
@@ -84,7 +84,7 @@ def _html(scene: Scene[Any]) -> str:
     return html
 
 
-def _control(spec: Controlled) -> dict[str, Any]:
+def _control(spec: ControlSpec) -> dict[str, Any]:
     common = {"name": spec.name, "label": spec.label, "help": spec.doc, "group": spec.group}
     if isinstance(spec, NumberSpec):
         return {"kind": "number", "symbol": spec.symbol, "range": list(spec.softbounds), **common}

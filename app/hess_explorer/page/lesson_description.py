@@ -39,5 +39,11 @@ def _step(step: LessonStep, images: Mapping[str, str]) -> dict[str, Any]:
     if step.hidden_layer:
         found["hide"] = dataclasses.asdict(step.hidden_layer)
     if step.prediction:
-        found["prediction"] = {name: value for name, value in vars(step.prediction).items() if name != "then"}
+        asked = step.prediction
+        found["prediction"] = {
+            "picture": asked.picture,
+            "source": asked.source,
+            "columns": asked.columns,
+            "what": asked.kind,
+        }
     return found

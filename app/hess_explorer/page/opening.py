@@ -10,7 +10,7 @@ from urllib.parse import urlencode
 from hess_explorer.lessons import package_lessons
 from hess_explorer.lessons.lesson import Lesson
 from hess_explorer.page.requested import scene_and_values
-from hess_explorer.protocol.specs import CLIENT, ChoiceSpec, Controlled, Link, Names, NumberSpec, Values
+from hess_explorer.protocol.specs import CLIENT, ChoiceSpec, ControlSpec, Link, Names, NumberSpec, Values
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Scene
 
@@ -117,7 +117,7 @@ def opening(query: str, own: Sequence[Lesson] = (), *, lenient: bool = True) -> 
 
 def _embedding(scene: Scene[Any]) -> tuple[Names, Names]:
     """Return the parameters "pictures" and "controls" of an embedded page; "none" means no control."""
-    controls = tuple(spec.name for spec in scene.specs if isinstance(spec, Controlled))
+    controls = tuple(spec.name for spec in scene.specs if isinstance(spec, ControlSpec))
     return (
         Names("pictures", "Embedded pictures", scene.pictures, len(scene.pictures), ",".join(scene.open_pictures)),
         Names("controls", "Embedded controls", (*controls, "none"), len(controls), ",".join(scene.essential)),

@@ -241,7 +241,7 @@ class Session:
         )
         if self.is_new:
             self._draw()
-        elif self._tasks.progress is not None and self._tasks.has_news:
+        elif self._tasks.progress is not None and self._tasks.has_updates:
             self._draw(more=True)
 
     def _draw(self, more: bool = False) -> None:

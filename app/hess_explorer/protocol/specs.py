@@ -169,10 +169,10 @@ def points_of(text: Value) -> list[tuple[float, float]]:
     return [(float(x), float(y)) for x, y in pairs]
 
 
-Controlled = NumberSpec | ChoiceSpec | Formula
+ControlSpec = NumberSpec | ChoiceSpec | Formula
 """Parameters with a control."""
 
-Spec = Controlled | Points | Names
+Spec = ControlSpec | Points | Names
 
 CLIENT: tuple[NumberSpec, ...] = (
     NumberSpec("t", "t", "Time", 0.0, (0.0, 1000.0), 0.0, (0.0, 1e6)),

@@ -66,7 +66,7 @@ class RoomDrawing:
         self._progress: tuple[int, int] | None = None
 
     @property
-    def has_news(self) -> bool:
+    def has_updates(self) -> bool:
         """True if parts of the state have been computed since it was drawn."""
         return self._session is not None and self._session.background.backlog != self._left
 

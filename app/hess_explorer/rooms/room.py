@@ -118,7 +118,7 @@ class Room:
         if name is None or asked is None or show is None or show.revealed or guess.step != show.step:
             return
         if name in self._guesses or len(self._guesses) < MAX_FOLLOWERS:
-            self._guesses[name] = guess.points[-1:] if asked.what == "point" else guess.points
+            self._guesses[name] = guess.points[-1:] if asked.kind == "point" else guess.points
             self._news.set()
 
     def end(self, member: Member) -> None:
@@ -156,7 +156,7 @@ class Room:
         return self._is_over or now - self._made > LONGEST or (self._lead is None and now - self._left > GRACE)
 
     async def _draw(self) -> None:
-        if self._show is None or (self._is_drawn and not self._drawing.has_news):
+        if self._show is None or (self._is_drawn and not self._drawing.has_updates):
             return
         self._is_drawn = True
         frames = await self._drawing.draw(self._show)

@@ -321,7 +321,7 @@ class BothSides(State):
         if shown < self.span * (1.0 - 1e-9):
             yield f"The orbit is drawn up to t = {digits(shown)}: {MAX_RETURNS} returns."
         if self.peek("difference") and self.difference.error > hess_case.UNSURE:
-            yield hess_case.BY_THE_UNSTABLE_CYCLE
+            yield hess_case.NEAR_UNSTABLE_CYCLE
 
 
 SCENE = Scene(

@@ -314,7 +314,7 @@ def _crossings(
     other = [section.points_of(states)[~section.is_on(states)] for states in found.states]
     return replace(
         batch_of(section, found),
-        firsts=tuple(bool(sign > 0.0) for sign in signs),
+        first_kind=tuple(bool(sign > 0.0) for sign in signs),
         same_side=tuple(kept),
         other_sheets=as_read_only(concatenate(other)),
     )

@@ -12,7 +12,7 @@ import numpy as np
 from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.answers import Answer
 from hess_explorer.scenes.framework.charted import Charts, torus_charts
-from hess_explorer.scenes.framework.hess_case import BY_THE_UNSTABLE_CYCLE, PHI0, RIS, UNSURE, HeavyHess, reduced_motion
+from hess_explorer.scenes.framework.hess_case import NEAR_UNSTABLE_CYCLE, PHI0, RIS, UNSURE, HeavyHess, reduced_motion
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
 from hess_explorer.scenes.framework.sliders import Slider, accuracy_level, number, parameter
 from hess_explorer.scenes.framework.solid_body import Solid, body_picture, heavy_solid
@@ -247,7 +247,7 @@ class HessLeak(State):
         if not self.bridge.heavy.check.is_body:
             yield self.bridge.heavy.check.sentence
         if self.peek("exact") and self.exact.error_estimate > UNSURE:
-            yield BY_THE_UNSTABLE_CYCLE
+            yield NEAR_UNSTABLE_CYCLE
 
 
 SCENE = Scene(

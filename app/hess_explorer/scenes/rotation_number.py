@@ -13,12 +13,12 @@ import numpy as np
 from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.answers import Answer
 from hess_explorer.scenes.framework.charted import Charts, torus_charts
-from hess_explorer.scenes.framework.hess_case import LOOPS_MEET, map_or_none, possible_f
+from hess_explorer.scenes.framework.hess_case import CYCLES_MERGE, map_or_none, possible_f
 from hess_explorer.scenes.framework.part import part
 from hess_explorer.scenes.framework.scene import Preset, Scene, State
 from hess_explorer.scenes.framework.sliders import accuracy_level, choice, number, parameter
 from hess_explorer.scenes.framework.trial import COLOUR_UNIT, Trial, boundary_error, colour_error, curve_error
-from hess_explorer.scenes.framework.windows import tidy_window
+from hess_explorer.scenes.framework.windows import normalized_window
 from hess_explorer.scenes.parts.diagrams.rotation_map import BOUNDS, FULL, RotationMap, rotation_map, window_over
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import Axes
@@ -93,9 +93,9 @@ class RotationNumber(State):
         return replace(
             self,
             f=possible_f(self.h, self.f, notes),
-            part_hf=tidy_window(self.part_hf),
-            part_ha=tidy_window(self.part_ha),
-            part_fa=tidy_window(self.part_fa),
+            part_hf=normalized_window(self.part_hf),
+            part_ha=normalized_window(self.part_ha),
+            part_fa=normalized_window(self.part_fa),
         )
 
     @property
@@ -259,7 +259,7 @@ SCENE = Scene(
             "Locked: two loops exist, and the rotation number stays an integer.",
             lambda s: s.map is not None and s.map.kind == "hyperbolic",
         ),
-        LOOPS_MEET,
+        CYCLES_MERGE,
         Answer("Not locked: the body winds on, and its rotation number changes smoothly."),
     ),
     title="Rotation number",

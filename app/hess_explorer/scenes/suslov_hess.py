@@ -330,7 +330,7 @@ SCENE = Scene(
             "Two loops: every start ends on the green one, except the dashed loop itself.",
             lambda s: s.kind == "hyperbolic",
         ),
-        hess_case.LOOPS_MEET,
+        hess_case.CYCLES_MERGE,
         Answer("No loop attracts: every orbit winds around the torus forever."),
     ),
     lead=("bifurcation", "omega", "sphere", "circle"),

@@ -146,7 +146,7 @@ class Layer(Generic[S]):
 Layers = tuple[Layer[S], ...]
 Data = Callable[[S], Any] | None
 """The data of a layer as a function of the state."""
-Within = Callable[[S, Axes], Any] | None
+AxesData = Callable[[S, Axes], Any] | None
 """The data of a layer as a function of the state and the axes."""
 
 
@@ -208,7 +208,7 @@ def _layer(
     layer: Layer[S],
     convert: Callable[[Any], Columns],
     data: Data[S],
-    data_in_axes: Within[S] = None,
+    data_in_axes: AxesData[S] = None,
 ) -> Layer[S]:
     """Return the layer with its data converted to columns."""
     return replace(
@@ -243,7 +243,7 @@ def line(
     tag: str = "",
     columns: tuple[str, str] = ("x", "y"),
     track: str | None = None,
-    data_in_axes: Within[S] = None,
+    data_in_axes: AxesData[S] = None,
 ) -> Layer[S]:
     """Return a layer with one curve: `data(state)` returns (x, y) or None; or it draws columns of a track."""
     layer: Layer[S] = Layer(name, "line", columns, track=track, tag=tag)
@@ -263,7 +263,7 @@ def curves(
     label: str = "",
     tag: str = "",
     is_overlay: bool = True,
-    data_in_axes: Within[S] = None,
+    data_in_axes: AxesData[S] = None,
 ) -> Layer[S]:
     """Return a layer of curves; `data(state)` returns arrays (n, 2), or None."""
     layer: Layer[S] = Layer(name, "multi_line", ("xs", "ys"), is_overlay=is_overlay, tag=tag)
@@ -279,7 +279,7 @@ def region(
     label: str = "",
     tag: str = "",
     is_overlay: bool = False,
-    data_in_axes: Within[S] = None,
+    data_in_axes: AxesData[S] = None,
 ) -> Layer[S]:
     """Return a layer of filled regions, each with an outer closed curve (n, 2) and the curves of its holes."""
     layer: Layer[S] = Layer(
@@ -308,7 +308,7 @@ def points(
     label: str = "",
     tag: str = "",
     columns: tuple[str, ...] = ("x", "y"),
-    data_in_axes: Within[S] = None,
+    data_in_axes: AxesData[S] = None,
 ) -> Layer[S]:
     """Return a layer of markers; `data(state)` returns (x, y), (x, y, angle) or None."""
     small = size < 10 and not hollow
@@ -386,7 +386,7 @@ def ring(
     label: str = "",
     tag: str = "",
     columns: tuple[str, str] = ("x", "y"),
-    data_in_axes: Within[S] = None,
+    data_in_axes: AxesData[S] = None,
 ) -> Layer[S]:
     """Return a layer of rings at points; `data(state)` returns [(x, y), …]."""
     layer: Layer[S] = points(
@@ -494,7 +494,7 @@ def names(
     size: int = 16,
     above: int = 0,
     on_paper: bool = False,
-    data_in_axes: Within[S] = None,
+    data_in_axes: AxesData[S] = None,
 ) -> Layer[S]:
     """Return a layer of words at or `above` places; `data(state)` returns [(x, y, word), …]."""
     paper = _PAPER if on_paper else {}

@@ -20,7 +20,17 @@ from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.results import Array, Mask
 from hess_mechanics.parameters import Parameter
 
-__all__ = ["Choice", "Computation", "Many", "NoValue", "Number", "Scalar", "declare", "largest_difference", "real"]
+__all__ = [
+    "Choice",
+    "Computation",
+    "NoValue",
+    "Number",
+    "Scalar",
+    "VectorizedResult",
+    "declare",
+    "largest_difference",
+    "real",
+]
 
 Value = float | str
 
@@ -183,7 +193,7 @@ class Scalar(Result):
         return Labels({}, {}, facts={"value": self.value}) if self.of is None else self.of.labels()
 
 
-Many = tuple[Mapping[str, Array], Mapping[type[ModelError], Mask]]
+VectorizedResult = tuple[Mapping[str, Array], Mapping[type[ModelError], Mask]]
 """Numbers of many cells by name, NaN where there is none, and the cells without one by the type of their error."""
 
 
@@ -223,7 +233,7 @@ class Computation:
         Label of the equation in the paper, or a citation.
     group : {"compute", "prove"}, default "compute"
         Heading of its command.
-    many : callable, optional
+    vectorized : callable, optional
         Function many(accuracy, **columns) that computes some of the numbers for many cells at once.
     """
 
@@ -241,7 +251,7 @@ class Computation:
     system: str = ""
     source: str = ""
     group: Literal["compute", "prove"] = "compute"
-    many: Callable[..., Many] | None = None
+    vectorized: Callable[..., VectorizedResult] | None = None
 
     @property
     def key(self) -> str:

@@ -9,7 +9,7 @@ from functools import lru_cache
 import numpy as np
 
 from hess_mechanics import parameters as known
-from hess_mechanics.catalogue.declared import Computation, Many, NoValue, Number, Scalar, real
+from hess_mechanics.catalogue.declared import Computation, NoValue, Number, Scalar, VectorizedResult, real
 from hess_mechanics.chaplygin_ball.ball_scattering import ball_scattering
 from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.chaplygin_ball.integrable_cases import period
@@ -42,7 +42,7 @@ def _circle_map(accuracy: Level, a: float, h: float, f: float, phi: float) -> Sc
     return Scalar(float(theta.theta([phi])[0]), theta.error_estimate, theta)
 
 
-def _tori(accuracy: Level, a: Array, h: Array, f: Array, phi: Array) -> Many:
+def _tori(accuracy: Level, a: Array, h: Array, f: Array, phi: Array) -> VectorizedResult:
     tori = values_at(a, h, f, accuracy)
     # (h, f) = (1, 0) is the separatrix; all other impossible tori lie outside the region.
     separatrix = ~tori.possible & (np.hypot(h - 1.0, f) < 1e-6)
@@ -155,7 +155,7 @@ COMPUTATIONS: tuple[Computation, ...] = (
         unit="rad",
         example={"a": 0.5, "h": 1.5, "f": 0.6},
         source="eq0003",
-        many=_tori,
+        vectorized=_tori,
     ),
     Computation(
         "critical-a",

@@ -111,7 +111,7 @@ class Coefficients:
         Degree in ω, odd, 1 to 15.
     a, b, c : tuple of Fraction, length (k + 1)/2
         Coefficients of V1, V2 and V3, see the module.
-    rest : Fraction
+    remainder : Fraction
         The coefficient a_n, n = (k + 1)/2; it is 0 if F2 is conserved.
     """
 
@@ -119,7 +119,7 @@ class Coefficients:
     a: tuple[Fraction, ...]
     b: tuple[Fraction, ...]
     c: tuple[Fraction, ...]
-    rest: Fraction
+    remainder: Fraction
 
 
 @lru_cache(maxsize=64)

@@ -412,9 +412,9 @@ class PlaneMotion:
         Period 2(t2 − t1), from two successive crossings of the equator; None if there are fewer.
     closure_error : float
         Distance from the start after one period; ∞ without a period.
-    fixed : bool
+    is_fixed_point : bool
         True if the state is an equilibrium.
-    one_sided : bool
+    is_one_sided : bool
         True if the energy prevents the motion from reaching the equator.
     integral : float
         Range of F2 of a quadratic potential along the motion, relative to its largest value; ≥ 0.
@@ -424,8 +424,8 @@ class PlaneMotion:
     energy: float
     period: float | None
     closure_error: float
-    fixed: bool
-    one_sided: bool
+    is_fixed_point: bool
+    is_one_sided: bool
     integral: float
 
 

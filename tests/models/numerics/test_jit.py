@@ -129,14 +129,14 @@ def test_a_folder_that_others_may_write_to_is_not_used(nowhere, mode):
 
 
 def test_a_folder_of_somebody_else_or_a_link_to_one_is_not_used(nowhere, tmp_path, monkeypatch):
-    theirs, other_sheets = nowhere / "hess-explorer-0", tmp_path / "elsewhere"
+    theirs, elsewhere = nowhere / "hess-explorer-0", tmp_path / "elsewhere"
     theirs.mkdir(mode=0o700)
     assert jit._cache_folder() == theirs
-    theirs.rename(other_sheets)
-    theirs.symlink_to(other_sheets)
+    theirs.rename(elsewhere)
+    theirs.symlink_to(elsewhere)
     assert jit._cache_folder() != theirs
     theirs.unlink()
-    other_sheets.rename(theirs)
+    elsewhere.rename(theirs)
     own = os.getuid()
     monkeypatch.setattr(os, "getuid", lambda: own + 1)
     assert jit._cache_folder() != theirs

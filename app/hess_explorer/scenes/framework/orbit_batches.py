@@ -24,7 +24,7 @@ class OrbitBatch:
     ----------
     orbits : tuple of array (n, 2)
         Points of each orbit, in order of time.
-    firsts : tuple of bool
+    first_kind : tuple of bool
         True for orbits of the first of two kinds.
     drift : mapping of str to float
         Largest relative drift of each integral.
@@ -39,7 +39,7 @@ class OrbitBatch:
     """
 
     orbits: tuple[Array, ...]
-    firsts: tuple[bool, ...]
+    first_kind: tuple[bool, ...]
     drift: Mapping[str, float]
     steps: int
     reasons: tuple[str, ...]

@@ -30,7 +30,7 @@ _SAGITTA, _CHORD = 0.25, 10.0
 """Largest sagitta and chord of the drawn curves, in pixels."""
 _PARTS = (1.0, 0.5, 0.25)
 """Shares of the requested length, tried in order until the branch is right to half a pixel."""
-AT_ITS_LENGTH = "At its length."
+LENGTH_REACHED = "At its length."
 _UNKNOWN = "What follows is not known to half a pixel: a higher accuracy may show it."
 
 

@@ -15,7 +15,7 @@ from hess_explorer.scenes.framework.continuation import Continuation
 from hess_explorer.scenes.framework.families import BranchStart, Family
 from hess_explorer.scenes.framework.part import Part, Start
 from hess_explorer.scenes.framework.periodic_search import NONE, PERIODS
-from hess_explorer.scenes.framework.windows import Window, tidy_window, window_of
+from hess_explorer.scenes.framework.windows import Window, normalized_window, window_of
 from hess_explorer.scenes.parts.diagrams.controls import (
     BACKWARD,
     COORDINATES,
@@ -54,7 +54,7 @@ class OrbitDiagram(Part[DiagramControls]):
         if first == last:
             first = min(first, FARTHEST[1] - 1.0)
             last = first + 1.0
-        window = tidy_window(self.host.window)
+        window = normalized_window(self.host.window)
         (x0, _), (x1, _) = window_of(window, ((first, 0.0), (last, 0.0)))
         return {
             "first": first,

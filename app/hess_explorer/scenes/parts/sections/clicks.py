@@ -102,13 +102,13 @@ class Clicks(Part[_Host]):
 
     Attributes
     ----------
-    excuse : str
+    reason : str
         Reason why some points have no orbit.
     remedy : str
         Choices with which all points have an orbit.
     """
 
-    excuse: str
+    reason: str
     remedy: str = "a larger h"
 
     @property
@@ -135,7 +135,7 @@ class Clicks(Part[_Host]):
         others = others or [*_spread(self.host, 1)]
         if not others:
             raise InvalidParameter(
-                f"In this window {self.excuse}: choose {self.remedy}, or More → Remove clicks and boxes."
+                f"In this window {self.reason}: choose {self.remedy}, or More → Remove clicks and boxes."
             )
         return _Chosen([_point(self.host.poincare.points_of(np.array(others))[0])], [others[0]], chosen[-1])
 
@@ -189,7 +189,7 @@ class Clicks(Part[_Host]):
         """Yield a note if no motion is possible at the chosen start."""
         if self.selection.forbidden_cells is not None:
             yield (
-                f"At {self._at(self.selection.forbidden_cells)} {self.excuse}: the chosen orbit starts at "
+                f"At {self._at(self.selection.forbidden_cells)} {self.reason}: the chosen orbit starts at "
                 f"{self._at(self.selection.points[0])}."
             )
 

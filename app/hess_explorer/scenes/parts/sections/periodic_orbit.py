@@ -13,7 +13,7 @@ from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.part import Part
 from hess_explorer.scenes.framework.periodic_search import (
     ANY,
-    AT_ITS_LENGTH,
+    LENGTH_REACHED,
     MAX_CROSSINGS,
     MAX_POINTS,
     NONE,
@@ -224,7 +224,7 @@ class SectionPeriodicOrbit(Part[Section]):
         if self._saddle is not None and self._branches is None:
             yield self.work.pending_caption("Its manifolds are")
         elif self._branches:
-            whole = sum(_end_reason(one) == AT_ITS_LENGTH for one in self._branches)
+            whole = sum(_end_reason(one) == LENGTH_REACHED for one in self._branches)
             yield f"{whole} of {len(self._branches)} branches of its manifolds are drawn to length {digits(self.reach)}"
             yield self._about_crossings()
 
@@ -245,7 +245,7 @@ class SectionPeriodicOrbit(Part[Section]):
         """Yield the reasons why there is no periodic orbit, or why its manifolds end."""
         if isinstance(self._result, NotFound):
             yield self._result.reason
-        reasons = {_end_reason(one) for one in self._branches or ()} - {AT_ITS_LENGTH}
+        reasons = {_end_reason(one) for one in self._branches or ()} - {LENGTH_REACHED}
         yield from (f"A branch of a manifold ends early. {reason}" for reason in sorted(reasons))
         if any(one.status is not Status.OK for one in self.manifolds):
             yield (

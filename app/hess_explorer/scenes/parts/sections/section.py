@@ -15,7 +15,7 @@ from hess_explorer.scenes.framework.orbit_batches import OrbitBatch, batch_of
 from hess_explorer.scenes.framework.part import HasSection, Part, Start
 from hess_explorer.scenes.framework.periodic_search import Periodic, Point
 from hess_explorer.scenes.framework.sliders import number
-from hess_explorer.scenes.framework.windows import Window, pixels_in, tidy_window, window_of
+from hess_explorer.scenes.framework.windows import Window, normalized_window, pixels_in, window_of
 from hess_explorer.scenes.framework.work import accuracy_status, drift_status
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.plane.section_plane import concatenate
@@ -183,7 +183,7 @@ class Section(Part[_Host]):
 
     def corrections(self, notes: list[str]) -> Values:
         """Return a valid window."""
-        return {"window": tidy_window(self.host.window)} if self.host.window else {}
+        return {"window": normalized_window(self.host.window)} if self.host.window else {}
 
     @property
     def starts(self) -> Sequence[Start]:
@@ -274,7 +274,7 @@ class Section(Part[_Host]):
             self._points[first, ends, second_half_only] = concatenate(
                 self._visible_part(orbit, second_half_only)
                 for batch in self.known_orbits.batches
-                for orbit, is_first, reason in zip(batch.orbits, batch.firsts, batch.reasons, strict=True)
+                for orbit, is_first, reason in zip(batch.orbits, batch.first_kind, batch.reasons, strict=True)
                 if (is_first, reason != "") == (first, ends)
             )
         return self._points[first, ends, second_half_only]
