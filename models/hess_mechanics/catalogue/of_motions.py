@@ -208,7 +208,7 @@ def computations(system: System) -> Iterator[Computation]:
         proved_orbit,
         (
             *_TUBE_PARAMETERS,
-            real("threshold", "ε", 1e-6, 1e-300, 1e3, "Largest error of a state that counts as correct."),
+            real("right_to", "ε", 1e-6, 1e-300, 1e3, "Largest error of a state that counts as correct."),
         ),
         {
             "error": Number("ε", "upper end of the proved largest error", "largest"),

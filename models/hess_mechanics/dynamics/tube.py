@@ -143,7 +143,7 @@ class ProvedOrbit(Result):
         The orbit.
     tube : Tube
         The intervals that contain the true states of the same motion, at the same times.
-    threshold : float, default 1e-06
+    right_to : float, default 1e-06
         Largest error of a component of a state that counts as right, positive.
 
     Raises
@@ -154,7 +154,7 @@ class ProvedOrbit(Result):
 
     orbit: Orbit
     tube: Tube
-    threshold: float = 1e-6
+    right_to: float = 1e-6
 
     def __post_init__(self) -> None:
         """Check that the orbit and the tube belong together."""
@@ -197,7 +197,7 @@ class ProvedOrbit(Result):
         """Last time up to which every state is correct; 0 if the first state is not."""
         last = 0.0
         for t, sample in zip(self.tube.times.tolist(), self._errors, strict=True):
-            if max(most for _, most in sample) > Fraction(self.threshold):
+            if max(most for _, most in sample) > Fraction(self.right_to):
                 break
             last = t
         return last
@@ -211,8 +211,13 @@ class ProvedOrbit(Result):
             The variables over the times.
         """
         known = self.orbit.labels()
-        proved = ("least", "largest", "threshold", "valid_until")
-        return replace(known, facts={**known.facts, **{f"proved {name}": getattr(self, name) for name in proved}})
+        proved = {
+            "proved least": self.least,
+            "proved largest": self.largest,
+            "proved right_to": self.right_to,
+            "proved right_until": self.valid_until,
+        }
+        return replace(known, facts={**known.facts, **proved})
 
 
 def tube(
@@ -557,7 +562,7 @@ def proved_orbit(
     start: Sequence[float],
     times: Sequence[float] | Array,
     accuracy: Accuracy = "standard",
-    threshold: float = 1e-6,
+    right_to: float = 1e-6,
     digits: int = 18,
     most_work: float = MAX_WORK,
 ) -> ProvedOrbit:
@@ -573,7 +578,7 @@ def proved_orbit(
         Times, monotonic from 0 forward or backward.
     accuracy : str or Level, default "standard"
         Accuracy level of the orbit.
-    threshold : float, default 1e-6
+    right_to : float, default 1e-6
         Largest error of a component that counts as right, positive.
     digits : int, default 18
         Number of digits of the intervals, 1 to 100, see `tube`.
@@ -604,4 +609,4 @@ def proved_orbit(
             "The motion is enclosed at none of the times: choose fewer digits, earlier times, more work or less "
             "extreme parameters."
         )
-    return ProvedOrbit(solve(body, start, intervals.times, accuracy), intervals, threshold)
+    return ProvedOrbit(solve(body, start, intervals.times, accuracy), intervals, right_to)
